@@ -5,7 +5,7 @@
 namespace terrane::app {
 namespace {
 
-constexpr EditCue kBox{.time = 0, .seconds = 4, .box = {{-1, 5, 70}, {1, 6, 73}}, .block = 1};
+const EditCue kBox{.time = 0, .seconds = 4, .box = {{-1, 5, 70}, {1, 6, 73}}, .block = 1};
 
 TEST(EditPlayer, BlocksComeOneAfterTheOther) {
     EXPECT_EQ(blocksDone(kBox, -0.1), 0);

@@ -90,6 +90,24 @@ at = [0, 9, 0]
     EXPECT_EQ(script->seconds(), 6.5);
 }
 
+TEST(ScriptFile, ReadsPlayersWhoBuild) {
+    const std::string player =
+        "[[shot.player]]\nname = \"Ann\"\nnumber = 3\nkey = [{ at = [5, 6, 70], look = [0, 0] }]\n";
+    const std::string edit = "[[shot.edit]]\nat = [1, 1, 70]\nblock = \"stone\"\nplayer = \"Ann\"\n";
+    const auto script = parse(shotOf(edit + player));
+    ASSERT_TRUE(script) << script.error().message;
+    const Shot& shot = script->shots[0];
+    ASSERT_EQ(shot.players.size(), 1u);
+    EXPECT_EQ(shot.players[0].name, "Ann");
+    EXPECT_EQ(shot.players[0].number, 3u);
+    EXPECT_EQ(shot.players[0].path.at(0).camera.position, glm::dvec3(5, 6, 70));
+    EXPECT_EQ(shot.edits[0].player, "Ann");
+    EXPECT_THAT(errorOf(shotOf(edit)), HasSubstr("player: expected the name of a player of the shot"));
+    EXPECT_THAT(errorOf(shotOf("[[shot.player]]\nname = \"Ann\"\n")), HasSubstr("key"));
+    EXPECT_THAT(errorOf(shotOf("[[shot.player]]\nkey = [{ at = [5, 6, 70], look = [0, 0] }]\n")),
+                HasSubstr("name"));
+}
+
 TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
     const auto script = parse("[options]\nview-distance = 5\nssao = \"raw\"\n" +
                               shotOf("[[shot.set]]\ntime = 2\nssao = \"on\"\nview = \"depth\"\n"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "apps/terrane/record/shot_figures.h"
 #include "terrane/base/log.h"
 #include "terrane/view/camera_pose.h"
 
@@ -70,7 +71,9 @@ base::Result<base::Image> Recorder::frame(double seconds) {
 
     warnOfBlocks(point.camera, shot, inShot);
 
+    const std::vector<world::Figure> figures = figuresAt(shot, inShot);
     render::FrameInput input;
+    input.figures = figures;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
     input.fogDistance = view::fogDistance(parts_.world.view->sightDistance());

@@ -1,6 +1,7 @@
 // What a video shows, as read from a path file: shots one behind the other. Plain values.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,14 @@ struct EditCue {
     double time = 0, seconds = 0;
     world::BlockBox box;
     world::BlockId block = world::kAir;
+    std::string player = {};  // of the shot, who makes it; empty: nobody
+};
+
+// Somebody to be seen. The path's positions are where the feet are.
+struct PlayerCue {
+    std::string name;
+    std::uint32_t number = 0;  // colors and hair follow from it
+    view::CameraPath path;
 };
 
 // How things are drawn from then on.
@@ -39,6 +48,7 @@ struct Shot {
     std::vector<OptionsCue> options;  // by time; the first is at 0
     std::vector<TitleCue> titles;
     std::vector<EditCue> edits;  // by time; they last until the end of the video
+    std::vector<PlayerCue> players;
 };
 
 struct Script {

@@ -59,9 +59,11 @@ class ScriptReader {
     void each(ContentTable& table, std::string_view key, Read read);
 
     view::CameraKey keyOf(ContentTable& table, const view::CameraKey& before, bool isFirst);
-    std::vector<view::CameraKey> keysOf(ContentTable& shot);
+    std::vector<view::CameraKey> keysOf(ContentTable& table);
+    std::string textOf(ContentTable& table, std::string_view key);
     TitleCue titleOf(ContentTable& table, double shotSeconds);
-    EditCue editOf(ContentTable& table, double shotSeconds);
+    PlayerCue playerOf(ContentTable& table);
+    EditCue editOf(ContentTable& table, const Shot& shot);
     void readBox(ContentTable& table, EditCue& edit);
     void readOptions(ContentTable& shot, Shot& into, const GraphicsOptions& atFirst);
     void readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots);
@@ -130,18 +132,31 @@ view::CameraKey ScriptReader::keyOf(ContentTable& table, const view::CameraKey& 
     return key;
 }
 
-std::vector<view::CameraKey> ScriptReader::keysOf(ContentTable& shot) {
+// Of a shot or of a player.
+std::vector<view::CameraKey> ScriptReader::keysOf(ContentTable& table) {
     std::vector<view::CameraKey> keys;
-    each(shot, "key", [&](ContentTable& table) {
+    each(table, "key", [&](ContentTable& inner) {
         const view::CameraKey key =
-            keyOf(table, keys.empty() ? view::CameraKey{} : keys.back(), keys.empty());
+            keyOf(inner, keys.empty() ? view::CameraKey{} : keys.back(), keys.empty());
         if (!keys.empty() && key.time <= keys.back().time)
-            table.wrong(table.line(), "time",
+            inner.wrong(inner.line(), "time",
                         fmt::format("must be after {}, the key before", keys.back().time));
         keys.push_back(key);
     });
-    if (keys.empty()) shot.missing("key", "a shot has at least one");
+    if (keys.empty()) table.missing("key", "at least one");
     return keys;
+}
+
+// One that must be there; empty after an error.
+std::string ScriptReader::textOf(ContentTable& table, std::string_view key) {
+    const toml::node* node = table.node(key);
+    const auto value = node ? node->value_exact<std::string>() : std::nullopt;
+    if (!node) {
+        table.missing(key);
+    } else if (!value || value->empty()) {
+        table.expected(*node, key, "a text");
+    }
+    return value.value_or("");
 }
 
 TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
@@ -149,17 +164,10 @@ TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
     TitleCue title;
     title.time = numberOf(table, "time", 0, 0, shotSeconds);
     title.seconds = numberOf(table, "seconds", title.seconds, 0.1, kMaxSeconds);
-    const toml::node *text = table.node("text"), *place = table.node("place");
-    if (!text) {
-        table.missing("text");
-    } else if (const auto value = text->value_exact<std::string>(); value && !value->empty()) {
-        title.text = *value;
-        const std::string missing = TitlePainter::missingLetter(title.text);
-        if (!missing.empty())
-            table.expected(*text, "text", fmt::format("letters of ISO 8859-1 (not {})", missing));
-    } else {
-        table.expected(*text, "text", "a text");
-    }
+    title.text = textOf(table, "text");
+    if (const std::string missing = TitlePainter::missingLetter(title.text); !missing.empty())
+        table.expected(*table.node("text"), "text", fmt::format("letters of ISO 8859-1 (not {})", missing));
+    const toml::node* place = table.node("place");
     constexpr std::array<world::EnumName<bool>, 2> kPlaces = {{{"bottom", false}, {"middle", true}}};
     if (place) title.isLarge = table.enumOf(*place, "place", kPlaces);
     return title;
@@ -179,12 +187,26 @@ void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
         table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMaxBlocksOfEdit));
 }
 
-EditCue ScriptReader::editOf(ContentTable& table, double shotSeconds) {
-    table.rejectUnknown(Names{"time", "seconds", "at", "from", "to", "block"});
+PlayerCue ScriptReader::playerOf(ContentTable& table) {
+    table.rejectUnknown(Names{"name", "number", "key"});
+    const std::string name = textOf(table, "name");
+    const double number = numberOf(table, "number", 0, 0, 1000);
+    std::vector<view::CameraKey> keys = keysOf(table);
+    if (keys.empty()) keys.emplace_back();  // after an error
+    return {name, static_cast<std::uint32_t>(number), view::CameraPath(std::move(keys))};
+}
+
+EditCue ScriptReader::editOf(ContentTable& table, const Shot& shot) {
+    table.rejectUnknown(Names{"time", "seconds", "at", "from", "to", "block", "player"});
     EditCue edit;
-    edit.time = numberOf(table, "time", 0, 0, shotSeconds);
+    edit.time = numberOf(table, "time", 0, 0, shot.seconds);
     edit.seconds = numberOf(table, "seconds", 0, 0, kMaxSeconds);
     readBox(table, edit);
+    if (const toml::node* player = table.node("player")) {
+        edit.player = textOf(table, "player");
+        if (std::ranges::find(shot.players, edit.player, &PlayerCue::name) == shot.players.end())
+            table.expected(*player, "player", "the name of a player of the shot");
+    }
     const toml::node* node = table.node("block");
     if (!node) {
         table.missing("block");
@@ -209,10 +231,11 @@ void ScriptReader::readOptions(ContentTable& shot, Shot& into, const GraphicsOpt
 }
 
 void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots) {
-    table.rejectUnknown(Names{"name", "seconds", "key", "title", "set", "edit"});
+    table.rejectUnknown(Names{"name", "seconds", "key", "title", "set", "edit", "player"});
     const std::vector<view::CameraKey> keys = keysOf(table);
     if (error_) return;
-    Shot shot{.name = "", .path = view::CameraPath(keys), .options = {}, .titles = {}, .edits = {}};
+    Shot shot{
+        .name = "", .path = view::CameraPath(keys), .options = {}, .titles = {}, .edits = {}, .players = {}};
     if (!shots.empty()) shot.start = shots.back().start + shots.back().seconds;
     shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMaxSeconds);
     if (shot.seconds <= 0) table.wrong(table.line(), "seconds", "a shot takes more than 0");
@@ -221,7 +244,8 @@ void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics
     if (const toml::node* name = table.node("name")) shot.name = name->value_or(std::string());
     readOptions(table, shot, graphics);
     each(table, "title", [&](ContentTable& inner) { shot.titles.push_back(titleOf(inner, shot.seconds)); });
-    each(table, "edit", [&](ContentTable& inner) { shot.edits.push_back(editOf(inner, shot.seconds)); });
+    each(table, "player", [&](ContentTable& inner) { shot.players.push_back(playerOf(inner)); });
+    each(table, "edit", [&](ContentTable& inner) { shot.edits.push_back(editOf(inner, shot)); });
     std::ranges::stable_sort(shot.edits, std::less<>(), &EditCue::time);
     shots.push_back(std::move(shot));
 }

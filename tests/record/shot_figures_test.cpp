@@ -1,0 +1,63 @@
+#include "apps/terrane/record/shot_figures.h"
+
+#include <gtest/gtest.h>
+
+#include "terrane/world/character.h"
+
+namespace terrane::app {
+namespace {
+
+// Walks 8 blocks along x in 4 s, stands for 2 s, and builds from 4.5 s to 5.5 s.
+Shot shotOfAWalk() {
+    Shot shot{.name = "",
+              .seconds = 10,
+              .path = view::CameraPath({view::CameraKey{}}),
+              .options = {},
+              .titles = {},
+              .edits = {},
+              .players = {}};
+    view::CameraKey from, to, last;
+    from.position = {0, 3, 70};
+    to.position = last.position = {8, 3, 70};
+    to.time = 4;
+    last.time = 6;
+    shot.players = {{"Ann", 3, view::CameraPath({from, to, last})}};
+    shot.edits = {{.time = 4.5, .seconds = 1, .box = {{9, 3, 70}, {9, 3, 72}}, .block = 1, .player = "Ann"}};
+    return shot;
+}
+
+TEST(ShotFigures, FollowTheirPathOnFoot) {
+    const Shot shot = shotOfAWalk();
+    const world::Figure start = figuresAt(shot, 0)[0], walks = figuresAt(shot, 2)[0],
+                        stands = figuresAt(shot, 5.9)[0];
+    EXPECT_EQ(start.eyes, glm::dvec3(0, 3, 70 + world::kEyeHeight));
+    EXPECT_NEAR(walks.eyes.x, 4, 0.3);
+    EXPECT_GT(walks.strideSize, 0.3f);
+    EXPECT_NEAR(stands.eyes.x, 8, 0.01);
+    EXPECT_LT(stands.strideSize, 0.01f);
+    EXPECT_EQ(stands.look, 3u);
+}
+
+TEST(ShotFigures, NoneSkipsAStep) {
+    const Shot shot = shotOfAWalk();
+    double before = 0;
+    for (int frame = 1; frame <= 100; ++frame) {
+        const double x = figuresAt(shot, frame / 24.0)[0].eyes.x;
+        EXPECT_GE(x, before) << frame;
+        EXPECT_LT(x - before, 0.2) << frame;
+        before = x;
+    }
+}
+
+TEST(ShotFigures, SwingTheArmWhileTheyBuild) {
+    Shot shot = shotOfAWalk();
+    EXPECT_EQ(figuresAt(shot, 4.4)[0].swing, 0);
+    for (const double seconds : {4.6, 4.75, 5.0, 5.4})
+        EXPECT_GT(figuresAt(shot, seconds)[0].swing, 0) << seconds;
+    EXPECT_EQ(figuresAt(shot, 5.95)[0].swing, 0);
+    shot.edits[0].player = "Bob";
+    EXPECT_EQ(figuresAt(shot, 5)[0].swing, 0) << "another player's edit";
+}
+
+}  // namespace
+}  // namespace terrane::app
