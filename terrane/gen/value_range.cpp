@@ -7,7 +7,7 @@
 namespace terrane::gen {
 namespace {
 
-using Args = std::span<const ValueRange>;
+using Ranges = std::span<const ValueRange>;
 using Ints = std::numeric_limits<std::int32_t>;
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -27,14 +27,14 @@ ValueRange unlessWrapped(std::int64_t low, std::int64_t high) {
 
 // Of the results at the four corners, for operations that rise or fall all along each argument.
 template <class Function>
-ValueRange cornersOf(Args a, Function f) {
+ValueRange cornersOf(Ranges a, Function f) {
     const std::int64_t r[] = {f(a[0].low, a[1].low), f(a[0].low, a[1].high), f(a[0].high, a[1].low),
                               f(a[0].high, a[1].high)};
     return unlessWrapped(*std::min_element(r, r + 4), *std::max_element(r, r + 4));
 }
 
 template <class Function>
-ValueRange cornersOfF(Args a, Function f) {
+ValueRange cornersOfF(Ranges a, Function f) {
     if (!isFinite(a[0]) || !isFinite(a[1])) return kAnyFloat;
     const float r[] = {f(a[0].lowF, a[1].lowF), f(a[0].lowF, a[1].highF), f(a[0].highF, a[1].lowF),
                        f(a[0].highF, a[1].highF)};
@@ -50,7 +50,7 @@ ValueRange widened(float low, float high) {
                       high + (std::abs(high) * kMargin + kSmallest));
 }
 
-ValueRange divide(Args a) {
+ValueRange divide(Ranges a) {
     const auto isMedium = [](const ValueRange& r) { return r.lowF >= -kLargest && r.highF <= kLargest; };
     const bool isAway = a[1].lowF >= 1 / kLargest || a[1].highF <= -1 / kLargest;
     if (a[0].mayBeNaN || a[1].mayBeNaN || !isMedium(a[0]) || !isMedium(a[1]) || !isAway) return kAnyFloat;
@@ -80,7 +80,7 @@ ValueRange absoluteF(const ValueRange& a) {
 
 // Where one is NaN the result is the first.
 template <class Function>
-ValueRange minOrMax(Args a, Function f) {
+ValueRange minOrMax(Ranges a, Function f) {
     if (a[0].mayBeNaN || a[1].mayBeNaN) return unite(Type::Float, a[0], a[1]);
     return floatRange(f(a[0].lowF, a[1].lowF), f(a[0].highF, a[1].highF));
 }
@@ -98,7 +98,7 @@ ValueRange bitOr(const ValueRange& a, const ValueRange& b) {
     return intRange(0, static_cast<std::int32_t>((std::uint64_t{1} << std::bit_width(highest)) - 1));
 }
 
-ValueRange shift(Op op, Args a) {
+ValueRange shift(Op op, Ranges a) {
     if (!isCertain(a[1])) return kAnyInt;
     const int by = a[1].low & 31;
     if (op == Op::ShiftRightI) return intRange(a[0].low >> by, a[0].high >> by);
@@ -122,7 +122,7 @@ ValueRange bitsFloat(const ValueRange& a) {
     return floatRange(asFloat(bitsOf(a.low)), asFloat(bitsOf(a.high)));
 }
 
-ValueRange compareF(Op op, Args a) {
+ValueRange compareF(Op op, Ranges a) {
     const bool isOrdered = !a[0].mayBeNaN && !a[1].mayBeNaN;
     if (op == Op::LessF) return truth(isOrdered && a[0].highF < a[1].lowF, a[0].lowF >= a[1].highF);
     if (op == Op::LessEqualF) return truth(isOrdered && a[0].highF <= a[1].lowF, a[0].lowF > a[1].highF);
@@ -130,7 +130,7 @@ ValueRange compareF(Op op, Args a) {
     return truth(isOrdered && isSame, a[0].highF < a[1].lowF || a[1].highF < a[0].lowF);
 }
 
-ValueRange floatResult(Op op, Args a) {
+ValueRange floatResult(Op op, Ranges a) {
     switch (op) {
         case Op::AddF:
             return cornersOfF(a, [](float p, float q) { return p + q; });
@@ -159,7 +159,7 @@ ValueRange floatResult(Op op, Args a) {
     }
 }
 
-ValueRange intResult(Op op, Args a) {
+ValueRange intResult(Op op, Ranges a) {
     switch (op) {
         case Op::AddI:
             return unlessWrapped(std::int64_t{a[0].low} + a[1].low, std::int64_t{a[0].high} + a[1].high);
@@ -193,7 +193,7 @@ ValueRange intResult(Op op, Args a) {
     }
 }
 
-ValueRange boolResult(Op op, Args a) {
+ValueRange boolResult(Op op, Ranges a) {
     switch (op) {
         case Op::LessF:
         case Op::LessEqualF:

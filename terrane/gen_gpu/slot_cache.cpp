@@ -4,12 +4,12 @@
 
 namespace terrane::gen_gpu {
 
-SlotCache::SlotCache(std::size_t slots) : slots_(slots) {
+SlotCache::SlotCache(std::size_t slots) {
     for (std::size_t s = slots; s-- > 0;) free_.push_back(static_cast<std::uint32_t>(s));
 }
 
 void SlotCache::reserve(const std::vector<world::ChunkPos>& chunks) {
-    assert(chunks.size() <= slots_ && "all chunks have a slot at once");
+    assert(chunks.size() <= entries_.size() + free_.size() && "all chunks have a slot at once");
     // Those that are there first, so that none of them is at the end when others need room.
     for (const world::ChunkPos pos : chunks) {
         const auto it = entries_.find(pos);

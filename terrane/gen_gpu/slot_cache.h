@@ -34,7 +34,6 @@ class SlotCache {
         Order::iterator order;
     };
 
-    std::size_t slots_;
     std::vector<std::uint32_t> free_;
     Order order_;  // most recently used first
     std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;

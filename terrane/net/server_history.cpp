@@ -9,7 +9,6 @@
 namespace terrane::net {
 namespace {
 
-constexpr std::chrono::seconds kSaveEvery{5};
 // Of a roll-back, in a tick: some milliseconds.
 constexpr std::size_t kRollbackChunks = 8;
 
@@ -71,7 +70,7 @@ void keepSaving(ServerState& server) {
         history.saving.reset();
     }
     if (history.saving || server.now < history.nextSave) return;
-    history.nextSave = server.now + kSaveEvery;
+    history.nextSave = server.now + kHistorySaveEvery;
     server.session.pipeline().saveAll();
     const store::SaveNumber number = game::saveTimeDay(store, server.session.clock.timeDay);
     if (history.saved < history.newest) history.saving = {history.newest, number};

@@ -2,6 +2,7 @@
 // a crash, so that no decision that a client heard of is lost. On the server's thread.
 #pragma once
 
+#include <chrono>
 #include <span>
 
 #include "terrane/net/server_state.h"
@@ -14,6 +15,7 @@ void logChanges(ServerState& server, game::PlayerId player, std::span<const game
 // Edits that the world's file lacks are made again. Before anybody plays; blocks.
 [[nodiscard]] base::Result<void> restoreEdits(ServerState& server);
 
+constexpr std::chrono::seconds kHistorySaveEvery{5};
 // Every few seconds edited chunks go to the store; once they are there the history notes it. In each tick.
 void keepSaving(ServerState& server);
 // All that changed is in both files. Blocks.

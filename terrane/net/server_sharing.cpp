@@ -15,7 +15,7 @@ namespace {
 
 using world::ChunkPos;
 
-constexpr std::chrono::seconds kStateEvery{1}, kSaveEvery{5};
+constexpr std::chrono::seconds kStateEvery{1};
 constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
 // Of whom nothing was heard for so long is not there.
 constexpr std::chrono::seconds kForgetAfter{8};
@@ -328,7 +328,7 @@ void keepSharedSaved(ServerState& server) {
         history.saving.reset();
     }
     if (history.saving || server.now < history.nextSave) return;
-    history.nextSave = server.now + kSaveEvery;
+    history.nextSave = server.now + kHistorySaveEvery;
     stream::ChunkPipeline& pipeline = server.session.pipeline();
     ++sharing.savesBegun;
     pipeline.saveAll();

@@ -38,7 +38,7 @@ glm::vec3 bandColor(float along, float across) {
            glm::smoothstep(1.0f, 0.7f, std::abs(across));
 }
 
-std::uint8_t byteOf(float v) {
+std::uint8_t displayedByte(float v) {
     return static_cast<std::uint8_t>(std::clamp(std::lround(255 * std::pow(v, 1 / 2.2f)), 0L, 255L));
 }
 
@@ -51,7 +51,7 @@ MilkyWay MilkyWay::create() {
         for (int column = 0; column < kColumns; ++column) {
             const glm::vec3 color = bandColor((static_cast<float>(column) + 0.5f) / kColumns,
                                               (2 * static_cast<float>(row) + 1) / kRows - 1);
-            for (const float channel : {color.x, color.y, color.z}) texels.push_back(byteOf(channel));
+            for (const float channel : {color.x, color.y, color.z}) texels.push_back(displayedByte(channel));
             texels.push_back(255);
         }
     }

@@ -11,7 +11,7 @@ namespace terrane::store {
 namespace {
 
 // SQLite's file format, section 4: "The Write-Ahead Log".
-constexpr std::size_t kHeaderBytes = 32, kFrameHeaderBytes = 24;
+constexpr std::size_t kLogHeaderBytes = 32, kFrameHeaderBytes = 24;
 constexpr std::uint32_t kLogMagic = 0x377f0682;  // its lowest bit: words of checksums are big-endian
 constexpr std::uint32_t kMinPage = 512, kMaxPage = 65536;
 
@@ -72,7 +72,7 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
     std::filesystem::path path = save;
     path += "-wal";
     std::ifstream log(path, std::ios::binary);
-    std::array<unsigned char, kHeaderBytes> header{};
+    std::array<unsigned char, kLogHeaderBytes> header{};
     if (!log.read(reinterpret_cast<char*>(header.data()), header.size())) return {};
     const std::uint32_t magic = wordAt(header, 0), pageBytes = wordAt(header, 8);
     Checksum sum{.isBigEndian = (magic & 1) != 0};

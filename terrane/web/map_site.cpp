@@ -20,7 +20,7 @@
 namespace terrane::web {
 namespace {
 
-using Time = std::chrono::steady_clock::time_point;
+using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kEditsEvery{250}, kPlacesEvery{1000}, kKeepAliveEvery{15000};
 // Problems of painting are logged once in such a time.
 constexpr std::chrono::milliseconds kProblemsEvery{10000};
@@ -42,7 +42,7 @@ struct MapSite::Impl {
     class Every {
       public:
         explicit Every(std::chrono::milliseconds interval) : interval_(interval) {}
-        bool isDue(Time now) {
+        bool isDue(Clock::time_point now) {
             if (now < next_) return false;
             next_ = now + interval_;
             return true;
@@ -50,7 +50,7 @@ struct MapSite::Impl {
 
       private:
         std::chrono::milliseconds interval_;
-        Time next_{};
+        Clock::time_point next_{};
     };
 
     Impl(boost::asio::io_context& io, MapSiteParts siteParts, map::MapPainter mapPainter)
@@ -282,7 +282,7 @@ void MapSite::onChanged(std::span<const world::ChunkPos> chunks) {
 
 void MapSite::tick() {
     Impl& site = *impl_;
-    const Time now = std::chrono::steady_clock::now();
+    const Clock::time_point now = Clock::now();
     if (site.editsEvery.isDue(now)) site.changes.look();
     if (site.placesEvery.isDue(now)) {
         site.tellList("players", site.players);

@@ -17,19 +17,19 @@ using world::BlockBox;
 using world::BlockPos;
 using world::BlockValue;
 
-constexpr PlayerId kAnna = 7;
+constexpr PlayerId kBuilder = 7;
 
 class BuildTest : public SessionTest {
   protected:
-    BuildTest() { session_.setPlayer(kAnna, {.position = {5.5, 5.5, kGroundHeight + 2.0}}); }
+    BuildTest() { session_.setPlayer(kBuilder, {.position = {5.5, 5.5, kGroundHeight + 2.0}}); }
 
     BuildOutcome fill(const BlockBox& box, std::string_view name,
                       std::optional<world::BlockId> replaced = std::nullopt) {
-        return session_.build({kAnna, FillBox{box, contentBlock(name), 0, replaced}});
+        return session_.build({kBuilder, FillBox{box, contentBlock(name), 0, replaced}});
     }
     BuildOutcome place(const world::Structure& structure, BlockPos low) {
         return session_.build(
-            {kAnna, PlaceStructure{std::make_shared<const world::Structure>(structure), low}});
+            {kBuilder, PlaceStructure{std::make_shared<const world::Structure>(structure), low}});
     }
     void put(BlockPos pos, std::string_view name, std::uint16_t state = 0) {
         session_.edit({kNoPlayer, pos, world::SetBlock{contentBlock(name), state}, std::nullopt});
@@ -38,7 +38,7 @@ class BuildTest : public SessionTest {
         return world::copyBlocks(session_.world(), session_.blocks(), box);
     }
     world::BlockId block(BlockPos pos) { return session_.world().block(pos); }
-    std::size_t steps() { return session_.takeBack(kAnna, HistoryWay::Undo).blocks; }
+    std::size_t steps() { return session_.takeBack(kBuilder, HistoryWay::Undo).blocks; }
 
     // Light as shown is that of lighting everything from scratch.
     void expectLightFromScratch(std::map<world::ChunkPos, light::ChunkLightPtr>& shown) {
@@ -65,9 +65,9 @@ TEST_F(BuildTest, AFillIsOneStep) {
     EXPECT_EQ(block({6, 6, kGroundHeight + 4}), contentBlock("bricks"));
     EXPECT_EQ(block({7, 6, kGroundHeight + 4}), world::kAir);
     EXPECT_EQ(fill(kCube, "bricks").changed, 0u) << "no step";
-    EXPECT_EQ(session_.takeBack(kAnna, HistoryWay::Undo).blocks, 125u);
+    EXPECT_EQ(session_.takeBack(kBuilder, HistoryWay::Undo).blocks, 125u);
     EXPECT_EQ(block(kCube.low), world::kAir);
-    EXPECT_EQ(session_.takeBack(kAnna, HistoryWay::Redo).blocks, 125u);
+    EXPECT_EQ(session_.takeBack(kBuilder, HistoryWay::Redo).blocks, 125u);
     EXPECT_EQ(block(kCube.low), contentBlock("bricks"));
 }
 
@@ -92,7 +92,7 @@ TEST_F(BuildTest, RefusesWhatItShould) {
     EXPECT_EQ(place({}, low).result, Result::Empty);
     EXPECT_EQ(place(copy(kCube), {INT32_MAX - 1, 2, 70}).result, Result::OutOfReach);
     EXPECT_EQ(steps(), 0u) << "nothing changed";
-    session_.setPlayer(kAnna, {.position = {5.5, 5.5, 250}});
+    session_.setPlayer(kBuilder, {.position = {5.5, 5.5, 250}});
     EXPECT_EQ(place(copy(kCube), {2, 2, 253}).result, Result::OutOfWorld);
     EXPECT_EQ(place(copy(kCube), {2, 2, 251}).result, Result::Done);
 }
@@ -104,7 +104,7 @@ TEST_F(BuildTest, TheNearestBlockMustBeInReach) {
 }
 
 TEST_F(BuildTest, NoPlayerFillsTheLowestLayer) {
-    session_.setPlayer(kAnna, {.position = {5.5, 5.5, 3}});
+    session_.setPlayer(kBuilder, {.position = {5.5, 5.5, 3}});
     const BuildOutcome outcome = fill({{2, 2, 0}, {3, 3, 2}}, "air");
     EXPECT_EQ(outcome.changed, 8u);
     EXPECT_EQ(outcome.kept, 4u);
@@ -157,10 +157,10 @@ TEST_F(BuildTest, RandomFillsAreThoseOfAPlainMap) {
             there = id;
             ++changed;
         }
-        ASSERT_EQ(session_.build({kAnna, FillBox{box, id, 0, replaced}}).changed, changed);
+        ASSERT_EQ(session_.build({kBuilder, FillBox{box, id, 0, replaced}}).changed, changed);
     }
     for (const auto& [pos, id] : plain) ASSERT_EQ(block(pos), id);
-    while (session_.takeBack(kAnna, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
+    while (session_.takeBack(kBuilder, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
     }
     for (const auto& [pos, id] : plain)
         ASSERT_EQ(block(pos), pos.z < kGroundHeight ? contentBlock("stone") : world::kAir);
@@ -184,8 +184,8 @@ TEST_F(BuildTest, ACopyGoesThroughAFileAndIsPlacedWithItsData) {
     const auto turned = world::turnedStructure(*read, session_.blocks(), 1);
     EXPECT_EQ(place(turned, {2, 8, kGroundHeight}).result, Result::Done);
     EXPECT_TRUE(copy({{2, 8, kGroundHeight}, {4, 11, kGroundHeight + 2}}) == turned);
-    session_.takeBack(kAnna, HistoryWay::Undo);
-    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.takeBack(kBuilder, HistoryWay::Undo);
+    session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block({8, 2, kGroundHeight}), world::kAir);
     EXPECT_TRUE(copy(room) == before);
 }
@@ -196,7 +196,7 @@ TEST_F(BuildTest, AContainerThatIsFilledOverComesBackWithItsThings) {
     session_.edit({kNoPlayer, pos, world::SetEntityData{world::BlockEntityData(9)}, std::nullopt});
     fill(kCube, "air");
     EXPECT_EQ(block(pos), world::kAir);
-    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block(pos), contentBlock("chest"));
     ASSERT_TRUE(session_.world().blockEntityData(pos));
     EXPECT_EQ(session_.world().blockEntityData(pos)->size(), 9u);
@@ -220,7 +220,7 @@ TEST_F(BuildTest, LightAfterALargeFillIsThatFromScratch) {
         settle();
         expectLightFromScratch(shown);
     }
-    while (session_.takeBack(kAnna, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
+    while (session_.takeBack(kBuilder, HistoryWay::Undo).outcome == TakenBack::Outcome::Done) {
         settle();
         expectLightFromScratch(shown);
     }
@@ -230,22 +230,22 @@ TEST_F(BuildTest, LightAfterALargeFillIsThatFromScratch) {
 TEST_F(BuildTest, TextOfASignIsUndone) {
     const BlockPos pos{5, 5, kGroundHeight};
     const auto say = [&](const world::BlockEntityData& data) {
-        return session_.edit({kAnna, pos, world::SetEntityData{data}, std::nullopt});
+        return session_.edit({kBuilder, pos, world::SetEntityData{data}, std::nullopt});
     };
-    session_.edit({kAnna, pos, world::SetBlock{contentBlock("sign"), 3}, std::nullopt});
+    session_.edit({kBuilder, pos, world::SetBlock{contentBlock("sign"), 3}, std::nullopt});
     const auto text = world::encodeSign({"one", "two", "", ""});
     EXPECT_EQ(say(text), EditResult::Applied);
     EXPECT_EQ(say(world::BlockEntityData(20)), EditResult::BadData);
     EXPECT_EQ(session_.world().blockState(pos), 3) << "it faces as before";
-    session_.edit({kAnna, pos, world::SetBlock{world::kAir}, std::nullopt});
-    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.edit({kBuilder, pos, world::SetBlock{world::kAir}, std::nullopt});
+    session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block(pos), contentBlock("sign"));
     EXPECT_EQ(session_.world().blockState(pos), 3);
     ASSERT_TRUE(session_.world().blockEntityData(pos));
     EXPECT_EQ(*session_.world().blockEntityData(pos), text);
-    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_FALSE(session_.world().blockEntityData(pos));
-    session_.takeBack(kAnna, HistoryWay::Undo);
+    session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block(pos), world::kAir);
 }
 

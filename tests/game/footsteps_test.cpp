@@ -11,8 +11,6 @@
 namespace terrane::game {
 namespace {
 
-using Kind = FootEvent::Kind;
-
 constexpr double kFrame = 1.0 / 60;
 
 // A floor of stone (z < 10) over 5×5 chunks.
@@ -53,7 +51,7 @@ TEST_F(FootstepsTest, WalkingMakesTwoStepsASecond) {
     const auto events = run(4, {.direction = {1, 0}});
     EXPECT_GE(events.size(), 8u);
     EXPECT_LE(events.size(), 10u);
-    for (const FootEvent& event : events) EXPECT_EQ(event, (FootEvent{Kind::Step, 0.7f}));
+    for (const FootEvent& event : events) EXPECT_EQ(event, (FootEvent{FootEvent::Kind::Step, 0.7f}));
 }
 
 TEST_F(FootstepsTest, RunningMakesMoreAndLouderOnes) {
@@ -73,7 +71,7 @@ TEST_F(FootstepsTest, AFallEndsWithALanding) {
     steps_.reset();
     const auto far = run(3, {});
     ASSERT_EQ(far.size(), 1u);
-    EXPECT_EQ(far[0].kind, Kind::Land);
+    EXPECT_EQ(far[0].kind, FootEvent::Kind::Land);
     c_ = {.feet = {0.5, 0.5, 11}};
     steps_.reset();
     const auto near = run(3, {});
@@ -85,7 +83,7 @@ TEST_F(FootstepsTest, AJumpMakesOneSound) {
     EXPECT_TRUE(run(0.2, {.jumps = true}).empty());
     const auto events = run(1.5, {});
     ASSERT_EQ(events.size(), 1u);
-    EXPECT_EQ(events[0].kind, Kind::Land);
+    EXPECT_EQ(events[0].kind, FootEvent::Kind::Land);
 }
 
 TEST_F(FootstepsTest, WaterSplashesAndIsSwumIn) {
@@ -94,10 +92,10 @@ TEST_F(FootstepsTest, WaterSplashesAndIsSwumIn) {
     steps_.reset();
     const auto fall = run(1.5, {});
     ASSERT_FALSE(fall.empty());
-    EXPECT_EQ(fall[0].kind, Kind::Splash);
+    EXPECT_EQ(fall[0].kind, FootEvent::Kind::Splash);
     const auto swim = run(3, {.direction = {1, 0}});
     ASSERT_FALSE(swim.empty());
-    for (const FootEvent& event : swim) EXPECT_EQ(event.kind, Kind::Swim);
+    for (const FootEvent& event : swim) EXPECT_EQ(event.kind, FootEvent::Kind::Swim);
 }
 
 TEST_F(FootstepsTest, LaddersAreHeard) {
@@ -105,7 +103,7 @@ TEST_F(FootstepsTest, LaddersAreHeard) {
     fill({0, 0, 10}, {0, 0, 20}, "ladder");
     const auto events = run(2, {.jumps = true});
     ASSERT_GE(events.size(), 3u);
-    EXPECT_EQ(events.back().kind, Kind::Climb);
+    EXPECT_EQ(events.back().kind, FootEvent::Kind::Climb);
 }
 
 TEST_F(FootstepsTest, WhoIsMovedMakesNoSound) {

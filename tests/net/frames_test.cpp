@@ -4,14 +4,10 @@
 
 #include <random>
 
+#include "tests/net/bytes_of.h"
+
 namespace terrane::net {
 namespace {
-
-Bytes bytesOf(std::initializer_list<int> values) {
-    Bytes bytes;
-    for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
-    return bytes;
-}
 
 TEST(Frames, MessagesComeBackHoweverTheyAreCut) {
     std::mt19937 random(1);

@@ -6,6 +6,8 @@
 #include <limits>
 #include <random>
 
+#include "tests/net/bytes_of.h"
+
 namespace terrane::net {
 namespace {
 
@@ -14,12 +16,6 @@ Bytes written(Write write) {
     Bytes bytes;
     WireWriter wire(bytes);
     write(wire);
-    return bytes;
-}
-
-Bytes bytesOf(std::initializer_list<int> values) {
-    Bytes bytes;
-    for (const int value : values) bytes.push_back(static_cast<std::byte>(value));
     return bytes;
 }
 

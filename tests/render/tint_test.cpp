@@ -29,7 +29,7 @@ Mean meanOf(const base::Image& image) {
     return mean;
 }
 
-const Camera kDown{.position = {8, 8, 106}, .yaw = 0, .pitch = -89, .fieldOfView = 60};
+const Camera kFromAbove{.position = {8, 8, 106}, .yaw = 0, .pitch = -89, .fieldOfView = 60};
 
 class TintImages : public RendererTest {
   protected:
@@ -45,7 +45,7 @@ class TintImages : public RendererTest {
     base::Image imageOf(std::string_view block) {
         renderer_->clearChunks();
         renderer_->setChunk({0, 0}, floorOf(block));
-        return draw(noon(kDown));
+        return draw(noon(kFromAbove));
     }
     void tintAll(world::PackedColor color) {
         EXPECT_TRUE(renderer_->useTint(true));  // forgets those before
@@ -96,7 +96,7 @@ TEST_F(TintImages, AlphaIsTheShareOfTheTintAndTilesHaveTheMeanColor) {
     renderer_->clearChunks();
     for (int y = -2; y < 2; ++y)
         for (int x = -2; x < 2; ++x) renderer_->setChunk({x, y, 4}, floorOf("grass"));
-    Camera high = kDown;
+    Camera high = kFromAbove;
     high.position.z = 250;
     const Mean far = meanOf(draw(noon(high)));
     for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(near[c], far[c], 2.5) << c;

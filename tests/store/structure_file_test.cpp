@@ -58,7 +58,7 @@ void appendBlock(Bytes& bytes, std::string_view name, std::uint16_t state = 0) {
     appendNumber(bytes, state);
 }
 
-std::string errorOf(ByteView bytes) {
+std::string fileError(ByteView bytes) {
     const auto structure = decodeStructure(bytes);
     return structure ? "" : structure.error().message;
 }
@@ -100,11 +100,11 @@ TEST(StructureFile, EveryTruncationAndFlippedBitIsAnError) {
     std::mt19937 random(2);
     const Bytes whole = *encodeStructure(randomStructure(random));
     for (std::size_t length = 0; length < whole.size(); ++length)
-        EXPECT_NE(errorOf(ByteView(whole).first(length)), "") << length;
+        EXPECT_NE(fileError(ByteView(whole).first(length)), "") << length;
     for (std::size_t bit = 0; bit < 8 * whole.size(); ++bit) {
         Bytes flipped = whole;
         flipped[bit / 8] ^= static_cast<std::byte>(1u << bit % 8);
-        EXPECT_NE(errorOf(flipped), "") << bit;
+        EXPECT_NE(fileError(flipped), "") << bit;
     }
 }
 
@@ -116,28 +116,28 @@ TEST(StructureFile, EveryTruncationOfTheContentIsAnError) {
     appendNumber(bytes, std::uint32_t{1});
     appendNumber(bytes, std::uint64_t{1} | std::uint64_t{2} << 32);
     appendNumber(bytes, std::uint16_t{7});
-    ASSERT_EQ(errorOf(framed(bytes)), "");
+    ASSERT_EQ(fileError(framed(bytes)), "");
     for (std::size_t length = 0; length < bytes.size(); ++length)
-        EXPECT_NE(errorOf(framed(ByteView(bytes).first(length))), "") << length;
+        EXPECT_NE(fileError(framed(ByteView(bytes).first(length))), "") << length;
     bytes.push_back(std::byte{0});
-    EXPECT_THAT(errorOf(framed(bytes)), HasSubstr("1 bytes too many"));
+    EXPECT_THAT(fileError(framed(bytes)), HasSubstr("1 bytes too many"));
 }
 
 TEST(StructureFile, SaysWhatIsWrong) {
-    EXPECT_THAT(errorOf({}), HasSubstr("no structure"));
-    EXPECT_THAT(errorOf(framed(content(1, 1, 1, 1), 2)), HasSubstr("version 2"));
-    EXPECT_THAT(errorOf(framed(content(1, 1, 1, 1), 1, 1u << 30)), HasSubstr("1073741824"));
-    EXPECT_THAT(errorOf(framed(content(0, 1, 1, 1))), HasSubstr("0 × 1 × 1"));
-    EXPECT_THAT(errorOf(framed(content(1, 1, 257, 1))), HasSubstr("257"));
-    EXPECT_THAT(errorOf(framed(content(65535, 65535, 1, 1))), HasSubstr("at most 500000"));
-    EXPECT_THAT(errorOf(framed(content(1, 1, 1, 2))), HasSubstr("2 entries"));
+    EXPECT_THAT(fileError({}), HasSubstr("no structure"));
+    EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 2)), HasSubstr("version 2"));
+    EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 1, 1u << 30)), HasSubstr("1073741824"));
+    EXPECT_THAT(fileError(framed(content(0, 1, 1, 1))), HasSubstr("0 × 1 × 1"));
+    EXPECT_THAT(fileError(framed(content(1, 1, 257, 1))), HasSubstr("257"));
+    EXPECT_THAT(fileError(framed(content(65535, 65535, 1, 1))), HasSubstr("at most 500000"));
+    EXPECT_THAT(fileError(framed(content(1, 1, 1, 2))), HasSubstr("2 entries"));
     Bytes named = content(1, 1, 1, 1);
     appendBlock(named, "a\nb");
-    EXPECT_THAT(errorOf(framed(named)), HasSubstr("no name of a block"));
+    EXPECT_THAT(fileError(framed(named)), HasSubstr("no name of a block"));
     Bytes beyond = content(1, 1, 1, 1);
     appendBlock(beyond, "stone");
     appendNumber(beyond, std::uint8_t{1});
-    EXPECT_THAT(errorOf(framed(beyond)), HasSubstr("palette of 1"));
+    EXPECT_THAT(fileError(framed(beyond)), HasSubstr("palette of 1"));
 }
 
 TEST(StructureFile, TooMuchForAFileIsRefused) {

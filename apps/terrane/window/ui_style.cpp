@@ -55,10 +55,10 @@ constexpr std::array<std::array<const char*, 5>, 7> kLetters = {{
 
 // Grass on earth on stone, a little different from block to block.
 ImU32 blockColor(int row, int column) {
-    const std::array<ImVec4, 5> kRows = {ImVec4(0.49f, 0.74f, 0.33f, 1), ImVec4(0.42f, 0.64f, 0.29f, 1),
-                                         ImVec4(0.60f, 0.44f, 0.30f, 1), ImVec4(0.52f, 0.38f, 0.26f, 1),
-                                         ImVec4(0.55f, 0.56f, 0.58f, 1)};
-    ImVec4 color = kRows[static_cast<std::size_t>(row)];
+    const std::array<ImVec4, 5> colors = {ImVec4(0.49f, 0.74f, 0.33f, 1), ImVec4(0.42f, 0.64f, 0.29f, 1),
+                                          ImVec4(0.60f, 0.44f, 0.30f, 1), ImVec4(0.52f, 0.38f, 0.26f, 1),
+                                          ImVec4(0.55f, 0.56f, 0.58f, 1)};
+    ImVec4 color = colors[static_cast<std::size_t>(row)];
     const float shade = 0.92f + 0.08f * static_cast<float>((row * 7 + column * 13) % 5) / 2;
     return ImGui::GetColorU32(ImVec4(std::min(1.0f, color.x * shade), std::min(1.0f, color.y * shade),
                                      std::min(1.0f, color.z * shade), 1));
