@@ -65,13 +65,11 @@ world::BlockId groundUnder(const world::World& world, const world::BlockRegistry
     constexpr std::array<glm::dvec2, 5> kPlaces = {
         {{0, 0}, {-kSide, -kSide}, {kSide, -kSide}, {-kSide, kSide}, {kSide, kSide}}};
     for (const glm::dvec2& place : kPlaces) {
-        const glm::dvec3 at = glm::floor(feet + glm::dvec3(place, -kDeep));
-        const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
-                                  static_cast<std::int32_t>(at.z)};
+        const world::BlockPos pos = world::blockOf(feet + glm::dvec3(place, -kDeep));
         if (carries(world, blocks, pos)) return world.block(pos);
         // The boxes of fences reach out of their cells.
         const world::BlockPos below{pos.x, pos.y, pos.z - 1};
-        if (feet.z - at.z < 0.55 && carries(world, blocks, below)) return world.block(below);
+        if (feet.z - pos.z < 0.55 && carries(world, blocks, below)) return world.block(below);
     }
     return world::kAir;
 }

@@ -234,18 +234,16 @@ std::vector<stream::TaskTime> Session::taskTimes() const {
 }
 
 bool isUnderWater(const Session& session, const glm::dvec3& point) {
-    const glm::dvec3 at = glm::floor(point);
     const world::BlockId water = session.blocks().find("water")->id;
-    const world::BlockPos pos{static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y),
-                              static_cast<std::int32_t>(at.z)};
+    const world::BlockPos pos = world::blockOf(point);
     if (session.world().block(pos) != water) return false;
-    return point.z - at.z < world::liquidHeight(session.world(), session.blocks(), pos);
+    return point.z - pos.z < world::liquidHeight(session.world(), session.blocks(), pos);
 }
 
 int waterAbove(const Session& session, const glm::dvec3& point) {
     if (!isUnderWater(session, point)) return 0;
     const world::BlockId water = session.blocks().find("water")->id;
-    const glm::ivec3 at(glm::floor(point));
+    const world::BlockPos at = world::blockOf(point);
     constexpr int kMost = 64;
     int blocks = 1;
     while (blocks < kMost && session.world().block({at.x, at.y, at.z + blocks}) == water) ++blocks;

@@ -83,10 +83,9 @@ world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistr
 std::optional<world::Pose> backOnSurface(const world::World& world, const world::BlockRegistry& blocks,
                                          const world::Pose& pose) {
     if (pose.position.z >= 0) return std::nullopt;
-    const auto x = static_cast<std::int32_t>(std::floor(pose.position.x));
-    const auto y = static_cast<std::int32_t>(std::floor(pose.position.y));
+    const world::BlockPos at = world::blockOf(pose.position);
     const world::ChunkPtr chunk = world.maybeChunkAt(world::chunkOf(pose.position));
-    const int ground = chunk ? highest(*chunk, blocks, x & 15, y & 15) : -1;
+    const int ground = chunk ? highest(*chunk, blocks, at.x & 15, at.y & 15) : -1;
     if (ground < 0) return std::nullopt;
     world::Pose lifted = pose;
     lifted.position.z = ground + 1 + world::kEyeHeight;

@@ -129,8 +129,7 @@ world::Pose newcomersPose(const ServerState& server) {
     world::Pose pose = server.spawn;
     pose.position.x += away(bits & 0xFFFFFFFF);
     pose.position.y += away(bits >> 32);
-    const world::BlockPos below{static_cast<std::int32_t>(std::floor(pose.position.x)),
-                                static_cast<std::int32_t>(std::floor(pose.position.y)), 0};
+    const world::BlockPos below = world::blockOf(pose.position);
     const world::Chunk chunk = server.session.generator().generate(world::chunkOf(below));
     int z = world::kChunkHeight - 1;
     while (z > 0 && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir) --z;

@@ -1,6 +1,7 @@
 #include "terrane/world/pose.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
 
 namespace terrane::world {
@@ -8,6 +9,12 @@ namespace terrane::world {
 ChunkPos chunkOf(const glm::dvec3& position) {
     return {static_cast<std::int32_t>(std::floor(position.x / kChunkSize)),
             static_cast<std::int32_t>(std::floor(position.y / kChunkSize))};
+}
+
+BlockPos blockOf(const glm::dvec3& position) {
+    const glm::dvec3 corner = glm::floor(position);
+    return {static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
+            static_cast<std::int32_t>(corner.z)};
 }
 
 glm::vec3 lookDirection(float yaw, float pitch) {

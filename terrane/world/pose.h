@@ -16,6 +16,7 @@ struct Pose {
 };
 
 ChunkPos chunkOf(const glm::dvec3& position);
+BlockPos blockOf(const glm::dvec3& position);  // the block that it lies in
 glm::vec3 lookDirection(float yaw, float pitch);
 glm::vec3 rightDirection(float yaw);
 

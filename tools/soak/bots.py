@@ -1,4 +1,5 @@
-"""Bots on all servers, round after round, and what they were told is kept."""
+"""Bots on all servers, round after round, and what they were told is kept. Each round has new players, who begin at the spawn:
+those of before would begin where they ended, walk ever farther away, and load ever more land."""
 import json
 import subprocess
 
@@ -25,7 +26,7 @@ class Bots:
         seconds = min(self.round_seconds, seconds_left - 30)
         self.process = subprocess.Popen(
             [self.program, "bots", *places, "--count", str(self.count), "--seconds", str(seconds), "--builders", "0.2",
-             "--edits-per-second", "0.3", "--joins-per-second", "5", "--keys", self.folder / "keys", "--name", "bot",
+             "--edits-per-second", "0.3", "--joins-per-second", "5", "--name", f"bot{self.rounds}.",
              "--acknowledged", self.kept_file()],
             stdin=subprocess.DEVNULL, stdout=self.output, stderr=self.log)
 

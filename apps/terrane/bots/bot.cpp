@@ -123,8 +123,8 @@ void Bot::walk(double seconds) {
     const double distance = glm::length(way), step = std::min(kWalkSpeed * seconds, distance);
     if (distance < 0.5) return chooseGoal();
     const glm::dvec2 next = here + way / distance * step;
-    const int ground = world_.land.groundHeight(static_cast<std::int32_t>(std::floor(next.x)),
-                                                static_cast<std::int32_t>(std::floor(next.y)));
+    const world::BlockPos below = world::blockOf({next, 0});
+    const int ground = world_.land.groundHeight(below.x, below.y);
     pose_.position = {next, ground + 1 + world::kEyeHeight};
     pose_.yaw = static_cast<float>(std::atan2(way.y, way.x) * 180 / 3.14159265358979);
 }
@@ -133,10 +133,10 @@ void Bot::walk(double seconds) {
 void Bot::build(BotTime now) {
     builtAt_ = now;
     std::uniform_int_distribution<int> away(-3, 3), up(1, 3);
-    const world::BlockPos feet{static_cast<std::int32_t>(std::floor(pose_.position.x)) + away(random_),
-                               static_cast<std::int32_t>(std::floor(pose_.position.y)) + away(random_), 0};
-    const world::BlockPos pos{feet.x, feet.y,
-                              std::min(world_.land.groundHeight(feet.x, feet.y) + up(random_), 255)};
+    world::BlockPos pos = world::blockOf(pose_.position);
+    pos.x += away(random_);
+    pos.y += away(random_);
+    pos.z = std::min(world_.land.groundHeight(pos.x, pos.y) + up(random_), 255);
     if (world_.owners.try_emplace(pos, number_).first->second != number_) return;
     const auto known = world_.acknowledged.find(pos);
     const bool isThere = known != world_.acknowledged.end() && known->second != world::kAir;

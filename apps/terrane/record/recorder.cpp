@@ -46,10 +46,8 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
 
 // Once a shot: nobody wants to see the inside of a hill.
 void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
-    const glm::dvec3 at = glm::floor(camera.position);
     const game::Session& session = *parts_.world.session;
-    const world::BlockId id = session.world().block(
-        {static_cast<std::int32_t>(at.x), static_cast<std::int32_t>(at.y), static_cast<std::int32_t>(at.z)});
+    const world::BlockId id = session.world().block(world::blockOf(camera.position));
     const world::BlockType& type = session.blocks().type(id);
     if (type.collision.empty() || warnedOf_ == &shot) return;
     warnedOf_ = &shot;

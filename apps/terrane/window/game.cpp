@@ -1,233 +1,188 @@
 #include "apps/terrane/window/game.h"
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <chrono>
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <thread>
-
+#include "apps/terrane/window/game_actions.h"
+#include "apps/terrane/window/game_hud.h"
+#include "apps/terrane/window/game_image.h"
+#include "apps/terrane/window/game_input.h"
+#include "apps/terrane/window/game_interface.h"
+#include "apps/terrane/window/game_menu.h"
+#include "apps/terrane/window/game_statistics.h"
 #include "terrane/base/log.h"
-#include "terrane/content/resource_pack.h"
 #include "terrane/game/spawn.h"
-#include "terrane/gpu/framebuffer.h"
-#include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
 namespace {
 
-// Between frames that show no world, so that the compiler has the CPU.
-constexpr std::chrono::milliseconds kCompilePause{15};
-
-}  // namespace
-
-Game::Game(const GameParts& parts, const GameOptions& options)
-    : parts_(parts),
-      settings_(options.settings),
-      applied_(options.settings),
-      tr_(textsOf(options.settings.language, parts.content)),
-      sounds_(parts.session),
-      isSoftwareRenderer_(options.isSoftwareRenderer),
-      imgui_(parts.window),
-      player_(options.start, options.settings.movement),
-      interaction_(parts.session.blocks()),
-      shadersRead_(parts.shaders.newestWrite()),
-      screenshots_(options.dataFolder / "screenshots"),
-      bookmarks_(game::bookmarkFiles(options.dataFolder)),
-      building_(options.dataFolder),
-      perfData_(options.perfData),
-      contentChanged_(options.contentChanged),
-      checkContent_(options.checkContent),
-      deviceName_(options.deviceName),
-      thumbnail_(options.thumbnail) {
-    if (options.measuresPreset) beginMeasurement();
-    interaction_.hotbar = game::hotbarFrom(options.hotbar, parts_.session.blocks());
-    hud_.places = game::savedPlaces(parts_.session.store());
-    parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
-    parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
-    sounds_.setVolume(settings_.soundVolume);
+game::PlayerState playerStateOf(const GameState& game) {
+    const PlaySettings& settings = game.settings;
+    return {.pose = game.player.pose(),
+            .timeDay = game.parts.session.clock.timeDay,
+            .hotbar = game::textOf(game.interaction.hotbar, game.parts.session.blocks()),
+            .movement = nameOf(settings.movement),
+            // So that it is found from another working directory, too.
+            .resourcePack = settings.resourcePack.empty()
+                                ? ""
+                                : std::filesystem::absolute(settings.resourcePack).string()};
 }
 
-base::Result<void> Game::run() {
-    if (!perfData_.empty()) {
-        auto log = PerfLog::create(perfData_);
-        if (!log) return tl::unexpected(log.error());
-        perfLog_ = std::move(*log);
-    }
-    base::Result<void> drawn, saved;
-    do {
-        drawn = drawFrames();
-        writeThumbnail();
-        saved = save();
-    } while (drawn && staysAfter(saved));
-    const glm::dvec3& p = player_.pose().position;
-    base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", frames_, p.x, p.y, p.z);
-    if (perfLog_) base::logInfo("most seconds had {} frames", meter_.mode());
-    if (!drawn && !saved) base::logError("{}", saved.error().message);
-    if (!drawn || !saved) return drawn ? saved : drawn;
-    return perfLog_ ? perfLog_->finish() : base::Result<void>();
-}
-
-base::Result<void> Game::drawFrames() {
-    double last = parts_.window.timeSeconds();
-    while (!isLeaving_ && !parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
-        parts_.window.pollEvents();
-        handleEvents();
-        const double now = parts_.window.timeSeconds(), seconds = now - last;
-        last = now;
-        meter_.add(seconds);
-        advance(seconds);
-        applySettings();
-        reloadWrittenShaders();
-        reloadContent();
-        if (auto drawn = drawFrame(seconds); !drawn) return drawn;
-        if (perfLog_) perfLog_->add(seconds_, seconds, statistics());
-    }
-    return {};
-}
-
-void Game::advance(double seconds) {
-    game::Session& session = parts_.session;
-    seconds_ += seconds;
-    hintSeconds_ -= seconds;
-    messageSeconds_ -= seconds;
-    untilThumbnail_ -= seconds;
-    if (untilThumbnail_ <= 0) writeThumbnail();
-    if (!parts_.remote) session.clock.dayMinutes = settings_.dayMinutes;
-    onPad(seconds);
-    const double gameSeconds = isInMenu() ? 0 : seconds;
-    player_.move(session.world(), session.blocks(), moveKeys(), gameSeconds);
-    liftFromBelow();
-    session.setPlayer(game::kLocalPlayer, player_.pose());
-    advanceRemote();
-    breakAndBuild(seconds);
-    advanceHud(seconds);
-    session.advance(gameSeconds, world::chunkOf(player_.pose().position));
-    sounds_.update(player_, isInMenu(), seconds);
-    game::savePlayer(session.store(), playerState(), saved_);
-    parts_.view.setHorizon({settings_.graphics.horizon, settings_.graphics.detail});
-    parts_.view.follow(camera(), settings_.graphics.viewDistance);
+base::Result<void> save(GameState& game) {
+    game::Session& session = game.parts.session;
+    game::savePlayer(session.store(), playerStateOf(game), game.saved);
+    const auto saved = session.save();
+    if (saved) return saved;
+    return base::fail(saved.error().code, "{}; not saved: {} chunks", saved.error().message,
+                      session.store().status().waiting);
 }
 
 // A player on foot who is below the world would fall for ever.
-void Game::liftFromBelow() {
-    if (settings_.movement == game::Movement::Fast || settings_.movement == game::Movement::Medium) return;
-    const auto lifted = game::backOnSurface(parts_.session.world(), parts_.session.blocks(), player_.pose());
+void liftFromBelow(GameState& game) {
+    const game::Movement movement = game.settings.movement;
+    if (movement == game::Movement::Fast || movement == game::Movement::Medium) return;
+    const game::Session& session = game.parts.session;
+    const auto lifted = game::backOnSurface(session.world(), session.blocks(), game.player.pose());
     if (!lifted) return;
-    player_.placeAt(*lifted, settings_.movement);
-    say(tr_("you were below the world, and are back on the ground"));
+    game.player.placeAt(*lifted, movement);
+    game.notices.say(game.tr("you were below the world, and are back on the ground"));
+}
+
+void advanceServer(GameState& game) {
+    if (!game.remote.play) return;
+    const RemoteStep step =
+        advanceRemote(game.remote, game.player.pose(), game.settings, game.seconds, game.notices, game.tr);
+    if (step.correction) game.player.placeAt(*step.correction, game.settings.movement);
+    if (step.hasEnded) leave(game, true);
+}
+
+void advance(GameState& game, double seconds) {
+    const GameParts& parts = game.parts;
+    game::Session& session = parts.session;
+    game.seconds += seconds;
+    game.notices.advance(seconds);
+    game.untilThumbnail -= seconds;
+    if (game.untilThumbnail <= 0) writeThumbnailOf(game);
+    if (!game.remote.play) session.clock.dayMinutes = game.settings.dayMinutes;
+    handlePad(game, seconds);
+    const double gameSeconds = isInMenu(game) ? 0 : seconds;
+    game.player.move(session.world(), session.blocks(), moveKeysOf(game), gameSeconds);
+    liftFromBelow(game);
+    session.setPlayer(game::kLocalPlayer, game.player.pose());
+    advanceServer(game);
+    advanceHud(game, seconds);
+    session.advance(gameSeconds, world::chunkOf(game.player.pose().position));
+    game.sounds.update(game.player, isInMenu(game), seconds);
+    game::savePlayer(session.store(), playerStateOf(game), game.saved);
+    parts.view.setHorizon({game.settings.graphics.horizon, game.settings.graphics.detail});
+    parts.view.follow(cameraOf(game), game.settings.graphics.viewDistance);
+}
+
+void applyGraphics(GameState& game) {
+    const render::GraphicsSettings &now = game.settings.graphics, &before = game.applied.graphics;
+    if (game.settings.preset != game.applied.preset || now != before) game.preset.end();
+    if (now.mesh != before.mesh) game.parts.session.pipeline().setMeshOptions(now.mesh);
+    if (now.viewDistance != before.viewDistance) {
+        game.parts.renderer.setViewDistance(now.viewDistance);
+        game.parts.session.pipeline().resendLight();
+    }
+}
+
+void applyResourcePack(GameState& game) {
+    const auto changed = useResourcePack(game.parts, game.settings.resourcePack);
+    if (!changed) game.settings.resourcePack = game.applied.resourcePack;
+    game.notices.say(changed ? game.tr("textures are loaded") : changed.error().message);
 }
 
 // What changed since the last frame; the renderer sees to its own options with the frame's size.
-void Game::applySettings() {
-    if (settings_ == applied_) return;
-    if (settings_.preset != applied_.preset || settings_.graphics != applied_.graphics) endMeasurement();
-    if (settings_.graphics.mesh != applied_.graphics.mesh)
-        parts_.session.pipeline().setMeshOptions(settings_.graphics.mesh);
-    if (settings_.graphics.viewDistance != applied_.graphics.viewDistance) {
-        parts_.renderer.setViewDistance(settings_.graphics.viewDistance);
-        parts_.session.pipeline().resendLight();
-    }
-    if (settings_.movement != applied_.movement) player_.setMovement(settings_.movement);
-    if (settings_.fullScreen != applied_.fullScreen) parts_.window.setFullScreen(settings_.fullScreen);
-    if (settings_.resourcePack != applied_.resourcePack) {
-        const auto changed = useResourcePack(settings_.resourcePack);
-        if (!changed) settings_.resourcePack = applied_.resourcePack;
-        say(changed ? tr_("textures are loaded") : changed.error().message);
-    }
-    if (settings_.soundVolume != applied_.soundVolume) sounds_.setVolume(settings_.soundVolume);
-    if (settings_.language != applied_.language) tr_ = textsOf(settings_.language, parts_.content);
-    applied_ = settings_;
+void applySettings(GameState& game) {
+    const PlaySettings &now = game.settings, &before = game.applied;
+    if (now == before) return;
+    applyGraphics(game);
+    if (now.movement != before.movement) game.player.setMovement(now.movement);
+    if (now.fullScreen != before.fullScreen) game.parts.window.setFullScreen(now.fullScreen);
+    if (now.resourcePack != before.resourcePack) applyResourcePack(game);
+    if (now.soundVolume != before.soundVolume) game.sounds.setVolume(now.soundVolume);
+    if (now.language != before.language) game.tr = textsOf(now.language, game.parts.content);
+    game.applied = game.settings;
 }
 
-base::Result<void> Game::useResourcePack(const std::string& folder) {
-    auto textures = content::loadTextures(folder, parts_.session.blocks(), parts_.content.textures);
-    if (!textures) return tl::unexpected(textures.error());
-    if (auto set = parts_.renderer.setTextures(parts_.session.blocks(), *textures); !set) return set;
-    return parts_.preview.setTextures(*textures);
+// Only content that can be used is: until then the world stays as it is, and the player reads why.
+void reloadContent(GameState& game) {
+    const GameOptions& options = game.options;
+    if (!options.contentChanged || game.leaving.isAsked || !options.contentChanged()) return;
+    if (const auto checked = options.checkContent(); !checked) {
+        base::logWarning("{}", checked.error().message);
+        return game.notices.say(checked.error().message);
+    }
+    game.leaving.forReload = true;
+    leave(game, false);
 }
 
-base::Result<void> Game::drawFrame(double seconds) {
-    const glm::ivec2 size = parts_.window.framebufferSize();
+base::Result<void> drawFrame(GameState& game, double seconds) {
+    const glm::ivec2 size = game.parts.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
-    if (auto configured = configureRenderer(size); !configured) return configured;
-    if (hasWorldImage()) {
-        parts_.view.upload(view::uploadBudget(seconds, parts_.view.missing()));
-        if (auto notice = parts_.view.takeNotice()) say(std::move(*notice));
-        parts_.renderer.draw(frameInput());
-        parts_.renderer.presentToWindow(size);
-        measurePreset(seconds);
-        sayPreset();
-    } else {
-        const glm::vec3 sky =
-            world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).horizonColor;
-        gpu::clearWindow(glm::pow(glm::min(sky, 1.0f), glm::vec3(1 / 2.2f)));
-        std::this_thread::sleep_for(kCompilePause);
-    }
-    drawInterface(seconds);
-    parts_.window.swapBuffers();
-    ++frames_;
+    if (auto drawn = drawImage(game, size, seconds); !drawn) return drawn;
+    drawInterface(game, seconds);
+    game.parts.window.swapBuffers();
+    ++game.frames;
     return {};
 }
 
-render::Camera Game::camera() const {
-    return view::cameraOf(player_.pose(), settings_.fieldOfView);
-}
-
-render::FrameInput Game::frameInput() const {
-    render::FrameInput input;
-    input.camera = camera();
-    input.environment = world::environmentAt(static_cast<float>(parts_.session.clock.timeDay));
-    input.fogDistance = view::fogDistance(parts_.view.sightDistance());
-    input.timeSeconds = static_cast<float>(seconds_);
-    input.view = settings_.view;
-    input.waterAbove = game::waterAbove(parts_.session, player_.pose().position);
-    input.figures = hud_.others.figures;
-    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
-    if (isAbove_) {
-        input.culledFor = input.camera;
-        input.camera = debugTopCamera(camera(), parts_.view.viewDistance());
-        input.fogDistance = 16 * view::fogDistance(parts_.view.viewDistance());
-        input.waterAbove = 0;
+base::Result<void> drawFrames(GameState& game) {
+    const GameParts& parts = game.parts;
+    double last = parts.window.timeSeconds();
+    while (!game.leaving.isAsked && !parts.window.shouldClose() && !parts.signals.stopAsked()) {
+        parts.window.pollEvents();
+        handleEvents(game);
+        const double now = parts.window.timeSeconds(), seconds = now - last;
+        last = now;
+        game.meter.add(seconds);
+        advance(game, seconds);
+        applySettings(game);
+        if (auto notice = game.shaders.reload(parts.renderer, parts.preview, game.seconds))
+            game.notices.say(std::move(*notice));
+        reloadContent(game);
+        if (auto drawn = drawFrame(game, seconds); !drawn) return drawn;
+        if (game.perfLog) game.perfLog->add(game.seconds, seconds, statisticsOf(game));
     }
-    return input;
+    return {};
 }
 
-game::PlayerState Game::playerState() const {
-    return {.pose = player_.pose(),
-            .timeDay = parts_.session.clock.timeDay,
-            .hotbar = game::textOf(interaction_.hotbar, parts_.session.blocks()),
-            .movement = nameOf(settings_.movement),
-            // So that it is found from another working directory, too.
-            .resourcePack = settings_.resourcePack.empty()
-                                ? ""
-                                : std::filesystem::absolute(settings_.resourcePack).string()};
+void begin(GameState& game) {
+    const render::GraphicsSettings& graphics = game.settings.graphics;
+    if (game.options.measuresPreset) game.preset.begin();
+    game.parts.session.pipeline().setMeshOptions(graphics.mesh);
+    game.parts.renderer.setViewDistance(graphics.viewDistance);
+    game.sounds.setVolume(game.settings.soundVolume);
 }
 
-base::Result<void> Game::save() {
-    game::savePlayer(parts_.session.store(), playerState(), saved_);
-    const auto saved = parts_.session.save();
-    if (saved) return saved;
-    return base::fail(saved.error().code, "{}; not saved: {} chunks", saved.error().message,
-                      parts_.session.store().status().waiting);
+base::Result<void> play(GameState& game) {
+    if (!game.options.perfData.empty()) {
+        auto log = PerfLog::create(game.options.perfData);
+        if (!log) return tl::unexpected(log.error());
+        game.perfLog = std::move(*log);
+    }
+    begin(game);
+    base::Result<void> drawn, saved;
+    do {
+        drawn = drawFrames(game);
+        writeThumbnailOf(game);
+        saved = save(game);
+    } while (drawn && !saved && askBeforeLoss(game));
+    const glm::dvec3& p = game.player.pose().position;
+    base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", game.frames, p.x, p.y, p.z);
+    if (game.perfLog) base::logInfo("most seconds had {} frames", game.meter.mode());
+    if (!drawn && !saved) base::logError("{}", saved.error().message);
+    if (!drawn || !saved) return drawn ? saved : drawn;
+    return game.perfLog ? game.perfLog->finish() : base::Result<void>();
 }
 
-// Who closes the window is asked before anything is lost; who sends a signal is not there to answer.
-bool Game::staysAfter(const base::Result<void>& saved) {
-    if (saved || quitsUnsaved_ || parts_.signals.stopAsked()) return false;
-    parts_.window.cancelClose();
-    isLeaving_ = false;
-    asksToQuit_ = true;
-    capture(false);
-    return true;
-}
+}  // namespace
 
-void Game::answerQuitDialog(QuitChoice choice) {
-    asksToQuit_ = false;
-    quitsUnsaved_ = choice == QuitChoice::QuitUnsaved;
-    leave(goesToTitle_);
-    if (choice == QuitChoice::Stay) isLeaving_ = goesToTitle_ = false;
+base::Result<void> runGame(const GameParts& parts, const GameOptions& options, GameEnd& end) {
+    GameState game(parts, options);
+    const auto played = play(game);
+    end = {game.settings, game.player.pose(), game.leaving.toTitle, game.leaving.forReload,
+           game.remote.endReason};
+    return played;
 }
 
 }  // namespace terrane::app

@@ -1,116 +1,119 @@
-// What the window's loop draws over the image.
-#include <algorithm>
-#include <glm/geometric.hpp>
+#include "apps/terrane/window/game_interface.h"
 
-#include "apps/terrane/window/container_panel.h"
-#include "apps/terrane/window/game.h"
+#include <algorithm>
+
+#include "apps/terrane/window/container_dialog.h"
+#include "apps/terrane/window/game_hud.h"
+#include "apps/terrane/window/game_menu.h"
+#include "apps/terrane/window/game_statistics.h"
 #include "apps/terrane/window/loading_map.h"
-#include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/panel.h"
-#include "terrane/base/process_statistics.h"
-#include "terrane/game/container.h"
 #include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
+namespace {
 
 // To the sun or moon; none where there are no shadows.
-std::optional<glm::vec3> Game::shadowLight() const {
-    const render::RenderOptions& options = parts_.renderer.options();
+std::optional<glm::vec3> shadowLightOf(const GameParts& parts) {
+    const render::RenderOptions& options = parts.renderer.options();
     if (options.shadows == render::ShadowReach::Off || options.shading == render::Shading::Off)
         return std::nullopt;
-    return world::environmentAt(static_cast<float>(parts_.session.clock.timeDay)).lightDirection;
+    return world::environmentAt(static_cast<float>(parts.session.clock.timeDay)).lightDirection;
 }
 
-void Game::drawInterface(double seconds) {
-    game::Session& session = parts_.session;
-    const stream::Progress progress = session.pipeline().progress();
-    imgui_.setTextSize(settings_.textSize);
-    imgui_.beginFrame(isCaptured_, isInMenu() || hud_.hasDialog());
-    const Screen screen{imgui_.size().x, imgui_.size().y};
-    const render::Camera camera = this->camera();
-    if (isAbove_) {
-        const int viewDistance = parts_.view.viewDistance();
+void drawLinesInWorld(const GameState& game, const Screen& screen, const render::Camera& camera) {
+    const GameParts& parts = game.parts;
+    if (game.debug.isAbove) {
+        const int viewDistance = parts.view.viewDistance();
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
-                         view::fogDistance(viewDistance), shadowLight());
-    } else if (const auto& target = interaction_.target()) {
-        drawTarget(screen, camera, *target, {session.world(), session.blocks(), settings_.highContrast});
+                         view::fogDistance(viewDistance), shadowLightOf(parts));
+    } else if (const auto& target = game.interaction.target()) {
+        drawTarget(screen, camera, *target,
+                   {parts.session.world(), parts.session.blocks(), game.settings.highContrast});
     }
-    drawRemote(screen, camera);
-    drawBuilding(screen);
-    if (isCaptured_ && !isAbove_) drawCrosshair(screen);
-    drawHud(screen, camera, seconds);
-    if (hintSeconds_ > 0) drawHint(screen, static_cast<float>(std::min(hintSeconds_, 1.0)), tr_);
-    if (messageSeconds_ > 0)
-        drawMessage(screen, message_, static_cast<float>(std::min(messageSeconds_, 1.0)));
-    wasComplete_ = wasComplete_ || progress.complete();
-    if (!wasComplete_) drawProgress(screen, progress, tr_);
-    if (showsLoading_) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
-    if (showsPanel_) drawStatistics(statistics(), screen.width - panelWidth() - 30 * uiScale());
-    if (showsPanel_) drawPanel(settings_, session.clock, {isSoftwareRenderer_, screen.width, screen.height});
-    if (container_) drawOpenContainer(screen);
-    if (showsSettings_ && !asksToQuit_) {
-        if (settingsDialog_.draw(settings_, {screen, tr_, isSoftwareRenderer_, &session.clock})) closeOne();
-    } else if (isPaused_ && !asksToQuit_)
-        if (const auto choice = drawPauseMenu(screen, tr_)) answerPauseMenu(*choice);
-    const store::SaveStatus status = session.store().status();
-    if (!asksToQuit_) {
-        drawSaveNotice(screen, status, tr_);
-    } else if (const auto choice = drawQuitDialog(screen, status, tr_)) {
-        answerQuitDialog(*choice);
-    }
-    imgui_.endFrame();
+}
+
+void drawRemote(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (!game.remote.play) return;
+    if (!game.hud.isHidden && !game.debug.isAbove)
+        drawNames(screen, camera, game.remote.others.names,
+                  {game.parts.session.world(), game.parts.session.blocks()});
+    if (drawRemoteTexts(screen, game.remote, game.seconds, game.tr)) captureMouse(game, true);
+}
+
+// The cursor is free while something is typed or chosen.
+void drawBuilding(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (!game.debug.isAbove) game.building.draw(screen, camera, buildViewOf(game), game.seconds);
+    if (auto message = game.building.takeMessage()) game.notices.say(std::move(*message));
+    const bool asks = game.building.isAsking();
+    if (asks != std::exchange(game.wasAsking, asks)) captureMouse(game, !asks);
+}
+
+void drawDebugPanels(GameState& game, const Screen& screen) {
+    game::Session& session = game.parts.session;
+    if (game.debug.showsLoading) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
+    if (!game.debug.showsPanel) return;
+    drawStatistics(statisticsOf(game), screen.width - panelWidth() - 30 * uiScale());
+    drawPanel(game.settings, session.clock, {game.options.isSoftwareRenderer, screen.width, screen.height});
 }
 
 // A chest that is gone or out of reach closes.
-void Game::drawOpenContainer(const Screen& screen) {
-    game::Session& session = parts_.session;
-    const glm::dvec3 middle(container_->x + 0.5, container_->y + 0.5, container_->z + 0.5);
-    const bool isNear = glm::distance(middle, player_.pose().position) <= game::kReach + 1;
-    if (!isNear || !game::isContainer(session.world(), session.blocks(), *container_))
-        return closeContainer();
-    auto items = game::itemsOf(session.world(), session.blocks(), *container_);
-    if (!items) {
-        say(items.error().message);
-        return closeContainer();
-    }
+void drawContainerDialog(GameState& game, const Screen& screen) {
+    game::Session& session = game.parts.session;
+    const world::BlockPos block = *game.container;
+    if (!canUseContainer(session, block, game.player.pose().position)) return captureMouse(game, true);
     const auto image = [&](const std::string& item) {
         const world::BlockType* kind = session.blocks().find(item);
-        return kind ? parts_.preview.image(kind->id) : 0;
+        return kind ? game.parts.preview.image(kind->id) : 0;
     };
     const auto name = [&](const std::string& item) {
         const world::BlockType* kind = session.blocks().find(item);
-        return kind ? tr_.block(*kind) : item;
+        return kind ? game.tr.block(*kind) : item;
     };
-    const auto click = drawContainer(screen, *items, {image, name}, tr_);
-    world::BlockId inHand = interaction_.block();
-    if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return;
-    game::takeInHand(interaction_.hotbar, inHand);
-    game::putItems(session, game::kLocalPlayer, *container_, *items);
+    const auto drawn =
+        drawOpenContainer(screen, session, block, game.interaction.hotbar, {image, name}, game.tr);
+    if (drawn) return;
+    game.notices.say(drawn.error().message);
+    captureMouse(game, true);
 }
 
-MemoryStatistics Game::memoryStatistics() const {
-    return {.blocks = parts_.session.world().memoryBytes(),
-            .light = parts_.session.pipeline().lightBytes(),
-            .quads = parts_.renderer.quadBytes(),
-            .lightOnGpu = parts_.renderer.lightBytes(),
-            .onGpu = parts_.renderer.memory().total(),
-            .gpuBudget = parts_.renderer.memoryBudget(),
-            .resident = base::residentBytes()};
+void drawMenu(GameState& game, const Screen& screen) {
+    GameMenu& menu = game.menu;
+    const store::SaveStatus status = game.parts.session.store().status();
+    if (menu.asksToQuit) {
+        if (const auto choice = drawQuitDialog(screen, status, game.tr)) answerQuitDialog(game, *choice);
+        return;
+    }
+    if (menu.showsSettings) {
+        const SettingsDialog::Input view{screen, game.tr, game.options.isSoftwareRenderer,
+                                         &game.parts.session.clock};
+        if (menu.settings.draw(game.settings, view)) closeOne(game);
+    } else if (menu.isPaused) {
+        if (const auto choice = drawPauseMenu(screen, game.tr)) answerPauseMenu(game, *choice);
+    }
+    drawSaveNotice(screen, status, game.tr);
 }
 
-Statistics Game::statistics() {
-    const game::Session& session = parts_.session;
-    return {.frames = &meter_,
-            .camera = camera(),
-            .timeDay = parts_.session.clock.timeDay,
-            .progress = session.pipeline().progress(),
-            .tiles = &session.tiles().table(),
-            .activeChunks = session.world().chunkCount(),
-            .queuedChunks = session.pipeline().queuedCount() + parts_.view.waiting(),
-            .frame = parts_.renderer.statistics(),
-            .memory = memory_.at(seconds_, [&] { return memoryStatistics(); }),
-            .tasks = session.taskTimes(),
-            .passes = &parts_.renderer.passTimes()};
+}  // namespace
+
+void drawInterface(GameState& game, double seconds) {
+    game.imgui.setTextSize(game.settings.textSize);
+    game.imgui.beginFrame(game.input.isCaptured, isInMenu(game) || hasOpenDialog(game));
+    const Screen screen{game.imgui.size().x, game.imgui.size().y};
+    const render::Camera camera = cameraOf(game);
+    const stream::Progress progress = game.parts.session.pipeline().progress();
+    drawLinesInWorld(game, screen, camera);
+    drawRemote(game, screen, camera);
+    drawBuilding(game, screen, camera);
+    if (game.input.isCaptured && !game.debug.isAbove) drawCrosshair(screen);
+    drawHud(game, screen, camera, seconds);
+    drawNotices(screen, game.notices, game.tr);
+    game.wasComplete = game.wasComplete || progress.complete();
+    if (!game.wasComplete) drawProgress(screen, progress, game.tr);
+    drawDebugPanels(game, screen);
+    if (game.container) drawContainerDialog(game, screen);
+    drawMenu(game, screen);
+    game.imgui.endFrame();
 }
 
 }  // namespace terrane::app

@@ -261,17 +261,17 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     }
     hasBegun_ = true;
     if (remote) remote->begin(session, *given.store);
-    Game loop({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
-               world.compiler(), shaders_, signals_, remote.get()},
-              game);
-    auto played = loop.run();
+    GameEnd end;
+    auto played = runGame({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
+                           world.compiler(), shaders_, signals_, remote.get()},
+                          game, end);
     if (played && remote && !options.knownEdits.empty())
-        played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), loop.pose(),
-                                 loop.settings().graphics.viewDistance);
-    settings_ = loop.settings();
-    goesToTitle_ = loop.goesToTitle() && !isOver();
-    reloads_ = loop.wantsReload() && !isOver();
-    message_ = loop.serverReason();
+        played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), end.pose,
+                                 end.settings.graphics.viewDistance);
+    settings_ = end.settings;
+    goesToTitle_ = end.toTitle && !isOver();
+    reloads_ = end.wantsReload && !isOver();
+    message_ = end.serverReason;
     return played;
 }
 

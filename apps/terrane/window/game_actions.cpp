@@ -1,0 +1,161 @@
+#include "apps/terrane/window/game_actions.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "apps/terrane/window/edit_texts.h"
+#include "apps/terrane/window/game_menu.h"
+#include "apps/terrane/window/pictures.h"
+#include "terrane/game/spawn.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr double kDayStep = 0.01;  // of a day, for each press
+
+// By game::Movement.
+constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast"), trLater("movement: slow"),
+                                                       trLater("movement: not through walls"),
+                                                       trLater("movement: on foot")};
+
+void openPalette(GameState& game) {
+    if (game.hud.palette.isOpen) return captureMouse(game, true);
+    captureMouse(game, false);
+    game.hud.palette.open();
+}
+
+void openPlaces(GameState& game) {
+    captureMouse(game, false);
+    game.hud.placesDialog.open();
+}
+
+void beginChat(GameState& game) {
+    if (!game.remote.play) return;
+    captureMouse(game, false);
+    game.remote.chat.beginTyping();
+}
+
+void showPanel(GameState& game) {
+    game.debug.showsPanel = !game.debug.showsPanel;
+    if (game.debug.showsPanel) captureMouse(game, false);
+}
+
+void nextLight(GameState& game) {
+    using render::LightSampling;
+    LightSampling& light = game.settings.graphics.render.light;
+    light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
+    game.notices.say(light == LightSampling::Smooth ? game.tr("smooth light") : game.tr("classic light"));
+}
+
+void nextMovement(GameState& game) {
+    const std::size_t next = (static_cast<std::size_t>(game.settings.movement) + 1) % kMovementTexts.size();
+    game.settings.movement = static_cast<game::Movement>(next);
+    game.notices.say(game.tr(kMovementTexts[next]));
+}
+
+void changeTime(GameState& game, Action action) {
+    game::DayClock& clock = game.parts.session.clock;
+    if (game.remote.play) return game.notices.say(game.tr("the server keeps the time"));
+    if (action != Action::HoldTime) return clock.shift(action == Action::Later ? kDayStep : -kDayStep);
+    clock.isRunning = !clock.isRunning;
+    game.notices.say(clock.isRunning ? game.tr("time passes") : game.tr("time stands still"));
+}
+
+void saveBookmark(GameState& game) {
+    const auto done = game::appendBookmark(game.bookmarks.file, game.player.pose());
+    game.notices.say(
+        done ? fmt::format(fmt::runtime(game.tr("bookmark saved in {}")), game.bookmarks.file.string())
+             : done.error().message);
+}
+
+void nextBookmark(GameState& game) {
+    const auto bookmarks = game::readBookmarks(game.bookmarks);
+    if (!bookmarks) return game.notices.say(bookmarks.error().message);
+    if (bookmarks->empty()) return game.notices.say(game.tr("no bookmark is saved yet (F5)"));
+    game.player.placeAt((*bookmarks)[game.nextBookmark++ % bookmarks->size()], game.settings.movement);
+}
+
+void goToSpawn(GameState& game) {
+    const game::Session& session = game.parts.session;
+    if (!game.hud.spawn) game.hud.spawn = game::findSpawn(session.generator(), session.blocks());
+    game.player.placeAt(*game.hud.spawn, game.settings.movement);
+    game.notices.say(game.tr("back where the world begins"));
+}
+
+void takeScreenshot(GameState& game) {
+    if (!hasWorldImage(game)) return;
+    const base::Image image = game.parts.renderer.readImage();
+    const auto file = writeScreenshot(game.options.dataFolder / "screenshots", image);
+    if (file) game.hud.screenshot.show(image);
+    game.notices.say(file ? fmt::format(fmt::runtime(game.tr("screenshot {}")), file->string())
+                          : file.error().message);
+}
+
+}  // namespace
+
+void act(GameState& game, Action action) {
+    switch (action) {
+        case Action::Help:
+            game.notices.keysSeconds = game.notices.keysSeconds > 0 ? 0 : Notices::kKeysSeconds;
+            break;
+        case Action::Panel:
+            return showPanel(game);
+        case Action::TopView:
+            game.debug.isAbove = !game.debug.isAbove;
+            break;
+        case Action::LoadingMap:
+            game.debug.showsLoading = !game.debug.showsLoading;
+            break;
+        case Action::SaveBookmark:
+            return saveBookmark(game);
+        case Action::NextBookmark:
+            return nextBookmark(game);
+        case Action::Facts:
+            game.hud.showsFacts = !game.hud.showsFacts;
+            break;
+        case Action::HideHud:
+            game.hud.isHidden = !game.hud.isHidden;
+            break;
+        case Action::FullScreen:
+            game.settings.fullScreen = !game.settings.fullScreen;
+            break;
+        case Action::Screenshot:
+            return takeScreenshot(game);
+        case Action::Chat:
+            return beginChat(game);
+        case Action::PlayerList:
+            game.remote.showsPlayers = game.remote.play && !game.remote.showsPlayers;
+            break;
+        case Action::Earlier:
+        case Action::Later:
+        case Action::HoldTime:
+            return changeTime(game, action);
+        case Action::Light:
+            return nextLight(game);
+        case Action::Movement:
+            return nextMovement(game);
+        case Action::Palette:
+            return openPalette(game);
+        case Action::Places:
+            return openPlaces(game);
+        case Action::Spawn:
+            return goToSpawn(game);
+        default:  // held keys
+            break;
+    }
+}
+
+void takeBack(GameState& game, game::HistoryWay way) {
+    const auto done = game.parts.session.takeBack(game::kLocalPlayer, way);
+    std::string text = takenBackText(done, way == game::HistoryWay::Undo, game.tr);
+    if (!text.empty()) game.notices.say(std::move(text));
+}
+
+void writeThumbnailOf(GameState& game) {
+    game.untilThumbnail = kThumbnailPause;
+    if (game.options.thumbnail.empty() || !hasWorldImage(game)) return;
+    writeThumbnail(game.options.thumbnail, game.parts.renderer.readImage());
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,120 @@
+#include "apps/terrane/window/game_image.h"
+
+#include <chrono>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <thread>
+
+#include "terrane/base/log.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/gpu/framebuffer.h"
+#include "terrane/view/camera_pose.h"
+
+namespace terrane::app {
+namespace {
+
+// Between frames that show no world, so that the compiler has the CPU.
+constexpr std::chrono::milliseconds kCompilePause{15};
+constexpr double kPresetMessageSeconds = 8;
+
+world::Environment environmentOf(const GameState& game) {
+    return world::environmentAt(static_cast<float>(game.parts.session.clock.timeDay));
+}
+
+bool shadersAreReady(const GameState& game, glm::ivec2 size) {
+    constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
+    const render::RenderOptions& options = game.preset.options(game.settings);
+    render::BackgroundCompiler& compiler = game.parts.compiler;
+    if (hasWorldImage(game) && options == game.parts.renderer.options()) return true;
+    if (!hasWorldImage(game) && !compiler.isReady(kPreview, view::BlockPreview::options())) return false;
+    return compiler.isReady(size, options);
+}
+
+// Other options come once their shaders are compiled; until then frames are drawn as before, and at first
+// none. Options that cannot be drawn are taken back.
+base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
+    render::Renderer& renderer = game.parts.renderer;
+    render::RenderOptions options = game.preset.options(game.settings);
+    if (!shadersAreReady(game, size)) {
+        game.notices.say(game.tr("shaders are being compiled"));
+        if (!hasWorldImage(game)) return {};
+        options = renderer.options();
+    }
+    if (size == renderer.size() && options == renderer.options()) return {};
+    const auto configured = renderer.configure(size, options);
+    if (configured || !hasWorldImage(game) || options == renderer.options()) return configured;
+    base::logWarning("{}", configured.error().message);
+    game.notices.say(configured.error().message);
+    game.settings.graphics.render = renderer.options();
+    game.preset.end();
+    return {};
+}
+
+render::FrameInput frameInputOf(const GameState& game) {
+    const GameParts& parts = game.parts;
+    render::FrameInput input;
+    input.camera = cameraOf(game);
+    input.environment = environmentOf(game);
+    input.fogDistance = view::fogDistance(parts.view.sightDistance());
+    input.timeSeconds = static_cast<float>(game.seconds);
+    input.view = game.settings.view;
+    input.waterAbove = game::waterAbove(parts.session, game.player.pose().position);
+    input.figures = game.remote.others.figures;
+    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
+    if (game.debug.isAbove) {
+        const int viewDistance = parts.view.viewDistance();
+        input.culledFor = input.camera;
+        input.camera = debugTopCamera(cameraOf(game), viewDistance);
+        input.fogDistance = 16 * view::fogDistance(viewDistance);
+        input.waterAbove = 0;
+    }
+    return input;
+}
+
+double sumOf(const std::vector<gpu::GpuTiming>& passes) {
+    double milliseconds = 0;
+    for (const gpu::GpuTiming& pass : passes) milliseconds += pass.milliseconds;
+    return milliseconds;
+}
+
+// After a frame: picks a preset while that goes on, and says so once its shaders are there.
+void pickPreset(GameState& game, double seconds) {
+    const GameParts& parts = game.parts;
+    const auto isDrawn = [&] { return game.preset.options(game.settings) == parts.renderer.options(); };
+    const bool isComplete = parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
+    if (isDrawn()) game.preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, game.settings);
+    if (!isDrawn()) return;
+    if (auto message = game.preset.takeMessage())
+        game.notices.say(std::move(*message), kPresetMessageSeconds);
+}
+
+void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
+    const GameParts& parts = game.parts;
+    parts.view.upload(view::uploadBudget(seconds, parts.view.missing()));
+    if (auto notice = parts.view.takeNotice()) game.notices.say(std::move(*notice));
+    parts.renderer.draw(frameInputOf(game));
+    parts.renderer.presentToWindow(size);
+    pickPreset(game, seconds);
+}
+
+}  // namespace
+
+base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
+    if (auto configured = configureRenderer(game, size); !configured) return configured;
+    if (hasWorldImage(game)) {
+        drawWorld(game, size, seconds);
+    } else {
+        gpu::clearWindow(glm::pow(glm::min(environmentOf(game).horizonColor, 1.0f), glm::vec3(1 / 2.2f)));
+        std::this_thread::sleep_for(kCompilePause);
+    }
+    return {};
+}
+
+base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder) {
+    auto textures = content::loadTextures(folder, parts.session.blocks(), parts.content.textures);
+    if (!textures) return tl::unexpected(textures.error());
+    if (auto set = parts.renderer.setTextures(parts.session.blocks(), *textures); !set) return set;
+    return parts.preview.setTextures(*textures);
+}
+
+}  // namespace terrane::app

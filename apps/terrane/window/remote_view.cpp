@@ -1,0 +1,63 @@
+#include "apps/terrane/window/remote_view.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "apps/terrane/window/edit_texts.h"
+#include "apps/terrane/window/selection_tool.h"
+
+namespace terrane::app {
+namespace {
+
+using Stage = net::ClientLink::Stage;
+
+// Of what the server decided later than it was asked.
+std::string textOf(const net::Decided& decided, const Texts& tr) {
+    if (const auto* result = std::get_if<game::EditResult>(&decided)) return refusalText(*result, tr);
+    if (const auto* outcome = std::get_if<game::BuildOutcome>(&decided))
+        return outcomeText("changed", *outcome);
+    return takenBackText(std::get<game::TakenBack>(decided), true, tr);
+}
+
+void tellStage(Stage stage, Notices& notices, const Texts& tr) {
+    if (stage == Stage::Joined) notices.say(tr("back on the server"));
+    if (stage == Stage::Waiting) notices.say(tr("the connection is gone: trying again"));
+}
+
+}  // namespace
+
+RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const PlaySettings& settings,
+                         double seconds, Notices& notices, const Texts& tr) {
+    RemotePlay& play = *remote.play;
+    play.poll();
+    net::ClientWorld& world = play.world();
+    const auto now = std::chrono::steady_clock::now();
+    world.update(pose, settings.graphics.viewDistance, settings.graphics.horizon, now);
+    RemoteStep step{.correction = world.takeCorrection()};
+    for (const net::ChatLine& line : world.takeChat()) remote.chat.add(line, seconds);
+    for (const net::Decided& decided : world.takeDecided())
+        if (std::string text = textOf(decided, tr); !text.empty()) notices.say(std::move(text));
+    updatePlayers(remote.others, world, now);
+    const Stage stage = play.stage();
+    if (stage == std::exchange(remote.stage, stage)) return step;
+    tellStage(stage, notices, tr);
+    step.hasEnded = stage == Stage::Ended;
+    if (step.hasEnded) remote.endReason = play.reason();
+    return step;
+}
+
+bool drawRemoteTexts(const Screen& screen, RemoteView& remote, double seconds, const Texts& tr) {
+    constexpr double kAskEvery = 2;
+    const auto line = remote.chat.draw(screen, tr, seconds);
+    if (line && !line->empty()) remote.play->world().say(*line);
+    if (!remote.showsPlayers) return line.has_value();
+    if (seconds >= std::exchange(remote.nextList, std::max(remote.nextList, seconds))) {
+        remote.play->askPlayers();
+        remote.nextList = seconds + kAskEvery;
+    }
+    if (const auto& list = remote.play->world().playerList()) drawPlayerList(screen, tr, *list);
+    return line.has_value();
+}
+
+}  // namespace terrane::app

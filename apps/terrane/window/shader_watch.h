@@ -1,0 +1,36 @@
+// While developing, a shader is seen as soon as it is written.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "terrane/base/timed_value.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/renderer.h"
+#include "terrane/view/block_preview.h"
+
+namespace terrane::app {
+
+class ShaderWatch {
+  public:
+    static constexpr double kPause = 1;  // seconds between looks at the files
+
+    // The loader outlives this.
+    explicit ShaderWatch(const gpu::ShaderLoader& shaders)
+        : shaders_(shaders), read_(shaders.newestWrite()) {}
+
+    // Reads shaders that were written since the last time; what to tell the player, nothing where there are
+    // none. A wrong one changes nothing. `seconds`: since the start.
+    std::optional<std::string> reload(render::Renderer& renderer, view::BlockPreview& preview,
+                                      double seconds);
+
+  private:
+    using WriteTime = std::optional<std::filesystem::file_time_type>;
+
+    const gpu::ShaderLoader& shaders_;
+    base::TimedValue<WriteTime> written_{kPause};
+    WriteTime read_;  // the newest one when they were last read
+};
+
+}  // namespace terrane::app
