@@ -36,7 +36,7 @@ bench::FigureArea figureArea() {
              {0, -2208},
              {-1056, -192}}};
 #else
-    return {16, {{-1344, -2304}}};
+    return {16, {{-1344, -2304}, {-1056, -192}}};
 #endif
 }
 
