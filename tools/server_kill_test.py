@@ -57,7 +57,7 @@ class Volume:
 def check_blocks(program, world, acknowledged, folder):
     """The number of blocks that were looked at. Where one was taken away, water or sand may be, but no other."""
     lines = [line.split() for line in acknowledged.read_text().splitlines()]
-    blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines]
+    blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines if name != "?"]
     names = {block["id"]: block["name"] for block in json.loads(
         subprocess.run([program, "blocks", "--json"], check=True, stdout=subprocess.PIPE).stdout)}
     volume = Volume(program, world, {(x >> 4, y >> 4) for x, y, _, _ in blocks}, folder / "blocks.npy")

@@ -44,8 +44,8 @@ def seconds_until_back(postgres, count, gone):
 
 def kept_blocks(folder, name):
     """Position to block, as the bots were told."""
-    lines = (folder / f"{name}.txt").read_text().split("\n")
-    return {tuple(int(v) for v in line.split()[:3]): line.split()[3] for line in lines if line}
+    lines = [line.split() for line in (folder / f"{name}.txt").read_text().splitlines()]
+    return {(int(x), int(y), int(z)): block for x, y, z, block in lines if block != "?"}
 
 
 def blocks_of_world(program, url, positions, folder):

@@ -6,6 +6,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "terrane/world/pose.h"
+
 namespace terrane::game {
 namespace {
 
@@ -15,12 +17,6 @@ constexpr double kCalm = 70, kStormy = 200, kLeastWind = 0.15;
 constexpr int kStep = 2;        // between the columns that are looked at for water
 constexpr int kWaterDepth = 5;  // blocks above and below the ears
 constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f;  // volume for each surface that is seen
-
-world::BlockPos cellOf(const glm::dvec3& at) {
-    const glm::dvec3 cell = glm::floor(at);
-    return {static_cast<std::int32_t>(cell.x), static_cast<std::int32_t>(cell.y),
-            static_cast<std::int32_t>(cell.z)};
-}
 
 bool isWater(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
     return blocks.type(world.block(pos)).shape == world::Shape::Liquid;
@@ -56,7 +52,7 @@ std::optional<world::BlockPos> surfaceIn(const world::World& world, const world:
 
 void addWater(Ambience& ambience, const world::World& world, const world::BlockRegistry& blocks,
               const glm::dvec3& ears) {
-    const world::BlockPos cell = cellOf(ears);
+    const world::BlockPos cell = world::blockOf(ears);
     double nearest = kWaterReach;
     for (int y = -kWaterReach; y <= kWaterReach; y += kStep) {
         for (int x = -kWaterReach; x <= kWaterReach; x += kStep) {
@@ -77,13 +73,13 @@ void addWater(Ambience& ambience, const world::World& world, const world::BlockR
 
 Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears) {
     Ambience ambience;
-    if (isWater(world, blocks, cellOf(ears))) {
+    if (isWater(world, blocks, world::blockOf(ears))) {
         ambience.water = 0.5f;  // all around
         return ambience;
     }
     const double height = std::clamp((ears.z - kCalm) / (kStormy - kCalm), 0.0, 1.0);
-    ambience.wind =
-        static_cast<float>(kLeastWind + (1 - kLeastWind) * height) * openness(world, blocks, cellOf(ears));
+    ambience.wind = static_cast<float>(kLeastWind + (1 - kLeastWind) * height) *
+                    openness(world, blocks, world::blockOf(ears));
     addWater(ambience, world, blocks, ears);
     return ambience;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "terrane/world/block_model.h"
+#include "terrane/world/pose.h"
 
 namespace terrane::game {
 namespace {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <iterator>
 #include <utility>

@@ -1,7 +1,6 @@
 #include "terrane/net/server_login.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "terrane/base/log.h"

@@ -3,14 +3,16 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "terrane/world/pose.h"
+
 namespace terrane::view {
 namespace {
 
 constexpr float kLongestStep = 0.05f;  // seconds: no particle passes through a block
 
 bool isSolid(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& point) {
-    const glm::ivec3 at(glm::floor(point));
-    return world::isInHeight(at.z) && !blocks.type(world.block({at.x, at.y, at.z})).collision.empty();
+    const world::BlockPos at = world::blockOf(point);
+    return world::isInHeight(at.z) && !blocks.type(world.block(at)).collision.empty();
 }
 
 }  // namespace

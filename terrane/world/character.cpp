@@ -6,6 +6,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "terrane/world/pose.h"
+
 namespace terrane::world {
 namespace {
 
@@ -86,8 +88,8 @@ bool canJumpOver(const World& world, const BlockRegistry& blocks, const Characte
 }
 
 bool isInClimbable(const World& world, const BlockRegistry& blocks, glm::dvec3 point) {
-    const glm::ivec3 at(glm::floor(point));
-    return isInHeight(at.z) && blocks.type(world.block({at.x, at.y, at.z})).climbable;
+    const BlockPos at = blockOf(point);
+    return isInHeight(at.z) && blocks.type(world.block(at)).climbable;
 }
 
 // Whether the chunks that the box stands in are there, as far as the world goes.
@@ -98,7 +100,7 @@ bool isLoadedUnder(const World& world, const Aabb& box) {
     };
     for (const double x : {box.min.x, box.max.x})
         for (const double y : {box.min.y, box.max.y})
-            if (!world.maybeChunkAt(chunkOf({cell(x), cell(y), 0}))) return false;
+            if (!world.maybeChunkAt(chunkOf(BlockPos{cell(x), cell(y), 0}))) return false;
     return true;
 }
 

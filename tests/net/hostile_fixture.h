@@ -64,9 +64,8 @@ class HostileTest : public testing::Test {
     }
     // A block above the spawn, where everybody appears.
     world::BlockPos nearSpawn(int dx = 2) const {
-        const auto p = poseOf(pose_).position;
-        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
-                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+        const world::BlockPos eyes = world::blockOf(poseOf(pose_).position);
+        return {eyes.x + dx, eyes.y, eyes.z + 2};
     }
     // No command waits for chunks there for the next five seconds of the server's time.
     void loadAround(world::BlockPos pos) {

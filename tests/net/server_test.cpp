@@ -10,9 +10,8 @@ namespace {
 class ServerTest : public testing::Test {
   protected:
     world::BlockPos above(const TestPlayer& player, int dx = 2) const {
-        const auto p = player.pose.position;
-        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
-                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+        const world::BlockPos eyes = world::blockOf(player.pose.position);
+        return {eyes.x + dx, eyes.y, eyes.z + 2};
     }
     base::TempFolder folder_;
 };

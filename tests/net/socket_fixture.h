@@ -76,9 +76,8 @@ struct LinkPlayer {
         return isJoined() && session->pipeline().progress().isUpToDate() && world->isViewComplete();
     }
     world::BlockPos above(int dx) const {
-        const auto p = pose.position;
-        return {static_cast<std::int32_t>(std::floor(p.x)) + dx, static_cast<std::int32_t>(std::floor(p.y)),
-                static_cast<std::int32_t>(std::floor(p.z)) + 2};
+        const world::BlockPos eyes = world::blockOf(pose.position);
+        return {eyes.x + dx, eyes.y, eyes.z + 2};
     }
     game::EditResult put(world::BlockPos pos, std::string_view name) {
         return session->edit({game::kLocalPlayer, pos, world::SetBlock{contentBlock(name)}, {}});

@@ -119,10 +119,8 @@ struct Guest {
     }
     // A place in reach, `up` blocks above its head.
     world::BlockPos near(int dx, int dy, int up = 1) const {
-        const glm::dvec3 at = net::poseOf(pose).position;
-        return {static_cast<std::int32_t>(std::floor(at.x)) + dx,
-                static_cast<std::int32_t>(std::floor(at.y)) + dy,
-                static_cast<std::int32_t>(std::floor(at.z)) + up};
+        const world::BlockPos eyes = world::blockOf(net::poseOf(pose).position);
+        return {eyes.x + dx, eyes.y + dy, eyes.z + up};
     }
 
     TestServer& server;

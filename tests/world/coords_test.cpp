@@ -11,11 +11,11 @@ namespace terrane::world {
 namespace {
 
 TEST(Coords, ChunkOfFloors) {
-    EXPECT_EQ(chunkOf({0, 15, 0}), (ChunkPos{0, 0}));
-    EXPECT_EQ(chunkOf({16, 31, 0}), (ChunkPos{1, 1}));
-    EXPECT_EQ(chunkOf({-1, -16, 0}), (ChunkPos{-1, -1}));
-    EXPECT_EQ(chunkOf({-17, -32, 255}), (ChunkPos{-2, -2}));
-    EXPECT_EQ(chunkOf({kLowest, kHighest, 0}), (ChunkPos{kMinChunk, kMaxChunk}));
+    EXPECT_EQ(chunkOf(BlockPos{0, 15, 0}), (ChunkPos{0, 0}));
+    EXPECT_EQ(chunkOf(BlockPos{16, 31, 0}), (ChunkPos{1, 1}));
+    EXPECT_EQ(chunkOf(BlockPos{-1, -16, 0}), (ChunkPos{-1, -1}));
+    EXPECT_EQ(chunkOf(BlockPos{-17, -32, 255}), (ChunkPos{-2, -2}));
+    EXPECT_EQ(chunkOf(BlockPos{kLowest, kHighest, 0}), (ChunkPos{kMinChunk, kMaxChunk}));
 }
 
 TEST(Coords, IndexLayout) {

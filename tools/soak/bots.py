@@ -52,6 +52,7 @@ class Bots:
         for line in self.kept_file().read_text().splitlines():
             x, y, z, name = line.split()
             self.kept[int(x), int(y), int(z)] = name
+        self.kept = {pos: name for pos, name in self.kept.items() if name != "?"}  # nobody knows what is there
 
     def finish(self):
         """Waits for the last round; problems of all."""

@@ -83,12 +83,15 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
     std::cout << report.dump(1) << '\n';
 }
 
-// X Y Z NAME of each block that the server said to have kept, but for those where it was asked again since.
+// X Y Z NAME of each block that the server said to have kept; NAME is ? where it was asked again since.
 base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, const std::deque<Bot>& bots) {
     if (file.empty()) return {};
-    for (const Bot& bot : bots)
-        for (const world::BlockPos pos : bot.undecided()) world.acknowledged.erase(pos);
     std::string text;
+    for (const Bot& bot : bots)
+        for (const world::BlockPos pos : bot.undecided()) {
+            world.acknowledged.erase(pos);
+            text += fmt::format("{} {} {} ?\n", pos.x, pos.y, pos.z);
+        }
     for (const auto& [pos, id] : world.acknowledged)
         text += fmt::format("{} {} {} {}\n", pos.x, pos.y, pos.z, world.land.blocks().type(id).name);
     return base::writeFile(file, text);
@@ -181,7 +184,8 @@ CommandEntry addBots(CLI::App& app) {
         ->type_name("FOLDER");
     command
         ->add_option("--acknowledged", options->acknowledged,
-                     "At the end write the blocks that the server acknowledged: one line X Y Z NAME each")
+                     "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "
+                     "NAME is ? where a newer edit is not decided")
         ->type_name("FILE");
     return {command, [options] { return runBots(*options); }};
 }

@@ -46,7 +46,7 @@ std::vector<web::NamedPlace> PlayerList::now() {
 std::optional<bool> PlayerList::isUnderGround(const world::Pose& pose) const {
     game::Session& session = server_.session;
     if (!session.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
-    const glm::ivec3 eyes(glm::floor(pose.position));
+    const world::BlockPos eyes = world::blockOf(pose.position);
     int roof = 0;
     for (std::int32_t z = std::max(eyes.z + 1, 0); z < world::kChunkHeight && roof < kRoof; ++z)
         roof += session.blocks().type(session.world().block({eyes.x, eyes.y, z})).opaqueCube;

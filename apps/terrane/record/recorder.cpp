@@ -1,7 +1,6 @@
 #include "apps/terrane/record/recorder.h"
 
 #include <algorithm>
-#include <glm/common.hpp>
 
 #include "apps/terrane/record/shot_figures.h"
 #include "terrane/base/log.h"

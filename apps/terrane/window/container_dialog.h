@@ -1,9 +1,9 @@
-// The dialog of an open chest: which one it is, and what clicks do. Immediate mode: drawn each frame.
+// The dialog of an open chest: what is in it, and what clicks do. Immediate mode: drawn each frame.
 #pragma once
 
 #include "apps/terrane/window/container_panel.h"
 #include "terrane/base/result.h"
-#include "terrane/game/block_interaction.h"
+#include "terrane/game/hotbar.h"
 #include "terrane/game/session.h"
 
 namespace terrane::app {

@@ -1,5 +1,7 @@
 #include "apps/terrane/window/game.h"
 
+#include <utility>
+
 #include "apps/terrane/window/game_actions.h"
 #include "apps/terrane/window/game_hud.h"
 #include "apps/terrane/window/game_image.h"
@@ -45,7 +47,7 @@ void liftFromBelow(GameState& game) {
     game.notices.say(game.tr("you were below the world, and are back on the ground"));
 }
 
-void advanceServer(GameState& game) {
+void exchangeWithServer(GameState& game) {
     if (!game.remote.play) return;
     const RemoteStep step =
         advanceRemote(game.remote, game.player.pose(), game.settings, game.seconds, game.notices, game.tr);
@@ -66,7 +68,8 @@ void advance(GameState& game, double seconds) {
     game.player.move(session.world(), session.blocks(), moveKeysOf(game), gameSeconds);
     liftFromBelow(game);
     session.setPlayer(game::kLocalPlayer, game.player.pose());
-    advanceServer(game);
+    exchangeWithServer(game);
+    breakAndBuild(game, seconds);
     advanceHud(game, seconds);
     session.advance(gameSeconds, world::chunkOf(game.player.pose().position));
     game.sounds.update(game.player, isInMenu(game), seconds);
@@ -167,6 +170,7 @@ base::Result<void> play(GameState& game) {
         writeThumbnailOf(game);
         saved = save(game);
     } while (drawn && !saved && askBeforeLoss(game));
+    game.preset.end();
     const glm::dvec3& p = game.player.pose().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", game.frames, p.x, p.y, p.z);
     if (game.perfLog) base::logInfo("most seconds had {} frames", game.meter.mode());
@@ -180,8 +184,11 @@ base::Result<void> play(GameState& game) {
 base::Result<void> runGame(const GameParts& parts, const GameOptions& options, GameEnd& end) {
     GameState game(parts, options);
     const auto played = play(game);
-    end = {game.settings, game.player.pose(), game.leaving.toTitle, game.leaving.forReload,
-           game.remote.endReason};
+    end = {.settings = game.settings,
+           .pose = game.player.pose(),
+           .toTitle = game.leaving.toTitle,
+           .wantsReload = game.leaving.forReload,
+           .serverReason = game.remote.endReason};
     return played;
 }
 

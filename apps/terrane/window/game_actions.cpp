@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <utility>
 
 #include "apps/terrane/window/edit_texts.h"
 #include "apps/terrane/window/game_menu.h"
@@ -97,7 +98,7 @@ void takeScreenshot(GameState& game) {
 void act(GameState& game, Action action) {
     switch (action) {
         case Action::Help:
-            game.notices.keysSeconds = game.notices.keysSeconds > 0 ? 0 : Notices::kKeysSeconds;
+            game.notices.helpSeconds = game.notices.helpSeconds > 0 ? 0 : Notices::kHelpSeconds;
             break;
         case Action::Panel:
             return showPanel(game);
@@ -144,6 +145,19 @@ void act(GameState& game, Action action) {
         default:  // held keys
             break;
     }
+}
+
+void breakAndBuild(GameState& game, double seconds) {
+    game::Session& session = game.parts.session;
+    const auto& target = game.interaction.target();
+    const std::optional<world::BlockPos> pos = target ? std::optional(target->block) : std::nullopt;
+    const world::BlockId before = pos ? session.world().block(*pos) : world::kAir;
+    const auto result = game.interaction.act(session, game::kLocalPlayer, game.player, seconds);
+    if (!result) return;
+    game.hud.hand.swing();
+    if (std::string text = refusalText(*result, game.tr); !text.empty()) game.notices.say(std::move(text));
+    if (pos && before != world::kAir && session.world().block(*pos) == world::kAir)
+        game.hud.particles.burst(*pos, before);
 }
 
 void takeBack(GameState& game, game::HistoryWay way) {

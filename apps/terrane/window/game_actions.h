@@ -1,5 +1,5 @@
-// What the player does by a key or a button of a gamepad: looks, moves to places, takes edits back, writes
-// pictures.
+// What the player does: breaks and builds, takes edits back, and all that a key is for; and the world's
+// picture.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
@@ -8,8 +8,10 @@ namespace terrane::app {
 
 // Keys that are held do nothing here: see moveKeysOf().
 void act(GameState& game, Action action);
+// Where a button is held; the hand and splinters show it. `seconds`: since the frame before.
+void breakAndBuild(GameState& game, double seconds);
 void takeBack(GameState& game, game::HistoryWay way);
-// Over the world's picture in the list of worlds, where it has one.
+// For the list of worlds, over the one before. Nothing where the world has no file for it.
 void writeThumbnailOf(GameState& game);
 
 }  // namespace terrane::app

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "apps/terrane/window/compass.h"
-#include "apps/terrane/window/edit_texts.h"
 #include "apps/terrane/window/game_menu.h"
 #include "apps/terrane/window/hand_light.h"
 #include "apps/terrane/window/particle_view.h"
@@ -16,8 +15,9 @@ namespace terrane::app {
 namespace {
 
 BlockFace blockFaceOf(GameState& game) {
-    return {[&](world::BlockId block) { return hasWorldImage(game) ? game.parts.preview.image(block) : 0; },
-            [&](world::BlockId block) { return game.tr.block(game.parts.session.blocks().type(block)); }};
+    return {
+        [&game](world::BlockId block) { return hasWorldImage(game) ? game.parts.preview.image(block) : 0; },
+        [&game](world::BlockId block) { return game.tr.block(game.parts.session.blocks().type(block)); }};
 }
 
 std::string targetText(const GameState& game) {
@@ -62,23 +62,9 @@ void drawPlacesDialog(GameState& game, const Screen& screen) {
     captureMouse(game, true);
 }
 
-void breakAndBuild(GameState& game, double seconds) {
-    game::Session& session = game.parts.session;
-    const auto& target = game.interaction.target();
-    const std::optional<world::BlockPos> pos = target ? std::optional(target->block) : std::nullopt;
-    const world::BlockId before = pos ? session.world().block(*pos) : world::kAir;
-    const auto result = game.interaction.act(session, game::kLocalPlayer, game.player, seconds);
-    if (!result) return;
-    game.hud.hand.swing();
-    if (std::string text = refusalText(*result, game.tr); !text.empty()) game.notices.say(std::move(text));
-    if (pos && before != world::kAir && session.world().block(*pos) == world::kAir)
-        game.hud.particles.burst(*pos, before);
-}
-
 }  // namespace
 
 void advanceHud(GameState& game, double seconds) {
-    breakAndBuild(game, seconds);
     Hud& hud = game.hud;
     const glm::dvec3 step = game.player.pose().position - hud.walkedFrom;
     hud.walkedFrom = game.player.pose().position;

@@ -4,6 +4,7 @@
 #include <glm/common.hpp>
 #include <glm/exponential.hpp>
 #include <thread>
+#include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/content/resource_pack.h"
@@ -64,7 +65,7 @@ render::FrameInput frameInputOf(const GameState& game) {
     if (game.debug.isAbove) {
         const int viewDistance = parts.view.viewDistance();
         input.culledFor = input.camera;
-        input.camera = debugTopCamera(cameraOf(game), viewDistance);
+        input.camera = debugTopCamera(input.camera, viewDistance);
         input.fogDistance = 16 * view::fogDistance(viewDistance);
         input.waterAbove = 0;
     }
@@ -80,6 +81,7 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
 // After a frame: picks a preset while that goes on, and says so once its shaders are there.
 void pickPreset(GameState& game, double seconds) {
     const GameParts& parts = game.parts;
+    if (!game.preset.isBusy()) return;
     const auto isDrawn = [&] { return game.preset.options(game.settings) == parts.renderer.options(); };
     const bool isComplete = parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
     if (isDrawn()) game.preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, game.settings);

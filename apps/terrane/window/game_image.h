@@ -5,7 +5,7 @@
 
 namespace terrane::app {
 
-// Without an image as long as the first shaders are compiled; `seconds`: since the frame before. An error:
+// Without an image until the first shaders are compiled; `seconds`: since the frame before. An error:
 // the graphics card cannot draw at all.
 base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds);
 

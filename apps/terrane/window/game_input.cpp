@@ -1,6 +1,7 @@
 #include "apps/terrane/window/game_input.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "apps/terrane/window/game_actions.h"
 #include "apps/terrane/window/game_menu.h"
@@ -93,7 +94,10 @@ void onMiddleButton(GameState& game) {
 
 void onButton(GameState& game, MouseButton button, bool isPress) {
     const bool isCaptured = game.input.isCaptured;
-    if (button == MouseButton::Middle) return isPress ? onMiddleButton(game) : void();
+    if (button == MouseButton::Middle) {
+        if (isPress) onMiddleButton(game);
+        return;
+    }
     game::HeldButton& held =
         button == MouseButton::Left ? game.interaction.breaking : game.interaction.building;
     if (!isPress) return held.release();

@@ -1,6 +1,6 @@
 #include "apps/terrane/window/game_interface.h"
 
-#include <algorithm>
+#include <utility>
 
 #include "apps/terrane/window/container_dialog.h"
 #include "apps/terrane/window/game_hud.h"

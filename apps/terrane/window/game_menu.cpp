@@ -5,7 +5,7 @@ namespace {
 
 void pause(GameState& game) {
     game.menu.isPaused = true;
-    game.notices.keysSeconds = 0;
+    game.notices.helpSeconds = 0;
     captureMouse(game, false);
 }
 
@@ -63,7 +63,7 @@ void answerPauseMenu(GameState& game, PauseChoice choice) {
             return;
         case PauseChoice::Help:
             resume(game);
-            game.notices.keysSeconds = Notices::kKeysSeconds;
+            game.notices.helpSeconds = Notices::kHelpSeconds;
             return;
         case PauseChoice::ToTitle:
             return leave(game, true);
@@ -84,8 +84,9 @@ bool askBeforeLoss(GameState& game) {
 void answerQuitDialog(GameState& game, QuitChoice choice) {
     game.menu.asksToQuit = false;
     game.menu.quitsUnsaved = choice == QuitChoice::QuitUnsaved;
-    game.leaving.isAsked = choice != QuitChoice::Stay;
-    if (choice == QuitChoice::Stay) game.leaving.toTitle = false;
+    game.leaving.isAsked = true;
+    if (choice == QuitChoice::Stay) game.leaving = {};
+    if (choice == QuitChoice::QuitUnsaved) game.leaving.forReload = false;
 }
 
 }  // namespace terrane::app

@@ -25,12 +25,6 @@ std::string nameOf(world::SoundMaterial material, std::string_view action) {
     return fmt::format("{}_{}", world::kSoundMaterialNames[static_cast<std::size_t>(material)], action);
 }
 
-world::BlockPos cellOf(const glm::dvec3& at) {
-    const glm::dvec3 cell = glm::floor(at);
-    return {static_cast<std::int32_t>(cell.x), static_cast<std::int32_t>(cell.y),
-            static_cast<std::int32_t>(cell.z)};
-}
-
 }  // namespace
 
 GameSounds::GameSounds(game::Session& session) : session_(session) {
@@ -94,7 +88,7 @@ void GameSounds::playFoot(const game::FootEvent& event, const world::Character& 
     using Kind = game::FootEvent::Kind;
     const world::World& world = session_.world();
     const world::BlockRegistry& blocks = session_.blocks();
-    const world::BlockType& inside = blocks.type(world.block(cellOf(character.feet)));
+    const world::BlockType& inside = blocks.type(world.block(world::blockOf(character.feet)));
     std::string name;
     if (event.kind == Kind::Splash || event.kind == Kind::Swim) {
         name = event.kind == Kind::Swim ? "water_swim" : "water_splash";

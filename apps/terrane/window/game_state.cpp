@@ -3,11 +3,6 @@
 #include "terrane/view/camera_pose.h"
 
 namespace terrane::app {
-namespace {
-
-constexpr double kMemoryPause = 0.5;  // seconds for which statistics of memory stay as they are
-
-}  // namespace
 
 GameState::GameState(const GameParts& given, const GameOptions& chosen)
     : parts(given),
@@ -22,9 +17,7 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
       building(chosen.dataFolder),
       sounds(given.session),
       preset(given.window, chosen.deviceName, chosen.isSoftwareRenderer),
-      shaders(given.shaders),
-      untilThumbnail(kThumbnailPause),
-      memory(kMemoryPause) {
+      shaders(given.shaders) {
     remote.play = given.remote;
     interaction.hotbar = game::hotbarFrom(chosen.hotbar, given.session.blocks());
     hud.places = game::savedPlaces(given.session.store());

@@ -1,6 +1,6 @@
-// All that the window's loop holds from frame to frame, by subject. Plain data: what is done with it lies in
-// free functions, a file for each subject (game_input.h, game_menu.h, game_image.h, game_interface.h), which
-// hand on what they need of it.
+// All that the window's loop holds from frame to frame, by subject. What is done with it lies in free
+// functions, a file for each subject: game_input.h, game_actions.h, game_menu.h, game_image.h, game_hud.h,
+// game_interface.h, game_statistics.h. They hand on to others only what those need.
 #pragma once
 
 #include <filesystem>
@@ -47,13 +47,14 @@ struct DebugViews {
     bool isAbove = false;  // the camera, with what it sees drawn as lines
 };
 
-// Why the loop ends.
+// Whether the loop ends, and where to.
 struct Leaving {
     bool isAsked = false;
     bool toTitle = false, forReload = false;
 };
 
 constexpr double kThumbnailPause = 180;  // seconds between pictures of the world
+constexpr double kMemoryPause = 0.5;     // seconds for which statistics of memory stay as they are
 
 struct GameState {
     GameState(const GameParts& parts, const GameOptions& options);
@@ -88,9 +89,9 @@ struct GameState {
 
     PresetPicker preset;
     ShaderWatch shaders;
-    double untilThumbnail;  // seconds
+    double untilThumbnail = kThumbnailPause;  // seconds
     view::FrameMeter meter;
-    base::TimedValue<MemoryStatistics> memory;
+    base::TimedValue<MemoryStatistics> memory{kMemoryPause};
     std::optional<PerfLog> perfLog;
 };
 

@@ -1,5 +1,5 @@
-// What the window's loop draws over the image while one plays, and the dialogs of blocks and places: their
-// state, which holds from frame to frame. game_hud.h fills and draws it.
+// The state of what is seen of the game over its image, and of the dialogs of blocks and places. game_hud.h
+// draws it.
 #pragma once
 
 #include <optional>

@@ -10,11 +10,11 @@
 namespace terrane::app {
 
 struct Notices {
-    static constexpr double kMessageSeconds = 3, kKeysSeconds = 20;
+    static constexpr double kMessageSeconds = 3, kHelpSeconds = 20;
 
     std::string message;
     double messageSeconds = 0;  // that are left
-    double keysSeconds = 12;    // at first, too
+    double helpSeconds = 12;    // of the list of keys; who begins sees it for a while
 
     void say(std::string text, double seconds = kMessageSeconds) {
         message = std::move(text);
@@ -22,7 +22,7 @@ struct Notices {
     }
     void advance(double seconds) {
         messageSeconds -= seconds;
-        keysSeconds -= seconds;
+        helpSeconds -= seconds;
     }
 };
 

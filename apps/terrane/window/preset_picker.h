@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "apps/terrane/window/play_settings.h"
 #include "apps/terrane/window/preset_measurement.h"
@@ -17,6 +18,7 @@ class PresetPicker {
     PresetPicker(Window& window, std::string deviceName, bool isSoftwareRenderer)
         : window_(window), deviceName_(std::move(deviceName)), isSoftwareRenderer_(isSoftwareRenderer) {}
 
+    bool isBusy() const { return measurement_ || message_; }
     void begin();
     void end();  // nothing where nothing is measured
     // To draw with: those of the measured preset, else those of the settings.

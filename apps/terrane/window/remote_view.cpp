@@ -1,8 +1,8 @@
 #include "apps/terrane/window/remote_view.h"
 
-#include <algorithm>
 #include <chrono>
 #include <utility>
+#include <variant>
 
 #include "apps/terrane/window/edit_texts.h"
 #include "apps/terrane/window/selection_tool.h"
@@ -52,7 +52,7 @@ bool drawRemoteTexts(const Screen& screen, RemoteView& remote, double seconds, c
     const auto line = remote.chat.draw(screen, tr, seconds);
     if (line && !line->empty()) remote.play->world().say(*line);
     if (!remote.showsPlayers) return line.has_value();
-    if (seconds >= std::exchange(remote.nextList, std::max(remote.nextList, seconds))) {
+    if (seconds >= remote.nextList) {
         remote.play->askPlayers();
         remote.nextList = seconds + kAskEvery;
     }

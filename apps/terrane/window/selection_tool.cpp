@@ -29,11 +29,6 @@ constexpr ActionKey kActionKeys[] = {
     {ToolAction::Save, Key::S, true},       {ToolAction::Open, Key::O, true},
     {ToolAction::Clear, Key::Delete, false}};
 
-BlockPos cellOf(const glm::dvec3& point) {
-    const glm::ivec3 at(glm::floor(point));
-    return {at.x, at.y, at.z};
-}
-
 world::Ray lookRay(const BuildView& view) {
     return {view.pose.position, glm::dvec3(world::lookDirection(view.pose.yaw, view.pose.pitch))};
 }
@@ -78,8 +73,6 @@ std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
     return text;
 }
 
-namespace {}  // namespace
-
 std::string withCommas(std::int64_t number) {
     std::string text = std::to_string(number);
     for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
@@ -92,12 +85,12 @@ BlockPos pointedAt(const BuildView& view, bool beforeBlock) {
         const glm::dvec3 feet =
             view.body ? view.body->min + glm::dvec3(0.5, 0.5, 0) * (view.body->max - view.body->min)
                       : view.pose.position;
-        return cellOf(feet + glm::dvec3(0, 0, 1e-3));
+        return world::blockOf(feet + glm::dvec3(0, 0, 1e-3));
     }
     if (const auto hit = lookedAt(view))
         return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
     const world::Ray ray = lookRay(view);
-    return cellOf(ray.origin + ray.direction * kAhead);
+    return world::blockOf(ray.origin + ray.direction * kAhead);
 }
 
 bool SelectionTool::onKey(Key key, const BuildView& view) {
