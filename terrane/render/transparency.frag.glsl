@@ -101,9 +101,10 @@ float meanDepthAt(ivec2 pixel) {
 Passed shadeSamples(ivec2 pixel) {
     bool isOne = isOneLayer(pixel);
     int count = isOne ? 1 : MSAA_SAMPLES;
+    float meanBehind = meanDepthAt(pixel);
     Passed sum = Passed(vec4(0.0), vec4(0.0));
     for (int k = 0; k < count; ++k) {
-        Passed one = shadeLayers(pixel, k, isOne ? meanDepthAt(pixel) : depthAt(pixel, k));
+        Passed one = shadeLayers(pixel, k, isOne ? meanBehind : depthAt(pixel, k));
         sum = Passed(sum.color + one.color, sum.through + one.through);
     }
     Passed mean = Passed(sum.color / float(count), sum.through / float(count));

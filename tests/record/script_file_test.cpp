@@ -104,6 +104,10 @@ TEST(ScriptFile, ReadsPlayersWhoBuild) {
     EXPECT_EQ(shot.edits[0].player, "Ann");
     EXPECT_THAT(errorOf(shotOf(edit)), HasSubstr("player: expected the name of a player of the shot"));
     EXPECT_THAT(errorOf(shotOf("[[shot.player]]\nname = \"Ann\"\n")), HasSubstr("key"));
+    EXPECT_THAT(
+        errorOf(shotOf(
+            "[[shot.player]]\nname = \"Ann\"\nnumber = 2.5\nkey = [{ at = [5, 6, 70], look = [0, 0] }]\n")),
+        HasSubstr("number: expected a whole number"));
     EXPECT_THAT(errorOf(shotOf("[[shot.player]]\nkey = [{ at = [5, 6, 70], look = [0, 0] }]\n")),
                 HasSubstr("name"));
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <span>
 
@@ -191,6 +192,7 @@ PlayerCue ScriptReader::playerOf(ContentTable& table) {
     table.rejectUnknown(Names{"name", "number", "key"});
     const std::string name = textOf(table, "name");
     const double number = numberOf(table, "number", 0, 0, 1000);
+    if (number != std::floor(number)) table.expected(*table.node("number"), "number", "a whole number");
     std::vector<view::CameraKey> keys = keysOf(table);
     if (keys.empty()) keys.emplace_back();  // after an error
     return {name, static_cast<std::uint32_t>(number), view::CameraPath(std::move(keys))};

@@ -20,6 +20,10 @@ constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast")
                                                        trLater("movement: not through walls"),
                                                        trLater("movement: on foot")};
 
+void flip(bool& value) {
+    value = !value;
+}
+
 void openPalette(GameState& game) {
     if (game.hud.palette.isOpen) return captureMouse(game, true);
     captureMouse(game, false);
@@ -103,24 +107,19 @@ void act(GameState& game, Action action) {
         case Action::Panel:
             return showPanel(game);
         case Action::TopView:
-            game.debug.isAbove = !game.debug.isAbove;
-            break;
+            return flip(game.debug.isAbove);
         case Action::LoadingMap:
-            game.debug.showsLoading = !game.debug.showsLoading;
-            break;
+            return flip(game.debug.showsLoading);
         case Action::SaveBookmark:
             return saveBookmark(game);
         case Action::NextBookmark:
             return nextBookmark(game);
         case Action::Facts:
-            game.hud.showsFacts = !game.hud.showsFacts;
-            break;
+            return flip(game.hud.showsFacts);
         case Action::HideHud:
-            game.hud.isHidden = !game.hud.isHidden;
-            break;
+            return flip(game.hud.isHidden);
         case Action::FullScreen:
-            game.settings.fullScreen = !game.settings.fullScreen;
-            break;
+            return flip(game.settings.fullScreen);
         case Action::Screenshot:
             return takeScreenshot(game);
         case Action::Chat:
