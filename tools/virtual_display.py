@@ -8,14 +8,16 @@ HANG_SECONDS = 120
 class Display:
     """A virtual X server on a number that it chooses itself."""
 
-    def __init__(self, size):
+    def __init__(self, size, repeats_keys=False):
+        """A key that is held repeats its letter where asked for: on a busy machine one that is only pressed would, too."""
         self.size = size  # pixels
+        self.options = [] if repeats_keys else ["-r"]
 
     def __enter__(self):
         read_end, write_end = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{self.size[0]}x{self.size[1]}x24", "-nolisten", "tcp",
-             "-noreset"],  # else it starts anew whenever its last window closes
+             "-noreset", *self.options],  # else it starts anew whenever its last window closes
             pass_fds=(write_end,), stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:

@@ -155,7 +155,7 @@ class Building(BuildingScript):
             display.xdotool("click", 3)  # opens it
             time.sleep(self.pause)
             for text in ("Hello, world", "second line", "MMMMMMMMMMMMMMMM"):
-                display.xdotool("type", text)
+                game.type(text)
                 time.sleep(self.pause)
                 self.press(game, "Down")
             self.keep(display, game, "sign_dialog")

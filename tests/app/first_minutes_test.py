@@ -54,10 +54,10 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
 
     def take(self, player, name, block):
         """A block from the palette, into the hand."""
-        player.hold("Tab")
-        player.display.xdotool("type", "--delay", "100", name)
+        player.press_once("Tab")
+        player.type(name)
         player.settle()  # what is typed is in the image, so that what changes then is what Return does
-        player.hold("Return")
+        player.press_once("Return")
         player.wait_for(lambda: self.is_in_hand(block))
         player.settle()
 

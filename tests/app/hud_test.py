@@ -35,7 +35,7 @@ class Hud(building_test.BuildingScript):
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble grass"))
             self.hold(game, "Tab")
             self.keep(display, game, "palette")
-            display.xdotool("type", "--delay", "100", "chest")
+            game.type("chest")
             self.hold(game, "Return")
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble chest"))
             self.press(game, "ctrl+5")  # Control is for sinking
@@ -49,7 +49,7 @@ class Hud(building_test.BuildingScript):
         with window_test.Display() as display:
             game = self.play(display, ("8.5 8.5 84 0 -89", "100.5 -40.5 95 180 -20"), "bricks", 2)
             self.hold(game, "n")
-            display.xdotool("type", "--delay", "100", "far away")
+            game.type("far away")
             self.hold(game, "Return")
             self.wait_for_setting(game, "places", lambda places: places == "100.5 -40.5 95 180 -20 far away\n")
             self.keep(display, game, "places")
@@ -62,11 +62,11 @@ class Hud(building_test.BuildingScript):
             self.close(game)
 
     def test_a_held_key_that_opens_a_text_field_does_not_type_into_it(self):
-        with window_test.Display() as display:
+        with window_test.Display(repeats_keys=True) as display:
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
             # The display repeats it; the last repetition shares no frame with what is typed.
             display.xdotool("keydown", "n", "sleep", "2.5", "keyup", "n", "sleep", "1.5")
-            display.xdotool("type", "--delay", "100", "no")
+            game.type("no")
             self.hold(game, "Return")
             self.wait_for_setting(game, "places", lambda places: places != "")
             self.assertEqual(self.setting("places").split(" ", 5)[5], "no\n")

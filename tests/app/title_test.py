@@ -4,7 +4,6 @@
 Needs what window_test.py needs."""
 import contextlib
 import re
-import signal
 import sqlite3
 import subprocess
 import time
@@ -44,25 +43,19 @@ class Player(window_test.Game):
                 longest = max(longest, time.monotonic() - changed)
                 before, changed = now, time.monotonic()
 
-    def hold(self, key, pause=None):
-        """Until it has changed the image: frames may take long, and a key that is down for longer acts twice."""
-        before, deadline = self.pixels(), time.monotonic() + 5
-        self.display.xdotool("keydown", key)
-        while self.process.poll() is None and self.pixels() == before and time.monotonic() < deadline:
-            time.sleep(0.02)
-        self.display.xdotool("keyup", key)
-        self.settle()
-
-    def press_within_a_frame(self, key):
-        """The program sleeps while the key goes down and up."""
-        self.process.send_signal(signal.SIGSTOP)
-        self.press(key)
-        self.process.send_signal(signal.SIGCONT)
-        self.settle()
+    def press_once(self, *keys):
+        """Waits after each until the image has changed and stays: for longer where the change takes long."""
+        for key in keys:
+            before, start = self.pixels(), time.monotonic()
+            with self.asleep():
+                self.press(key)
+            while self.process.poll() is None and self.pixels() == before and time.monotonic() - start < 5:
+                time.sleep(0.02)
+            frame = time.monotonic() - start
+            self.settle(max(3, 6 * frame), still=max(0.6, 3 * frame))
 
     def choose(self, *keys):
-        for key in (*keys, "Return"):
-            self.hold(key)
+        self.press_once(*keys, "Return")
 
     def places(self):
         """Where the worlds that were played were left."""
@@ -159,46 +152,37 @@ class Title(TitleScript):
         with window_test.Display() as display:
             player = self.open(display)
             player.choose("Down")  # Worlds
-            for key in ("Down", "Right", "Right"):
-                player.hold(key)
+            player.press_once("Down", "Right", "Right")
             player.choose()  # Rename
-            player.display.xdotool("type", "--delay", "200", "hut")
-            player.hold("Return")
+            player.type("hut")
+            player.press_once("Return")
             player.wait_for(lambda: self.names() == ["hut"])
             player.settle()
-            for key in ("Down", "Right", "Right", "Right"):
-                player.hold(key)
+            player.press_once("Down", "Right", "Right", "Right")
             player.choose()  # Copy
-            player.hold("Return")  # by the name that is proposed
+            player.press_once("Return")  # by the name that is proposed
             player.wait_for(lambda: self.names() == ["hut", "hut copy"])
             player.settle()
-            for key in ("Down", "Down", "Right", "Right", "Right", "Right"):
-                player.hold(key)
+            player.press_once("Down", "Down", "Right", "Right", "Right", "Right")
             player.choose()  # Delete
             player.choose()  # Keep it
             self.assertEqual(len(self.names()), 2)
-            for key in ("Down", "Down", "Right", "Right", "Right", "Right"):
-                player.hold(key)
+            player.press_once("Down", "Down", "Right", "Right", "Right", "Right")
             player.choose()
             player.choose("Right")
             player.wait_for(lambda: len(self.names()) == 1)
             player.settle()
-            player.hold("Escape")
+            player.press_once("Escape")
             self.quit(player)
         self.assertTrue(self.succeed("check", self.worlds / f"{self.names()[0]}.sqlite").endswith("good\n"))
 
-    def test_keys_that_are_down_within_one_frame(self):
-        self.worlds.mkdir(exist_ok=True)
-        self.succeed("generate", "--world", self.worlds / "home.sqlite", "--radius", "1", "--generator", "flat")
-        with window_test.Display() as display:
+    def test_a_key_that_is_held_chooses_once(self):
+        with window_test.Display(repeats_keys=True) as display:
             player = self.open(display)
-            for key in ("Down", "Return", "Down", "Right", "Right", "Return"):  # Worlds, Rename
-                player.press_within_a_frame(key)
-            player.display.xdotool("type", "--delay", "200", "hut")
-            player.press_within_a_frame("Return")
-            player.wait_for(lambda: self.names() == ["hut"])
+            display.xdotool("keydown", "Return", "sleep", "3", "keyup", "Return")  # New world, with Create in focus
             player.settle()
-            player.press_within_a_frame("Escape")
+            self.assertEqual(self.names(), [])
+            player.press_once("Escape")
             self.quit(player)
 
     def test_settings_are_kept(self):
@@ -209,7 +193,7 @@ class Title(TitleScript):
                 player.choose("Down", "Down")  # Settings
                 player.choose("Right")  # Controls
                 player.choose("Down", "Down")  # the switch below the slider
-                player.hold("Escape")
+                player.press_once("Escape")
                 self.quit(player)
                 text = settings.read_text() if settings.exists() else ""
                 self.assertEqual("invert-y = 'true'" in text, expected, text)
@@ -232,7 +216,7 @@ class Title(TitleScript):
             player.choose("Up")  # Worlds
             player.choose()  # plays the one there is: a message
             player.choose()  # OK
-            player.hold("Escape")
+            player.press_once("Escape")
             self.quit(player)
         self.assertEqual((self.worlds / "bad.sqlite").read_text(), "no save")
 

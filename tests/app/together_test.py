@@ -113,12 +113,12 @@ class JoinFromTheTitle(title_test.TitleScript):
         with window_test.Display() as display:
             player = self.open(display)
             player.choose("Down")  # Join a server: no world is there to continue
-            display.xdotool("type", "--delay", "150", address)
-            player.hold("Tab")
-            display.xdotool("type", "--delay", "150", "Eve")
+            player.type(address)
+            player.press_once("Tab")
+            player.type("Eve")
             player.settle()
             keep(display, player, "join")
-            player.hold("Return")
+            player.press_once("Return")
             self.server.wait_for(r"Eve joined")
             servers = self.folder / "terrane" / "servers.txt"
             player.wait_for(lambda: servers.exists() and servers.read_text() == f"{address} Eve\n")
@@ -132,7 +132,7 @@ class JoinFromTheTitle(title_test.TitleScript):
             player.wait_for(lambda: f"{address}: Connection refused" in player.output())
             player.settle()
             player.choose()  # OK
-            player.hold("Escape")
+            player.press_once("Escape")
             self.quit(player)
 
 

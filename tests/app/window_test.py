@@ -31,8 +31,8 @@ SIZE, LARGER = (320, 180), (480, 270)
 
 
 class Display(virtual_display.Display):
-    def __init__(self, size=SCREEN):
-        super().__init__(size)
+    def __init__(self, size=SCREEN, repeats_keys=False):
+        super().__init__(size, repeats_keys)
 
     def screenshot(self, window):
         data = subprocess.run(["xwd", "-id", window, "-silent", "-display", self.name], capture_output=True,
@@ -126,6 +126,19 @@ class Game:
     def press(self, key):
         self.display.xdotool("key", key)
 
+    @contextlib.contextmanager
+    def asleep(self):
+        """The program sleeps meanwhile: its keys go down and up within one frame, however long frames take."""
+        self.process.send_signal(signal.SIGSTOP)
+        try:
+            yield
+        finally:
+            self.process.send_signal(signal.SIGCONT)
+
+    def type(self, text):
+        with self.asleep():
+            self.display.xdotool("type", text)
+
     def pause_after(self, key):
         """Presses a key that changes the image. What is waited for is two frames or so: on a busy machine they take
         long, and so must pauses."""
@@ -136,11 +149,10 @@ class Game:
         time.sleep(pause)
         return pause
 
-    def hold(self, key, pause=0.5):
-        """For some frames: this Dear ImGui misses a key that is down within one."""
-        self.display.xdotool("keydown", key)
-        time.sleep(pause)
-        self.display.xdotool("keyup", key)
+    def press_alone(self, key, pause=0.5):
+        """Down and up within one frame, with time for some frames before the next key."""
+        with self.asleep():
+            self.press(key)
         time.sleep(pause)
 
     def click(self, button, x=SIZE[0] // 2, y=SIZE[1] // 2, pause=0.3):
@@ -594,7 +606,7 @@ class Window(ProgramTest):
             game.click(1, 258, 116, pause=1)  # the field of view's slider: a number can be typed in its place
             display.xdotool("keyup", "Control_L")
             for key in ("m", "9", "Return", "m"):
-                game.hold(key)
+                game.press_alone(key)
             self.close(game, open_things=1)
             self.assertEqual(self.lines_of_settings(), ["field-of-view = '40'"])
             self.assertEqual(self.setting(self.folder / "terrane" / "flat-1.sqlite", "movement"), "fast")
@@ -609,7 +621,7 @@ class Window(ProgramTest):
             for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
                 game.click(1, 258, 676, pause)  # the field of the folder
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
-                    game.hold(key, pause / 2)
+                    game.press_alone(key, pause)
                 time.sleep(2 * pause)
             # The ground at the window's lower left, beside what is in the hand.
             red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
@@ -642,7 +654,7 @@ class Window(ProgramTest):
             complaint = "debug_view.frag.glsl: the shader does not compile"
             game.wait_for(lambda: complaint in game.output())
             self.assertTrue(is_red(display, game))
-            game.hold("l")  # needs a variant of the wrong shader: the light stays as it is, and the game goes on
+            game.press_alone("l")  # needs a variant of the wrong shader: the light stays as it is, and the game goes on
             game.wait_for(lambda: game.output().count(complaint) == 2)
             wrong.unlink()
             write(shader, red.replace("1, 0, 0", "0, 0, 1"))
