@@ -30,8 +30,13 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) return cannotRead(systemReason(errno));
     const File file{::fdopen(descriptor, "rb")};
+    if (!file) {
+        const int error = errno;
+        ::close(descriptor);
+        return cannotRead(systemReason(error));
+    }
     struct stat status {};
-    if (!file || ::fstat(descriptor, &status) != 0) return cannotRead(systemReason(errno));
+    if (::fstat(descriptor, &status) != 0) return cannotRead(systemReason(errno));
     if (S_ISDIR(status.st_mode)) return cannotRead(systemReason(EISDIR));
     if (!S_ISREG(status.st_mode)) return cannotRead("it is not a regular file");
     const auto tooLarge = [&] { return cannotRead(fmt::format("it has more than {} bytes", maxBytes)); };

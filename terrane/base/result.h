@@ -1,6 +1,6 @@
 // Results and errors: what a function returns that can fail because of its input (files, arguments, drivers).
 // Broken invariants are asserted instead. An error has a message, one line for the player, and a code, by
-// which callers branch: no code reads messages.
+// which callers branch: messages are for people.
 #pragma once
 
 #include <fmt/format.h>

@@ -56,7 +56,7 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
         if (descriptor < 0)
             return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(),
                               errno == ELOOP ? "a symbolic link" : base::systemReason(errno));
-        FileLock lock(descriptor, file);
+        FileLock lock(descriptor, kind, file);
         if (!isOrdinary(descriptor)) {
             lock.file_.clear();
             return base::fail(base::ErrorCode::Io, "{}: a link, or no file; it is left as it is",
@@ -86,12 +86,14 @@ FileLock::~FileLock() {
 
 FileLock::FileLock(FileLock&& other) noexcept
     : descriptor_(std::exchange(other.descriptor_, -1)),
+      kind_(other.kind_),
       hasLog_(other.hasLog_),
       file_(std::move(other.file_)) {}
 
 FileLock& FileLock::operator=(FileLock&& other) noexcept {
     release();
     descriptor_ = std::exchange(other.descriptor_, -1);
+    kind_ = other.kind_;
     hasLog_ = other.hasLog_;
     file_ = std::move(other.file_);
     return *this;
@@ -105,8 +107,12 @@ void FileLock::setHasLog(bool hasLog) {
 
 void FileLock::release() {
     if (descriptor_ < 0) return;
-    // Removed only by who has it alone: others may share it.
-    if (!file_.empty() && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) ::unlink(file_.c_str());
+    // Removed only by who has it alone: others may share it. What a killed program noted there stays until
+    // the save is opened for writing.
+    struct stat status {};
+    const bool isOwn =
+        kind_ == Kind::Exclusive || (::fstat(descriptor_, &status) == 0 && status.st_size == 0);
+    if (isOwn && !file_.empty() && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) ::unlink(file_.c_str());
     ::close(descriptor_);
     descriptor_ = -1;
 }

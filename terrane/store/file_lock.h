@@ -1,7 +1,7 @@
 // Keeps other programs from a save. The lock is a file beside it, removed at the end; a program that is
 // killed leaves the file but not the lock. The file holds the program's process number and, where the save's
-// last transactions may be in the log alone, the word "log". Not a lock on the save itself: closing any
-// handle of a file would end the locks that SQLite has on it.
+// last transactions may be in the log alone, the word "log", which readers leave there. Not a lock on the
+// save itself: closing any handle of a file would end the locks that SQLite has on it.
 //
 // Any thread may acquire one; a lock is used by one thread at a time.
 #pragma once
@@ -30,10 +30,12 @@ class FileLock {
     void setHasLog(bool hasLog);
 
   private:
-    FileLock(int descriptor, std::filesystem::path file) : descriptor_(descriptor), file_(std::move(file)) {}
+    FileLock(int descriptor, Kind kind, std::filesystem::path file)
+        : descriptor_(descriptor), kind_(kind), file_(std::move(file)) {}
     void release();
 
     int descriptor_ = -1;
+    Kind kind_ = Kind::Shared;
     bool hasLog_ = false;
     std::filesystem::path file_;
 };

@@ -31,6 +31,17 @@ LoadedChunk copyOf(const WaitingChunk& waiting) {
     return loaded;
 }
 
+bool isEdited(const std::optional<WaitingChunk>& waiting) {
+    return waiting && waiting->provenance == Provenance::Edited;
+}
+
+// Whether the waiting chunk takes the place of what is stored: a generated one never replaces an edited one.
+bool hides(const std::optional<WaitingChunk>& waiting, const LoadedChunk& stored) {
+    const bool isEditedRow =
+        stored.state == LoadedChunk::State::Present && stored.provenance == Provenance::Edited;
+    return waiting && !isEditedRow;
+}
+
 }  // namespace
 
 void QueuedStore::setUnread(world::ChunkPos pos, bool isUnread) {
@@ -73,8 +84,10 @@ LoadedChunk QueuedStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
 
 LoadedChunk QueuedStore::load(world::ChunkPos pos) {
     TERRANE_ZONE("load chunk");
-    if (const auto waiting = queue_->find(pos)) return copyOf(*waiting);
-    return loadStored(rows_->read(pos), pos);
+    const auto waiting = queue_->find(pos);
+    if (isEdited(waiting)) return copyOf(*waiting);
+    LoadedChunk stored = loadStored(rows_->read(pos), pos);
+    return hides(waiting, stored) ? copyOf(*waiting) : std::move(stored);
 }
 
 // The queue first: what is no longer in it is in the file, and in the transaction that reads it.
@@ -83,15 +96,21 @@ std::vector<LoadedChunk> QueuedStore::loadMany(std::span<const world::ChunkPos> 
     const auto waiting = queue_->findMany(positions);
     std::vector<world::ChunkPos> stored;
     for (std::size_t k = 0; k < positions.size(); ++k)
-        if (!waiting[k]) stored.push_back(positions[k]);
+        if (!isEdited(waiting[k])) stored.push_back(positions[k]);
     std::vector<LoadedChunk> read(stored.size());
     rows_->readMany(stored,
                     [&](std::size_t k, const StoredRow& row) { read[k] = loadStored(row, stored[k]); });
     auto next = read.begin();
     std::vector<LoadedChunk> loaded;
     loaded.reserve(positions.size());
-    for (std::size_t k = 0; k < positions.size(); ++k)
-        loaded.push_back(waiting[k] ? copyOf(*waiting[k]) : std::move(*next++));
+    for (const auto& saved : waiting) {
+        if (isEdited(saved)) {
+            loaded.push_back(copyOf(*saved));
+            continue;
+        }
+        loaded.push_back(hides(saved, *next) ? copyOf(*saved) : std::move(*next));
+        ++next;
+    }
     return loaded;
 }
 

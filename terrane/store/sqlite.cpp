@@ -259,6 +259,8 @@ base::Result<void> Database::copyTo(const std::filesystem::path& target, const C
 }
 
 base::Result<Transaction> Transaction::begin(Database& database) {
+    // A rollback for which there was no memory is made up for.
+    if (sqlite3_get_autocommit(database.database_.get()) == 0) database.rollBack();
     if (auto begun = database.execute("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
     return Transaction(database);
 }

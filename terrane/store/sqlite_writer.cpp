@@ -38,19 +38,16 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
 
 // The log may still have what failed. Behind a smaller transaction it would look like a damaged one, so the
 // log is emptied first. Where that fails too, saving comes before.
+base::Result<Transaction> SqliteWriter::begin() {
+    if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
+    hasFailed_ = true;  // until it is committed, also where something throws
+    return Transaction::begin(file_.database);
+}
+
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
                                        const DerivedBatch& derived) {
     TERRANE_ZONE("save batch");
-    if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-    hasFailed_ = true;  // also where something throws
-    auto written = writeAll(batch, unread, derived);
-    hasFailed_ = !written;
-    return written;
-}
-
-base::Result<bool> SqliteWriter::writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
-                                          const DerivedBatch& derived) {
-    auto transaction = Transaction::begin(file_.database);
+    auto transaction = begin();
     if (!transaction) return tl::unexpected(transaction.error());
     isComplete_ = derived.isComplete;
     if (auto done = writeBatch(batch, unread); !done) return tl::unexpected(done.error());
@@ -64,7 +61,7 @@ base::Result<bool> SqliteWriter::writeAll(const SaveBatch& batch, const ChunkPos
 base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_view rules,
                                            EntityBudget& budget) {
     TERRANE_ZONE("derive all rows");
-    auto transaction = Transaction::begin(file_.database);
+    auto transaction = begin();
     if (!transaction) return tl::unexpected(transaction.error());
     const std::string deletion = fmt::format("DELETE FROM chunks WHERE key >= {}", kFirstTileKey);
     if (auto done = file_.database.execute(deletion); !done) return done;
@@ -84,7 +81,7 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
 }
 
 base::Result<void> SqliteWriter::change(const RowChanges& changes) {
-    auto transaction = Transaction::begin(file_.database);
+    auto transaction = begin();
     if (!transaction) return tl::unexpected(transaction.error());
     auto replace =
         file_.database.prepare("INSERT OR REPLACE INTO chunks (key, origin, data) VALUES (?1, ?2, ?3)");
@@ -108,8 +105,10 @@ base::Result<void> SqliteWriter::change(const RowChanges& changes) {
 base::Result<void> SqliteWriter::commit(Transaction& transaction) {
     if (auto there = files_.check(); !there) return there;
     auto done = transaction.commit();
-    if (done && file_.lock) file_.lock->setHasLog(true);
-    return done;
+    if (!done) return done;
+    hasFailed_ = false;
+    if (file_.lock) file_.lock->setHasLog(true);
+    return {};
 }
 
 base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkPosSet& unread) {

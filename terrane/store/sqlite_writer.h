@@ -37,8 +37,7 @@ class SqliteWriter {
           use_(std::move(statements)),
           metadata_(std::move(metadata)) {}
 
-    base::Result<bool> writeAll(const SaveBatch& batch, const ChunkPosSet& unread,
-                                const DerivedBatch& derived);
+    base::Result<Transaction> begin();
     base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);

@@ -35,11 +35,17 @@ bool isSize(int size) {
     return size >= 1 && size <= std::numeric_limits<std::uint16_t>::max();
 }
 
+// NAME, or PACK:NAME of a content pack.
 bool isBlockName(std::string_view name) {
-    const auto isAllowed = [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+    const auto isPart = [](std::string_view part) {
+        const auto isAllowed = [](char c) {
+            return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+        };
+        return !part.empty() && std::ranges::all_of(part, isAllowed);
     };
-    return !name.empty() && name.size() <= kMaxBlockNameBytes && std::ranges::all_of(name, isAllowed);
+    const std::size_t colon = name.find(':');
+    const bool hasGoodPack = colon == std::string_view::npos || isPart(name.substr(0, colon));
+    return name.size() <= kMaxBlockNameBytes && hasGoodPack && isPart(name.substr(colon + 1));
 }
 
 std::size_t dataBytes(const Structure& structure) {

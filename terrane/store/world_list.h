@@ -27,7 +27,7 @@ struct WorldEntry {
     std::string problem;  // why it cannot be read, one line; identity and metadata are then empty
 };
 
-// The last played first; none where there is no folder. Looks at 1,000 files at most.
+// The last played first; none where there is no folder. Opens the first 1,000 saves of the folder.
 std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const world::BlockRegistry& blocks);
 
 // An error for a name that no world can be found by: as checkSaveName(), and one that ends like a file's name

@@ -16,8 +16,10 @@ using world::ChunkPos;
 #define TERRANE_CHUNK_DATA "CASE WHEN octet_length(data) <= 68157440 THEN data END"  // 65 MiB
 
 constexpr Statement kRead = {"SELECT " TERRANE_CHUNK_DATA ", origin FROM chunks WHERE key = $1"};
-constexpr Statement kReadMany = {"SELECT key, " TERRANE_CHUNK_DATA
-                                 ", origin FROM chunks WHERE key = ANY ($1)"};
+// Longer rows are fetched one by one: all of a call's are in memory at once.
+constexpr Statement kReadMany = {
+    "SELECT key, CASE WHEN octet_length(data) <= 262144 THEN data END, origin FROM chunks WHERE key = ANY "
+    "($1)"};
 constexpr Statement kRowsAfter = {
     "SELECT key, data, origin FROM (SELECT key, data, origin, coalesce(sum(octet_length(data)) OVER (ORDER "
     "BY key ROWS "
@@ -30,7 +32,7 @@ constexpr Statement kContains = {"SELECT EXISTS (SELECT 1 FROM chunks WHERE key 
 constexpr Statement kEdited = {
     "SELECT key FROM chunks WHERE origin = 1 AND key >= 0 AND key < $1 ORDER BY key"};
 
-// Fetched at once: about 2 MB, as rows are 1 to 10 KB.
+// Fetched at once: about 2 MB, as rows are 1 to 10 KB, and never more than 64 MiB.
 constexpr std::size_t kRowsAtOnce = 256;
 
 }  // namespace
@@ -127,9 +129,12 @@ void ChunkQueries::readMany(std::span<const ChunkPos> positions, const store::Re
                 continue;
             }
             const auto found = rowOf.find(keys[k]);
-            take(first + k, found == rowOf.end()
-                                ? std::optional<StoredChunk>()
-                                : std::optional(storedChunk(*rows, found->second, 1, group[k])));
+            if (found == rowOf.end())
+                take(first + k, std::optional<StoredChunk>());
+            else if (rows->isNull(found->second, 1))
+                take(first + k, read(group[k]));
+            else
+                take(first + k, storedChunk(*rows, found->second, 1, group[k]));
         }
     }
 }

@@ -1,4 +1,4 @@
-// Runs the pipeline's work on workers: each submit makes one job, whose result comes back through results().
+// Runs the pipeline's work on workers: each submit makes one job, whose result takeResults() gives.
 // Workers see immutable snapshots only. Used on the pipeline's thread.
 #pragma once
 
@@ -16,7 +16,7 @@ class ChunkWorkers {
   public:
     // The parts outlive this.
     explicit ChunkWorkers(const PipelineParts& parts);
-    ~ChunkWorkers();  // waits for its running jobs; the others do nothing
+    ~ChunkWorkers();  // waits for all running jobs; its waiting ones do nothing
 
     // Loads or generates a chunk and finds its local light. A source without a generator gives null where the
     // store has no chunk.

@@ -156,6 +156,11 @@ std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {
     return taken;
 }
 
+void TilePipeline::putBack(TileMesh mesh) {
+    unfinishTile(table_, mesh.pos);
+    finished_.push_back(std::move(mesh));
+}
+
 TaskTime TilePipeline::taskTime() const {
     const std::lock_guard lock(results_->mutex);
     return {"tile", results_->count, results_->microseconds};

@@ -41,7 +41,7 @@ MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod 
 class TilePipeline {
   public:
     explicit TilePipeline(const TileParts& parts);
-    ~TilePipeline();  // waits for running jobs; the others do nothing
+    ~TilePipeline();  // waits for all running jobs; its waiting ones do nothing
 
     void setView(const TileView& view) { setTileView(table_, view); }
     // A chunk of level 0 can be shown, or no longer.
@@ -56,6 +56,8 @@ class TilePipeline {
 
     // Up to `limit` tiles that are new. The caller can show them from here on.
     std::vector<TileMesh> takeMeshes(std::size_t limit);
+    // One of them found no room: it is taken again, unless the view has no place for it any more.
+    void putBack(TileMesh mesh);
     // What is to be shown, hidden and dropped, by what the caller has. Cancels the work on what is dropped.
     TileChanges takeChanges();
 

@@ -111,7 +111,8 @@ bool Walk::visit(ChunkPos tile, bool isWanted) {
         if (tile.level == 0 || !isWanted) return false;
         found = table_.records.emplace(tile, TileRecord()).first;
     }
-    TileRecord& record = found->second;
+    auto& entry = *found;  // the table may grow below
+    TileRecord& record = entry.second;
     record.visited = table_.walks;
     record.isDivided = isWanted && divides(table_.view, tile, record.isDivided);
     const std::size_t before = shown.size();
@@ -123,7 +124,7 @@ bool Walk::visit(ChunkPos tile, bool isWanted) {
     const bool showsItself = record.isReady && !isWhole;
     if (showsItself) {
         shown.resize(before);
-        shown.push_back(&*found);
+        shown.push_back(&entry);
     }
     // Where the tile itself is missing, a part of it is better than nothing.
     record.isOpen = !showsItself && shown.size() > before;
@@ -254,6 +255,15 @@ void finishTile(TileTable& table, ChunkPos tile) {
     record.isReady = true;
     --table.loading;
     table.isOutdated = true;
+}
+
+void unfinishTile(TileTable& table, ChunkPos tile) {
+    TileRecord& record = table.records.at(tile);
+    record.isLoading = true;
+    record.isReady = false;
+    ++table.loading;
+    table.isOutdated = true;
+    table.hasGone = table.hasGone || record.isShown;
 }
 
 void outdateTile(TileTable& table, ChunkPos tile) {

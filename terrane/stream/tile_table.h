@@ -30,7 +30,7 @@ struct TileView {
     bool operator==(const TileView&) const = default;
 };
 
-constexpr int kMinDetail = 8, kMaxDetail = 32;
+constexpr int kMinDetail = 8;
 constexpr int kMaxHorizon = 4096;
 
 // A chunk of level 0 that can be shown, a tile, or what lies between the two in the quad-tree.
@@ -90,6 +90,8 @@ std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit
 bool isAwaited(const TileTable& table, world::ChunkPos tile);
 // A loading tile can be shown.
 void finishTile(TileTable& table, world::ChunkPos tile);
+// One that is finished cannot be shown yet after all.
+void unfinishTile(TileTable& table, world::ChunkPos tile);
 // The tile would be made otherwise now: it is made again where it is wanted. The same for all tiles.
 void outdateTile(TileTable& table, world::ChunkPos tile);
 void outdateAllTiles(TileTable& table);

@@ -71,7 +71,7 @@ class OpenedWorld {
     map::SurfaceSource surfaces_;
     base::JobSystem jobs_;
 
-    std::mutex editMutex_;
+    std::mutex editMutex_, settleMutex_;
     std::atomic<bool> hasUnsettledTiles_{false};
     std::mutex editedMutex_;
     std::optional<map::EditedPositions> edited_;  // once they were asked for

@@ -27,21 +27,23 @@ class FirstError {
         isSet_ = true;
     }
     bool isSet() const { return isSet_; }
+    // Whether one of a lower number is known.
+    bool isBelow(std::int64_t number) const { return number_ < number; }
     const base::Error& error() const { return error_; }
 
   private:
     std::mutex mutex_;
-    std::int64_t number_ = std::numeric_limits<std::int64_t>::max();
+    std::atomic<std::int64_t> number_ = std::numeric_limits<std::int64_t>::max();
     base::Error error_;
     std::atomic<bool> isSet_{false};
 };
 
 base::Result<world::Chunk> chunkFrom(store::LoadedChunk& stored, world::ChunkPos pos,
                                      const OpenedWorld& world) {
+    if (!world::isInWorld(pos)) return world::Chunk();  // what is stored by its key is another's
     if (stored.isUnread && !stored.isOverBudget)
         return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(pos), stored.problem);
     if (stored.chunk) return std::move(*stored.chunk);
-    if (!world::isInWorld(pos)) return world::Chunk();
     const auto generator = world.generator(pos.level);
     if (!generator) return tl::unexpected(generator.error());
     return (*generator)->generate(pos);
@@ -59,12 +61,12 @@ base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const Goe
     FirstError first;
     std::atomic<bool> isStopped{false};
     const auto ran = base::parallelFor(world.jobs(), static_cast<std::size_t>(count), [&](std::size_t k) {
-        if (isStopped || first.isSet()) return;
+        const auto number = static_cast<std::int64_t>(k);
+        if (isStopped || first.isBelow(number)) return;
         if (goesOn && std::this_thread::get_id() == caller && !goesOn()) {
             isStopped = true;
             return;
         }
-        const auto number = static_cast<std::int64_t>(k);
         if (auto done = work(number); !done) first.note(number, std::move(done.error()));
     });
     if (!ran) return ran;

@@ -86,10 +86,20 @@ void BlockUpdate::setData(BlockPos pos, const BlockChange& change) {
         chunk->setBlockState(blockIndex(pos), state->value);
     if (const auto* data = std::get_if<SetEntityData>(&change))
         chunk->setBlockEntityData(blockIndex(pos), data->data);
-    const auto isThere = [&](const BlockEdit& edit) { return edit.pos == pos; };
-    if (std::any_of(edits_.begin() + static_cast<std::ptrdiff_t>(firstEdit_), edits_.end(), isThere)) return;
+    if (hasEdit(pos)) return;
     const BlockId id = chunk->block(blockIndex(pos));
     edits_.push_back({pos, id, id});
+}
+
+// Looks through a few; many are kept as a set, since a fill calls this for each of its blocks.
+bool BlockUpdate::hasEdit(BlockPos pos) {
+    constexpr std::size_t kFew = 64;
+    if (edits_.size() - firstEdit_ <= kFew) {
+        const auto isThere = [&](const BlockEdit& edit) { return edit.pos == pos; };
+        return std::any_of(edits_.begin() + static_cast<std::ptrdiff_t>(firstEdit_), edits_.end(), isThere);
+    }
+    for (; firstEdit_ + inSet_ < edits_.size(); ++inSet_) edited_.insert(edits_[firstEdit_ + inSet_].pos);
+    return edited_.contains(pos);
 }
 
 void BlockUpdate::move(BlockPos from, BlockPos to) {

@@ -10,6 +10,7 @@
 
 #include "terrane/world/block_behavior.h"
 #include "terrane/world/block_registry.h"
+#include "terrane/world/block_set.h"
 #include "terrane/world/block_value.h"
 #include "terrane/world/world.h"
 
@@ -89,6 +90,7 @@ class BlockUpdate {
     void setData(BlockPos pos, const BlockChange& change);
     bool canStand(BlockPos pos, BlockId id) const;
     void write(Chunk& chunk, BlockPos pos, BlockId id);
+    bool hasEdit(BlockPos pos);
     void noteNeighbors(BlockPos pos);
     void noteChangedSide(BlockPos pos, Face side);
     void record(BlockPos pos);
@@ -99,6 +101,8 @@ class BlockUpdate {
     std::vector<BlockEdit>& edits_;
     BlockRecorder* recorder_;
     std::size_t firstEdit_;
+    BlockSet edited_;  // of the edits since firstEdit_, as far as inSet_ counts
+    std::size_t inSet_ = 0;
     std::vector<Call> calls_;
     std::size_t maxCalls_ = kMaxBehaviorCalls;
 };

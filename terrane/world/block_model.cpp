@@ -129,15 +129,16 @@ std::uint16_t formMask(const ShapeDescription& shape) {
 std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state) {
     const bool isOther = (state & kStateOther) != 0 && !shape.other.empty();
     std::vector<ShapeBox> boxes = isOther ? shape.other : shape.boxes;
+    if (shape.hasFacing)
+        for (ShapeBox& box : boxes) box = turned(box, state & kStateFacing);
+    // The state names sides of the world: they do not turn with the block.
     for (int side = 0; side < 4; ++side) {
         if ((state >> (kStateArmShift + static_cast<unsigned>(side)) & 1) == 0) continue;
         for (const ShapeBox& arm : shape.arms)
             boxes.push_back(turned(arm, kTurnsToArm[static_cast<std::size_t>(side)]));
     }
-    for (ShapeBox& box : boxes) {
-        if (shape.hasFacing) box = turned(box, state & kStateFacing);
-        if (shape.hasHalf && (state & kStateUpsideDown) != 0) box = upsideDown(box);
-    }
+    if (shape.hasHalf && (state & kStateUpsideDown) != 0)
+        for (ShapeBox& box : boxes) box = upsideDown(box);
     return boxes;
 }
 

@@ -156,11 +156,13 @@ base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDes
         type.opaqueCube = isOpaqueCube(block);
         if (!materials.numberFaces(block)) return tooManyFaces(block);
         if (block.shape) type.model = models.modelOf(block.shape);
+        if (!models.fits())
+            return base::fail(
+                "{}: shape: expected at most {} different faces in all shapes, {} faces in each form of one, "
+                "and {} forms and faces in all",
+                name, ModelTable::kMaxFaces, ModelTable::kMaxFormFaces, ModelTable::kMaxEntries);
         registry.types_.push_back(type);
     }
-    if (!models.fits())
-        return base::fail("{}: shape: expected at most {} different faces in all shapes, got {}", name,
-                          ModelTable::kMaxFaces, models.faceCount());
     registry.modelFaces_ = models.takeFaces();
     assert(registry.types_.size() <= kMaxNumbered && "the parser limits blocks to what ids can tell apart");
     registry.missing_ = registry.types_.back().id;

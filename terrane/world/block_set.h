@@ -11,11 +11,14 @@ namespace terrane::world {
 
 class BlockSet {
   public:
-    // Of a block in the world's height.
-    void insert(BlockPos pos) {
+    // Whether it is new. `pos` is in the world's height.
+    bool insert(BlockPos pos) {
         std::vector<bool>& blocks = chunks_[chunkOf(pos)];
         if (blocks.empty()) blocks.resize(kBlocksPerChunk);
-        blocks[blockIndex(pos)] = true;
+        auto bit = blocks[blockIndex(pos)];
+        const bool isNew = !bit;
+        bit = true;
+        return isNew;
     }
     bool contains(BlockPos pos) const {
         if (!isInHeight(pos.z)) return false;

@@ -1,5 +1,5 @@
-// One table of a content file (TOML), read key by key with errors that say where and what. Used by
-// block_parser.cpp and content/language.cpp on the thread that starts a session.
+// One table of a content file (TOML), read key by key with errors that say where and what. Used
+// by all that read such files. One thread.
 #pragma once
 
 #include <fmt/ranges.h>

@@ -1,5 +1,5 @@
 // What a block with slots (a chest) holds: stacks of items, kept as the block's block entity data. Games
-// read, change and write it back: chunk pipeline's setBlockEntityData saves it with the chunk. Plain values,
+// read, change and write it back: an edit by SetEntityData saves it with the chunk. Plain values,
 // any thread.
 #pragma once
 

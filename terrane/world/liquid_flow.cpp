@@ -137,9 +137,9 @@ void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
     for (int i = 0; i < kBlocksPerSection; ++i) {
         if ((states[static_cast<std::size_t>(i)] & kLiquidUnsettled) == 0) continue;
         isFormer = false;
+        if (out.cells.size() >= kMaxFlowingCells) return;
         const BlockPos at = blockPos(pos, static_cast<BlockIndex>(section * kBlocksPerSection + i));
-        if (cells.at(at).room != Room::Liquid) continue;
-        if (out.cells.size() < kMaxFlowingCells && cells.isSurrounded(at)) out.cells.push_back(at);
+        if (cells.at(at).room == Room::Liquid && cells.isSurrounded(at)) out.cells.push_back(at);
     }
     if (isFormer && !chunk.blockStates(section).isDense())
         out.former.push_back({pos.x * kChunkSize, pos.y * kChunkSize, section * kSectionSize});
@@ -155,22 +155,6 @@ Unsettled findUnsettled(FlowCells& cells, std::span<const ChunkPos> chunks) {
     return found;
 }
 
-// Tells which blocks came before: a bit a block.
-class SeenBlocks {
-  public:
-    bool insert(BlockPos pos) {
-        std::vector<bool>& seen = chunks_[chunkOf(pos)];
-        if (seen.empty()) seen.resize(kBlocksPerChunk);
-        auto bit = seen[blockIndex(pos)];
-        const bool isNew = !bit;
-        bit = true;
-        return isNew;
-    }
-
-  private:
-    std::unordered_map<ChunkPos, std::vector<bool>, ChunkPosHash> chunks_;
-};
-
 struct CellChange {
     BlockPos pos;
     BlockId before = kAir;
@@ -185,7 +169,7 @@ struct NextValues {
 NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) {
     NextValues next;
     for (const BlockId liquid : cells.rules().liquids) {
-        SeenBlocks seen;
+        BlockSet seen;
         const auto look = [&](BlockPos pos) {
             if (!isInHeight(pos.z) || !seen.insert(pos)) return;
             const FlowCell before = cells.at(pos), after = nextCell(cells, pos, liquid);

@@ -30,6 +30,7 @@ std::shared_ptr<const BlockModel> ModelTable::modelOf(const ShapePtr& shape) {
         model->forms.push_back(form < state ? model->forms[form]
                                             : formOf(boxesOf(*shape, static_cast<std::uint16_t>(form))));
     }
+    entries_ += model->forms.size();
     known = std::move(model);
     return known;
 }
@@ -44,10 +45,13 @@ ModelForm ModelTable::formOf(const std::vector<ShapeBox>& boxes) {
     }
     for (const ShapeRectangle& rectangle : surfaceOf(boxes))
         form.faces.push_back({number(rectangle), rectangle.side, isOnBorder(rectangle)});
+    mostFormFaces_ = std::max(mostFormFaces_, form.faces.size());
+    entries_ += form.faces.size();
     return form;
 }
 
 std::uint16_t ModelTable::number(const ShapeRectangle& rectangle) {
+    if (!fits()) return 0;  // the blocks are refused
     const auto known = std::ranges::find(rectangles_, rectangle);
     const auto index = static_cast<std::size_t>(known - rectangles_.begin());
     if (known == rectangles_.end()) {

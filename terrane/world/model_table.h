@@ -17,8 +17,12 @@ class ModelTable {
     // One model for all blocks of a shape.
     std::shared_ptr<const BlockModel> modelOf(const ShapePtr& shape);
 
-    bool fits() const { return faces_.size() <= kMaxFaces; }
-    std::size_t faceCount() const { return faces_.size(); }
+    // What mesh_gpu/block_table.h has bits for: faces of a form, and forms with their faces in all.
+    static constexpr std::size_t kMaxFormFaces = 255, kMaxEntries = 60'000;
+
+    bool fits() const {
+        return faces_.size() <= kMaxFaces && mostFormFaces_ <= kMaxFormFaces && entries_ <= kMaxEntries;
+    }
     std::vector<shared::ShapeFace> takeFaces() { return std::move(faces_); }
 
   private:
@@ -28,6 +32,7 @@ class ModelTable {
     std::map<ShapePtr, std::shared_ptr<const BlockModel>> models_;
     std::vector<ShapeRectangle> rectangles_;  // of faces_
     std::vector<shared::ShapeFace> faces_;
+    std::size_t mostFormFaces_ = 0, entries_ = 0;
 };
 
 }  // namespace terrane::world

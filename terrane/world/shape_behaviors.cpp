@@ -8,6 +8,24 @@
 #include "terrane/world/block_model.h"
 
 namespace terrane::world {
+
+constexpr std::string_view kUpperHalf = "_top";
+
+bool isUpperHalf(const BlockType& type) {
+    const auto isDoor = [](const BehaviorPtr& behavior) { return behavior->name == "door"; };
+    return type.name.ends_with(kUpperHalf) && std::ranges::any_of(type.behaviors, isDoor);
+}
+
+BlockId otherHalf(const BlockRegistry& blocks, BlockId id) {
+    std::string name = blocks.type(id).name;
+    if (isUpperHalf(blocks.type(id)))
+        name.resize(name.size() - kUpperHalf.size());
+    else
+        name += kUpperHalf;
+    const BlockType* other = blocks.find(name);
+    return other ? other->id : kAir;
+}
+
 namespace {
 
 constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
@@ -70,23 +88,6 @@ BlockBehavior opens() {
     return {.name = "opens", .used = toggle};
 }
 
-constexpr std::string_view kUpperHalf = "_top";
-
-bool isUpperHalf(const BlockType& type) {
-    return type.name.ends_with(kUpperHalf);
-}
-
-// The other half of a door, air where it has none.
-BlockId otherHalf(const BlockRegistry& blocks, BlockId id) {
-    std::string name = blocks.type(id).name;
-    if (isUpperHalf(blocks.type(id)))
-        name.resize(name.size() - kUpperHalf.size());
-    else
-        name += kUpperHalf;
-    const BlockType* other = blocks.find(name);
-    return other ? other->id : kAir;
-}
-
 BlockPos besideOfHalf(const BlockRegistry& blocks, BlockId id, BlockPos pos) {
     return beside(pos, isUpperHalf(blocks.type(id)) ? kFaceNegZ : kFacePosZ);
 }
@@ -124,7 +125,8 @@ BlockBehavior door() {
                     const BlockId id = update.world().block(pos);
                     const BlockPos half = besideOfHalf(update.blocks(), id, pos);
                     toggle(update, pos);
-                    if (update.world().block(half) == otherHalf(update.blocks(), id)) toggle(update, half);
+                    const BlockId other = otherHalf(update.blocks(), id);
+                    if (other != kAir && update.world().block(half) == other) toggle(update, half);
                 }};
 }
 

@@ -16,6 +16,11 @@ namespace terrane::world {
 // door             opens; NAME and NAME_top are its halves, which come, go and open together
 std::vector<BlockBehavior> shapeBehaviors();
 
+// Whether the block is the upper half of a door; of such a one, and of the lower half, the other one: air
+// where the door has none.
+bool isUpperHalf(const BlockType& type);
+BlockId otherHalf(const BlockRegistry& blocks, BlockId id);
+
 // Where a player builds a block.
 struct Placement {
     Face face = kFacePosZ;   // of the block that it builds against

@@ -454,7 +454,8 @@ TEST(ParallelFor, WithoutMemoryNobodyWaitsForEver) {
 // Wherever memory runs out: it is not there, or works with the threads that it has.
 TEST(JobSystem, WithoutMemoryItHasFewerThreads) {
     if (!FailingMemory::isPossible()) GTEST_SKIP() << "memory cannot be made to fail here";
-    int started = 0, refused = 0;
+    int started = 0, refused = 0, withFewer = 0;
+    std::size_t last = 0;
     for (long n = 0; started == 0 || FailingMemory::hasFailed(); ++n) {
         std::optional<JobSystem> jobs;
         try {
@@ -465,13 +466,16 @@ TEST(JobSystem, WithoutMemoryItHasFewerThreads) {
             continue;
         }
         ++started;
-        EXPECT_GE(jobs->threadCount(), 1u);
+        last = jobs->threadCount();
+        EXPECT_GE(last, 1u);
+        withFewer += last < 4;
         std::atomic<int> calls = 0;
         EXPECT_TRUE(parallelFor(*jobs, 20, [&](std::size_t) { ++calls; }));
         EXPECT_EQ(calls, 20);
     }
     EXPECT_GT(refused, 1);
-    EXPECT_GT(started, 2) << "some with fewer than 4 threads";
+    EXPECT_GT(withFewer, 0);
+    EXPECT_EQ(last, 4u) << "where memory is enough";
 }
 
 TEST(JobSystem, EndsWithoutMemory) {

@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <filesystem>
 #include <string>
 
 #include "terrane/base/files.h"
@@ -24,6 +25,17 @@ TEST(OutputFile, PiecesMayComeInAnyOrder) {
     EXPECT_TRUE(file->finish());
     EXPECT_EQ(readFile(folder / "file").value(), std::string("one\0\0\0last", 10));
     EXPECT_EQ(folder.fileCount(), 1);
+}
+
+TEST(OutputFile, WhatIsReplacedKeepsItsMode) {
+    const TempFolder folder;
+    const auto path = folder / "a.txt";
+    ASSERT_TRUE(writeFile(path, "one"));
+    std::filesystem::permissions(path,
+                                 std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+    ASSERT_TRUE(writeFile(path, "two"));
+    EXPECT_EQ(std::filesystem::status(path).permissions(),
+              std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
 TEST(OutputFile, OfAnUnfinishedOneNothingStays) {

@@ -48,6 +48,7 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
             ++runs;
             if (HasFailure()) return;
         }
+        EXPECT_GT(runs, 0);
         std::printf("%s: %ld operations failed\n", GetParam().name, runs);
     }
 
@@ -65,6 +66,7 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
             }
             if (!hasStopped) break;
         }
+        EXPECT_GT(runs, 0);
         std::printf("%s: stopped %ld times\n", GetParam().name, runs);
     }
 

@@ -64,6 +64,7 @@ class MemoryFaults : public testing::Test {
             if (HasFailure()) break;
         }
         testing::internal::GetCapturedStderr();
+        EXPECT_GT(runs, 0);
         std::printf("%ld of %ld allocations failed\n", runs, allocations_);
     }
 
@@ -71,6 +72,24 @@ class MemoryFaults : public testing::Test {
 };
 
 TEST_F(MemoryFaults, ATransactionIsRolledBackWithoutMemory) {
+    const base::TempFolder folder;
+    auto database = Database::open(folder / "a.sqlite", OpenMode::Create);
+    ASSERT_TRUE(database);
+    ASSERT_TRUE(database->execute("CREATE TABLE t (a)"));
+    if (!base::FailingMemory::isPossible()) GTEST_SKIP() << "memory does not fail under this sanitizer";
+    {
+        auto transaction = Transaction::begin(*database);
+        ASSERT_TRUE(transaction);
+        ASSERT_TRUE(database->execute("INSERT INTO t VALUES (1)"));
+        const base::FailingMemory memory(0);
+        { const Transaction ended = std::move(*transaction); }
+    }
+    const auto next = Transaction::begin(*database);  // at the latest
+    EXPECT_TRUE(next);
+    EXPECT_EQ(*database->queryNumber("SELECT count(*) FROM t"), 0);
+}
+
+TEST_F(MemoryFaults, ATransactionWithNothingToRollBackEnds) {
     const base::TempFolder folder;
     auto database = Database::open(folder / "a.sqlite", OpenMode::Create);
     ASSERT_TRUE(database);

@@ -49,6 +49,11 @@ TEST_F(SimulationTest, NothingIsLost) {
             break;
         }
     }
+    if (count >= 24) {  // each kind of mishap has been there
+        for (const long happened :
+             {sum.edits, sum.loads, sum.saves, sum.failedOperations, sum.kills, sum.powerLosses})
+            EXPECT_GT(happened, 0);
+    }
     std::printf(
         "%u seeds: %.0f s of play, %ld steps, %ld edits, %ld loads (%ld not readable), %ld saves, %ld faults "
         "(%ld operations), %ld kills, %ld power losses, %ld restarts\n",

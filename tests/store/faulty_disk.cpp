@@ -60,17 +60,23 @@ Fate fateOf(DiskOperation kind, std::int64_t at = 0, int bytes = 0) {
     if ((disk->failingKinds & kind) == 0) return Fate::Works;
     const long number = disk->counted++;
     if (number < disk->failFrom || number >= disk->failUntil) return Fate::Works;
-    ++disk->failed;
     isHalved = disk->error == DiskError::Short;
-    return isHalved ? Fate::Works : Fate::Fails;
+    if (isHalved) return Fate::Works;
+    ++disk->failed;
+    return Fate::Fails;
 }
 
-// The system's calls, of which an operation makes as many as it takes.
+// The system's calls, of which an operation makes as many as it takes. The thread that halves has the mutex.
+std::size_t halvedOnce(std::size_t bytes) {
+    if (!std::exchange(isHalved, false)) return bytes;
+    ++disk->failed;
+    return (bytes + 1) / 2;
+}
 ssize_t readHalf(int file, void* to, size_t bytes, off64_t at) {
-    return ::pread64(file, to, std::exchange(isHalved, false) ? (bytes + 1) / 2 : bytes, at);
+    return ::pread64(file, to, halvedOnce(bytes), at);
 }
 ssize_t writeHalf(int file, const void* from, size_t bytes, off64_t at) {
-    return ::pwrite64(file, from, std::exchange(isHalved, false) ? (bytes + 1) / 2 : bytes, at);
+    return ::pwrite64(file, from, halvedOnce(bytes), at);
 }
 void setSystemCalls(sqlite3_vfs* real, bool areOurs) {
     const auto read = reinterpret_cast<sqlite3_syscall_ptr>(readHalf);
@@ -316,11 +322,6 @@ void FaultyDisk::fail(unsigned kinds, long after, long count, DiskError error) {
     disk->error = error;
 }
 
-long FaultyDisk::operations() const {
-    const std::lock_guard lock(disk->mutex);
-    return disk->counted;
-}
-
 long FaultyDisk::failures() const {
     const std::lock_guard lock(disk->mutex);
     return disk->failed;
@@ -337,11 +338,6 @@ void FaultyDisk::stopAfter(DiskStop stop, long after, unsigned seed) {
 bool FaultyDisk::hasStopped() const {
     const std::lock_guard lock(disk->mutex);
     return disk->hasStopped;
-}
-
-long FaultyDisk::changes() const {
-    const std::lock_guard lock(disk->mutex);
-    return disk->changed;
 }
 
 void FaultyDisk::restart() {

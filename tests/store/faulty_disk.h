@@ -45,14 +45,12 @@ class FaultyDisk {
     // From the next operation of these kinds on `count` of them fail, after `after` that do not.
     void fail(unsigned kinds, long after = 0, long count = LONG_MAX, DiskError error = DiskError::Io);
     void work() { fail(0); }
-    long operations() const;  // of the kinds of the last fail(), since then
-    long failures() const;    // since then
+    long failures() const;  // since the last fail()
 
     // After `after` operations that change files the next one may be cut short, and nothing reaches the files
     // any more: all operations fail until restart(). What is left depends on the seed.
     void stopAfter(DiskStop stop, long after, unsigned seed);
     bool hasStopped() const;
-    long changes() const;  // operations that change files, since stopAfter()
     // After all databases were closed: the files are what the stop left, and everything works.
     void restart();
 

@@ -66,18 +66,17 @@ TEST_F(HostileSaveTest, OtherObjects) {
     const std::pair<std::string, std::string> cases[] = {
         {"CREATE TRIGGER burn AFTER INSERT ON settings BEGIN DELETE FROM chunks; END",
          "the trigger \"burn\""},
-        {"CREATE TRIGGER t INSTEAD OF INSERT ON v BEGIN DELETE FROM chunks; END", "the trigger \"t\""},
+        {"CREATE VIEW v AS SELECT 1 AS a; CREATE TRIGGER t INSTEAD OF INSERT ON v BEGIN DELETE FROM chunks; "
+         "END",
+         "the view \"v\""},  // it comes first
         {"CREATE TABLE more (a)", "the table \"more\""},
         {"CREATE INDEX more ON chunks (origin)", "the index \"more\""},
         {"CREATE INDEX more ON chunks (abs(origin))", "the index \"more\""},
         {"CREATE VIRTUAL TABLE more USING fts5 (a)", "the table \"more\""},
         {"ANALYZE", "the table \"sqlite_stat1\""}};
     for (const auto& [sql, object] : cases) {
-        if (sql.find(" ON v ") != std::string::npos) runSql(path_, "CREATE VIEW v AS SELECT 1 AS a");
         runSql(path_, sql);
-        // Of a view and its trigger the one that comes first is named.
-        expectRefused("it has the " +
-                      std::string(sql.find(" ON v ") != std::string::npos ? "view \"v\"" : object.substr(4)));
+        expectRefused("it has " + object);
         std::filesystem::remove(path_);
         SetUp();
     }

@@ -148,12 +148,13 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     writeAll(path_.string() + "-lock", lock_);
     EXPECT_FALSE(checkWith(log_).isDamaged());
     EXPECT_FALSE(check().isDamaged());
-    writeAll(path_.string() + "-lock", lock_);
     std::filesystem::remove(logPath());
-    const CheckReport report = check();
-    ASSERT_EQ(report.fileProblems.size(), 1u);
-    EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
-    writeAll(path_.string() + "-lock", lock_);
+    // A reader leaves the note of it for the next one.
+    for (int time = 0; time < 2; ++time) {
+        const CheckReport report = check();
+        ASSERT_EQ(report.fileProblems.size(), 1u) << time;
+        EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
+    }
     std::filesystem::create_symlink(path_, folder_ / "link.sqlite");
     EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";
 }

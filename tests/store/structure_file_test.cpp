@@ -140,6 +140,17 @@ TEST(StructureFile, SaysWhatIsWrong) {
     EXPECT_THAT(fileError(framed(beyond)), HasSubstr("palette of 1"));
 }
 
+TEST(StructureFile, BlocksOfPacksHaveTheNameOfTheirPack) {
+    Structure structure{.size = {1, 1, 1}, .palette = {{"isles:glow_rock", 2}}, .cells = {0}, .data = {}};
+    const auto bytes = encodeStructure(structure);
+    ASSERT_TRUE(bytes) << bytes.error().message;
+    EXPECT_EQ(decodeStructure(*bytes)->palette, structure.palette);
+    for (const char* name : {":rock", "isles:", "isles:a:b", "isles :rock", ":"}) {
+        structure.palette[0].name = name;
+        EXPECT_FALSE(encodeStructure(structure)) << name;
+    }
+}
+
 TEST(StructureFile, TooMuchForAFileIsRefused) {
     Structure structure{.size = {1, 1, 1}, .palette = {{"chest", 0}}, .cells = {0}, .data = {}};
     structure.data.push_back({0, std::make_shared<const world::BlockEntityData>(kMaxStructureDataBytes + 1)});

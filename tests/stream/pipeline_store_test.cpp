@@ -58,11 +58,17 @@ TEST_F(PipelineStoreTest, OnlyEditedChunksAreStored) {
     EXPECT_FALSE(store_.contains({1, 0}));
 }
 
-TEST_F(PipelineStoreTest, EditsAreInTheFileWithinTwoSeconds) {
-    const auto frame = std::chrono::milliseconds(50);
-    EXPECT_LE(
-        ChunkPipeline::kSaveAfter + ChunkPipeline::kHousekeepingEvery + store::SaveLimits{}.delay + frame,
-        std::chrono::seconds(2));
+// With what the queue of a file waits for more they are there within two seconds.
+TEST_F(PipelineStoreTest, EditsAreHandedToTheStoreInTime) {
+    setView({0, 0}, 1);
+    settle();
+    placeBlock({3, 3, 90}, "sand");
+    const auto inTime = now_ + std::chrono::seconds(2) - store::SaveLimits{}.delay;
+    while (!store_.contains({0, 0})) {
+        now_ += std::chrono::milliseconds(50);  // a frame
+        update();
+        ASSERT_LE(now_, inTime);
+    }
 }
 
 TEST_F(PipelineStoreTest, GeneratedChunksAreStoredWhereThatIsAskedFor) {

@@ -238,7 +238,7 @@ TEST_F(OwnBehaviors, WhatIsRemovedIsKnownWithItsData) {
     EXPECT_EQ(nameAt({8, 8, 3}), "air") << "burst";
 }
 
-TEST_F(OwnBehaviors, ABlockThatFallsKeepsItsData) {
+TEST_F(OwnBehaviors, ABlockThatFallsKeepsItsState) {
     put({4, 4, 8}, "iron");
     put({4, 4, 9}, "lantern");
     Edits edits;
@@ -248,8 +248,6 @@ TEST_F(OwnBehaviors, ABlockThatFallsKeepsItsData) {
     put({4, 4, 8}, "air");
     EXPECT_EQ(nameAt({4, 4, 0}), "lantern");
     EXPECT_EQ(world_.blockState({4, 4, 0}), 6);
-    applyChange(world_, blocks_, {4, 4, 0}, SetEntityData{{std::byte{7}}}, edits);
-    applyChange(world_, blocks_, {4, 4, 0}, RunTick{}, edits);
 }
 
 TEST_F(OwnBehaviors, OnesThatNeverEndAreCutOff) {
