@@ -43,10 +43,8 @@ bool BlockInteraction::pick(const Session& session) {
     if (!target_) return false;
     const world::BlockRegistry& blocks = session.blocks();
     const world::BlockType* type = &blocks.type(session.world().block(target_->block));
-    constexpr std::string_view kUpperHalf = "_top";  // of a door: the door is taken
-    if (type->name.ends_with(kUpperHalf))
-        type = blocks.find(type->name.substr(0, type->name.size() - kUpperHalf.size()));
-    if (!type || !isBuilt(*type, blocks)) return false;
+    if (world::isUpperHalf(*type)) type = &blocks.type(world::otherHalf(blocks, type->id));
+    if (!isBuilt(*type, blocks)) return false;
     takeInHand(hotbar, type->id);
     return true;
 }

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <sstream>
 
+#include "terrane/world/shape_behaviors.h"
+
 namespace terrane::game {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr std::array<std::string_view, Hotbar::kSlots> kFirstBlocks{
 }  // namespace
 
 bool isBuilt(const world::BlockType& type, const world::BlockRegistry& blocks) {
-    return type.id != world::kAir && type.id != blocks.missing() && !type.name.ends_with("_top");
+    return type.id != world::kAir && type.id != blocks.missing() && !world::isUpperHalf(type);
 }
 
 Hotbar firstHotbar(const world::BlockRegistry& blocks) {

@@ -8,7 +8,7 @@
 namespace terrane::game {
 namespace {
 
-// A block short of the last chunk on each side, so that the player's chunk is always in the world.
+// Two chunks before the last one on each side: whoever flies stays in the world.
 constexpr double kEdge = 2147483600.0;
 // A long stall moves a player no farther than this would.
 constexpr double kLongestFrame = 0.25;

@@ -26,7 +26,7 @@ ClientLink::ClientLink(boost::asio::io_context& context, ServerAddress address, 
 void ClientLink::connect() {
     stage_ = Stage::Connecting;
     fetch_.reset();
-    hasOffer_ = false;
+    hasOffer_ = hasProved_ = false;
     triedAt_ = now_;
     SocketEvents events;
     events.opened = [this](const Bytes& channel, const std::string& serverKey) {
@@ -82,6 +82,7 @@ void ClientLink::onMessage(ByteView bytes) {
     if (const auto* offer = std::get_if<WorldOffer>(&*message)) return onOffer(*offer);
     if (const auto* part = std::get_if<PackPart>(&*message)) return onPackPart(*part);
     if (std::holds_alternative<Joined>(*message)) {
+        if (!hasProved_) return end("the server let the player in before it offered its world");
         stage_ = Stage::Joined;
         wasJoined_ = true;
         cuts_ = 0;
@@ -121,6 +122,7 @@ void ClientLink::fetchOrProve() {
     const WorldOffer offer = std::move(fetch_->offer);
     fetch_.reset();
     const auto digests = events_.prove(offer);
+    hasProved_ = true;
     digests ? say(Proof{*digests}) : end(digests.error().message);
 }
 

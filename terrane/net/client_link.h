@@ -83,8 +83,8 @@ class ClientLink {
     bool isToldKey_ = false;  // a server told it
     std::optional<ClientSocket> socket_;
     Bytes channel_;
-    std::optional<PackFetch> fetch_;  // from WorldOffer to Proof
-    bool hasOffer_ = false;           // of this connection
+    std::optional<PackFetch> fetch_;             // from WorldOffer to Proof
+    bool hasOffer_ = false, hasProved_ = false;  // of this connection
     Stage stage_ = Stage::Waiting;
     std::string reason_;
     std::chrono::steady_clock::time_point now_{}, tryAt_{}, triedAt_{}, heardAt_{};

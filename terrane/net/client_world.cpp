@@ -145,6 +145,8 @@ void ClientWorld::sendEdit(const game::EditCommand& command, std::span<const gam
 }
 
 void ClientWorld::sendBuild(const game::BuildChange& change) {
+    if (!isConnected_)
+        return decided_.push_back(game::BuildOutcome{game::BuildOutcome::Result::NotLoaded, 0, 0});
     const CommandNumber number = ++lastCommand_;
     if (const auto* fill = std::get_if<game::FillBox>(&change)) {
         send_(Fill{number, *fill});
@@ -161,6 +163,7 @@ void ClientWorld::sendBuild(const game::BuildChange& change) {
 }
 
 void ClientWorld::sendTakeBack(game::HistoryWay way) {
+    if (!isConnected_) return decided_.push_back(game::TakenBack{game::TakenBack::Outcome::NotLoaded, 0, 0});
     const CommandNumber number = ++lastCommand_;
     waiting_.push_back({number, WaitingDecision::Kind::TakeBack});
     send_(TakeBack{number, way == game::HistoryWay::Redo});
@@ -195,11 +198,11 @@ void ClientWorld::take(const Poses& poses) {
         const auto player = players_.find(change.slot);
         if (player == players_.end()) continue;
         WirePose& pose = playerPoses_[change.slot];
-        pose.x += change.dx;
-        pose.y += change.dy;
-        pose.z += change.dz;
+        const WirePose moved{.x = pose.x + change.dx, .y = pose.y + change.dy, .z = pose.z + change.dz};
+        if (!isInRange(moved)) continue;
+        pose = moved;
         pose.yaw = static_cast<std::uint16_t>(change.yaw << 8);
-        pose.pitch = static_cast<std::int16_t>(change.pitch * 258);
+        pose.pitch = static_cast<std::int16_t>(std::max<int>(change.pitch, -127) * kPitchStep);
         player->second.pose = poseOf(pose);
         ++player->second.moves;
         player->second.swings += change.swings;

@@ -59,11 +59,7 @@ class ClientWorld {
     void update(const world::Pose& pose, int viewDistance, int horizon,
                 std::chrono::steady_clock::time_point now);
 
-    bool isJoined() const { return joined_.has_value(); }
     bool isViewComplete() const { return isViewComplete_; }
-    // As of the last Joined; there is one.
-    const Joined& joined() const { return *joined_; }
-    game::Role role() const { return joined_ ? joined_->role : game::Role::Guest; }
     const std::map<std::uint16_t, SeenPlayer>& players() const { return players_; }
     const std::optional<PlayerList>& playerList() const { return playerList_; }
 

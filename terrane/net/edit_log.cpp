@@ -29,7 +29,8 @@ bool takeSessionIds(ChunkDifference& blocks, const store::BlockIdMap& ids) {
 }
 
 bool haveSameBlocks(const LoggedEdit& edit) {
-    return std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
+    return !edit.after.empty() &&
+           std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
 }
 
 }  // namespace

@@ -15,10 +15,15 @@ struct EditedChunks::Results {
 
 namespace {
 
-// What the store has; null where that is nothing, or damaged.
-world::ChunkPtr savedChunk(store::ReadableStore& store, ChunkPos pos) {
-    store::LoadedChunk loaded = store.load(pos);
-    return loaded.state == store::LoadedChunk::State::Present ? std::move(loaded.chunk) : nullptr;
+constexpr std::uint64_t kRetryAfter = 40;  // calls of update(): two seconds
+
+// From the generated chunk to the saved one; none where that cannot be read now. What is damaged differs in
+// nothing.
+std::optional<ChunkDifference> savedDifference(const EditedChunks::Parts& parts, ChunkPos pos) {
+    const store::LoadedChunk loaded = parts.store.load(pos);
+    if (loaded.isUnread && !loaded.isOverBudget) return std::nullopt;
+    if (loaded.state != store::LoadedChunk::State::Present) return ChunkDifference();
+    return chunkDifference(parts.generators.generate(pos), *loaded.chunk);
 }
 
 }  // namespace
@@ -61,15 +66,19 @@ const ChunkDifference* EditedChunks::maybeDifference(ChunkPos pos) {
 
 void EditedChunks::findDifference(ChunkPos pos, Known& known) {
     known.isPending = true;
-    known.job = ++jobCount_;
     if (tailOf_ && pos.level == 0) known.difference = tailOf_(pos);
     blockCount_ += known.difference.size();
+    submit(pos, known);
+}
+
+void EditedChunks::submit(ChunkPos pos, Known& known) {
+    known.job = ++jobCount_;
     const auto work = [pos, job = known.job,
                        snapshot = pos.level == 0 ? parts_.world.maybeChunkAt(pos) : nullptr, &parts = parts_,
                        results = results_](const base::CancelToken&) {
-        const world::ChunkPtr chunk = snapshot ? snapshot : savedChunk(parts.store, pos);
-        ChunkDifference difference;
-        if (chunk) difference = chunkDifference(parts.generators.generate(pos), *chunk);
+        std::optional<ChunkDifference> difference =
+            snapshot ? chunkDifference(parts.generators.generate(pos), *snapshot)
+                     : savedDifference(parts, pos);
         const std::lock_guard lock(results->mutex);
         results->found.push_back({pos, job, std::move(difference)});
     };
@@ -97,17 +106,32 @@ void EditedChunks::update() {
         const std::lock_guard lock(results_->mutex);
         found.swap(results_->found);
     }
+    ++updates_;
     for (Found& result : found) {
         const auto entry = known_.find(result.pos);
         if (entry == known_.end() || entry->second.job != result.job) continue;
         Known& known = entry->second;
+        if (!result.difference) {
+            unread_.push_back({result.pos, result.job, updates_ + kRetryAfter});
+            continue;
+        }
         blockCount_ -= known.difference.size();
-        mergeInto(result.difference, known.difference);
-        known.difference = std::move(result.difference);
+        mergeInto(*result.difference, known.difference);
+        known.difference = std::move(*result.difference);
         known.isPending = false;
         blockCount_ += known.difference.size();
     }
+    retryUnread();
     if (blockCount_ > kMaxBlocks) forgetOld();
+}
+
+void EditedChunks::retryUnread() {
+    std::erase_if(unread_, [&](const Unread& unread) {
+        if (unread.retryAt > updates_) return false;
+        const auto entry = known_.find(unread.pos);
+        if (entry != known_.end() && entry->second.job == unread.job) submit(unread.pos, entry->second);
+        return true;
+    });
 }
 
 // The half that was not used for the longest time.

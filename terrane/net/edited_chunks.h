@@ -65,10 +65,16 @@ class EditedChunks {
     struct Found {
         world::ChunkPos pos;
         std::uint64_t job;
-        ChunkDifference difference;
+        std::optional<ChunkDifference> difference;  // none: the store could not be read
+    };
+    struct Unread {
+        world::ChunkPos pos;
+        std::uint64_t job, retryAt;
     };
     struct Results;
     void findDifference(world::ChunkPos pos, Known& known);
+    void submit(world::ChunkPos pos, Known& known);
+    void retryUnread();
     void forgetOld();
 
     Parts parts_;
@@ -76,7 +82,8 @@ class EditedChunks {
     std::array<std::unordered_set<world::ChunkPos, world::ChunkPosHash>, world::kMaxLevel + 1> positions_;
     std::unordered_map<world::ChunkPos, Known, world::ChunkPosHash> known_;
     std::size_t blockCount_ = 0;
-    std::uint64_t uses_ = 0, jobCount_ = 0;
+    std::vector<Unread> unread_;
+    std::uint64_t uses_ = 0, jobCount_ = 0, updates_ = 0;
     std::shared_ptr<Results> results_;
 };
 

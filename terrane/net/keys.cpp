@@ -48,6 +48,7 @@ base::Result<PlayerKey> writeKey(const std::filesystem::path& file) {
     const int error = errno;
     if (descriptor >= 0) ::close(descriptor);
     if (isWritten) return key;
+    if (descriptor >= 0) ::unlink(file.c_str());  // a part of a key would be none for ever
     return base::fail(base::ErrorCode::Io, "{}: the player's key cannot be written: {}", file.string(),
                       base::systemReason(error));
 }

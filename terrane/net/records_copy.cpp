@@ -42,15 +42,21 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
     if (!players) return tl::unexpected(players.error());
     const auto known = to.players();
     if (!known) return tl::unexpected(known.error());
-    for (const KnownPlayer& player : *players)
+    // A copy that goes on may have people and claims as they were when it was ended.
+    for (const KnownPlayer& player : *players) {
         if (std::ranges::none_of(*known, [&](const KnownPlayer& other) { return other.id == player.id; }))
             to.addPlayer(player);
+        else
+            to.changePlayer(
+                player.id,
+                {.name = player.name, .role = player.role, .pose = player.pose, .ban = player.ban});
+    }
     const auto claims = from.claims();
     if (!claims) return tl::unexpected(claims.error());
-    for (const game::Claim& claim : *claims) {
-        to.removeClaim(claim.name);
-        to.addClaim(claim);
-    }
+    const auto former = to.claims();
+    if (!former) return tl::unexpected(former.error());
+    for (const game::Claim& claim : *former) to.removeClaim(claim.name);
+    for (const game::Claim& claim : *claims) to.addClaim(claim);
     const auto password = from.text(kPasswordText);
     if (!password) return tl::unexpected(password.error());
     to.setText(kPasswordText, *password);

@@ -119,7 +119,7 @@ void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles) {
     written.tiles.insert(written.tiles.end(), tiles.begin(), tiles.end());
 }
 
-void onOpened(ServerState& server, ConnectionId id, Bytes channel, std::string address, Time now) {
+void onOpened(ServerState& server, ConnectionId id, Bytes channel, ClientAddress address, Time now) {
     server.now = std::max(server.now, now);
     ServerClient& client = server.clients.try_emplace(id, id, server.settings.maxSpeed).first->second;
     client.channel = std::move(channel);
@@ -157,6 +157,7 @@ void tick(ServerState& server, Time now) {
     server.now = std::max(server.now, now);
     ++server.tick;
     takeNews(server);
+    tellChangedBlocks(server);
     updateLogins(server);
     // Here and below no change waits to be told, so that chunks may go. Twice, as a chunk that is not in the
     // store takes two jobs, and a command waits for it.

@@ -17,7 +17,7 @@ namespace terrane::net {
 void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles);
 
 // A connection. `channel`: its exported keying material. Numbers are never given twice.
-void onOpened(ServerState& server, ConnectionId id, Bytes channel, std::string address, Time now);
+void onOpened(ServerState& server, ConnectionId id, Bytes channel, ClientAddress address, Time now);
 // One message, as the client sent it: any bytes.
 void onMessage(ServerState& server, ConnectionId id, ByteView message, Time now);
 // The client said what cannot be a message: it is sent away.

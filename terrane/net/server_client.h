@@ -56,14 +56,21 @@ struct FormerClient {
     ClientBuckets buckets;
 };
 
+// Where a client connects from.
+struct ClientAddress {
+    std::string shown;    // in the log
+    std::string network;  // by which limits count: base::networkOf()
+    bool isOwnMachine = false;
+};
+
 struct ServerClient {
     enum class Stage : std::uint8_t { Hello, Login, Password, Proof, Playing, Closed };
 
     ServerClient(ConnectionId number, double maxSpeed) : id(number), buckets(maxSpeed) {}
 
     ConnectionId id;
-    std::string address;  // for the log
-    Bytes channel;        // the connection's exported keying material
+    ClientAddress address;
+    Bytes channel;  // the connection's exported keying material
     Nonce nonce{};
     Stage stage = Stage::Hello;
     Time openedAt{}, heardAt{};

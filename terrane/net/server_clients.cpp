@@ -55,7 +55,8 @@ void sayToAll(ServerState& server, const std::string& name, const std::string& t
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason) {
     if (client.stage == ServerClient::Stage::Closed) return;
     send(client, Refused{why, plainText(reason, kMaxReasonBytes)});
-    base::logInfo("{} ({}): {}", client.name.empty() ? "somebody" : client.name, client.address, reason);
+    base::logInfo("{} ({}): {}", client.name.empty() ? "somebody" : client.name, client.address.shown,
+                  reason);
     leave(server, client);
     client.stage = ServerClient::Stage::Closed;
 }

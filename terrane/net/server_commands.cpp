@@ -107,8 +107,10 @@ bool isSensible(const ServerState& server, const Edit& edit) {
     if (!data) return true;
     if (!server.session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
     const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
+    const world::BlockEntityData* former = server.session.world().blockEntityData(edit.pos);
+    const std::size_t freed = former ? std::min(former->size(), data->data.size()) : 0;
     return data->data.empty() ||
-           (keepsData(type, data->data) && hasRoom(server, {edit.pos, edit.pos}, data->data.size()));
+           (keepsData(type, data->data) && hasRoom(server, {edit.pos, edit.pos}, data->data.size() - freed));
 }
 bool isSensible(const ServerState& server, const Build& build) {
     if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(server, fill->id);

@@ -36,6 +36,10 @@ void logChanges(ServerState& server, game::PlayerId player, std::span<const game
     noteWrite(server, history.lastWrite, std::move(edits));
 }
 
+std::int64_t newestEdit(const ServerState& server) {
+    return server.sharing.shared ? server.sharing.newest : server.history.newest;
+}
+
 base::Result<void> restoreEdits(ServerState& server) {
     if (server.records.shared()) return {};  // the tail of the history (server_sharing.h)
     ServerHistory& history = server.history;
@@ -103,9 +107,11 @@ base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& f
     };
     auto plan = rollback(forEachEdit, filter);
     if (!plan) return tl::unexpected(plan.error());
+    // A part has a block once: others may wait that roll back the same ones.
+    const std::size_t first = server.rollbacks.size();
     for (RolledBack& block : *plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);
-        if (server.rollbacks.empty() || server.rollbacks.back().chunk != chunk)
+        if (server.rollbacks.size() == first || server.rollbacks.back().chunk != chunk)
             server.rollbacks.push_back({chunk, {}});
         server.rollbacks.back().blocks.push_back(std::move(block));
     }

@@ -12,6 +12,9 @@ namespace terrane::net {
 // A player's command, or a roll-back (game::kNoPlayer), changed these blocks.
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes);
 
+// The number of the world's newest edit, of all servers of it.
+std::int64_t newestEdit(const ServerState& server);
+
 // Edits that the world's file lacks are made again. Before anybody plays; blocks.
 [[nodiscard]] base::Result<void> restoreEdits(ServerState& server);
 

@@ -20,10 +20,6 @@ constexpr std::ptrdiff_t kMaxPasswordsOfAddress = 4;
 // Whoever has more addresses than this is not held up by a limit for each.
 constexpr std::size_t kMaxAddresses = 4096;
 
-bool isOwnMachine(const std::string& address) {
-    return address.starts_with("127.") || address == "::1" || address.starts_with("::ffff:127.");
-}
-
 void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
     if (hello.version != kProtocolVersion)
         return refuse(server, client, Refusal::Version,
@@ -47,11 +43,12 @@ void refuseStranger(ServerState& server, ServerClient& client) {
         return refuse(server, client, Refusal::Name,
                       fmt::format("the name {} belongs to another player: choose another", client.name));
     const auto isHere = [&](const ServerClient& other) {
-        return other.stage == Stage::Playing && other.address == client.address && other.key != client.key;
+        return other.stage == Stage::Playing && other.address.network == client.address.network &&
+               other.key != client.key;
     };
     const auto ofAddress =
         std::ranges::count_if(server.clients, [&](const auto& entry) { return isHere(entry.second); });
-    if (!isOwnMachine(client.address) &&
+    if (!client.address.isOwnMachine &&
         std::cmp_greater_equal(ofAddress, server.settings.maxPlayersOfAddress))
         return refuse(server, client, Refusal::Full,
                       fmt::format("{} players of your address are here already", ofAddress));
@@ -85,9 +82,9 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
         return found == server.clients.end() || found->second.stage != Stage::Password;
     });
     const auto ofAddress = std::ranges::count_if(server.passwordQueue, [&](const WaitingPassword& waiting) {
-        return server.clients.at(waiting.client).address == client.address;
+        return server.clients.at(waiting.client).address.network == client.address.network;
     });
-    const bool isOwn = isOwnMachine(client.address);
+    const bool isOwn = client.address.isOwnMachine;
     if (server.passwordQueue.size() >= kMaxWaitingPasswords ||
         (!isOwn && ofAddress >= kMaxPasswordsOfAddress))
         return refuse(server, client, Refusal::Full, "too many players log in: try again soon");
@@ -142,11 +139,12 @@ void replaceFormer(ServerState& server, const KnownPlayer& player) {
 }
 
 // Each new player is a row that is kept for ever.
-bool mayComeNew(ServerState& server, const std::string& address) {
-    if (isOwnMachine(address)) return true;
+bool mayComeNew(ServerState& server, const ClientAddress& address) {
+    if (address.isOwnMachine) return true;
     if (server.newPlayers.size() >= kMaxAddresses) server.newPlayers.clear();
     const double most = server.settings.newPlayersPerHour;
-    return server.newPlayers.try_emplace(address, most / 3600, most).first->second.take(1, server.now);
+    return server.newPlayers.try_emplace(address.network, most / 3600, most)
+        .first->second.take(1, server.now);
 }
 
 // The player's row, made where it is new here, with the name that it has now.
@@ -197,7 +195,7 @@ void join(ServerState& server, ServerClient& client) {
                         client.pose});
     const game::DayClock& clock = server.session.clock;
     send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
-    base::logInfo("{} joined from {}", client.name, client.address);
+    base::logInfo("{} joined from {}", client.name, client.address.shown);
     sayToAll(server, {}, client.name + " joined");
     if (!server.sharing.servers.empty()) send(client, otherServers(server));
     if (!server.settings.welcome.empty()) say(client, server.settings.welcome);

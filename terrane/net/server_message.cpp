@@ -111,6 +111,8 @@ void describeChange(Wire& wire, auto& change) {
         wire.integer(change.dy);
         wire.integer(change.dz);
         wire.require(change.dx != 0 || change.dy != 0 || change.dz != 0);
+        for (const std::int64_t step : {change.dx, change.dy, change.dz})
+            wire.require(step >= -2 * kMaxPosePosition && step <= 2 * kMaxPosePosition);
     }
     wire.fixed(change.yaw);
     wire.fixed(change.pitch);

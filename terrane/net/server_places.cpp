@@ -32,6 +32,7 @@ void applyPlaceChange(ServerState& server, const PlaceChange& change) {
 std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {
     const std::string name = game::placeName(typed);
     if (name.empty()) return "a place needs a name: mark NAME";
+    if (!isPlainText(name)) return "the name of a place is text in UTF-8 without control characters";
     const bool isTaken = hasPlace(server, name);
     if (isTaken && !mayMove) return fmt::format("there is a place {}: operators alone move it", name);
     if (!isTaken && game::savedPlaces(server.session.store()).size() >= game::kMaxPlaces)

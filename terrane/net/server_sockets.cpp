@@ -10,6 +10,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/tcp_listen.h"
+#include "terrane/base/tcp_peer.h"
 #include "terrane/net/frames.h"
 #include "terrane/net/server.h"
 #include "terrane/net/tls.h"
@@ -33,7 +34,7 @@ struct ServerConnection {
 
     ConnectionId id;
     Tcp::socket socket;
-    std::string address;
+    ClientAddress address;
     Time openedAt;
     std::optional<asio::ssl::stream<Tcp::socket&>> stream;  // once the first bytes are there
     FrameReader reader{kMaxClientMessage};
@@ -46,10 +47,12 @@ using ConnectionPtr = std::shared_ptr<ServerConnection>;
 
 namespace {
 
-std::string addressOf(const Tcp::socket& socket) {
+ClientAddress addressOf(const Tcp::socket& socket) {
     SocketError error;
     const auto endpoint = socket.remote_endpoint(error);
-    return error ? std::string("somewhere") : endpoint.address().to_string();
+    if (error) return {"somewhere", "somewhere", false};
+    const asio::ip::address address = base::addressOf(endpoint);
+    return {address.to_string(), base::networkOf(address), address.is_loopback()};
 }
 
 }  // namespace
@@ -118,7 +121,7 @@ void ServerSockets::Impl::makeRoom() {
     std::size_t count = 0;
     for (const auto& [id, connection] : connections) {
         if (plays(*connection)) continue;
-        pending[connection->address].push_back(connection);
+        pending[connection->address.network].push_back(connection);
         ++count;
     }
     if (count < kMaxPendingConnections) return;

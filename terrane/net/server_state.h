@@ -105,7 +105,7 @@ struct ServerState {
 
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
-    std::map<std::string, base::TokenBucket> newPlayers;  // of an address, since it had its last
+    std::map<std::string, base::TokenBucket> newPlayers;  // of a network, since it had its last
     std::unordered_map<game::PlayerId, FormerClient> left;
     std::uint64_t tick = 0;
     Time now{};

@@ -29,7 +29,7 @@ std::uint8_t coarseYaw(const WirePose& pose) {
     return static_cast<std::uint8_t>(pose.yaw >> 8);
 }
 std::int8_t coarsePitch(const WirePose& pose) {
-    return static_cast<std::int8_t>(pose.pitch >> 8);
+    return static_cast<std::int8_t>(pose.pitch / kPitchStep);
 }
 
 }  // namespace

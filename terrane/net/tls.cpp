@@ -51,8 +51,10 @@ base::Result<void> makeKeyFile(const std::filesystem::path& file) {
                            PEM_write_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr) &&
                            PEM_write_X509(out, certificate.get());
     const int error = errno;
+    if (!out && descriptor >= 0) ::close(descriptor);
     const bool isClosed = out && std::fclose(out) == 0;
     if (isWritten && isClosed) return {};
+    if (descriptor >= 0) ::unlink(file.c_str());  // a part of a key would be none for ever
     return base::fail(base::ErrorCode::Io, "{}: the server's key cannot be written: {}", file.string(),
                       base::systemReason(error));
 }

@@ -10,7 +10,9 @@
 
 namespace terrane::net {
 
-constexpr double kPoseSteps = 64;  // a block
+constexpr double kPoseSteps = 64;                                 // a block
+constexpr std::int64_t kMaxPosePosition = std::int64_t{1} << 37;  // in steps, either way
+constexpr int kPitchStep = 258;  // of WirePose::pitch for one of PoseChange::pitch
 
 // A pose of a player. Position in steps; blocks are at most 2^31 away, so that it fits 38 bits.
 struct WirePose {
@@ -19,6 +21,11 @@ struct WirePose {
     std::int16_t pitch = 0;  // 32767 for straight up
     bool operator==(const WirePose&) const = default;
 };
+
+inline bool isInRange(const WirePose& pose) {
+    const auto isGood = [](std::int64_t v) { return v >= -kMaxPosePosition && v <= kMaxPosePosition; };
+    return isGood(pose.x) && isGood(pose.y) && isGood(pose.z);
+}
 
 WirePose wirePose(const world::Pose& pose);
 world::Pose poseOf(const WirePose& pose);
@@ -44,13 +51,13 @@ void describeChunkPos(Wire& wire, Pos& pos) {
 
 template <class Wire, class Pose>
 void describePose(Wire& wire, Pose& pose) {
-    constexpr std::int64_t kMax = std::int64_t{1} << 37;
     wire.integer(pose.x);
     wire.integer(pose.y);
     wire.integer(pose.z);
     wire.fixed(pose.yaw);
     wire.fixed(pose.pitch);
-    for (const std::int64_t v : {pose.x, pose.y, pose.z}) wire.require(v >= -kMax && v <= kMax);
+    for (const std::int64_t v : {pose.x, pose.y, pose.z})
+        wire.require(v >= -kMaxPosePosition && v <= kMaxPosePosition);
 }
 
 }  // namespace terrane::net

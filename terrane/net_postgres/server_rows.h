@@ -42,7 +42,7 @@ struct BeatAnswer {
 [[nodiscard]] base::Result<BeatAnswer> beat(store_postgres::Connection& connection, const ServerName& name,
                                             const ServerBeat& state);
 
-// Keys of chunks.
+// Chunks whose edits are in the history alone.
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> unsavedChunks(store_postgres::Connection& connection,
                                                                        std::int64_t server);
 

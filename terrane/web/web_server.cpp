@@ -5,29 +5,12 @@
 #include <vector>
 
 #include "terrane/base/tcp_listen.h"
+#include "terrane/base/tcp_peer.h"
 #include "terrane/web/web_server_internal.h"
 
 namespace terrane::web {
 
 namespace asio = boost::asio;
-
-namespace {
-
-asio::ip::address addressOf(const Tcp::endpoint& peer) {
-    const auto address = peer.address();
-    const bool isMapped = address.is_v6() && address.to_v6().is_v4_mapped();
-    return isMapped ? asio::ip::make_address_v4(asio::ip::v4_mapped, address.to_v6()) : address;
-}
-
-// Who has an IPv6 address has 2^64 of them.
-std::string networkOf(const asio::ip::address& address) {
-    if (address.is_v4()) return address.to_string();
-    auto bytes = address.to_v6().to_bytes();
-    std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
-    return asio::ip::address_v6(bytes).to_string();
-}
-
-}  // namespace
 
 base::Result<void> WebServer::Impl::listen(const WebAddress& address) {
     if (auto listens = base::listenAt(acceptor, address.address, address.port); !listens) return listens;
@@ -64,8 +47,8 @@ void WebServer::Impl::add(Tcp::socket socket) {
     const Tcp::endpoint peer = socket.remote_endpoint(error);
     if (error) return;
     const auto connection = std::make_shared<Connection>(++lastId, std::move(socket), limits.headerBytes);
-    const asio::ip::address address = addressOf(peer);
-    connection->address = networkOf(address);
+    const asio::ip::address address = base::addressOf(peer);
+    connection->address = base::networkOf(address);
     connection->isLimited = !address.is_loopback();
     const AddressUse unused{0, 0, {limits.requestsPerSecond, limits.requestsAtOnce}};
     AddressUse& use = addresses.try_emplace(connection->address, unused).first->second;

@@ -105,7 +105,7 @@ class FuzzServer {
         close(connection);
         connection.id = ++lastId_;
         connection.channel[0] = static_cast<std::byte>(lastId_);
-        onOpened(server(), connection.id, connection.channel, "fuzz", now_);
+        onOpened(server(), connection.id, connection.channel, {"fuzz", "fuzz", false}, now_);
     }
     void close(Connection& connection) {
         if (connection.id != 0) onClosed(server(), connection.id, now_);

@@ -168,8 +168,11 @@ TEST_F(SessionTest, SandThatFallsReachesTheStoreAndTheScreen) {
     EXPECT_EQ(session_.world().block(landing), contentBlock("sand"));
     settle();
     const light::LightTable table(contentBlocks());
+    int lit = 0, meshed = 0;
     for (const stream::ChunkChange& change : takeChanges()) {
+        meshed += change.pos == world::ChunkPos{0, 0} && (change.mesh || change.needsMesh);
         if (!change.light) continue;
+        ++lit;
         stream::ChunkNeighborhood around;
         for (int n = 0; n < 9; ++n) {
             around.chunks[static_cast<std::size_t>(n)] =
@@ -177,6 +180,8 @@ TEST_F(SessionTest, SandThatFallsReachesTheStoreAndTheScreen) {
         }
         EXPECT_EQ(*change.light, *stream::lightOf(around, table)) << change.pos.x << ' ' << change.pos.y;
     }
+    EXPECT_GT(lit, 0);
+    EXPECT_GT(meshed, 0);
     ASSERT_TRUE(session_.save());
     const store::LoadedChunk stored = session_.store().load({0, 0});
     EXPECT_EQ(stored.chunk->block(world::blockIndex(landing)), contentBlock("sand"));

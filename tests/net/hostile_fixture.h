@@ -18,6 +18,10 @@ inline Refusal refusalOf(TestWire& wire) {
 }
 
 // A signed Login for the wire's connection, which has said nothing yet.
+inline Greeting greetingOf(TestWire& wire, const ClientIdentity& identity) {
+    wire.say(helloOf(identity));
+    return std::get<Greeting>(wire.take().at(0));
+}
 inline Login greetedLogin(TestWire& wire, const ClientIdentity& identity) {
     wire.say(helloOf(identity));
     return loginOf(identity, std::get<Greeting>(wire.take().at(0)), wire.channel);

@@ -35,13 +35,13 @@ TEST_F(HostileLogin, ASignatureIsGoodForOneConnection) {
     const ClientIdentity mallory = testIdentity("Mallory");
     TestWire first(*server_), second(*server_), third(*server_), fourth(*server_);
     const Login good = greetedLogin(first, mallory);
-    (void)greetedLogin(second, mallory);
-    EXPECT_EQ(refusalOfLogin(second, good), Refusal::WrongKey) << "another nonce";
-    Login otherChannel = greetedLogin(third, mallory);
-    onClosed(server_->state(), third.id, server_->now);
-    onOpened(server_->state(), third.id, Bytes(32), "test", server_->now);
-    (void)greetedLogin(third, mallory);
-    EXPECT_EQ(refusalOfLogin(third, otherChannel), Refusal::WrongKey) << "another channel";
+    Greeting greeting = greetingOf(second, mallory);
+    greeting.nonce[5] ^= std::byte{1};
+    EXPECT_EQ(refusalOfLogin(second, loginOf(mallory, greeting, second.channel)), Refusal::WrongKey)
+        << "another nonce";
+    greeting = greetingOf(third, mallory);
+    EXPECT_EQ(refusalOfLogin(third, loginOf(mallory, greeting, second.channel)), Refusal::WrongKey)
+        << "another channel";
     Login otherName = greetedLogin(fourth, mallory);
     otherName.name = "Eve";
     EXPECT_EQ(refusalOfLogin(fourth, otherName), Refusal::WrongKey);

@@ -62,7 +62,7 @@ struct TestServer {
 struct TestWire {
     explicit TestWire(TestServer& testServer) : server(testServer), id(++testServer.lastConnection) {
         fillRandom(channel);
-        onOpened(server.state(), id, channel, "test", server.now);
+        onOpened(server.state(), id, channel, {"test", "test", false}, server.now);
     }
     void say(const ClientMessage& message) { onMessage(server.state(), id, encode(message), server.now); }
     // What the server sent since the last call.

@@ -2,6 +2,7 @@
 #include "terrane/net/server.h"
 
 #include "terrane/net/server_console.h"
+#include "terrane/net/server_history.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {
@@ -70,6 +71,27 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     decided = ann.world->takeDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<game::TakenBack>(decided[0]).blocks, 64u);
+}
+
+// Two who roll back the same edits at once: the history can still be read.
+TEST_F(ServerTest, RollBacksMayOverlap) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    for (const char* line : {"rollback Ann 10", "rollback Ann 20"})
+        (void)runConsoleLine(server.state(), line);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.block(pos) == world::kAir; }));
+    ASSERT_TRUE(saveEverything(server.state()));
+    int edits = 0;
+    const auto count = [&](const LoggedEdit& edit) -> base::Result<void> {
+        edits += static_cast<int>(edit.after.size());
+        return {};
+    };
+    ASSERT_TRUE(server.state().records.forEachEdit({}, EditOrder::OldestFirst, count));
+    EXPECT_EQ(edits, 2);
 }
 
 TEST_F(ServerTest, WhatWasAcknowledgedIsThereAfterACrash) {

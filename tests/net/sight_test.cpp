@@ -102,6 +102,22 @@ TEST(Sight, StepsMayBeAsLongAsTheWorld) {
     EXPECT_EQ(from + changes.poses[0].dx, players[1].pose.x);
 }
 
+// In 256 steps, within which a look is told.
+TEST(Sight, LooksUpAndDownStayUpAndDown) {
+    Sight sight;
+    std::vector<PlayerAt> players{playerAt(1, 0, 0), playerAt(2, 5, 0)};
+    std::uint64_t tick = 2;
+    const auto update = [&] { return sight.update(tick += 2, PlayerGrid(players).around(players[0])); };
+    (void)update();
+    for (const float pitch : {-90.0f, -89.9f, -45.0f, -1.0f, 0.0f, 1.0f, 45.0f, 89.9f, 90.0f}) {
+        players[1].pose = wirePose({{5, 0, 70}, 0, pitch});
+        const SightChanges changes = update();
+        ASSERT_EQ(changes.poses.size(), 1u) << pitch;
+        const WirePose told{.pitch = static_cast<std::int16_t>(changes.poses[0].pitch * kPitchStep)};
+        EXPECT_NEAR(poseOf(told).pitch, pitch, 0.8f);
+    }
+}
+
 TEST(Sight, NobodyAtTheEdgeComesAndGoes) {
     Sight sight;
     std::vector<PlayerAt> players{playerAt(1, 0, 0), playerAt(2, kSightBlocks + 5, 0)};

@@ -105,10 +105,11 @@ TEST_F(SocketsTest, WhatIsNoTlsIsClosed) {
             BlockingClient client(port);
             SocketError error;
             asio::write(client.stream.next_layer(), asio::buffer(text), error);
-            client.stream.next_layer().shutdown(Tcp::socket::shutdown_send, error);
+            // The last one may be the beginning of a record: it ends with its client.
+            if (text.size() < 5) client.stream.next_layer().shutdown(Tcp::socket::shutdown_send, error);
             std::array<char, 512> answer;
             while (!error) client.stream.next_layer().read_some(asio::buffer(answer), error);
-            return true;
+            return error == asio::error::eof || error == asio::error::connection_reset;
         });
         EXPECT_TRUE(isClosed);
     }

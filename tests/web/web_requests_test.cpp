@@ -237,7 +237,7 @@ TEST_F(WebRequestsTest, HeadOfEventsEnds) {
     start();
     Browser one = browser();
     one.send("HEAD /api/edits HTTP/1.1\r\n\r\n");
-    next(one, false);
+    EXPECT_EQ(next(one, false).status, 200);
     EXPECT_EQ(hub_.count(), 0u);
 }
 
