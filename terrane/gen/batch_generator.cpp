@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cassert>
 #include <deque>
 #include <exception>
 #include <mutex>
@@ -21,34 +20,36 @@ constexpr std::size_t kCpuBatchesInFlight = 3;
 // Chunks that several threads generate together.
 class CpuBatch {
   public:
-    explicit CpuBatch(std::span<const ChunkPos> positions) : chunks_(positions.size()) {
+    explicit CpuBatch(std::span<const ChunkPos> positions)
+        : count_(positions.size()), chunks_(positions.size()) {
         for (std::size_t k = 0; k < positions.size(); ++k) chunks_[k].pos = positions[k];
     }
 
     // Any thread: generates chunks that no other thread has begun until there are none.
     void work(const Generator& generator) {
-        for (std::size_t k = next_++; k < chunks_.size(); k = next_++) {
+        for (std::size_t k = next_++; k < count_; k = next_++) {
             try {
                 chunks_[k].chunk = std::make_shared<world::Chunk>(generator.generate(chunks_[k].pos));
             } catch (...) {
                 const std::lock_guard lock(mutex_);
                 if (!error_) error_ = std::current_exception();
             }
-            if (++done_ == chunks_.size()) done_.notify_all();
+            if (++done_ == count_) done_.notify_all();
         }
     }
 
-    bool isDone() const { return done_ == chunks_.size(); }
+    bool isDone() const { return done_ == count_; }
     void wait() const {
-        for (std::size_t done = done_; done != chunks_.size(); done = done_) done_.wait(done);
+        for (std::size_t done = done_; done != count_; done = done_) done_.wait(done);
     }
-    // Once it is done.
+    // Once it is done; others may still be in work(), and see that there is nothing left.
     std::vector<GeneratedChunk> result() {
         if (error_) std::rethrow_exception(error_);
         return std::move(chunks_);
     }
 
   private:
+    const std::size_t count_;
     std::vector<GeneratedChunk> chunks_;
     std::atomic<std::size_t> next_ = 0, done_ = 0;
     std::mutex mutex_;

@@ -33,7 +33,7 @@ class Flooder {
   public:
     Flooder(const DrainageNetwork& network, const DrainageSpec& spec)
         : network_(network),
-          maxCut_(static_cast<HeightKey>(spec.maxCut) << kHeightKeyShift),
+          maxCut_(static_cast<HeightKey>(spec.maxCut * kHeightUnit) << kTieBits),
           from_(network.heights.size()),
           seen_(network.heights.size(), 0) {}
 

@@ -21,10 +21,13 @@ struct LevelGenerators::Impl {
         Generator generator;
         std::uint32_t field;
     };
-    std::array<std::optional<Tint>, world::kMaxLevel + 1> tints;
-    std::optional<bool> hasTint;  // known with the first graph; the same at all levels
+    // Of levels that were asked for; some levels of a generator may have none.
+    std::array<std::optional<base::Result<std::optional<Tint>>>, world::kMaxLevel + 1> tints;
+    base::Result<std::optional<Tint>> makeTint(int level);
 
+    // Null where the level has none.
     const Tint* tint(int level);
+    base::Result<std::optional<Tint>>& madeTint(int level);  // under the mutex
 };
 
 LevelGenerators::LevelGenerators(MakeGraph makeGraph, std::uint64_t seed)
@@ -42,7 +45,6 @@ base::Result<const Generator*> LevelGenerators::at(int level) const {
     if (!generator) {
         auto graph = impl_->makeGraph(level);
         if (graph) {
-            impl_->hasTint = graph->tint != nullptr;
             generator.emplace(Generator(*std::move(graph), impl_->seed));
         } else {
             generator.emplace(tl::unexpected(std::move(graph.error())));
@@ -52,23 +54,32 @@ base::Result<const Generator*> LevelGenerators::at(int level) const {
     return &**generator;
 }
 
-// Null where there is none.
+base::Result<std::optional<LevelGenerators::Impl::Tint>>& LevelGenerators::Impl::madeTint(int level) {
+    auto& made = tints[static_cast<std::size_t>(level)];
+    if (!made) made.emplace(makeTint(level));
+    return *made;
+}
+
+// What level 0 lacks no other level has.
 const LevelGenerators::Impl::Tint* LevelGenerators::Impl::tint(int level) {
     const std::lock_guard lock(mutex);
-    auto& made = tints[static_cast<std::size_t>(level)];
-    if (made || hasTint == false) return made ? &*made : nullptr;
+    if (const auto& lowest = madeTint(0); lowest && !*lowest) return nullptr;
+    const auto& made = madeTint(level);
+    if (!made) throw std::invalid_argument(made.error().message);
+    return *made ? &**made : nullptr;
+}
+
+base::Result<std::optional<LevelGenerators::Impl::Tint>> LevelGenerators::Impl::makeTint(int level) {
     const auto graph = makeGraph(level);
-    if (!graph) throw std::invalid_argument(graph.error().message);
-    hasTint = graph->tint != nullptr;
-    if (!graph->tint) return nullptr;
-    made.emplace(Tint{Generator(graph->tint->passes, seed), graph->tint->field});
-    return &*made;
+    if (!graph) return tl::unexpected(graph.error());
+    if (!graph->tint) return std::nullopt;
+    return Tint{Generator(graph->tint->passes, seed), graph->tint->field};
 }
 
 bool LevelGenerators::hasTint() const {
-    if (!at(0)) return false;
     const std::lock_guard lock(impl_->mutex);
-    return impl_->hasTint.value_or(false);
+    const auto& lowest = impl_->madeTint(0);
+    return lowest && *lowest;
 }
 
 std::optional<world::TintTile> LevelGenerators::tint(world::ChunkPos pos) const {

@@ -17,8 +17,9 @@ namespace terrane::gen {
 
 class LevelGenerators {
   public:
-    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called once a level and by
-    // one thread at a time, later too: what it refers to lives as long as this object.
+    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called at most twice
+    // a level, for its blocks and for its tint, by one thread at a time, later too: what it refers to lives
+    // as long as this object.
     using MakeGraph = std::function<base::Result<GeneratorGraph>(int level)>;
 
     LevelGenerators(MakeGraph makeGraph, std::uint64_t seed);
@@ -33,9 +34,9 @@ class LevelGenerators {
     // The chunk of the position's level. Throws std::invalid_argument with the reason where there is none.
     [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
 
-    // Whether the generator has a tint. Makes the graph of level 0 where none was made.
+    // Whether the generator has a tint at level 0. Makes that level's graph where none was made.
     [[nodiscard]] bool hasTint() const;
-    // The tint of the chunk's columns; none where the generator has none. Makes no blocks, and no generator
+    // The tint of the chunk's columns; none where its level has none. Makes no blocks, and no generator
     // of them. Errors as generate().
     [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 

@@ -65,12 +65,13 @@ Block Pass::block(std::string_view name) {
 }
 
 std::size_t Pass::newSlot(Type type, Value value) {
-    slots_.push_back({type, value.nodeIn(graph_.graph, type)});
+    slots_.push_back({type, value.nodeIn(graph_.graph, type), false});
     return slots_.size() - 1;
 }
 
 void Pass::assign(std::size_t slot, Value value) {
     slots_[slot].value = value.nodeIn(graph_.graph, slots_[slot].type);
+    slots_[slot].hasEnded = false;
 }
 
 // Runs both branches on the slots' values and joins the slots that came out different.
@@ -88,33 +89,41 @@ void Pass::if_(Bool condition, const std::function<void()>& then, const std::fun
 
     const std::uint32_t number = graph_.graph.newIf();
     for (std::size_t k = 0; k < before.size(); ++k) {
+        if (before[k].hasEnded) continue;
         const NodeId args[] = {conditionNode, afterThen[k].value, slots_[k].value};
         slots_[k].value = graph_.graph.add(Op::Phi, slots_[k].type, args, number);
     }
 }
 
-// Every variable may change in the loop; after it those that did have their last values.
+// Every variable may change in the loop; after it those that did have their last values, and those that were
+// made in it have ended.
 void Pass::while_(const std::function<Bool()>& condition, const std::function<void()>& body) {
     Graph& g = graph_.graph;
-    const std::vector<Slot> before = slots_;
+    const std::size_t count = slots_.size();
     const std::uint8_t dependence = graph_.is3D ? kDependsVoxel : kDependsColumn;
-    std::vector<std::uint32_t> variables;
+    struct Variable {
+        std::size_t slot;
+        std::uint32_t number;
+    };
+    std::vector<Variable> variables;
     g.beginLoop();
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        variables.push_back(g.addLoopVariable(before[k].type, before[k].value, dependence));
-        slots_[k].value = g.loopVariable(variables[k]).in;
+    for (std::size_t k = 0; k < count; ++k) {
+        if (slots_[k].hasEnded) continue;
+        variables.push_back({k, g.addLoopVariable(slots_[k].type, slots_[k].value, dependence)});
+        slots_[k].value = g.loopVariable(variables.back().number).in;
     }
     ++branchDepth_;
     const NodeId conditionNode = condition().nodeIn(g, Type::Bool);
     body();
     --branchDepth_;
     std::vector<NodeId> next;
-    for (std::size_t k = 0; k < before.size(); ++k) next.push_back(slots_[k].value);
+    for (const Variable& variable : variables) next.push_back(slots_[variable.slot].value);
     g.endLoop(conditionNode, next);
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        const LoopVariable& v = g.loopVariable(variables[k]);
-        slots_[k].value = v.next == v.in ? v.initial : v.out;
+    for (const Variable& variable : variables) {
+        const LoopVariable& v = g.loopVariable(variable.number);
+        slots_[variable.slot].value = v.next == v.in ? v.initial : v.out;
     }
+    for (std::size_t k = count; k < slots_.size(); ++k) slots_[k].hasEnded = true;
 }
 
 // False, with a message, where another pass writes the field.

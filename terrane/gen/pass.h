@@ -42,7 +42,7 @@ class Pass {
     void while_(const std::function<Bool()>& condition, const std::function<void()>& body);
 
     // Noise at this column or voxel (3D: in 3D passes). `name` makes the seed. Sizes in blocks; see noise.h
-    // and noise_expressions.cpp.
+    // and noise_expressions.h.
     Float perlin2D(std::string_view name, int size, std::vector<float> weights);
     Float perlin3D(std::string_view name, int size, std::vector<float> weights);
     // The noise, and for what faded of it at this level grain: a random number for each column, of the same
@@ -121,6 +121,7 @@ class Pass {
     struct Slot {
         Type type;
         NodeId value;
+        bool hasEnded = false;  // made in a loop that is over
     };
     std::size_t newSlot(Type type, Value value);
     Value slotValue(std::size_t slot) { return {&graph_.graph, slots_[slot].value}; }

@@ -95,7 +95,9 @@ std::string voxelMistake(const VoxelShape& shape, const ShapeVoxel& v) {
 std::string shapeMistake(const VoxelShape& shape, const world::BlockRegistry& blocks) {
     if (shape.voxels.empty()) return "has no voxels";
     for (const ShapeBlock& b : shape.blocks) {
-        if (!blocks.find(b.name)) return fmt::format("unknown block \"{}\"", b.name);
+        const world::BlockType* type = blocks.find(b.name);
+        if (!type) return fmt::format("unknown block \"{}\"", b.name);
+        if (type->id == world::kAir) return "has voxels of air: leave them out";
         if (b.rank < 0 || b.rank > kMaxShapeRank)
             return fmt::format("rank {} is not in 0…{}", b.rank, kMaxShapeRank);
     }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <vector>
 
@@ -23,6 +24,8 @@ namespace terrane::gen {
 
 // A little less than 1.25², the least distance of points beyond the cells around: roundings do not reach it.
 constexpr float kStripeReach2 = 1.55f;
+static_assert(std::bit_cast<std::uint32_t>(1.0f / kStripeReach2) == 0x3F25294B,
+              "as gen_gpu/stripes.glsl has it");
 
 struct StripePoint {
     float x, y;   // in its cell, ¼…¾

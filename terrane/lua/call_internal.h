@@ -74,7 +74,7 @@ class Call {
     // The kind that arguments share: numbers take that of the others. Throws where there is none.
     Kind commonKind(std::initializer_list<int> arguments) const;
     const Object& object(int argument, Tag tag) const;
-    // The number of a field of one of two kinds.
+    // The number of a field of this kind.
     std::uint32_t field(int argument, Kind kind) const;
 
     // Pushes a value; literals but for blocks as Lua's own.

@@ -33,7 +33,10 @@ Parts selectParts(Bool condition, Kind kind, const Parts& a, const Parts& b) {
 
 int select(Call& c) {
     const Kind kind = c.commonKind({2, 3});
-    return c.push(kind, selectParts(c.get<Bool>(1), kind, c.parts(2, kind), c.parts(3, kind)));
+    // One after the other: names of blocks are numbered as they come, on every machine alike.
+    const Bool condition = c.get<Bool>(1);
+    const Parts a = c.parts(2, kind), b = c.parts(3, kind);
+    return c.push(kind, selectParts(condition, kind, a, b));
 }
 
 // Pushes a case's condition and value.

@@ -20,6 +20,8 @@ double operationsOf(const gen::NoiseCall& call) {
             return 300.0 * call.maxPoints;
         case gen::NoiseKind::Drainage:
             return 100;
+        case gen::NoiseKind::Stripes2D:
+            return 400;  // nine cells and more, some 40 operations each
         default:
             return 10.0 * static_cast<double>(call.weights.size() + 1);
     }

@@ -10,7 +10,7 @@ namespace terrane::lua {
 
 struct Option {
     const char* name;
-    std::variant<int*, float*> value;  // int also for those declared as a whole number
+    std::variant<int*, float*> value;
 };
 
 // Sets what the table names. Throws where it names anything else.

@@ -291,6 +291,31 @@ TEST(BuilderLoops, VariablesChangeAtOnce) {
         });
 }
 
+TEST(BuilderLoops, AVariableThatIsMadeInALoopEndsWithIt) {
+    expectNumbers(
+        [](Pass& p) {
+            Var<Int> n = p.var(Int(0)), left = p.var(p.z() & 3);
+            const auto loop = [&] {
+                p.while_([&] { return left > 0; },
+                         [&] {
+                             Var<Int> next = p.var(Int(0));
+                             next = n + 2;
+                             n = static_cast<Int>(next);
+                             left = left - 1;
+                         });
+            };
+            loop();
+            p.if_(n > 2, [&] { n = n + 100; });
+            left = Int(1);
+            loop();
+            return Int(n);
+        },
+        [](int32_t, int32_t, int32_t z) {
+            const int n = 2 * (z & 3);
+            return (n > 2 ? n + 100 : n) + 2;
+        });
+}
+
 TEST(BuilderLoops, ALoopWithoutAnEndEnds) {
     expectBlocks(
         [](GeneratorBuilder& g) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tests/gen/pass_runner.h"
+#include "tests/gen/worst_error.h"
 
 namespace terrane::gen {
 namespace {
@@ -50,11 +51,6 @@ double errorUlp(float value, double exact) {
     std::frexp(exact, &exponent);
     const int unit = std::max(exponent - 24, -149);
     return std::abs(double{value} - exact) / std::ldexp(1.0, unit);
-}
-
-// A comparison that NaN fails.
-void raise(double& worst, double error) {
-    if (!(error <= worst)) worst = error;
 }
 
 TEST(DetMath, DivisionIsWithinTwoUnitsInTheLastPlace) {

@@ -62,7 +62,7 @@ Chunks generateAll(const Generator& generator, const std::vector<ChunkPos>& posi
     return chunks;
 }
 
-// The chunks by position in the list, made by threads that each take every n-th one of `order`.
+// The chunks by position in the list, made by threads that each take the next one of `order`.
 Chunks generateBy(const Generator& generator, const std::vector<ChunkPos>& positions,
                   const std::vector<std::size_t>& order, int threadCount) {
     Chunks chunks(positions.size());

@@ -48,9 +48,12 @@ class PassRunner {
     }
 
     std::unique_ptr<BlockArray> run3D(std::size_t pass, bool shortens = true) {
-        const VoxelPass voxelPass(graph.passes[pass], graph.noises);
+        return run3D(graph.passes[pass], VoxelPass(graph.passes[pass], graph.noises), shortens);
+    }
+    std::unique_ptr<BlockArray> run3D(const PassGraph& pass, const VoxelPass& voxelPass,
+                                      bool shortens = true) {
         auto result = std::make_unique<BlockArray>();
-        writtenFields.resize(graph.passes[pass].fields.size());
+        writtenFields.resize(pass.fields.size());
         std::vector<ColumnValues*> pointers;
         for (ColumnValues& values : writtenFields) pointers.push_back(&values);
         executor().setShortens(shortens);

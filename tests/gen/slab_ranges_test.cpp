@@ -108,14 +108,36 @@ TEST_F(SlabRangesTest, BlocksOfThePassBeforeAreLookedAt) {
 
 // More kinds of slabs than there is room for: the whole pass runs.
 TEST_F(SlabRangesTest, PassesOfTooManyKindsRunWhole) {
-    const auto slabs = run([](Pass& p, Field<Int> height) {
-        Var<Int> sum = p.var(p.read(height));
-        for (int bit = 0; bit < 8; ++bit) {
-            p.if_((p.z() & (1 << bit)) == 0, [&] { sum = Int(sum) * 3 + p.read(height); });
-        }
-        p.setBlock(Block(static_cast<Int>(sum)));
-    });
-    EXPECT_EQ(layers(slabs, Way::Short) + layers(slabs, Way::Repeated) + layers(slabs, Way::Whole), 256);
+    constexpr int kSteps = 20, kKinds = (kSteps + 1) * (kSteps + 1);
+    PassRunner runner(build([](GeneratorBuilder& g) {
+        const auto a = g.field<Int>("a"), b = g.field<Int>("b");
+        g.pass2D("fields", [&](Pass& p) {
+            p.set(a, p.x());
+            p.set(b, p.y());
+        });
+        g.pass3D("ground", [&](Pass& p) {
+            Var<Int> sum = p.var(p.z());
+            for (int k = 0; k < kSteps; ++k) {
+                p.if_(p.read(a) > k, [&] { sum = Int(sum) * 3 + 1; });
+                p.if_(p.read(b) > k, [&] { sum = Int(sum) * 5 + 1; });
+            }
+            p.setBlock(Block(static_cast<Int>(sum)));
+        });
+    }));
+    const PassGraph& ground = runner.graph.passes[1];
+    const VoxelPass pass(ground, runner.graph.noises);
+    int shortRuns = 0;
+    for (int kind = 0; kind < kKinds; ++kind) {
+        runner.fields[0].fill(bitsOf(kind / (kSteps + 1)));
+        runner.fields[1].fill(bitsOf(kind % (kSteps + 1)));
+        const auto whole = runner.run3D(ground, pass, false);
+        ASSERT_TRUE(*whole == *runner.run3D(ground, pass)) << "kind " << kind;
+        const int wholeLayers = layers(runner.slabs(), Way::Whole);
+        ASSERT_TRUE(wholeLayers == 0 || wholeLayers == 256);
+        shortRuns += wholeLayers == 0;
+    }
+    EXPECT_GT(shortRuns, 0);
+    EXPECT_LE(shortRuns, 256);
 }
 
 TEST(ShortPasses, OfRandomGraphsGiveTheBlocksOfTheWholeOnes) {

@@ -6,7 +6,7 @@
 namespace terrane::gen::continents {
 namespace {
 
-// Raises the land around block 0, 0, where new worlds begin, to `height` within `radius` blocks.
+// Raises the land around block 0, 0, where new worlds begin, by kRaise, within kRadius blocks.
 Float originLand(Pass& p) {
     constexpr int kRadius = 1800;
     constexpr float kRaise = 0.5f;

@@ -40,10 +40,6 @@ void Canvas::set(int x, int y, int z, Paint paint) {
     if (!isWood(cell) || isWood(paint)) cell = paint;
 }
 
-void Canvas::erase(int x, int y, int z) {
-    if (isInside(x, y, z)) cells_[index(x, y, z)] = 0;
-}
-
 void Canvas::ball(Point middle, float radius, Paint paint) {
     if (radius < 0.75f) return set(roundToInt(middle.x), roundToInt(middle.y), roundToInt(middle.z), paint);
     const int reach = static_cast<int>(radius + 1.0f);

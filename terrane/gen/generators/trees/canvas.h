@@ -24,7 +24,6 @@ class Canvas {
     Paint at(int x, int y, int z) const;  // 0 outside
     // Outside of a shape's bounds nothing is drawn, and leaves never take the place of wood.
     void set(int x, int y, int z, Paint paint);
-    void erase(int x, int y, int z);
     bool isWood(Paint paint) const { return paint != 0 && blocks_[paint - 1u].rank >= kWoodRank; }
 
     // A limb whose radius changes from one end to the other; one voxel wide below a radius of 0.75.
