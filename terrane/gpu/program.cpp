@@ -123,9 +123,6 @@ void Program::useNone() {
 void Program::set(GLint location, GLuint value) const {
     glProgramUniform1ui(id(), location, value);
 }
-void Program::set(GLint location, glm::uvec2 value) const {
-    glProgramUniform2uiv(id(), location, 1, &value.x);
-}
 void Program::set(GLint location, glm::uvec4 value) const {
     glProgramUniform4uiv(id(), location, 1, &value.x);
 }

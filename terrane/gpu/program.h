@@ -14,8 +14,8 @@ namespace terrane::gpu {
 
 class Program {
   public:
-    // The error's first line names the shader; the compiler's messages follow, one a line, each with its file
-    // and line.
+    // The error is one line: the shader's name, then the compiler's messages with file and line, separated by
+    // " | ".
     [[nodiscard]] static base::Result<Program> graphics(const ShaderLoader& loader,
                                                         std::string_view vertexName,
                                                         std::string_view fragmentName,
@@ -31,7 +31,6 @@ class Program {
 
     // By explicit location: layout(location = 0) uniform uint …
     void set(GLint location, GLuint value) const;
-    void set(GLint location, glm::uvec2 value) const;
     void set(GLint location, glm::uvec4 value) const;
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }

@@ -121,12 +121,6 @@ void Texture2D::generateMipmaps() {
     glGenerateTextureMipmap(id());
 }
 
-void Texture2D::copyFrom(const Texture2D& other) {
-    assert(other.size_ == size_ && other.format_ == format_ && "copies are of one kind");
-    glCopyImageSubData(other.id(), GL_TEXTURE_2D, 0, 0, 0, 0, id(), GL_TEXTURE_2D, 0, 0, 0, 0, size_.x,
-                       size_.y, 1);
-}
-
 std::size_t Texture2D::sizeBytes() const {
     return id() == 0 ? 0 : levelBytes(size_, levels_, format_);
 }

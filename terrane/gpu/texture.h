@@ -26,8 +26,6 @@ class Texture2D {
     // The whole of one level.
     void upload(int level, GLenum format, GLenum type, std::span<const std::byte> data);
     void generateMipmaps();
-    // Level 0 of a texture of the same size and format.
-    void copyFrom(const Texture2D& other);
     void bind(GLuint unit) const;
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }

@@ -26,7 +26,7 @@ void raiseLight(LightField& field);
 void propagateDecreases(LightField& field);
 
 // light = source where `decreased` is not 0, else before: whole bricks.
-void replaceDecreased(const LightValue* decreaseQueue, const LightValue* source, const LightValue* before,
+void replaceDecreased(const LightValue* decreased, const LightValue* source, const LightValue* before,
                       LightValue* light);
 
 }  // namespace terrane::light

@@ -15,7 +15,8 @@ class GpuBatchLighter : public light::BatchLighter {
   public:
     // Memory on the GPU for each of three batches in flight, as large as the largest batch was: 132 KB a
     // chunk that is lit or lies beside one, 129 KB a chunk that is lit, and the blocks. 64 chunks of a square
-    // are 100 with those around them: 21 MB; the most, 256 of 324, 77 MB. `table` outlives it.
+    // are 100 with those around them, in buffers of 128: 25 MB; the most, 256 of 324, 85 MB. `table` outlives
+    // it.
     [[nodiscard]] static base::Result<GpuBatchLighter> create(const gpu::ShaderLoader& shaders,
                                                               const light::LightTable& table);
     GpuBatchLighter(GpuBatchLighter&&) noexcept;

@@ -128,7 +128,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
     const mesh::MeshOptions options = chunks.front().options;
     assert(mesh::isMeshSectionHeight(options.meshSectionHeight) && "a power of two, 8 to 128");
-    const gpu::DebugGroup direction("count quads");
+    const gpu::DebugGroup group("count quads");
     Impl& m = *impl_;
     m.upload.clear();
     for (const mesh::MeshInput& chunk : chunks) {
@@ -198,7 +198,7 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     const std::vector<mesh::MeshSection> counted = meshSections();
     assert(firstQuads.size() == counted.size() && "a place for each mesh section");
     if (m.unitCount == 0) return;
-    const gpu::DebugGroup direction("write quads");
+    const gpu::DebugGroup group("write quads");
     std::vector<uint> places;
     places.reserve(counted.size() * shared::kRangesPerMeshSection);
     for (std::size_t k = 0; k < counted.size(); ++k) {

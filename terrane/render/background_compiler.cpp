@@ -55,6 +55,7 @@ struct BackgroundCompiler::State {
     struct Wanted {
         glm::ivec2 size;  // of the small image
         RenderOptions options;
+        WorldFeatures features;
 
         bool operator==(const Wanted&) const = default;
     };
@@ -104,7 +105,6 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     if (!context) return tl::unexpected(context.error());
     auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
-    if (auto used = renderer->useLand(true); !used) return used;
     renderer->setViewDistance(1);
     renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());
@@ -112,7 +112,12 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
         TERRANE_ZONE("compile shaders");
         RenderOptions options = wanted->options;
         options.shadowSize = kSmallShadowMap;
-        if (renderer->configure(wanted->size, options)) {
+        const auto configure = [&]() -> base::Result<void> {
+            if (auto used = renderer->useLand(wanted->features.hasLand); !used) return used;
+            if (auto used = renderer->useTint(wanted->features.hasTint); !used) return used;
+            return renderer->configure(wanted->size, options);
+        };
+        if (configure()) {
             // The second frame draws what was hidden in the first, by other passes.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();
@@ -150,8 +155,9 @@ BackgroundCompiler::~BackgroundCompiler() {
     state_->thread.join();
 }
 
-bool BackgroundCompiler::isReady(glm::ivec2 size, const RenderOptions& options) {
-    const State::Wanted wanted{{smallSide(size.x), smallSide(size.y)}, options};
+bool BackgroundCompiler::isReady(glm::ivec2 size, const RenderOptions& options,
+                                 const WorldFeatures& features) {
+    const State::Wanted wanted{{smallSide(size.x), smallSide(size.y)}, options, features};
     const std::lock_guard lock(state_->mutex);
     if (state_->isReady(wanted)) return true;
     if (state_->current == wanted) return false;

@@ -13,6 +13,13 @@
 
 namespace terrane::render {
 
+// What a renderer was told to draw, as far as its shaders depend on it.
+struct WorldFeatures {
+    bool hasTint = false, hasLand = false;  // Renderer::useTint(), useLand()
+
+    bool operator==(const WorldFeatures&) const = default;
+};
+
 class BackgroundCompiler {
   public:
     // Loader and registry outlive this; `textures` is called on the other thread.
@@ -22,9 +29,9 @@ class BackgroundCompiler {
     BackgroundCompiler(const BackgroundCompiler&) = delete;
     BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
 
-    // Whether a renderer of this size (pixels) can take these options without compiling. If not, they come
-    // next, in place of others that wait: ask again before each frame until it is so.
-    [[nodiscard]] bool isReady(glm::ivec2 size, const RenderOptions& options);
+    // Whether a renderer of such a world and this size (pixels) can take these options without compiling. If
+    // not, they come next, in place of others that wait: ask again before each frame until it is so.
+    [[nodiscard]] bool isReady(glm::ivec2 size, const RenderOptions& options, const WorldFeatures& features);
 
   private:
     struct State;

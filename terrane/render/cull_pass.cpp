@@ -71,7 +71,7 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     pass.cull_ = std::move(*cull);
     pass.compact_ = std::move(*compact);
     pass.hasIndirectCount_ = device.indirectCount;
-    const std::array<TwoCounts, shared::kMaxArenas> none{};  // 5 KB
+    const std::array<TwoCounts, shared::kMaxArenas> none{};  // 3.3 KB
     pass.countBuffer_ = gpu::Buffer(std::as_bytes(std::span(none)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
     for (Readback& readback : pass.readbacks_) {
         readback.buffer = gpu::ReadbackBuffer(sizeof(none), "draw counts");

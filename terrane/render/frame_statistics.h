@@ -15,7 +15,7 @@ constexpr std::array<std::string_view, 16> kPassNames = {
     "fill holes",   "figures",    "ambient occlusion", "sky",           "shade",      "peel",
     "shade layers", "god rays",   "depth of field",    "final"};
 
-// Of draw commands before quad_list.h shortens them: quads that are tested and left out count too.
+// What is drawn, without quads that quad_list.h leaves out. A draw command counts even if its list is empty.
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque

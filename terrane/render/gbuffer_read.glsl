@@ -20,9 +20,3 @@ float depthAt(ivec2 pixel, int k) {
 float blocksOfDepth(float depth) {
     return frame.nearPlane / max(depth, 1e-9);
 }
-
-bool isOneSurface(ivec2 pixel, vec4 first) {
-    bool isSame = true;
-    for (int k = 1; k < MSAA_SAMPLES; ++k) isSame = isSame && packedSurfaceAt(pixel, k) == first;
-    return isSame;
-}

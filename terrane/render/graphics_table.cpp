@@ -179,7 +179,7 @@ std::string presetNames() {
     return fmt::format("{}", fmt::join(allPresetNames(), ", "));
 }
 
-std::string isPresetName(const std::string& preset) {
+std::string presetNameError(const std::string& preset) {
     if (findPreset(preset, false)) return {};
     return base::notOneOf(allPresetNames(), preset);
 }

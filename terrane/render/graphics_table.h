@@ -34,8 +34,8 @@ struct GraphicsChoices {
     std::optional<int> viewDistance = {};
 };
 
-std::string presetNames();                            // "auto, low, …"
-std::string isPresetName(const std::string& preset);  // empty, or what is wrong with it
+std::string presetNames();                               // "auto, low, …"
+std::string presetNameError(const std::string& preset);  // empty, or what is wrong with it
 GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer);
 
 }  // namespace terrane::render

@@ -96,6 +96,8 @@ void LandMap::setReach(double blocks) {
         levels_[level] = {};
         hasNewTiles_[level] = true;  // those that the clipmap still has
     }
+    // The border of what was the coarsest level has the next one beyond it now.
+    if (used > used_ && used_ > 0) hasNewTiles_[static_cast<std::size_t>(used_ - 1)] = true;
     used_ = used;
     needsSweep_.fill(true);
 }

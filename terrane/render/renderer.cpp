@@ -70,6 +70,7 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
         if (!done) return done;
     }
     if (auto colors = world::topColors(blocks, textures)) topColors_ = std::move(*colors);
+    if (land_.isUsed()) land_ = LandTextures::create(topColors_);  // its tiles come again, with these colors
     resources_.setTextures(blocks, std::move(*loaded));
     passes_.shadowMap.forget();
     return {};

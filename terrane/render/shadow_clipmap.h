@@ -107,7 +107,7 @@ class ShadowClipmap {
         std::optional<ShadowPlane> plane;
         std::array<Tile, kShadowSlots> tiles;
     };
-    // Tiles of a layer, and how far each is from the middle.
+    // A tile that is to be drawn.
     struct Wanted {
         int cascade = 0;
         std::size_t layer = 0;

@@ -10,7 +10,6 @@ SHARED_BEGIN
 // Level l has texels of 2^(l + 3) blocks, the columns of the generator's level l + 3; seen from where a level
 // begins to be used a texel is at most 1/48 rad wide. The coarsest reaches 114,688 blocks.
 const uint kLandLevels = 8u;
-const uint kLandTexels = 256u;  // along a side of a level
 
 // A level's middle part is used, up to this share of its half side; its outermost texels hold the next
 // level's values, so that no ring is seen where levels change.

@@ -22,7 +22,7 @@ struct Particle {
 
 class BlockParticles {
   public:
-    // 24 of a block; at most 480 in all, the oldest go first: 480 × 56 bytes = 27 KB.
+    // 24 of a block; at most 480 in all, the oldest go first: 480 × 48 bytes = 23 KB.
     static constexpr std::size_t kOfABlock = 24, kMost = 480;
     static constexpr float kSeconds = 0.8f, kGravity = 18;
 

@@ -57,6 +57,7 @@ base::Result<void> BlockPreview::setTextures(const render::TextureSource& textur
 
 base::Result<void> BlockPreview::reloadShaders() {
     images_.clear();
+    sky_ = {};
     return renderer_.reloadShaders();
 }
 

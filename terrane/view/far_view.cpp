@@ -24,11 +24,13 @@ void FarView::beforeChunk(world::ChunkPos pos) {
 bool FarView::upload(std::chrono::steady_clock::time_point deadline) {
     TERRANE_ZONE("upload tiles");
     while (std::chrono::steady_clock::now() < deadline) {
-        const std::vector<stream::TileMesh> tiles = tiles_.takeMeshes(1);
+        std::vector<stream::TileMesh> tiles = tiles_.takeMeshes(1);
         if (tiles.empty()) return true;
         if (!tiles_.table().records.at(tiles.front().pos).isShown)
             renderer_.setShown(tiles.front().pos, false);
-        if (!renderer_.setChunk(tiles.front().pos, *tiles.front().mesh)) return false;
+        if (renderer_.setChunk(tiles.front().pos, *tiles.front().mesh)) continue;
+        tiles_.putBack(std::move(tiles.front()));
+        return false;
     }
     return true;
 }

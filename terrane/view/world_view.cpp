@@ -39,6 +39,7 @@ void WorldView::follow(const render::Camera& camera, int viewDistance) {
 void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 direction) {
     if (viewDistance != requestedDistance_) {
         requestedDistance_ = viewDistance_ = viewDistance;
+        horizon_ = requestedHorizon_;
         hasNoticed_ = false;
     }
     center_ = center;

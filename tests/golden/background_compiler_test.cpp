@@ -16,6 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using render::RenderOptions;
 
+constexpr render::WorldFeatures kWorld{.hasTint = true, .hasLand = true};
+
 class BackgroundCompilerTest : public GoldenTest {
   protected:
     // Before there is a context. Mesa keeps a file for each shader.
@@ -43,7 +45,7 @@ class BackgroundCompilerTest : public GoldenTest {
     }
 
     static void waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
-        while (!compiler.isReady(kImageSize, options)) std::this_thread::sleep_for(5ms);
+        while (!compiler.isReady(kImageSize, options, kWorld)) std::this_thread::sleep_for(5ms);
     }
 
     static void configure(render::Renderer& renderer, const RenderOptions& options) {
@@ -59,7 +61,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     // renderer has is to be read, as it is in all runs of a program but the first one.
     waitFor(compiler_, render::plainOptions(kSamples));
     render::Renderer renderer = makeRenderer();
-    ASSERT_TRUE(renderer.useLand(true));  // as every world has it
+    ASSERT_TRUE(renderer.useLand(kWorld.hasLand) && renderer.useTint(kWorld.hasTint));
     world::World world = flatWorld(2);
     placeGallery(world);
     placePool(world);
@@ -95,12 +97,12 @@ TEST_F(BackgroundCompilerTest, TheLastWishIsMet) {
     RenderOptions options = render::findPreset("low", true)->options;
     for (const int layers : {0, 1, 2, 3}) {
         options.transparencyLayers = layers;
-        EXPECT_FALSE(compiler_.isReady(kImageSize, options));
+        EXPECT_FALSE(compiler_.isReady(kImageSize, options, kWorld));
     }
     waitFor(compiler_, options);
-    EXPECT_TRUE(compiler_.isReady({1280, 720}, options)) << "programs do not depend on the size";
+    EXPECT_TRUE(compiler_.isReady({1280, 720}, options, kWorld)) << "programs do not depend on the size";
     options.transparencyLayers = 2;
-    EXPECT_FALSE(compiler_.isReady(kImageSize, options)) << "nobody waited for it";
+    EXPECT_FALSE(compiler_.isReady(kImageSize, options, kWorld)) << "nobody waited for it";
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
-// Where the golden images of the effects are taken: a glade of the overworld and its neighborhood, seen
-// with all that a preset has, but for one thing.
+// Where the golden images of the effects are taken: a glade of the overworld and its neighborhood, drawn
+// with plain options and one effect each.
 #pragma once
 
 #include <thread>

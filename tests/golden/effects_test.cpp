@@ -24,7 +24,7 @@ class Effects : public GoldenTest {
         GoldenTest::TearDown();
     }
 
-    // Everything but what `change` says.
+    // Plain options, changed by `change`.
     template <class Change>
     base::Image imageOf(const render::FrameInput& input, Change change) {
         RenderOptions options = render::plainOptions(samples_);

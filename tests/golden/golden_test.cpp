@@ -80,7 +80,7 @@ TEST_F(Golden, Landscape) {
     input.view = render::View::Light;
     EXPECT_TRUE(matchesGolden("landscape_light", draw(renderer, input)));
     input.view = render::View::Merging;
-    EXPECT_TRUE(matchesGolden("landscape_aggregation", draw(renderer, input)));
+    EXPECT_TRUE(matchesGolden("landscape_merging", draw(renderer, input)));
 }
 
 // However faces are merged, and however high mesh sections are, the image is that of single faces. Normals

@@ -180,7 +180,7 @@ constexpr int kEditsAWorld = 1500;
 constexpr int kEditsAWorld = 60;
 #endif
 
-// Edits one at a time and in batches of up to twelve; compared after each batch with `step` edits between.
+// Edits one at a time and in batches of up to twelve; compared after ten edits at least.
 void editRandomly(const TestArea::Source& source, std::uint32_t seed, ChunkPos corner) {
     LitArea lit(TestArea(3, 3, source), corner);
     Random random(seed);

@@ -19,8 +19,13 @@ class Tour : public gpu::GlTest {
             return static_cast<int>(random_() % static_cast<unsigned>(count));
         };
         RenderOptions o;
+        // A new option does not compile here before it is set below.
+        [[maybe_unused]] const auto& [samples, shading, light, shadows, shadowSize, soft, occlusion,
+                                      depthOfField, fog, rays, clouds, animation, filtering, alphaTest, water,
+                                      layers, single, junctions, culling] = o;
         o.msaaSamples = 1 << pick(3);
         o.shading = static_cast<Shading>(pick(3));
+        o.light = static_cast<LightSampling>(pick(2));
         o.shadows = static_cast<ShadowReach>(pick(4));
         o.shadowSize = 256;
         o.softShadows = pick(2) == 0;
@@ -32,6 +37,7 @@ class Tour : public gpu::GlTest {
         o.animation = pick(2) == 0;
         o.sharpFiltering = pick(2) == 0;
         o.msaaAlphaTest = pick(2) == 0;
+        o.water = static_cast<Water>(pick(2));
         o.transparencyLayers = pick(4);
         o.singleTransparencyLayer = pick(8) == 0 ? 1 + pick(3) : 0;
         o.tJunctions = static_cast<TJunctions>(pick(3));
