@@ -15,7 +15,8 @@ base::Result<world::BlockRegistry> loadBlocks(
     const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();
 
-// The files that are compiled in: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml".
+// The files that are compiled in: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml",
+// "skeleton/…".
 struct BuiltInFile {
     std::string_view path, data;  // live as long as the program
 };

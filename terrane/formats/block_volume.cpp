@@ -1,6 +1,7 @@
 #include "terrane/formats/block_volume.h"
 
 #include <string>
+#include <unordered_map>
 
 namespace terrane::formats {
 
@@ -43,14 +44,15 @@ base::Result<world::Structure> toStructure(const BlockVolume& volume, const worl
                           world::kChunkHeight);
     // Different entries in the order in which cells first have them.
     std::vector<std::uint32_t> entryOf(volume.palette.size(), UINT32_MAX);
+    std::unordered_map<std::uint32_t, std::uint32_t> known;  // by id and state
     for (const std::uint16_t cell : volume.cells) {
         std::uint32_t& entry = entryOf[cell];
         if (entry == UINT32_MAX) {
             const BlockAndState block = volume.palette[cell];
-            const world::StructureBlock named{blocks.type(block.id).name, block.state};
-            entry = 0;
-            while (entry < structure.palette.size() && !(structure.palette[entry] == named)) ++entry;
-            if (entry == structure.palette.size()) structure.palette.push_back(named);
+            const auto key = static_cast<std::uint32_t>(block.id << 16 | block.state);
+            const auto [found, isNew] = known.try_emplace(key, static_cast<std::uint32_t>(known.size()));
+            if (isNew) structure.palette.push_back({blocks.type(block.id).name, block.state});
+            entry = found->second;
         }
         structure.cells.push_back(entry);
     }

@@ -1,8 +1,11 @@
 #include "terrane/formats/glb_mesh.h"
 
+#include <algorithm>
 #include <array>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <string_view>
+#include <utility>
 
 #include "terrane/base/image.h"
 #include "terrane/mesh/shape_faces.h"
@@ -41,19 +44,29 @@ GlbAlpha alphaOf(AlphaMode alpha) {
     }
 }
 
-// Alpha that stands for light or tint is none to other programs.
-void makeOpaque(base::Image& image) {
-    for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
+GlbImageUse useOf(AlphaMode alpha, bool isGlow) {
+    if (alpha == AlphaMode::TestGlow) return isGlow ? GlbImageUse::GlowAboveHoles : GlbImageUse::Holes;
+    if (isGlow) return GlbImageUse::Glow;
+    return alphaOf(alpha) == GlbAlpha::Opaque ? GlbImageUse::Opaque : GlbImageUse::Alpha;
 }
 
-// The light that each texel gives: its color times its alpha.
-void keepGlow(base::Image& image) {
+// What alpha means is in the image then: other programs know holes and coverage alone. A glow is the light
+// that each texel gives, its color times its share (world::AlphaMode).
+void prepareImage(base::Image& image, GlbImageUse use) {
+    if (use == GlbImageUse::Alpha) return;
     for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {
-        const unsigned alpha = image.rgba[k + 3];
+        const int alpha = std::exchange(image.rgba[k + 3], std::uint8_t{255});
+        if (use == GlbImageUse::Holes && alpha < 64) image.rgba[k + 3] = 0;
+        if (use != GlbImageUse::Glow && use != GlbImageUse::GlowAboveHoles) continue;
+        const int share = use == GlbImageUse::Glow ? alpha : std::max(2 * alpha - 255, 0);
         for (std::size_t c = 0; c < 3; ++c)
-            image.rgba[k + c] = static_cast<std::uint8_t>(image.rgba[k + c] * alpha / 255);
-        image.rgba[k + 3] = 255;
+            image.rgba[k + c] = static_cast<std::uint8_t>(image.rgba[k + c] * share / 255);
     }
+}
+
+std::string_view suffixOf(GlbImageUse use) {
+    if (use == GlbImageUse::Opaque) return "";
+    return use == GlbImageUse::Alpha || use == GlbImageUse::Holes ? "_alpha" : "_glow";
 }
 
 }  // namespace
@@ -91,19 +104,15 @@ void GlbMesh::addQuad(shared::Quad quad, glm::ivec3 corner) {
 
 base::Result<std::size_t> GlbMesh::imageOf(const world::Material& material, bool isGlow, GlbModel& model) {
     const std::string& texture = blocks_.textures()[material.texture];
-    const bool isOpaque = alphaOf(material.alpha) == GlbAlpha::Opaque;
-    const std::string name = texture + (isGlow ? "_glow" : isOpaque ? "" : "_alpha");
-    const auto [place, isNew] = imageNames_.emplace(name, model.images.size());
+    const GlbImageUse use = useOf(material.alpha, isGlow);
+    const auto [place, isNew] = imageNumbers_.try_emplace({texture, use}, model.images.size());
     if (!isNew) return place->second;
     auto image = textures_(texture);
     if (!image) return tl::unexpected(image.error());
-    if (isGlow)
-        keepGlow(*image);
-    else if (isOpaque)
-        makeOpaque(*image);
+    prepareImage(*image, use);
     auto png = base::encodePng(*image);
     if (!png) return tl::unexpected(png.error());
-    model.images.push_back({name, std::move(*png)});
+    model.images.push_back({texture + std::string(suffixOf(use)), std::move(*png)});
     return place->second;
 }
 
@@ -119,7 +128,7 @@ base::Result<GlbModel> GlbMesh::finish(std::string name) {
         part.name = model.images[*image].name;
         part.alpha = alphaOf(material.alpha);
         part.isTwoSided = material.twoSided;
-        if (material.alpha == AlphaMode::Glow) {
+        if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::TestGlow) {
             const auto glow = imageOf(material, true, model);
             if (!glow) return tl::unexpected(glow.error());
             part.glow = static_cast<int>(*glow);

@@ -5,8 +5,10 @@
 // mirrored.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -17,8 +19,11 @@
 
 namespace terrane::formats {
 
-// 4 vertices of 32 bytes and 6 indices of 4 a quad: 608 MiB.
+// 4 vertices of 32 bytes and 6 indices of 4 a quad: 608 MB, and as much again while a file is made.
 constexpr std::size_t kMaxGlbQuads = 4'000'000;
+
+// What an image is made for out of a texture.
+enum class GlbImageUse : std::uint8_t { Opaque, Alpha, Holes, Glow, GlowAboveHoles };
 
 class GlbMesh {
   public:
@@ -41,8 +46,8 @@ class GlbMesh {
     const world::BlockRegistry& blocks_;
     const world::TextureSource& textures_;
     std::vector<shared::ShapeFace> faces_;
-    std::map<shared::uint, GlbPart> parts_;          // by material
-    std::map<std::string, std::size_t> imageNames_;  // in the model
+    std::map<shared::uint, GlbPart> parts_;                                    // by material
+    std::map<std::pair<std::string, GlbImageUse>, std::size_t> imageNumbers_;  // in the model, of textures
     std::size_t quads_ = 0;
 };
 

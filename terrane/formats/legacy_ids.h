@@ -15,8 +15,8 @@ class LegacyIds {
     // Text of the table; `name` stands in errors, which read "name:line: key: what is wrong". One table
     // [ids]:
     //   53 = "oak_stairs[half=bottom]"            for all data
-    //   5 = ["oak_planks", "spruce_planks", …]    by data; after the last: data of 8 bits less, else the
-    //   first
+    //   5 = ["oak_planks", "spruce_planks", …]    by data; after the last: the entry of data - 8, else
+    //   the first
     [[nodiscard]] static base::Result<LegacyIds> parse(std::string_view toml, std::string_view name);
 
     // "minecraft:id_7_1" for numbers that the table lacks.

@@ -131,7 +131,7 @@ void appendVarint(std::string& bytes, std::uint32_t value) {
 
 base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyIds& ids) {
     const auto nbt = inflate(bytes, kMaxSchematicBytes);
-    if (!nbt) return damagedSchematic(nbt.error().message);
+    if (!nbt) return base::fail(nbt.error().code, "schematic: {}", nbt.error().message);
     const auto root = decodeNbt(*nbt);
     if (!root) return tl::unexpected(root.error());
     // Version 3 has a compound within an outer one without name.

@@ -20,7 +20,11 @@ constexpr std::array<std::string_view, 4> kDirections{"south", "east", "north", 
 constexpr std::array<std::string_view, 4> kArmDirections{"east", "west", "north", "south"};
 // Sixteenths of a turn with the clock, 0 is south.
 constexpr int kRotations = 16;
-constexpr int kGrownAge = 7;
+// The age of a ripe plant.
+int grownAge(const NamedState& state) {
+    const bool hasFewAges = state.name == "minecraft:beetroots" || state.name == "minecraft:nether_wart";
+    return hasFewAges ? 3 : 7;
+}
 constexpr std::uint16_t kLiquidForm = 15;  // level and falling
 
 bool is(const NamedState& state, std::string_view property, std::string_view value) {
@@ -77,8 +81,8 @@ std::uint16_t armsOf(const NamedState& state) {
 // A plant's state counts the stages that are left.
 std::uint16_t growthOf(const BlockType& type, const NamedState& state) {
     const int stages = static_cast<int>(type.growth.size());
-    const int age = std::clamp(numberOf(state, "age", kGrownAge), 0, kGrownAge);
-    return static_cast<std::uint16_t>(((kGrownAge - age) * stages + kGrownAge - 1) / kGrownAge);
+    const int grown = grownAge(state), age = std::clamp(numberOf(state, "age", grown), 0, grown);
+    return static_cast<std::uint16_t>(((grown - age) * stages + grown - 1) / grown);
 }
 
 void addMissing(NamedState& state, std::string_view property, std::string_view value) {
@@ -133,7 +137,7 @@ void addProperties(const BlockType& type, std::uint16_t state, bool isOpposite, 
     if (world::hasBehavior(type, "flows")) addMissing(named, "level", std::to_string(state & kLiquidForm));
     if (!type.growth.empty()) {
         const int stages = static_cast<int>(type.growth.size());
-        const int age = kGrownAge - std::min<int>(state, stages) * kGrownAge / stages;
+        const int grown = grownAge(named), age = grown - std::min<int>(state, stages) * grown / stages;
         addMissing(named, "age", std::to_string(age));
     }
 }

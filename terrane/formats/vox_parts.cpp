@@ -65,7 +65,7 @@ std::string_view valueOf(const VoxDictionary& entries, std::string_view key) {
     return found == entries.end() ? std::string_view() : found->second;
 }
 
-// "x y z"; 0 for what is missing. No world is larger than 2^20 blocks here, so that sums stay numbers.
+// "x y z"; 0 for what is missing. Steps are clamped to 2^20 blocks: sums of nested ones fit an int.
 glm::ivec3 stepOf(std::string_view text) {
     constexpr int kFarthest = 1 << 20;
     glm::ivec3 step(0);

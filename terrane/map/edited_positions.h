@@ -1,4 +1,5 @@
-// Which chunks of a world are edited, and so which tiles above them may be. On one thread.
+// Which chunks of a world are edited, and so which tiles above them may be. add() on one thread; any thread
+// while nothing is added.
 #pragma once
 
 #include <array>

@@ -40,11 +40,6 @@ std::vector<std::uint8_t> biomesOf(const gen::Biomes& biomes, const ColumnRect& 
 
 }  // namespace
 
-std::uint32_t rgbNumber(const glm::vec3& color) {
-    const Rgb rgb = rgbOf(color);
-    return std::uint32_t{rgb.red} << 16 | std::uint32_t{rgb.green} << 8 | rgb.blue;
-}
-
 int marginOf(Layer layer) {
     if (layer == Layer::Biome) return 0;
     return layer == Layer::Night ? kLampMargin : kReliefMargin;
@@ -135,9 +130,17 @@ base::Result<base::Image> MapPainter::paintArea(const ColumnRect& rect, const Ed
 std::uint64_t MapPainter::colorDigest() const {
     // Another way of painting gets another number: folders of images are not mixed
     // (apps/terrane/maps/static_map.h).
-    constexpr int kPainting = 1;
+    constexpr int kPainting = 2;
     std::string text = fmt::format("{}", kPainting);
-    for (const BlockColor& color : colors_) text += fmt::format(" {:08x}", rgbNumber(color.mean));
+    const auto add = [&](const glm::vec3& color) {
+        text += fmt::format(" {} {} {}", color.r, color.g, color.b);
+    };
+    for (const BlockColor& color : colors_) {
+        add(color.mean);
+        for (const glm::vec3& texel : color.texels) add(texel);
+        add(color.emission);
+        text += fmt::format(" {} {} {}", color.isTinted, static_cast<int>(color.kind), color.reach);
+    }
     return base::hash64(text);
 }
 

@@ -19,7 +19,9 @@ world::PackedColor TintSource::sample(int level, std::int64_t x, std::int64_t y)
         if (const auto* found = tiles_.find(chunk)) tile = *found;
     }
     if (!tile) {
-        tile = std::make_shared<const world::TintTile>(generators_.tint(chunk).value());
+        const auto made = generators_.tint(chunk);
+        if (!made) return world::kNeutralTint;
+        tile = std::make_shared<const world::TintTile>(*made);
         const std::lock_guard lock(mutex_);
         tiles_.put(chunk, tile, sizeof(world::TintTile) + 128);
     }

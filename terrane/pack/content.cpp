@@ -26,7 +26,7 @@ std::string texturePath(std::string_view name) {
 
 // The pack's own texture, or the built-in one.
 std::string textureName(const Pack& pack, const Pack& builtIn, const std::string& name) {
-    if (name.empty() || fileOf(pack, texturePath(name))) return qualified(pack, name);
+    if (fileOf(pack, texturePath(name))) return qualified(pack, name);
     return fileOf(builtIn, texturePath(name)) ? name : std::string();
 }
 
@@ -98,7 +98,7 @@ constexpr std::size_t kMaxTextureBytes = std::size_t{1} << 30;
 
 // Decodes the textures of packs once, so that what is wrong with one comes to light here.
 base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t count) {
-    std::size_t widest = 16;
+    std::size_t widest = 16, pixelBytes = 0;
     for (const Pack& pack : packs) {
         if (pack.info.name == kBuiltInPack) continue;
         for (const auto& [path, data] : pack.files) {
@@ -108,6 +108,10 @@ base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t cou
             if (!image) return tl::unexpected(image.error());
             if (auto checked = content::checkTexture(*image, placeOf(pack, path)); !checked) return checked;
             widest = std::max(widest, static_cast<std::size_t>(image->width));
+            pixelBytes += image->rgba.size();
+            if (pixelBytes > kMaxTextureBytes)
+                return base::fail(base::ErrorCode::BadInput,
+                                  "the textures of the packs have more than {} MiB", kMaxTextureBytes >> 20);
         }
     }
     if (widest * widest * 4 * count > kMaxTextureBytes)

@@ -114,9 +114,7 @@ class VideoFile : public FrameSink {
         close(child_.input);
         child_.input = -1;
         int status = 0;
-        while (waitpid(child_.id, &status, 0) < 0 && errno == EINTR) {
-        }
-        child_.id = -1;
+        waitForChild(status);
         if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) return failed();
         std::error_code error;
         std::filesystem::rename(unfinished_, file_, error);
@@ -126,12 +124,18 @@ class VideoFile : public FrameSink {
     }
 
   private:
+    void waitForChild(int& status) {
+        while (waitpid(child_.id, &status, 0) < 0 && errno == EINTR) {
+        }
+        child_.id = -1;
+    }
+
     // Waits for ffmpeg and leaves nothing of its file.
     void end() {
         if (child_.input >= 0) close(child_.input);
         child_.input = -1;
-        if (child_.id >= 0) waitpid(child_.id, nullptr, 0);
-        child_.id = -1;
+        int ignoredStatus = 0;
+        if (child_.id >= 0) waitForChild(ignoredStatus);
         std::error_code ignored;
         std::filesystem::remove(unfinished_, ignored);
     }

@@ -63,6 +63,8 @@ TEST_F(BlockMappingTest, TurnsAndHalves) {
     EXPECT_EQ(blockOf("water[level=9]"), "water/8");
     EXPECT_EQ(blockOf("wheat[age=7]"), "wheat");
     EXPECT_EQ(blockOf("wheat[age=0]"), "wheat/3");
+    EXPECT_EQ(blockOf("beetroots[age=3]"), "wheat") << "its last age";
+    EXPECT_EQ(blockOf("nether_wart[age=0]"), "wheat/3");
 }
 
 TEST_F(BlockMappingTest, NamesComeBackAsTheSameBlockForEveryBlockAndState) {

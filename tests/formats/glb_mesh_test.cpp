@@ -87,6 +87,14 @@ TEST_F(GlbMeshTest, MaterialsFollowAlpha) {
     const GlbModel lamp = modelOf(chunkWith("lamp_white"));
     ASSERT_GE(lamp.parts[0].glow, 0);
     EXPECT_EQ(lamp.images.size(), 2u);
+    const GlbModel crystal = modelOf(chunkWith("crystal"));
+    EXPECT_EQ(crystal.parts[0].alpha, GlbAlpha::Mask);
+    ASSERT_GE(crystal.parts[0].glow, 0);
+    const auto image = base::decodePng(crystal.images[crystal.parts[0].image].png, "crystal");
+    ASSERT_TRUE(image);
+    for (std::size_t k = 3; k < image->rgba.size(); k += 4) {
+        EXPECT_TRUE(image->rgba[k] == 0 || image->rgba[k] == 255) << "its glow is in the other image";
+    }
 }
 
 TEST_F(GlbMeshTest, TheFileHoldsTogether) {

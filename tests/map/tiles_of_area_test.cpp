@@ -88,13 +88,16 @@ TEST(TilesOfArea, AreAllThatShowIt) {
 
 TEST(TilesOfArea, LayersOfAPlaceStandTogether) {
     const std::vector<MapTile> tiles = tilesOf({0, 0, 600, 600}, kAllLayers, 0, 0);
+    int groups = 0;
     for (std::size_t k = 0; k + 3 < tiles.size() && tiles[k].layer != Layer::Isometric; k += 4) {
+        ++groups;
         for (std::size_t n = 0; n < 4; ++n) {
             EXPECT_EQ(tiles[k + n].layer, kAllLayers[n]);
             EXPECT_EQ(tiles[k + n].x, tiles[k].x);
             EXPECT_EQ(tiles[k + n].y, tiles[k].y);
         }
     }
+    EXPECT_EQ(groups, 9) << "three by three tiles of 256 pixels";
 }
 
 TEST(TilesOfArea, EndWithTheWorld) {
