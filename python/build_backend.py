@@ -32,7 +32,7 @@ def tag():
 
 def build(folder):
     """The folder of the built package."""
-    if not (folder / "CMakeCache.txt").exists():
+    if not (folder / "build.ninja").exists():  # made last: the first try may have lacked a library
         subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
                         "-DTERRANE_TESTS=OFF", "-DTERRANE_BENCHMARKS=OFF", "-DTERRANE_WEB=OFF", "--log-level=WARNING",
                         f"-DTERRANE_PYTHON_PROGRAM={sys.executable}"], check=True, stdout=sys.stderr)

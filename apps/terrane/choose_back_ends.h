@@ -6,7 +6,7 @@
 
 namespace terrane::app {
 
-// Of the current context: whether it is to do the work.
+// Whether the GPU is to do the work.
 bool usesGpu(Backend backend);
 
 // `generators`: the world's is one of them. Null where workers are to do all. Else `parts` use the back ends

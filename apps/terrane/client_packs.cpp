@@ -131,11 +131,11 @@ base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer, con
         return base::fail("the server sent another content pack than it offered: {}",
                           base::printable(offer.name));
     std::size_t bytes = bytesOf(*pack);
-    for (const HeldPack& held : packs.packs) bytes += bytesOf(held.pack);
+    for (const HeldPack& held : packs.packs) bytes += held.isSent ? bytesOf(held.pack) : 0;
     if (bytes > kMaxServerPackBytes)
         return base::fail("the server's content packs are too large: at most {} MiB",
                           kMaxServerPackBytes >> 20);
-    packs.packs.push_back({offer.hash, std::move(*pack)});
+    packs.packs.push_back({offer.hash, std::move(*pack), true});
     writeToCache(packs, offer, archive);
     return {};
 }
@@ -156,7 +156,7 @@ base::Result<net::ServerContent> serverContent(const pack::Content& content) {
     for (const pack::Pack& pack : *content.packs) {
         if (pack.info.name == pack::kBuiltInPack) continue;
         auto archive = std::make_shared<const store::Bytes>(pack::archiveOf(pack));
-        bytes += archive->size();
+        bytes += bytesOf(pack);  // as clients count them
         offered.packs.push_back({{pack.info.name, net::plainText(pack.info.version, net::kMaxPackNameBytes),
                                   pack::hashOf(pack), static_cast<std::uint32_t>(archive->size())},
                                  archive});

@@ -20,6 +20,7 @@ constexpr std::size_t kMaxServerPackBytes = std::size_t{64} << 20;
 struct HeldPack {
     pack::PackHash hash{};
     pack::Pack pack;
+    bool isSent = false;  // by the server
 };
 
 struct ClientPacks {

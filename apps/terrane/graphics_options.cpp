@@ -15,7 +15,7 @@ void addGraphicsChoices(CLI::App& command, render::GraphicsChoices& choices, std
     command
         .add_option("--preset", choices.preset,
                     "Graphics options together, changed by the flags that follow: " + render::presetNames())
-        ->check(render::isPresetName)
+        ->check(render::presetNameError)
         ->type_name("CHOICE")
         ->capture_default_str();
     for (std::size_t k = 0; k < render::graphicsTable().size(); ++k) {

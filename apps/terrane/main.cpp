@@ -1,5 +1,6 @@
 // terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
-// (check) or a measurement failed (bench), 2 bad input or a missing means.
+// (check), something could not be read (copy, import) or a measurement failed (bench), 2 bad input or a
+// missing means.
 #include <execinfo.h>
 
 #include <cstdio>

@@ -18,13 +18,12 @@ namespace terrane::app {
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // --content, which addWorldOptions() adds, too.
 void addContentOption(CLI::App& command, WorldOptions& options);
-// --merging and --mesh-section-height.
 // "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
 // --world: NAME, FILE or URL. The folder of a file must be there.
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
-// --world and --recreate of commands that play, which make a world where none is there.
+// --world, --recreate and what else says how a world is saved, of commands that make one where none is there.
 void addSaveGameOptions(CLI::App& command, SaveOptions& save);
 // A world as an argument: NAME, FILE or URL.
 void addWorldArgument(CLI::App& command, const std::string& name, std::string& world,

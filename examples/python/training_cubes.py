@@ -8,8 +8,8 @@ Each file cubes/NNNN.npz has 50 cubes:
     light   uint8 [n, z, y, x, 2]    levels of 4 bits: sun | red << 4, green | blue << 4
     corners int64 [n, 3]             x, y, z of each cube
     names   str [ids]
-Cubes lie around the surface of the ground, anywhere within 16 km of the origin. Two threads of Python work at a
-time: one packs while another reads.
+Cubes lie around the surface of the ground, anywhere within 16 km of the origin. Threads work at a time,
+one for each CPU core.
 """
 import argparse
 import os

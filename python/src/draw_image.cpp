@@ -60,7 +60,7 @@ base::Result<void> checkRequest(const ImageRequest& request) {
     if (!isWithin(at.x, -kEdge, kEdge - 1) || !isWithin(at.y, -kEdge, kEdge - 1) ||
         !isWithin(at.z, -1e6, 1e6))
         return base::fail(base::ErrorCode::BadInput, "position: outside the world");
-    if (const std::string wrong = render::isPresetName(request.preset); !wrong.empty())
+    if (const std::string wrong = render::presetNameError(request.preset); !wrong.empty())
         return base::fail(base::ErrorCode::BadInput, "preset: {}", wrong);
     return {};
 }

@@ -103,8 +103,9 @@ void addClosing(WorldClass& world) {
              "Waits until all edits are on the disk, or in the database; raises Error where they cannot be.")
         .def("close", &PyWorld::close,
              "Saves all edits, and lets go of the world and its memory. Later calls of other methods raise "
-             "Error; "
-             "calls in progress end first. Closing again does nothing.")
+             "Error; calls in progress go on, and the last of them lets go. Where edits cannot be saved it "
+             "raises "
+             "Error, and the world stays open. Closing again does nothing.")
         .def(
             "__enter__", [](const std::shared_ptr<PyWorld>& self) { return self; }, "The world itself.")
         .def(
@@ -149,13 +150,10 @@ void PyWorld::flush() const {
 
 void PyWorld::close() {
     if (!opened_) return;
-    auto world = opened();
-    opened_.reset();
-    withoutLock([&] {
-        auto flushed = world->store().flush();
-        world.reset();
-        return flushed;
-    });
+    flush();
+    auto world = std::exchange(opened_, {});
+    const py::gil_scoped_release unlocked;
+    world.reset();
 }
 
 void addWorld(py::module_& module) {

@@ -54,7 +54,7 @@ TEST(Plan, IsWhole) {
 // What reads a save has a run before it that fills the save.
 TEST(Plan, FillsSavesBefore) {
     for (const Cell& cell : uniqueCells(planGroups({}))) {
-        EXPECT_EQ(cell.before.empty(), keyOf(cell).find("--save-game") == std::string::npos) << keyOf(cell);
+        EXPECT_EQ(cell.before.empty(), keyOf(cell).find("--world") == std::string::npos) << keyOf(cell);
     }
 }
 

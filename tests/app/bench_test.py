@@ -69,7 +69,7 @@ class Bench(ProgramTest):
         self.assertEqual(sorted(cells), sorted(set(cells)), "equal command lines are measured once")
         for line in self.lines()[1:]:
             result = line["result"]
-            if "--save-game" in line["cell"]:
+            if "--world" in line["cell"]:
                 self.assertEqual(result["chunks"], 25)
                 self.assertGreater(result["bytes"]["save"], 2500)
                 self.assertGreater(result["milliseconds"]["load"], 0)

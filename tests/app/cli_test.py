@@ -81,8 +81,10 @@ class FormerNames(ProgramTest):
         texts = [self.succeed("--help"), self.succeed("man").replace("\\-", "-"), self.succeed("completion", "bash")]
         texts += [self.succeed(command, "--help") for command in COMMANDS]
         for text in texts:
-            for name in (*self.FLAGS, "fly", "aggregation"):
-                self.assertNotRegex(text, rf"(?m)^ *{name}\b")
+            for name in (*self.FLAGS, "aggregation"):
+                self.assertNotRegex(text, rf"(?<![\w-]){name}(?![\w-])")
+            # As a command: in lists of them, before its options, and as a title.
+            self.assertNotRegex(text, r"(?m)^ *fly\b|'fly\b|\bterrane fly\b|flight-bench fly\b|\bfly flight-bench\b")
 
 
 class FlightBench(ProgramTest):

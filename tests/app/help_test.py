@@ -160,9 +160,15 @@ class Zsh(HelpTest):
     def test_specifications_are_understood(self):
         for command in self.commands:
             self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; " f"source {self.script('zsh')}; "
-                       "_describe() { :; }; _arguments() { for s in $@; do [[ $s == (--#[a-z-]##\\[*\\]*|\\*:*:*) ]] "
+                       "_describe() { :; }; _arguments() { for s in $@; do [[ $s == (--#[a-z-]##\\[*\\]*|\\*:*:*|[0-9]:*:*) ]] "
                        "|| { print -u2 bad: $s; }; done; }; setopt extendedglob; "
                        f"words=(terrane {command} -); CURRENT=3; _terrane")
+
+    def test_arguments_have_places_of_their_own(self):
+        text = self.script("zsh").read_text()
+        for command, count in (("copy", 2), ("import", 2), ("check", 1)):
+            part = re.search(rf"^ +{command}\) _arguments(.*?) ;;$", text, re.MULTILINE | re.DOTALL)[1]
+            self.assertEqual(re.findall(r"^ +'(\d|\*):", part, re.MULTILINE), [str(k + 1) for k in range(count)], command)
 
 
 class Man(HelpTest):

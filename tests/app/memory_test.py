@@ -69,11 +69,14 @@ class Memory(ProgramTest):
         if done.returncode == 2:
             self.assertIn("empty, not a save", done.stderr, case)
 
-    def sweep(self, *arguments, keep_save=True):
+    def empty_folder(self):
+        for file in self.folder.iterdir():
+            file.unlink()
+
+    def sweep(self, *arguments, prepare=lambda: None):
+        """`prepare` is called before each run."""
         def run(limit):
-            if not keep_save:
-                for file in self.folder.iterdir():
-                    file.unlink()
+            prepare()
             return self.run_within(limit, arguments)
 
         seen = set()
@@ -93,11 +96,17 @@ class Memory(ProgramTest):
         self.sweep("generate", "--radius", 4, "--threads", 4, "--backend", "cpu")
 
     def test_generate_into_a_save(self):
-        self.sweep("generate", "--radius", 4, "--threads", 2, "--backend", "cpu", "--world", self.save, keep_save=False)
+        self.sweep("generate", "--radius", 4, "--threads", 2, "--backend", "cpu", "--world", self.save,
+                   prepare=self.empty_folder)
 
     def test_generate_into_a_save_that_is_there(self):
         self.make_save()
-        self.sweep("generate", "--radius", 5, "--threads", 2, "--backend", "cpu", "--world", self.save)
+        small = self.save.read_bytes()
+
+        def put_back():
+            self.empty_folder()
+            self.save.write_bytes(small)
+        self.sweep("generate", "--radius", 5, "--threads", 2, "--backend", "cpu", "--world", self.save, prepare=put_back)
 
     def test_map(self):
         self.sweep("map", "--radius", 3, "--threads", 2, "--output", self.folder / "map.png")

@@ -44,10 +44,14 @@ class Server(support.ProgramTest):
         self.assertEqual(done.returncode, 2)
         self.assertEqual(len(done.stderr.strip().splitlines()), 1, done.stderr)
 
+    def test_completions_and_manual_know_no_default_command(self):
+        self.assertNotIn("Without a command", self.succeed("man"))
+        self.assertIn(" command= more=", self.succeed("completion", "bash"))
+
     def test_help_lists_what_there_is(self):
         text = self.succeed("--help")
         for command in COMMANDS:
-            self.assertIn(command, text)
+            self.assertIn(f"\n  {command} ", text)
         for command in ("play", "render", "record", "bench"):
             self.assertNotIn(f"  {command} ", text)
 

@@ -8,7 +8,7 @@ import signal
 import support
 import window_test
 from support import HANG_SECONDS, Npy, ProgramTest
-from window_test import SIZE, is_brown, is_green
+from window_test import SCREEN, SIZE, is_brown, is_green
 
 SCRIPT = """
 g:pass3D("ground", function(p)
@@ -34,17 +34,21 @@ class Watch(ProgramTest):
         self.succeed("dump", "--world", world, "--content", self.pack, "--area", "0,0,2,1", "-o", file)
         return Npy(file)
 
+    def play(self, display, world, size):
+        game = window_test.Game(display, self.folder, (
+            "--content", self.pack, "--generator", "mine:plain", "--watch", "--world", world, "--recreate",
+            "--bookmark", "1", "--movement", "fast", "--view-distance", "2", "--samples", "1", "--size", f"{size[0]}x{size[1]}"))
+        self.addCleanup(game.log.close)
+        self.addCleanup(game.process.kill)
+        game.open()
+        game.wait_for_image(size)
+        game.pause_after("F1")  # no help in the image
+        return game
+
     def test_a_script_that_changes(self):
         world = self.folder / "w.sqlite"
         with window_test.Display() as display:
-            game = window_test.Game(display, self.folder, (
-                "--content", self.pack, "--generator", "mine:plain", "--watch", "--world", world, "--recreate",
-                "--bookmark", "1", "--movement", "fast", "--view-distance", "2", "--samples", "1", "--size", f"{SIZE[0]}x{SIZE[1]}"))
-            self.addCleanup(game.log.close)
-            self.addCleanup(game.process.kill)
-            game.open()
-            game.wait_for_image(SIZE)
-            game.pause_after("F1")  # no help in the image
+            game = self.play(display, world, SIZE)
             game.wait_for_ground(is_green)
             game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
             display.xdotool("click", 1)
@@ -62,6 +66,19 @@ class Watch(ProgramTest):
         self.assertEqual(blocks.column(8, 8)[80], ids["air"])
         self.assertEqual(blocks.column(2, 2)[80], ids["grass"])  # the edited chunk stays as it was
         self.assertEqual(blocks.column(20, 2)[80], ids["stone"])
+
+    def test_a_change_while_saving_fails(self):
+        world = self.folder / "w.sqlite"
+        with window_test.Display() as display:
+            game = self.play(display, world, SCREEN)
+            world.rename(self.folder / "away.sqlite")
+            game.wait_for(game.is_warned)
+            self.script.write_text(SCRIPT % "stone")
+            game.wait_for(game.asks_to_lose)  # before the world is opened anew
+            game.quit_unsaved()
+            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
+            self.assertRegex(game.output(), r"error: .*w.sqlite: deleted or moved .*; not saved: \d+ chunks\n")
+        self.assertFalse(world.exists())
 
 
 if __name__ == "__main__":

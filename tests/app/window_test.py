@@ -123,6 +123,23 @@ class Game:
         """Waits for a color (red, green, blue) of the block that one looks down on, beside the crosshair."""
         self.wait_for(lambda: is_it(*self.display.screenshot(self.window).color(SIZE[0] // 2 + 8, SIZE[1] // 2 + 8)))
 
+    # In a window as large as the screen:
+    def is_red(self, y):
+        red, green, blue = self.display.screenshot(self.window).color(SCREEN[0] // 2 - 200, y)
+        return red > 3 * max(green, blue)
+
+    def is_warned(self):
+        """That saving fails."""
+        return self.is_red(18)
+
+    def asks_to_lose(self):
+        """Whether to quit although saving fails."""
+        return self.is_red(194)
+
+    def quit_unsaved(self):
+        """The button that says so."""
+        self.click(1, 322, 228)
+
     def press(self, key):
         self.display.xdotool("key", key)
 
@@ -387,36 +404,32 @@ class Window(ProgramTest):
             self.assertEqual(list((self.folder / "terrane").glob("*.sqlite")), [])
 
     def test_a_player_learns_that_saving_fails(self):
-        save, away, size = self.folder / "terrane" / "home.sqlite", self.folder / "away.sqlite", (640, 400)
+        save, away = self.folder / "terrane" / "home.sqlite", self.folder / "away.sqlite"
         options = ("--world", "home", "--movement", "medium", *FLAT)
 
-        def is_warned(game, y):
-            red, green, blue = display.screenshot(game.window).color(size[0] // 2 - 200, y)
-            return red > 3 * max(green, blue)
-
         with Display() as display:
-            game = self.play(display, *options, size=size)
+            game = self.play(display, *options, size=SCREEN)
             save.rename(away)
-            game.wait_for(lambda: is_warned(game, 18))
+            game.wait_for(game.is_warned)
             game.quit()
-            game.wait_for(lambda: is_warned(game, 194))  # asks instead of closing
+            game.wait_for(game.asks_to_lose)  # asks instead of closing
             game.press("Escape")
-            game.wait_for(lambda: not is_warned(game, 194))  # stays
+            game.wait_for(lambda: not game.asks_to_lose())  # stays
             game.press("Escape")  # leaves the menu
-            game.wait_for(lambda: is_warned(game, 18))
+            game.wait_for(game.is_warned)
             away.rename(save)
-            game.wait_for(lambda: not is_warned(game, 18))
+            game.wait_for(lambda: not game.is_warned())
             code, _, place = game.close()
             self.assertEqual(code, 0, game.output())
             self.assertIn("deleted or moved while it was open", game.output())
             self.assertEqual(self.setting(save, "camera").split()[0], f"{place[0]:g}")
 
-            game = self.play(display, *options, size=size)
+            game = self.play(display, *options, size=SCREEN)
             save.rename(away)
-            game.wait_for(lambda: is_warned(game, 18))
+            game.wait_for(game.is_warned)
             game.quit()
-            game.wait_for(lambda: is_warned(game, 194))
-            game.click(1, 322, 228)
+            game.wait_for(game.asks_to_lose)
+            game.quit_unsaved()
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"error: .*home.sqlite: deleted or moved .*; not saved: \d+ chunks\n")
 

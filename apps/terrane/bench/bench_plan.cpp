@@ -48,7 +48,7 @@ Cells generating(const std::string& scene, const std::string& distances) {
 Cell loading(const std::string& scene, int distance) {
     Cell cell = generating(scene, fmt::to_string(distance))[0];
     const std::string save = fmt::format("{}-{}", scene, distance);
-    cell.arguments.insert(cell.arguments.end(), {"--save-game", save});
+    cell.arguments.insert(cell.arguments.end(), {"--world", save});
     const world::ChunkPos c = world::chunkOf(content::findScene(scene)->pose.position);
     const int radius = distance + 1;
     cell.before = {
@@ -69,7 +69,7 @@ Cell flight(const BenchSettings& s, bool isFromSave) {
                     s.flightSeconds, s.isSoftware ? "low" : "thesis", s.viewDistance,
                     s.isSoftware ? "320x180" : s.size))[0];
     if (!isFromSave) return cell;
-    cell.arguments.insert(cell.arguments.end(), {"--save-game", "flight"});
+    cell.arguments.insert(cell.arguments.end(), {"--world", "flight"});
     return {cell.arguments, cell.arguments};
 }
 
@@ -94,7 +94,7 @@ Cells meshSectionHeights(const BenchSettings& s) {
         // The thesis has no others at 56.
         const char* heights = distance == 56 ? "8,64,128" : "8,16,32,64,128";
         for (Cell& cell :
-             frames(s, fmt::format("--view-distance {0} --mesh-section-height {1} --save-game landscape-{0}",
+             frames(s, fmt::format("--view-distance {0} --mesh-section-height {1} --world landscape-{0}",
                                    distance, heights)))
             cells.push_back({std::move(cell.arguments), loading("landscape", distance).before});
     }
@@ -179,7 +179,7 @@ std::vector<CellGroup> planGroups(const BenchSettings& s) {
         {"goals", goals(s)},
         {"region-height", meshSectionHeights(s)},
         {"memory", landscapes},
-        {"aggregation", scenes("--merging none,lines,squares,squares-ext,greedy --occlusion-culling off")},
+        {"merging", scenes("--merging none,lines,squares,squares-ext,greedy --occlusion-culling off")},
         {"flight", {flight(s, true), flight(s, false)}},
         {"post-processing", scenes("--ssao on")},
         {"light-texture", scenes("")},

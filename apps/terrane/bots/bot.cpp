@@ -68,7 +68,10 @@ void Bot::onJoined(const net::Joined& joined) {
     if (!world_.crowd) world_.crowd = pose_;
     home_ = settings_.behaviour == BotBehaviour::Crowd ? *world_.crowd : pose_;
     // What the server did not decide on may be there or not.
-    for (const auto& [command, pending] : pending_) world_.acknowledged.erase(pending.pos);
+    for (const world::BlockPos pos : undecided()) {
+        world_.acknowledged.erase(pos);
+        world_.unknown.insert(pos);
+    }
     pending_.clear();
     toldView_.reset();
     moved_ = builtAt_ = std::chrono::steady_clock::now();
@@ -104,10 +107,12 @@ void Bot::onDone(const net::Done& done) {
     if (found == pending_.end()) return;
     world_.decidedMs.push_back(millisecondsBetween(found->second.at, std::chrono::steady_clock::now()));
     const auto result = static_cast<game::EditResult>(done.result);
-    if (result == game::EditResult::Applied)
+    if (result == game::EditResult::Applied) {
         world_.acknowledged[found->second.pos] = found->second.id;
-    else
+        world_.unknown.erase(found->second.pos);
+    } else {
         ++world_.refused;
+    }
     pending_.erase(found);
 }
 

@@ -6,6 +6,7 @@
 #include <map>
 #include <memory>
 #include <random>
+#include <set>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -50,6 +51,7 @@ struct BotWorld {
     std::unordered_map<world::BlockPos, SentEdit, world::BlockPosHash> unseen;
     // Blocks as decided last, without those of which that is not known because the connection went.
     std::map<world::BlockPos, world::BlockId> acknowledged;
+    std::set<world::BlockPos> unknown;                                     // those
     std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the bot that alone builds there
     std::vector<double> joinedKb, joinedMs;  // until all edits in sight are there, from the first byte
     std::vector<double> seenMs;              // from the edit until another bot is told

@@ -86,12 +86,13 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
 // X Y Z NAME of each block that the server said to have kept; NAME is ? where it was asked again since.
 base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, const std::deque<Bot>& bots) {
     if (file.empty()) return {};
-    std::string text;
     for (const Bot& bot : bots)
         for (const world::BlockPos pos : bot.undecided()) {
             world.acknowledged.erase(pos);
-            text += fmt::format("{} {} {} ?\n", pos.x, pos.y, pos.z);
+            world.unknown.insert(pos);
         }
+    std::string text;
+    for (const world::BlockPos pos : world.unknown) text += fmt::format("{} {} {} ?\n", pos.x, pos.y, pos.z);
     for (const auto& [pos, id] : world.acknowledged)
         text += fmt::format("{} {} {} {}\n", pos.x, pos.y, pos.z, world.land.blocks().type(id).name);
     return base::writeFile(file, text);
@@ -181,7 +182,7 @@ CommandEntry addBots(CLI::App& app) {
     command
         ->add_option("--keys", options->bots.keyFolder,
                      "Folder for the bots' keys, so that a server recognizes them in the next run")
-        ->type_name("FOLDER");
+        ->type_name("DIR");
     command
         ->add_option("--acknowledged", options->acknowledged,
                      "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "

@@ -12,7 +12,7 @@ namespace terrane::app {
 CommandEntry addCompletion(CLI::App& app) {
     struct Shell {
         const char* name;
-        std::string (*script)(const std::vector<CommandListEntry>&);
+        std::string (*script)(const CommandList&);
     };
     static constexpr std::array<Shell, 3> kShells = {
         {{"bash", bashCompletion}, {"zsh", zshCompletion}, {"fish", fishCompletion}}};
@@ -22,7 +22,7 @@ CommandEntry addCompletion(CLI::App& app) {
     return {command, [shell, &app]() -> base::Result<void> {
                 for (const Shell& known : kShells) {
                     if (known.name != *shell) continue;
-                    std::cout << known.script(commandList(app));
+                    std::cout << known.script(commandList(app, defaultCommand()));
                     return {};
                 }
                 std::vector<std::string> names;
@@ -34,7 +34,7 @@ CommandEntry addCompletion(CLI::App& app) {
 CommandEntry addMan(CLI::App& app) {
     CLI::App* command = app.add_subcommand("man", "Print the manual page (roff)");
     return {command, [&app]() -> base::Result<void> {
-                std::cout << manPage(commandList(app), TERRANE_VERSION);
+                std::cout << manPage(commandList(app, defaultCommand()), TERRANE_VERSION);
                 return {};
             }};
 }

@@ -72,7 +72,7 @@ CommandEntry addImport(CLI::App& app) {
     command->add_option("--shift", options->shift, "Blocks added to the heights of a world of Minecraft")
         ->check(numberFrom(-4096, 4096))
         ->type_name("BLOCKS");
-    command->add_flag("--skip-air", options->keepsAir, "Do not import air");
+    command->add_flag("--skip-air", options->skipsAir, "Do not import air");
     addOutputOption(*command, options->output, {".structure"}, "Write a structure file instead of a world");
     command->get_option("--output")->required(false);
     addReportOption(*command, options->report);

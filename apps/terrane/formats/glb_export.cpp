@@ -17,6 +17,7 @@ namespace {
 
 // The chunk with air outside the box, so that the box is closed on all sides.
 world::Chunk clipped(const world::Chunk& chunk, world::ChunkPos pos, const world::BlockBox& box) {
+    if (!world::isInWorld(pos)) return chunk;  // empty
     const world::BlockPos low = world::blockPos(pos, 0);
     world::Chunk result = chunk;
     for (int k = 0; k < world::kBlocksPerChunk; ++k) {

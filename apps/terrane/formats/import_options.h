@@ -20,7 +20,7 @@ struct ImportOptions {
     int shift = 0;                         // blocks added to its heights
     std::string at;                        // "X,Y" or "X,Y,Z" in blocks; empty: 0
     std::string output;                    // a structure file in place of a world
-    bool keepsAir = false;                 // air of the source leaves the world as it is
+    bool skipsAir = false;                 // air of the source leaves the world as it is
     int exitCode = 0;                      // of the run
 };
 

@@ -43,7 +43,7 @@ base::Result<world::BlockPos> cornerOf(const std::string& at) {
 }
 
 // The blocks of the volume that lie in one chunk; `corner` is its lowest block.
-void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool keepsAir, world::ChunkPos pos,
+void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool skipsAir, world::ChunkPos pos,
                world::Chunk& chunk) {
     const world::BlockPos low = world::blockPos(pos, 0);
     for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
@@ -55,7 +55,7 @@ void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool 
             const auto cell =
                 static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z));
             const formats::BlockAndState block = volume.palette[volume.cells[cell]];
-            if (keepsAir && block.id == world::kAir) continue;
+            if (skipsAir && block.id == world::kAir) continue;
             const auto index = static_cast<world::BlockIndex>(k + 256 * (corner.z + z));
             chunk.setBlock(index, block.id);
             if (block.state != 0) chunk.setBlockState(index, block.state);
@@ -100,7 +100,7 @@ base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
         auto chunks = stream::chunksAt(part, world.store.get(), **generator, jobs);
         if (!chunks) return tl::unexpected(chunks.error());
         for (std::size_t k = 0; k < part.size(); ++k) {
-            putVolume(volume, corner, options.keepsAir, part[k], (*chunks)[k]);
+            putVolume(volume, corner, options.skipsAir, part[k], (*chunks)[k]);
             world.store->save(part[k], std::make_shared<const world::Chunk>(std::move((*chunks)[k])),
                               store::Provenance::Edited);
         }

@@ -27,19 +27,20 @@ FlagEntry flagOf(const CLI::Option& option) {
     flag.description = option.get_description();
     flag.defaultText = option.get_default_str();
     flag.isRequired = option.get_required();
+    flag.takesMany = option.get_items_expected_max() > 1;
     return flag;
 }
 
 }  // namespace
 
-std::vector<CommandListEntry> commandList(const CLI::App& app) {
-    std::vector<CommandListEntry> commands;
+CommandList commandList(const CLI::App& app, const char* defaultCommand) {
+    CommandList list{{}, defaultCommand ? defaultCommand : ""};
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         CommandListEntry entry{command->get_name(), command->get_description(), {}};
         for (const CLI::Option* option : command->get_options()) entry.flags.push_back(flagOf(*option));
-        commands.push_back(std::move(entry));
+        list.commands.push_back(std::move(entry));
     }
-    return commands;
+    return list;
 }
 
 }  // namespace terrane::app

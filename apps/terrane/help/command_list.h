@@ -14,7 +14,8 @@ struct FlagEntry {
     std::vector<std::string> valueNames;  // what the value can be; empty: anything
     std::string description, defaultText;
     bool isRequired = false;
-    bool takesFile() const { return value == "FILE"; }
+    bool takesMany = false;
+    bool takesFile() const { return value == "FILE" || value == "PATH"; }
     // "NAME|FILE", "NAME|FILE|URL": a file, too.
     bool takesWorld() const { return value.starts_with("NAME|FILE"); }
     bool takesFolder() const { return value == "DIR"; }
@@ -25,10 +26,12 @@ struct CommandListEntry {
     std::vector<FlagEntry> flags;
 };
 
-// In the order of --help.
-std::vector<CommandListEntry> commandList(const CLI::App& app);
+struct CommandList {
+    std::vector<CommandListEntry> commands;  // in the order of --help
+    std::string defaultCommand;              // runs where none is named; empty: none
+};
 
-// What runs where no command is named.
-constexpr const char* kDefaultCommand = "play";
+// `defaultCommand` may be null.
+CommandList commandList(const CLI::App& app, const char* defaultCommand);
 
 }  // namespace terrane::app

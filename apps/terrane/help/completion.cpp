@@ -119,11 +119,12 @@ end
 
 }  // namespace
 
-std::string bashCompletion(const Commands& commands) {
+std::string bashCompletion(const CommandList& list) {
+    const Commands& commands = list.commands;
     std::string script(kBashBegin);
     script += R"(_terrane() {
     local cur=${COMP_WORDS[COMP_CWORD]} prev=${COMP_WORDS[COMP_CWORD-1]} command=)";
-    script += kDefaultCommand;
+    script += list.defaultCommand;
     script += R"( more=
     COMPREPLY=()
     if ((COMP_CWORD > 1)) && [[ ${COMP_WORDS[1]} != -* ]]; then command=${COMP_WORDS[1]}; fi
@@ -149,11 +150,12 @@ std::string bashCompletion(const Commands& commands) {
     return script + "    esac\n}\ncomplete -F _terrane terrane\n";
 }
 
-std::string zshCompletion(const Commands& commands) {
+std::string zshCompletion(const CommandList& list) {
+    const Commands& commands = list.commands;
     std::string script(kZshBegin);
     script += R"(_terrane() {
     local command=)";
-    script += kDefaultCommand;
+    script += list.defaultCommand;
     script += "\n    local -a commands=(\n";
     for (const CommandListEntry& command : commands) {
         const std::string description = CLI::detail::find_and_replace(command.description, ":", "\\:");
@@ -170,12 +172,14 @@ std::string zshCompletion(const Commands& commands) {
 )";
     for (const CommandListEntry& command : commands) {
         script += fmt::format("        {}) _arguments", command.name);
+        int arguments = 0;
         for (const FlagEntry& flag : command.flags) {
             for (const std::string& name : flag.names)
                 script += fmt::format(" \\\n            {}", zshFlag(flag, name));
-            if (flag.names.empty())
-                script += fmt::format(" \\\n            {}",
-                                      inQuotes(fmt::format("*:{}:{}", flag.value, zshAction(flag))));
+            if (!flag.names.empty()) continue;
+            const std::string place = flag.takesMany ? "*" : std::to_string(++arguments);
+            script += fmt::format(" \\\n            {}",
+                                  inQuotes(fmt::format("{}:{}:{}", place, flag.value, zshAction(flag))));
         }
         script += " ;;\n";
     }
@@ -184,7 +188,8 @@ std::string zshCompletion(const Commands& commands) {
            "else compdef _terrane terrane; fi\n";
 }
 
-std::string fishCompletion(const Commands& commands) {
+std::string fishCompletion(const CommandList& list) {
+    const Commands& commands = list.commands;
     std::string script(kFishBegin);
     script += "complete -c terrane -f\n";
     const std::string names = joined(commandNames(commands));
@@ -196,7 +201,7 @@ std::string fishCompletion(const Commands& commands) {
     }
     for (const CommandListEntry& command : commands) {
         const std::string named = "__fish_seen_subcommand_from " + command.name;
-        const bool isDefault = command.name == kDefaultCommand;
+        const bool isDefault = command.name == list.defaultCommand;
         const std::string condition = isDefault ? fmt::format("{}; or {}", named, none) : named;
         for (const FlagEntry& flag : command.flags) {
             if (!flag.names.empty()) {

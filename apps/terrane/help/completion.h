@@ -7,8 +7,8 @@
 
 namespace terrane::app {
 
-std::string bashCompletion(const std::vector<CommandListEntry>& commands);
-std::string zshCompletion(const std::vector<CommandListEntry>& commands);
-std::string fishCompletion(const std::vector<CommandListEntry>& commands);
+std::string bashCompletion(const CommandList& list);
+std::string zshCompletion(const CommandList& list);
+std::string fishCompletion(const CommandList& list);
 
 }  // namespace terrane::app

@@ -13,8 +13,6 @@ terrane \- large voxel worlds to walk, fly and build in
 .RI [ COMMAND "] [" OPTION ...]
 .SH DESCRIPTION
 Makes large worlds of blocks from a number, keeps them in saves, and shows them: in a window, as images, as videos.
-Without a command it plays.
-.SH COMMANDS
 )";
 
 constexpr const char* kEnd = R"(.SH EXIT STATUS
@@ -24,7 +22,11 @@ Done.
 .TP
 1
 .B terrane check
-found damage, or a measurement of
+found damage,
+.B terrane copy
+or
+.B terrane import
+left out what could not be read, or a measurement of
 .B terrane bench
 failed.
 .TP
@@ -77,9 +79,12 @@ std::string flagText(const FlagEntry& flag) {
 
 }  // namespace
 
-std::string manPage(const std::vector<CommandListEntry>& commands, const std::string& version) {
+std::string manPage(const CommandList& list, const std::string& version) {
     std::string page = fmt::format(".TH TERRANE 1 \"\" \"terrane {}\" \"Terrane\"\n{}", version, kBegin);
-    for (const CommandListEntry& command : commands) {
+    if (!list.defaultCommand.empty())
+        page += fmt::format("Without a command it does\n.BR {} .\n", roff(list.defaultCommand));
+    page += ".SH COMMANDS\n";
+    for (const CommandListEntry& command : list.commands) {
         page += fmt::format(".SS terrane {}\n{}\n", roff(command.name), roff(command.description));
         for (const FlagEntry& flag : command.flags) page += flagText(flag);
     }

@@ -7,6 +7,6 @@
 
 namespace terrane::app {
 
-std::string manPage(const std::vector<CommandListEntry>& commands, const std::string& version);
+std::string manPage(const CommandList& list, const std::string& version);
 
 }  // namespace terrane::app

@@ -64,7 +64,7 @@ void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
                     "Write the map as a folder with a web page and its images; existing images stay unless "
                     "their land was edited")
         ->check(notEmpty())
-        ->type_name("FOLDER");
+        ->type_name("DIR");
     command
         .add_option("--max-zoom", options.maxZoom,
                     "The finest images of --tiles: 2 has 4 pixels a block, -1 two blocks a pixel")

@@ -7,6 +7,7 @@
 #include "apps/terrane/maps/player_list.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/log.h"
+#include "terrane/net/server_history.h"
 #include "terrane/web/map_site.h"
 
 namespace terrane::app {
@@ -19,7 +20,7 @@ void addMetrics(web::MetricsText& text, net::ServerState& server, const web::His
     text.gauge("terrane_edited_chunks", "Chunks that players changed.",
                static_cast<double>(server.edited.count(0)));
     text.counter("terrane_edits_total", "Edits in the world's history.",
-                 static_cast<double>(server.history.newest));
+                 static_cast<double>(net::newestEdit(server)));
     text.histogram("terrane_tick_seconds", "Time that ticks of the game took.", ticks);
 }
 

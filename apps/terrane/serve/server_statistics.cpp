@@ -4,7 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/quantile.h"
+#include "terrane/base/log.h"
 #include "terrane/base/process_statistics.h"
+#include "terrane/net/server_history.h"
 
 namespace terrane::app {
 namespace {
@@ -43,8 +45,10 @@ void ServerStatistics::write(const net::ServerState& server) {
                                  {"memory_mb", base::megabytes(base::residentBytes())},
                                  {"chunks", chunks},
                                  {"edited_chunks", server.edited.count(0)},
-                                 {"edits", server.history.newest}};
+                                 {"edits", net::newestEdit(server)}};
+    const bool wasGood = out_.good();
     out_ << line.dump() << std::endl;
+    if (wasGood && !out_) base::logWarning("the statistics cannot be written any more");
     cpuSeconds_ = cpu;
     ticks_.clear();
 }

@@ -27,8 +27,9 @@ bool shadersAreReady(const GameState& game, glm::ivec2 size) {
     const render::RenderOptions& options = game.preset.options(game.settings);
     render::BackgroundCompiler& compiler = game.parts.compiler;
     if (hasWorldImage(game) && options == game.parts.renderer.options()) return true;
-    if (!hasWorldImage(game) && !compiler.isReady(kPreview, view::BlockPreview::options())) return false;
-    return compiler.isReady(size, options);
+    if (!hasWorldImage(game) && !compiler.isReady(kPreview, view::BlockPreview::options(), {})) return false;
+    const render::Renderer& renderer = game.parts.renderer;
+    return compiler.isReady(size, options, {.hasTint = renderer.hasTint(), .hasLand = renderer.hasLand()});
 }
 
 // Other options come once their shaders are compiled; until then frames are drawn as before, and at first

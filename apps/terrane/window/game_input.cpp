@@ -38,7 +38,7 @@ bool onDialogKey(GameState& game, Key key) {
         captureMouse(game, true);
         return true;
     }
-    if (game.menu.settings.takeKey(key, game.settings, game.tr)) return true;
+    if (game.menu.showsSettings && game.menu.settings.takeKey(key, game.settings, game.tr)) return true;
     if (game.building.isAsking() && !isInMenu(game)) {
         game.building.onKey(key, buildViewOf(game));
         return true;

@@ -99,7 +99,7 @@ std::optional<Key> keyNamed(std::string_view name) {
 }
 
 bool canBeBound(Key key) {
-    return key != Key::Escape && !(key >= Key::Digit1 && key <= Key::Digit9);
+    return key != Key::Escape && key != Key::B && !(key >= Key::Digit1 && key <= Key::Digit9);
 }
 
 KeyBindings::KeyBindings() {

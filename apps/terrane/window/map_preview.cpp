@@ -34,14 +34,15 @@ struct MapPreview::Work {
     }
 
     void run();
-    void draw(const World& world);
-    bool isOutdated(const World& world) {
+    // A request is known by its number: the same world may be asked for again while another is drawn.
+    void draw(const World& world, std::uint64_t request);
+    bool isOutdated(std::uint64_t request) {
         const std::lock_guard lock(mutex);
-        return isEnding || wanted != world;
+        return isEnding || newest != request;
     }
-    void give(const World& world, base::Result<base::Image> image, bool isLast) {
+    void give(std::uint64_t request, base::Result<base::Image> image, bool isLast) {
         const std::lock_guard lock(mutex);
-        if (wanted != world) return;
+        if (newest != request) return;
         if (image) drawn = std::move(*image);
         problem = image ? "" : image.error().message;
         isDone = isLast || !image;
@@ -52,6 +53,7 @@ struct MapPreview::Work {
     std::condition_variable changed;
     // Under the mutex.
     std::optional<World> wanted;
+    std::uint64_t newest = 0;          // request
     std::optional<base::Image> drawn;  // waits to be taken
     bool isDone = false, isEnding = false;
     std::string problem;
@@ -61,33 +63,34 @@ struct MapPreview::Work {
 
 void MapPreview::Work::run() {
     base::setThreadName("map preview");
-    std::optional<World> last;
+    std::uint64_t last = 0;
     while (true) {
         std::unique_lock lock(mutex);
-        changed.wait(lock, [&] { return isEnding || wanted != last; });
+        changed.wait(lock, [&] { return isEnding || newest != last; });
         if (isEnding) return;
-        last = wanted;
+        last = newest;
+        const World world = *wanted;
         lock.unlock();
         try {
-            draw(*last);
+            draw(world, last);
         } catch (const std::exception& error) {  // no memory
-            give(*last, base::fail("{}", base::textOf(error)), true);
+            give(last, base::fail("{}", base::textOf(error)), true);
         }
     }
 }
 
-void MapPreview::Work::draw(const World& world) {
+void MapPreview::Work::draw(const World& world, std::uint64_t request) {
     auto generators =
         gen::makeLevelGenerators(world.generator, *content.blocks, world.seed, content.generators);
-    if (!generators) return give(world, tl::unexpected(generators.error()), true);
+    if (!generators) return give(request, tl::unexpected(generators.error()), true);
     auto painter = map::MapPainter::create({*generators, *content.blocks, content.textures});
-    if (!painter) return give(world, tl::unexpected(painter.error()), true);
+    if (!painter) return give(request, tl::unexpected(painter.error()), true);
     for (const int level : kLevels) {
-        if (isOutdated(world)) return;
+        if (isOutdated(request)) return;
         const std::int32_t half = kBlocks / 2 / (16 << level);
         const map::ColumnRect rect = map::columnsOf({-half, -half, half, half}, level);
-        auto image = map::drawArea(*painter, rect, {}, jobs, [&](int) { return !isOutdated(world); });
-        give(world, std::move(image), level == std::end(kLevels)[-1]);
+        auto image = map::drawArea(*painter, rect, {}, jobs, [&](int) { return !isOutdated(request); });
+        give(request, std::move(image), level == std::end(kLevels)[-1]);
     }
 }
 
@@ -102,6 +105,7 @@ void MapPreview::show(const World& world) {
         isNew = work_->wanted != world;
         if (isNew) {
             work_->wanted = world;
+            ++work_->newest;
             work_->drawn.reset();
             work_->isDone = false;
             work_->problem.clear();

@@ -47,6 +47,7 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     ImGui::Separator();
     const bool isDone = ImGui::Button(input.tr("Done (Esc)"), {-1, 0});
     ImGui::End();
+    if (isDone || page_ != SettingsPage::Controls) waiting_.reset();
     return isDone;
 }
 

@@ -105,7 +105,8 @@ void TitleBackground::begin(const PlayOptions& options, const ScreenOptions& scr
 base::Result<bool> TitleBackground::configure(glm::ivec2 size) {
     render::Renderer& renderer = world_->renderer();
     if (renderer.size() == size) return true;
-    if (!world_->compiler().isReady(size, render_)) return hasImage();
+    if (!world_->compiler().isReady(size, render_, {renderer.hasTint(), renderer.hasLand()}))
+        return hasImage();
     if (auto configured = renderer.configure(size, render_); !configured)
         return tl::unexpected(configured.error());
     return true;

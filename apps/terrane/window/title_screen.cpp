@@ -83,7 +83,7 @@ void TitleScreen::handleEvents() {
 }
 
 void TitleScreen::onKey(Key key) {
-    if (dialog_.takeKey(key, settings_, tr_)) return;
+    if (pages_.back() == Page::Settings && dialog_.takeKey(key, settings_, tr_)) return;
     if (imgui_.takesKeys()) return;  // Escape ends the typing
     if (key == Key::Escape) return back();
     if (key == Key::Q && pages_.back() == Page::Main) quits_ = true;

@@ -172,8 +172,8 @@ base::Result<Window> Window::create(const WindowOptions& options) {
         return base::fail("no window with an OpenGL 4.5 core context: {}", lastError());
     glfwMakeContextCurrent(state.window);
     if (base::Result<void> fit = gpu::checkRequirements(); !fit) return tl::unexpected(fit.error());
-    if (options.debug) state.debugLog = gpu::enableDebugOutput(options.debugFatal);
-    result.setVsync(options.vsync);
+    if (options.debug) state.debugLog = gpu::enableDebugOutput(false);
+    result.setVsync(true);
     glfwSetTime(0.0);
     state.installCallbacks();
     if (options.fullScreen) state.place = {kLeft, kTop, options.width, options.height};

@@ -22,8 +22,6 @@ struct WindowOptions {
     int height = 720;
     bool fullScreen = false;  // on the first monitor in its present mode; width and height are not used
     bool debug = false;       // as ContextOptions
-    bool debugFatal = false;
-    bool vsync = true;
 };
 
 class Window {
@@ -61,7 +59,6 @@ class Window {
     void setCursorCaptured(bool captured);
     [[nodiscard]] double timeSeconds() const;  // since the window was made
 
-    [[nodiscard]] bool valid() const { return state_ != nullptr; }
     // Null without the debug option.
     [[nodiscard]] gpu::DebugLog* debugLog() const;
     // For user interface libraries with a GLFW back end of their own.

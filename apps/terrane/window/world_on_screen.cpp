@@ -33,8 +33,8 @@ base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(OpenedWorld w
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds_ = std::move(*backEnds);
     made->session_ = std::make_unique<game::Session>(std::move(parts));
-    made->compiler_ = std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(),
-                                                                   made->content_.textures);
+    made->compiler_ =
+        std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(), *textures);
     made->view_ = std::make_unique<view::WorldView>(*made->session_, *made->renderer_);
     if (!made->backEnds_) return made;
     const auto meshes = made->view_->meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);

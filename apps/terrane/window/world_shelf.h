@@ -23,7 +23,6 @@ class WorldShelf {
     WorldShelf& operator=(const WorldShelf&) = delete;
 
     void reload();  // looks into the folder again; the chosen name stays chosen
-    const std::filesystem::path& folder() const { return folder_; }
     const std::vector<store::WorldEntry>& worlds() const { return worlds_; }
     const store::WorldEntry* chosen() const;  // null: there is none
     void choose(std::size_t index) { chosen_ = index; }
@@ -55,7 +54,7 @@ class WorldShelf {
     std::atomic<bool> isCancelled_{false};
 };
 
-// "continents, seed 12, 4.2 MB, played today at 14:03"; what is wrong with it instead.
+// "continents, seed 12, 4.2 MB, today 14:03"; what is wrong with it instead.
 std::string describe(const store::WorldEntry& world);
 
 }  // namespace terrane::app
