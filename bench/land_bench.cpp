@@ -137,7 +137,8 @@ void addFine(Statistics& s, std::uint64_t seed) {
         s.straightNoise = std::max(s.straightNoise, longestStraight(noise, kFineSide));
         for (int k = 0; k + kFineSide + 1 < kFineSide * kFineSide; ++k) {
             const auto at = static_cast<std::size_t>(k);
-            if (!isLand(biomes[at])) continue;
+            if (!isLand(biomes[at]) || k % kFineSide == kFineSide - 1)
+                continue;  // the next one is of another row
             const float here = gen::asFloat(heights[at]);
             const float slope = std::hypot(gen::asFloat(heights[at + 1]) - here,
                                            gen::asFloat(heights[at + kFineSide]) - here);

@@ -59,7 +59,8 @@ class Stage {
     // Milliseconds until the shaders for these options are compiled.
     double waitFor(const render::RenderOptions& options) {
         const auto start = Clock::now();
-        while (!compiler_.isReady(kSize, options)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        while (!compiler_.isReady(kSize, options, {renderer_.hasTint(), renderer_.hasLand()}))
+            std::this_thread::sleep_for(std::chrono::milliseconds(1));
         return millisecondsSince(start);
     }
 

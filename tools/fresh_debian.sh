@@ -7,7 +7,8 @@
 #   tools/fresh_debian.sh /tmp/fresh ./run test
 #   tools/fresh_debian.sh /tmp/fresh tools/packages.sh
 #
-# Needs root, and: apt install mmdebstrap git. apt and npm have this machine's sources. Exit code: the command's.
+# Needs root, and: apt install mmdebstrap git. apt and npm have this machine's sources and trust whom it trusts. Exit
+# code: the command's.
 set -euo pipefail
 
 readonly PROJECT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
@@ -28,8 +29,10 @@ make_root() {
 
 [[ -d $ROOT ]] || make_root
 cp /etc/resolv.conf "$ROOT/etc/"
+[[ ! -f /etc/ssl/certs/ca-certificates.crt ]] || cp /etc/ssl/certs/ca-certificates.crt "$ROOT/etc/trusted-here.crt"
 # Mounts and processes end with the command.
 exec env -i HOME=/root PATH=/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 TERM="${TERM:-dumb}" \
+    npm_config_cafile=/etc/trusted-here.crt \
     unshare --mount --pid --fork --kill-child bash -c '
     root=$1
     shift

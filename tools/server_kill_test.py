@@ -58,6 +58,8 @@ def check_blocks(program, world, acknowledged, folder):
     """The number of blocks that were looked at. Where one was taken away, water or sand may be, but no other."""
     lines = [line.split() for line in acknowledged.read_text().splitlines()]
     blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines if name != "?"]
+    if not blocks:
+        sys.exit("server_kill_test: no block was built: the test shows nothing")
     names = {block["id"]: block["name"] for block in json.loads(
         subprocess.run([program, "blocks", "--json"], check=True, stdout=subprocess.PIPE).stdout)}
     volume = Volume(program, world, {(x >> 4, y >> 4) for x, y, _, _ in blocks}, folder / "blocks.npy")
@@ -106,8 +108,6 @@ def main():
             sys.exit(f"server_kill_test: {told['joined']} of {count} bots are there in the end")
         subprocess.run([program, "check", folder / "world.sqlite"], check=True, stdout=subprocess.DEVNULL)
         blocks = check_blocks(program, folder / "world.sqlite", acknowledged, folder)
-        if blocks == 0:
-            sys.exit("server_kill_test: no block was built: the test shows nothing")
     back.sort()
     print(f"server_kill_test: {kills} kills, {count} bots, {told['cuts']} cuts, {told['edits']} edits, {blocks} blocks, all "
           f"there; all bots back within {back[len(back) // 2]:.1f} s (median), {back[-1]:.1f} s (longest)")

@@ -43,9 +43,9 @@ def seconds_until_back(postgres, count, gone):
 
 
 def kept_blocks(folder, name):
-    """Position to block, as the bots were told."""
+    """Position to block, as the bots were told; "?" where nobody knows."""
     lines = [line.split() for line in (folder / f"{name}.txt").read_text().splitlines()]
-    return {(int(x), int(y), int(z)): block for x, y, z, block in lines if block != "?"}
+    return {(int(x), int(y), int(z)): block for x, y, z, block in lines}
 
 
 def blocks_of_world(program, url, positions, folder):
@@ -116,7 +116,8 @@ def main():
                 problems.append("a server ended badly")
         left = postgres.query("SELECT newest, saved, (SELECT count(*) FROM terrane.edits), "
                               "(SELECT count(*) FROM terrane.servers) FROM terrane.history").split("|")
-        kept = {**kept_blocks(folder, "quiet"), **kept_blocks(folder, "bot")}
+        told = {**kept_blocks(folder, "quiet"), **kept_blocks(folder, "bot")}
+        kept = {pos: block for pos, block in told.items() if block != "?"}
         world = blocks_of_world(program, postgres.url(), list(kept), folder)
         lost = [pos for pos, name in kept.items() if world[pos] != name]
         checked = subprocess.run([program, "check", postgres.url()], capture_output=True, text=True)

@@ -6,7 +6,7 @@
 Three servers, bots on all of them, two windows on virtual displays whose players walk, look around, break and place.
 Every --pause seconds one thing happens, in turn: a server is killed, the database is stopped, another server is
 killed, the database is killed, a window is killed; each is started again after 5 s. The third server and the first
-window run all the time: their memory must stay flat. Bots come and go in rounds of --round minutes.
+window run all the time: their memory is told. Bots come and go in rounds of --round minutes.
 
 At the end, when all is quiet, one world must be in the database's chunks, in its history (played again on land that is
 generated anew), in a copy in one file, in what the bots were told is kept, and in what the windows know.

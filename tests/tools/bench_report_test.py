@@ -69,7 +69,7 @@ class Report(ReportTest):
         self.assertEqual(sorted(path.name for path in (made / "tables").iterdir()), names)
         for name in ["report.md", *(f"tables/{name}" for name in names)]:
             self.assertEqual((made / name).read_text(encoding="utf-8"), (FIXTURE / name).read_text(encoding="utf-8"), name)
-        for plot in ("aggregation", "effect-costs", "flight-curve", "passes", "region-height-load",
+        for plot in ("merging", "effect-costs", "flight-curve", "passes", "region-height-load",
                      "region-height-triangles", "resolution", "shading", "shadow-triangles-curve", "view-distance-frame",
                      "view-distance-load"):
             self.assertIn("</svg>", (made / "plots" / f"{plot}.svg").read_text(encoding="utf-8"), plot)
@@ -113,7 +113,7 @@ class Gaps(ReportTest):
         self.write([line for line in self.lines if not line.startswith(cell)] + [cell + '"failure":"too dark"}\n'])
         report = self.report("disk")
         self.assertIn("\n| cave | failed | failed | failed | failed |\n", report)
-        self.assertIn("\nFailed measurements:\n\n- `render --scene cave --preset low --view-distance 1 --size 320x180 --save-game "
+        self.assertIn("\nFailed measurements:\n\n- `render --scene cave --preset low --view-distance 1 --size 320x180 --world "
                       "cave-1`: too dark\n", report)
 
     def test_every_table_of_nothing(self):

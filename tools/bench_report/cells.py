@@ -69,7 +69,7 @@ def generating(scene, view_distance, **flags):
 
 def loading(scene, view_distance):
     """The same from a complete save."""
-    return generating(scene, view_distance, save_game=f"{scene}-{view_distance}")
+    return generating(scene, view_distance, world=f"{scene}-{view_distance}")
 
 
 def flight(s, is_from_save):
@@ -77,7 +77,7 @@ def flight(s, is_from_save):
     return command_line("flight-bench", scene="landscape", duration=f"{s.flight_seconds:g}",
                         preset="low" if s.is_software else "thesis", view_distance=s.view_distance,
                         size="320x180" if s.is_software else s.size,
-                        **({"save_game": "flight"} if is_from_save else {}))
+                        **({"world": "flight"} if is_from_save else {}))
 
 
 def generate_one_thread(s):

@@ -61,7 +61,7 @@ def read_results(path):
 # Names of commands and flags in files that 0.1 wrote.
 FORMER_NAMES = {"fly": "flight-bench", "--for": "--duration", "--aggregation": "--merging",
                 "--region-height": "--mesh-section-height", "--atmosphere": "--distance-fog",
-                "--better-texturing": "--sharp-filtering"}
+                "--better-texturing": "--sharp-filtering", "--save-game": "--world"}
 
 
 def parse(line):

@@ -22,7 +22,7 @@ def mesh_section_heights(s):
             continue
         for height, thesis in heights.items():
             cell = frame(s, "landscape", view_distance=distance, mesh_section_height=height,
-                         save_game=f"landscape-{distance}")
+                         world=f"landscape-{distance}")
             rows.append([str(distance), str(height), value(cell, FRAMES_PER_SECOND),
                          total(cell, [Value("/triangles/opaque"), Value("/triangles/transparent")]),
                          value(cell, LOAD_SECONDS), *thesis])
@@ -75,7 +75,7 @@ def merging_methods(s):
             rows.append([scene, method, *(value(one, Value(kind, 1e-3)) for kind in kinds),
                          *(share(one, none, Value(kind)) for kind in kinds), value(one, FRAMES_PER_SECOND), *thesis])
     return Table(
-        "aggregation", "Merging faces into rectangles (table 6.9)",
+        "merging", "Merging faces into rectangles (table 6.9)",
         "Triangles are in thousands. Shares are relative to the same scene without merging. As in the thesis, "
         "triangles hidden behind terrain are drawn too. Terrane adds the method `greedy`. The worlds differ from those "
         "of the thesis, so compare only shares.",

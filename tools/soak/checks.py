@@ -113,8 +113,8 @@ def compare_worlds(program, postgres, folder, windows, bots):
         differ = numpy.argwhere(replayed.ids != world.ids)
         problems.append(f"digests differ: {digests}; {len(differ)} blocks, first {differ[:5].tolist()}")
     # Others may have changed what a bot placed.
-    kept = {pos: name for pos, name in bots.kept.items() if last.get(pos, ("", ""))[1].startswith("bot")}
-    lost = [pos for pos, name in kept.items() if world.block(pos) != name]
+    kept = {pos: name for pos, name in bots.kept.items() if pos not in last or last[pos][1].startswith("bot")}
+    lost = [pos for pos, name in kept.items() if pos not in last or world.block(pos) != name]
     if lost:
         problems.append(f"{len(lost)} of {len(kept)} blocks that bots were told are kept are lost: {lost[:5]}")
     around = {}
