@@ -103,9 +103,9 @@ void addClosing(WorldClass& world) {
              "Waits until all edits are on the disk, or in the database; raises Error where they cannot be.")
         .def("close", &PyWorld::close,
              "Saves all edits, and lets go of the world and its memory. Later calls of other methods raise "
-             "Error; calls in progress go on, and the last of them lets go. Where edits cannot be saved it "
-             "raises "
-             "Error, and the world stays open. Closing again does nothing.")
+             "Error; calls in progress go on, and the last of them lets go. Raises Error where edits cannot "
+             "be "
+             "saved: the world stays open then. Closing again does nothing.")
         .def(
             "__enter__", [](const std::shared_ptr<PyWorld>& self) { return self; }, "The world itself.")
         .def(

@@ -78,7 +78,7 @@ int openWithoutName(const fs::path& path) {
 // What replaces a file keeps its mode: it may be only its owner's to read.
 void keepMode(int descriptor, const fs::path& path) {
     struct stat status {};
-    if (::stat(path.c_str(), &status) == 0) (void)::fchmod(descriptor, status.st_mode & 07777);
+    if (::stat(path.c_str(), &status) == 0) (void)::fchmod(descriptor, status.st_mode & 0777);
 }
 
 tl::unexpected<Error> tooManyTemporary(const fs::path& path) {
@@ -91,21 +91,19 @@ tl::unexpected<Error> tooManyTemporary(const fs::path& path) {
 Result<OutputFile> OutputFile::create(const fs::path& given) {
     const fs::path path = behindLinks(given);
     if (auto checked = checkReplaceable(path); !checked) return tl::unexpected(checked.error());
-    int descriptor = openWithoutName(path);
-    if (descriptor >= 0) {
+    const auto made = [&](int descriptor, fs::path temporary) {
         keepMode(descriptor, path);
-        return OutputFile(descriptor, path, {});
-    }
+        return OutputFile(descriptor, path, std::move(temporary));
+    };
+    int descriptor = openWithoutName(path);
+    if (descriptor >= 0) return made(descriptor, {});
     fs::path taken;
     const int error = takeTemporaryName(path, [&](const fs::path& temporary) {
         descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
         if (descriptor >= 0) taken = temporary;
         return descriptor >= 0;
     });
-    if (error == 0) {
-        keepMode(descriptor, path);
-        return OutputFile(descriptor, path, std::move(taken));
-    }
+    if (error == 0) return made(descriptor, std::move(taken));
     if (error == EEXIST) return tooManyTemporary(path);
     return cannotBeWritten(path, error);
 }

@@ -34,9 +34,9 @@ class LevelGenerators {
     // The chunk of the position's level. Throws std::invalid_argument with the reason where there is none.
     [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
 
-    // Whether the generator has a tint at level 0. Makes that level's graph where none was made.
+    // Whether the generator has a tint at level 0. Records that level's graph, once.
     [[nodiscard]] bool hasTint() const;
-    // The tint of the chunk's columns; none where its level has none. Makes no blocks, and no generator
+    // The tint of the chunk's columns; none where its level or level 0 has none. Makes no blocks, and no generator
     // of them. Errors as generate().
     [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 

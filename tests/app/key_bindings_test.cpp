@@ -68,6 +68,7 @@ TEST(KeyBindings, AKeyBelongsToOneAction) {
     keys.reset(Action::Run);
     EXPECT_TRUE(keys.isUsual());
     EXPECT_EQ(keys.bind(Action::Jump, Key::Escape), std::nullopt);
+    EXPECT_EQ(keys.bind(Action::Jump, Key::B), std::nullopt) << "the selection tool takes it first";
     EXPECT_TRUE(keys.isUsual());
 }
 

@@ -180,5 +180,23 @@ TEST(Tint, AGeneratorMayHaveNone) {
     EXPECT_TRUE(LevelGenerators(places, kTestSeed).hasTint());
 }
 
+TEST(Tint, SomeLevelsMayHaveNone) {
+    const LevelGenerators generators(
+        [](int level) {
+            GeneratorBuilder g("near", testBlocks(), level);
+            const auto colors = g.field<Int>("colors");
+            g.pass2D("colors", [&](Pass& p) { p.set(colors, Int(5)); });
+            if (level < 2) g.tint(colors);
+            addGround(g);
+            return g.finish();
+        },
+        kTestSeed);
+    for (int order = 0; order < 2; ++order) {
+        EXPECT_FALSE(generators.tint({0, 0, 4}));
+        EXPECT_TRUE(generators.tint({0, 0, 1}));
+        EXPECT_TRUE(generators.hasTint());
+    }
+}
+
 }  // namespace
 }  // namespace terrane::gen

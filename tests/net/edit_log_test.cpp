@@ -43,6 +43,12 @@ class EditLogTest : public RecordsTest {
     std::int64_t next_ = 1;
 };
 
+TEST_F(EditLogTest, AnEditOfNoBlocksIsDamaged) {
+    const store::BlockIdMap ids = store::BlockIdMap::make(contentBlocks(), {}).value();
+    const Bytes blocks = encodeEdit(LoggedEdit(), ids);
+    EXPECT_FALSE(decodeEdit(EditRow{.number = 3, .blocks = blocks}, ids));
+}
+
 TEST_F(EditLogTest, AnEditReadsBack) {
     world::BlockValue chest = valueOf("chest", 3);
     chest.data = std::make_shared<const world::BlockEntityData>(40, std::byte{5});

@@ -1,6 +1,7 @@
 // Messages of both sides: their bytes are made by the same templates (message_codec.h).
 #include <gtest/gtest.h>
 
+#include <limits>
 #include <random>
 
 #include "terrane/net/client_message.h"
@@ -94,6 +95,22 @@ TEST(Messages, FieldsKeepTheirValues) {
     EXPECT_EQ(std::get<Move>(*move).pose, kPose);
     const auto offer = decodeServerMessage(encode(ServerMessage(serverMessages()[1])));
     EXPECT_EQ(std::get<WorldOffer>(*offer).world.identity.generator, "continents");
+}
+
+// Sums of steps must stay numbers, and an edit has blocks.
+TEST(Messages, StepsHaveBounds) {
+    for (const std::int64_t step : {kMaxPosePosition, 2 * kMaxPosePosition}) {
+        for (const std::int64_t way : {step, -step}) {
+            const ServerMessage message = Poses{{PoseChange{.slot = 1, .dx = 0, .dy = way}}};
+            EXPECT_TRUE(decodeServerMessage(encode(message))) << way;
+        }
+    }
+    for (const std::int64_t step :
+         {2 * kMaxPosePosition + 1, -2 * kMaxPosePosition - 1, std::numeric_limits<std::int64_t>::max(),
+          std::numeric_limits<std::int64_t>::min()}) {
+        const ServerMessage message = Poses{{PoseChange{.slot = 1, .dx = step}}};
+        EXPECT_FALSE(decodeServerMessage(encode(message))) << step;
+    }
 }
 
 // By docs/protocol.md, made by hand.

@@ -1,6 +1,7 @@
 // A client's link that gets content packs before it joins, over sockets.
 #include <gtest/gtest.h>
 
+#include "terrane/net/server_clients.h"
 #include "tests/net/socket_fixture.h"
 
 namespace terrane::net {
@@ -17,7 +18,11 @@ class PackLink : public testing::Test {
             link.update(std::chrono::steady_clock::now());
             server_.update();
             context_.restart();
-            context_.run_for(std::chrono::milliseconds(5));
+            // One message after the other, else a login is over in a turn.
+            context_.run_one_for(std::chrono::milliseconds(5));
+            if (!letsInAtOnce_) continue;
+            for (auto& [id, client] : server_.server.state().clients) send(client, Joined{});
+            server_.sockets->flush();
         }
         stage_ = link.stage();
         reason_ = link.reason();
@@ -55,7 +60,7 @@ class PackLink : public testing::Test {
     SocketServer server_{context_, folder_.path(), 0, {}, content_};
     ClientLink::Stage stage_{};
     std::string reason_;
-    bool proved_ = false;
+    bool proved_ = false, letsInAtOnce_ = false;
     std::map<std::string, Bytes> got_;
 };
 
@@ -64,6 +69,15 @@ TEST_F(PackLink, GetsWhatItLacksAndJoins) {
     EXPECT_EQ(stage_, ClientLink::Stage::Joined) << reason_;
     EXPECT_EQ(got_["p0"], *content_.packs[0].archive);
     EXPECT_EQ(got_["p1"], *content_.packs[1].archive);
+}
+
+// Whoever is told of Joined reads the offer, which is there then.
+TEST_F(PackLink, LeavesAServerThatLetsItInBeforeTheProof) {
+    letsInAtOnce_ = true;
+    run(events());
+    EXPECT_EQ(stage_, ClientLink::Stage::Ended);
+    EXPECT_EQ(reason_, "the server let the player in before it offered its world");
+    EXPECT_FALSE(proved_);
 }
 
 TEST_F(PackLink, JoinsWithoutPacksThatItHas) {

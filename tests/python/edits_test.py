@@ -55,6 +55,21 @@ def test_a_save_keeps_edits(tmp_path, program):
     fails("incompatible", terrane.open, file, generator="overworld")
 
 
+def test_a_world_that_cannot_be_saved_stays_open(tmp_path):
+    file, away = tmp_path / "world.sqlite", tmp_path / "away.sqlite"
+    world = terrane.open(str(file), create=True, generator="flat")
+    world.set_blocks(0, 0, 90, "sand")
+    file.rename(away)  # before it is written
+    with pytest.raises(terrane.Error):
+        world.close()
+    assert not world.closed
+    away.rename(file)
+    world.close()
+    assert world.closed
+    with terrane.open(str(file)) as again:
+        assert again.blocks((0, 0, 90, 1, 1, 91))[0, 0, 0] == again.block_id("sand")
+
+
 def test_read_only_leaves_the_save_as_it_is(tmp_path):
     file = str(tmp_path / "world.sqlite")
     with terrane.open(file, create=True, generator="flat") as world:

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
 #include <set>
 
@@ -65,6 +66,32 @@ TEST_F(TilePipelineTest, ForgetsWhatTheViewLeft) {
     settle(tiles);
     EXPECT_TRUE(meshes_.empty());
     EXPECT_TRUE(shown_.empty());
+}
+
+// One for which there is no room is not shown, and comes again.
+TEST_F(TilePipelineTest, WhatIsPutBackComesAgain) {
+    TilePipeline tiles(parts_);
+    tiles.setView({{3, -4}, 4, 64, 8});
+    settle(tiles);
+    const std::set<ChunkPos> all = shown_;
+    const ChunkPos lost = *std::ranges::find_if(all, [](ChunkPos pos) { return pos.level > 0; });
+    tiles.setView({{3, -4}, 4, 0, 8});
+    settle(tiles);
+    tiles.setView({{3, -4}, 4, 64, 8});
+    int putBack = 0;
+    while (putBack < 3 || tiles.missing() > 0) {
+        tiles.waitForWorkers(std::chrono::milliseconds(100));
+        tiles.update(mesh::MergeMethod::Greedy);
+        for (TileMesh& tile : tiles.takeMeshes(1000)) {
+            if (tile.pos != lost || putBack == 3) continue;
+            ++putBack;
+            tiles.putBack(std::move(tile));
+        }
+        tiles.takeChanges();
+        ASSERT_TRUE(putBack == 3 || !tiles.table().records.contains(lost) ||
+                    !tiles.table().records.at(lost).isShown);
+    }
+    EXPECT_TRUE(tiles.table().records.at(lost).isShown);
 }
 
 // While the only worker is busy the view goes elsewhere: what was asked for before is not made.

@@ -1,5 +1,6 @@
 #include "terrane/world/block_model.h"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -156,6 +157,29 @@ TEST(BlockModel, FromAfarItIsACubeOrNotThere) {
     EXPECT_EQ(far.find("oak_stairs")->shape, Shape::Cube);
     EXPECT_TRUE(far.find("oak_stairs")->opaqueCube);
     EXPECT_EQ(far.find("fence")->shape, Shape::None);
+}
+
+// Boxes of a sixteenth that touch each other nowhere: 16 of the block, and 16 of each of its four arms.
+TEST(BlockModel, AFormHasAtMost255Faces) {
+    const auto boxesAt = [](int y) {
+        std::string boxes;
+        for (int k = 0; k < 16; ++k) {
+            const int x = 2 + 2 * (k % 4), z = k / 4 * 4;
+            boxes +=
+                fmt::format("{}[{}, {}, {}, {}, {}, {}]", k > 0 ? ", " : "", x, y, z, x + 1, y + 1, z + 1);
+        }
+        return boxes;
+    };
+    const auto errorOf = [&](bool hasArms) {
+        const auto registry = BlockRegistry::parse(
+            fmt::format("[[shape]]\nname = \"cloud\"\nboxes = [{}]\n{}[[block]]\nname = \"cloud\"\n"
+                        "shape = \"cloud\"\ntexture = \"a\"\nopacity = 0\n",
+                        boxesAt(7), hasArms ? fmt::format("arms = [{}]\n", boxesAt(0)) : ""),
+            "f");
+        return registry ? std::string() : registry.error().message;
+    };
+    EXPECT_EQ(errorOf(false), "");
+    EXPECT_THAT(errorOf(true), testing::HasSubstr("255 faces in each form"));
 }
 
 std::string shapeErrorOf(std::string_view text) {
