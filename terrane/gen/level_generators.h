@@ -36,8 +36,8 @@ class LevelGenerators {
 
     // Whether the generator has a tint at level 0. Records that level's graph, once.
     [[nodiscard]] bool hasTint() const;
-    // The tint of the chunk's columns; none where its level or level 0 has none. Makes no blocks, and no generator
-    // of them. Errors as generate().
+    // The tint of the chunk's columns; none where its level or level 0 has none. Makes no blocks, and no
+    // generator of them. Errors as generate().
     [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 
   private:
