@@ -9,25 +9,6 @@
 namespace terrane::gen {
 namespace {
 
-bool isCommutative(Op op) {
-    switch (op) {
-        case Op::AddF:
-        case Op::MulF:
-        case Op::AddI:
-        case Op::MulI:
-        case Op::And:
-        case Op::Or:
-        case Op::EqualF:
-        case Op::EqualI:
-        case Op::AndI:
-        case Op::OrI:
-        case Op::XorI:
-            return true;
-        default:
-            return false;
-    }
-}
-
 bool isChoice(Op op) {
     return op == Op::Select || op == Op::Phi;
 }

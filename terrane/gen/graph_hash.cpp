@@ -1,9 +1,15 @@
 #include "terrane/gen/graph_hash.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 #include "terrane/base/digest.h"
 
@@ -46,47 +52,129 @@ void add(Values& values, const NoiseCall& call) {
     values.add(call.exponent);
 }
 
-void add(Values& values, const Graph& graph) {
-    values.add(graph.size());
-    for (NodeId id = 0; id < graph.size(); ++id) {
-        const Node& node = graph.node(id);
-        values.add(node.op);
-        values.add(node.type);
-        values.add(node.dependence);
-        values.add(node.loop);
-        values.addList(node.arguments(), [&](NodeId argument) { values.add(argument); });
-        values.add(node.imm);
-    }
-    std::uint32_t variables = 0;
-    values.addList(graph.loops(), [&](const Loop& loop) {
-        values.add(loop.parent);
-        values.add(loop.condition);
-        variables += static_cast<std::uint32_t>(loop.variables.size());
-        values.addList(loop.variables, [&](std::uint32_t variable) { values.add(variable); });
-    });
-    for (std::uint32_t k = 0; k < variables; ++k) {
-        const LoopVariable& variable = graph.loopVariable(k);
-        for (const NodeId id : {variable.initial, variable.in, variable.next, variable.out}) values.add(id);
+// What nodes call by number. The numbers count in the order of recording, which tells nothing.
+struct Calls {
+    const std::vector<NoiseCall>& noises;
+    const std::vector<std::string>& hashNames;
+    const std::vector<StampCall>& stamps;
+};
+
+void addImm(Values& values, const Node& node, const Calls& calls) {
+    switch (node.op) {
+        case Op::Noise:
+        case Op::Stripes:
+            add(values, calls.noises[node.imm]);
+            break;
+        case Op::Hash2:
+        case Op::Hash3:
+            values.add(calls.hashNames[hashSlot(node.imm)]);
+            values.add(hashOctave(node.imm));
+            break;
+        case Op::Stamp:
+            values.add(calls.stamps[node.imm].shape);
+            values.add(calls.stamps[node.imm].base);
+            break;
+        case Op::Phi:  // which if it is
+            break;
+        default:
+            values.add(node.imm);
     }
 }
 
-void add(Values& values, const PassGraph& pass) {
+// Hashes of a pass's values by what they are computed from, whatever the order in which nodes and calls were
+// recorded: C++ leaves the order of arguments to the compiler.
+class NodeHashes {
+  public:
+    NodeHashes(const Graph& graph, const Calls& calls);
+    std::uint64_t operator[](NodeId id) const { return hashes_[id]; }
+
+  private:
+    std::uint64_t hashOf(const Node& node, const Calls& calls) const;
+    std::uint64_t hashOfLoopValue(const Node& node);
+    std::uint64_t loopHash(std::int32_t loop);
+    bool changes(const LoopVariable& variable) const { return variable.next != variable.in; }
+
+    const Graph& graph_;
+    std::vector<std::uint64_t> hashes_;                   // by node
+    std::vector<std::uint32_t> places_;                   // by loop variable, among those of its loop that change
+    std::vector<std::optional<std::uint64_t>> ofLoops_;  // by loop
+};
+
+NodeHashes::NodeHashes(const Graph& graph, const Calls& calls) : graph_(graph), ofLoops_(graph.loops().size()) {
+    for (const Loop& loop : graph.loops()) {
+        std::uint32_t count = 0;
+        for (const std::uint32_t variable : loop.variables) {
+            places_.resize(std::max<std::size_t>(places_.size(), variable + 1));
+            places_[variable] = count;
+            count += changes(graph.loopVariable(variable));
+        }
+    }
+    hashes_.reserve(graph.size());
+    for (NodeId id = 0; id < graph.size(); ++id) {
+        const Node& node = graph.node(id);
+        const bool isOfLoop = node.op == Op::LoopIn || node.op == Op::LoopOut;
+        hashes_.push_back(isOfLoop ? hashOfLoopValue(node) : hashOf(node, calls));
+    }
+}
+
+std::uint64_t NodeHashes::hashOf(const Node& node, const Calls& calls) const {
+    std::array<std::uint64_t, 3> arguments{};
+    const std::size_t count = node.arguments().size();
+    for (std::size_t k = 0; k < count; ++k) arguments[k] = hashes_[node.args[k]];
+    if (isCommutative(node.op) && arguments[1] < arguments[0]) std::swap(arguments[0], arguments[1]);
+    Values values;
+    values.add(node.op);
+    values.add(node.type);
+    values.addList(std::span(arguments).first(count), [&](std::uint64_t hash) { values.add(hash); });
+    addImm(values, node, calls);
+    return values.hash();
+}
+
+// What does not change in a loop has its initial value there and after it. In the loop the others are told
+// apart by loop and place; after it they are what the loop makes of them.
+std::uint64_t NodeHashes::hashOfLoopValue(const Node& node) {
+    const LoopVariable& variable = graph_.loopVariable(node.imm);
+    if (!changes(variable)) return hashes_[variable.initial];
+    Values values;
+    values.add(node.op);
+    values.add(node.type);
+    values.add(places_[node.imm]);
+    if (node.op == Op::LoopIn)
+        values.add(graph_.loops()[static_cast<std::size_t>(variable.loop)].depth);
+    else
+        values.add(loopHash(variable.loop));
+    return values.hash();
+}
+
+// All nodes of a loop stand before what reads its results.
+std::uint64_t NodeHashes::loopHash(std::int32_t number) {
+    std::optional<std::uint64_t>& known = ofLoops_[static_cast<std::size_t>(number)];
+    if (known) return *known;
+    const Loop& loop = graph_.loops()[static_cast<std::size_t>(number)];
+    Values values;
+    values.add(hashes_[loop.condition]);
+    for (const std::uint32_t k : loop.variables) {
+        const LoopVariable& variable = graph_.loopVariable(k);
+        if (!changes(variable)) continue;
+        values.add(hashes_[variable.initial]);
+        values.add(hashes_[variable.next]);
+    }
+    known = values.hash();
+    return *known;
+}
+
+void add(Values& values, const PassGraph& pass, const std::vector<NoiseCall>& noises,
+         const std::vector<std::string>& hashNames) {
+    const NodeHashes hashes(pass.graph, {noises, hashNames, pass.stamps});
     values.add(pass.is3D);
-    add(values, pass.graph);
     values.addList(pass.fields, [&](const FieldOutput& output) {
         values.add(output.field);
-        values.add(output.value);
+        values.add(hashes[output.value]);
         values.add(output.isWritten.has_value());
-        values.add(output.isWritten.value_or(0));
+        if (output.isWritten) values.add(hashes[*output.isWritten]);
     });
     values.add(pass.block.has_value());
-    values.add(pass.block.value_or(0));
-    values.addList(pass.readsAt, [&](std::uint32_t field) { values.add(field); });
-    values.add(pass.readsBlocksAt);
-    values.addList(pass.stamps, [&](const StampCall& stamp) {
-        values.add(stamp.shape);
-        values.add(stamp.base);
-    });
+    if (pass.block) values.add(hashes[*pass.block]);
 }
 
 void add(Values& values, const DrainageSpec& spec) {
@@ -96,16 +184,10 @@ void add(Values& values, const DrainageSpec& spec) {
         values.add(value);
 }
 
-void addHashNames(Values& values, const std::vector<std::string>& names) {
-    values.addList(names, [&](const std::string& name) { values.add(name); });
-}
-
 void add(Values& values, const DrainageGraph& map) {
     values.add(map.name);
     add(values, map.spec);
-    values.addList(map.noises, [&](const NoiseCall& call) { add(values, call); });
-    addHashNames(values, map.hashNames);
-    add(values, map.heights);
+    add(values, map.heights, map.noises, map.hashNames);
 }
 
 void add(Values& values, const ShapeTable& table) {
@@ -127,10 +209,10 @@ std::uint64_t graphHash(const GeneratorGraph& generator) {
         values.add(field.type);
         values.add(field.writtenBy);
     });
-    values.addList(generator.noises, [&](const NoiseCall& call) { add(values, call); });
-    addHashNames(values, generator.hashNames);
     values.addList(generator.drainages, [&](const DrainageGraph& map) { add(values, map); });
-    values.addList(generator.passes, [&](const PassGraph& pass) { add(values, pass); });
+    values.addList(generator.passes, [&](const PassGraph& pass) {
+        add(values, pass, generator.noises, generator.hashNames);
+    });
     values.add(generator.shapes != nullptr);
     if (generator.shapes) add(values, *generator.shapes);
     return values.hash();

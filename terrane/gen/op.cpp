@@ -118,4 +118,23 @@ const OpRecord& record(Op op) {
     return kRecords[static_cast<std::size_t>(op)];
 }
 
+bool isCommutative(Op op) {
+    switch (op) {
+        case Op::AddF:
+        case Op::MulF:
+        case Op::AddI:
+        case Op::MulI:
+        case Op::And:
+        case Op::Or:
+        case Op::EqualF:
+        case Op::EqualI:
+        case Op::AndI:
+        case Op::OrI:
+        case Op::XorI:
+            return true;
+        default:
+            return false;
+    }
+}
+
 }  // namespace terrane::gen

@@ -130,6 +130,7 @@ struct OpRecord {
 };
 
 const OpRecord& record(Op op);
+bool isCommutative(Op op);  // whether its two arguments can be swapped
 
 // Whether the operation's imm is a noise call, and its results are taken with Component.
 constexpr bool makesNoise(Op op) {
