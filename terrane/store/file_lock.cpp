@@ -45,14 +45,23 @@ bool isStillThere(int descriptor, const std::filesystem::path& file) {
            opened.st_ino == there.st_ino && opened.st_dev == there.st_dev;
 }
 
+// -1, with errno: the lock's file cannot be made or opened. Who may not write can still see who does.
+int openLockFile(const std::filesystem::path& file, FileLock::Kind kind) {
+    constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
+    const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | kFlags, 0644);
+    const bool isForbidden = descriptor < 0 && (errno == EACCES || errno == EROFS || errno == EPERM);
+    if (!isForbidden || kind == FileLock::Kind::Exclusive) return descriptor;
+    return ::open(file.c_str(), O_RDONLY | kFlags);
+}
+
 }  // namespace
 
 base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind kind) {
     std::filesystem::path file = path;
     file += "-lock";
     while (true) {
-        const int descriptor =
-            ::open(file.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK, 0644);
+        const int descriptor = openLockFile(file, kind);
+        if (descriptor < 0 && errno == ENOENT && kind == Kind::Shared) return FileLock(-1, kind, {});
         if (descriptor < 0)
             return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(),
                               errno == ELOOP ? "a symbolic link" : base::systemReason(errno));

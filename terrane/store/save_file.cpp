@@ -221,15 +221,13 @@ struct ReadLock {
 
 base::Result<ReadLock> lockToRead(const fs::path& path) {
     ReadLock reading;
-    if (isWritable(path)) {
-        auto lock = FileLock::acquire(path, FileLock::Kind::Shared);
-        if (lock) {
-            reading.lock = std::move(*lock);
-        } else if (lock.error().code == ErrorCode::Busy) {
-            reading.inUse = lock.error().message.substr(path.string().size() + 2);  // behind "path: "
-        } else {
-            return tl::unexpected(lock.error());
-        }
+    auto lock = FileLock::acquire(path, FileLock::Kind::Shared);
+    if (lock) {
+        reading.lock = std::move(*lock);
+    } else if (lock.error().code == ErrorCode::Busy) {
+        reading.inUse = lock.error().message.substr(path.string().size() + 2);  // behind "path: "
+    } else {
+        return tl::unexpected(lock.error());
     }
     if (!hasJournal(path)) return reading;
     if (!reading.inUse.empty())

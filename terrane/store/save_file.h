@@ -15,7 +15,7 @@
 namespace terrane::store {
 
 struct SaveFile {
-    std::optional<FileLock> lock;  // none where the folder cannot be written. Goes last.
+    std::optional<FileLock> lock;  // none while another program writes. Goes last.
     Database database;
     OpenMode readers = OpenMode::ReadOnly;  // how further connections are to be opened
     bool isNew = false;

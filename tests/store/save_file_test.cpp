@@ -4,6 +4,9 @@
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 
+#include <fstream>
+#include <optional>
+
 #include "terrane/store/file_lock.h"
 #include "terrane/store/open_world.h"
 #include "terrane/store/sqlite_reader.h"
@@ -468,6 +471,36 @@ TEST_F(ReadOnlyTest, RecreateInAReadOnlyFolder) {
     EXPECT_EQ((*store)->load({3, 0}).state, LoadedChunk::State::Absent);
     EXPECT_EQ((*store)->identity().seed, kIdentity.seed);
     EXPECT_EQ((*store)->identity().generatorVersion, 4);
+}
+
+// Who may not write the save does not read it as one that stays as it is.
+TEST_F(ReadOnlyTest, SeesWhoWrites) {
+    const auto writer = openToWrite(path_, registry_, kCreate);
+    ASSERT_TRUE(writer) << writer.error().message;
+    makeReadOnly();
+    const Unprivileged user;
+    const auto reader = openToRead(path_, registry_);
+    ASSERT_TRUE(reader) << reader.error().message;
+    EXPECT_THAT(reader->inUse, HasSubstr("open in another program"));
+    EXPECT_EQ(reader->readers, OpenMode::ReadOnly);
+}
+
+// A program that was killed left the lock's file.
+TEST_F(ReadOnlyTest, KeepsOutWhoWouldWrite) {
+    makeSave();
+    std::ofstream(path_.string() + "-lock") << "12";
+    makeReadOnly();
+    std::optional<SaveFile> reader;
+    {
+        const Unprivileged user;
+        auto file = openToRead(path_, registry_);
+        ASSERT_TRUE(file) << file.error().message;
+        EXPECT_EQ(file->inUse, "");
+        reader = std::move(*file);
+    }
+    EXPECT_THAT(errorOfWriting(), HasSubstr("open in another program"));
+    reader.reset();
+    EXPECT_EQ(errorOfWriting(), "");
 }
 
 TEST_F(ReadOnlyTest, OneReadOnlyFile) {
