@@ -18,6 +18,7 @@ struct KeptRegion {
     DrainageCell corner;
     std::once_flag made;
     std::optional<DrainageRegion> region;
+    std::size_t bytes = 0;  // of the region once it is made
 };
 
 struct DrainageMaps::Map {
@@ -25,6 +26,7 @@ struct DrainageMaps::Map {
 
     std::shared_ptr<KeptRegion> find(DrainageCell corner);
     std::shared_ptr<KeptRegion> region(DrainageCell corner);
+    void forgetOldest();
 
     DrainageHeights heights;
     std::mutex mutex;
@@ -41,8 +43,18 @@ std::shared_ptr<KeptRegion> DrainageMaps::Map::find(DrainageCell corner) {
     }
     kept.push_front(std::make_shared<KeptRegion>());
     kept.front()->corner = corner;
-    if (kept.size() > kKeptRegions) kept.pop_back();
+    forgetOldest();
     return kept.front();
+}
+
+// Called with the mutex held.
+void DrainageMaps::Map::forgetOldest() {
+    std::size_t bytes = 0;
+    for (const auto& r : kept) bytes += r->bytes;
+    while (kept.size() > 1 && (kept.size() > kKeptRegions || bytes > kKeptRegionBytes)) {
+        bytes -= kept.back()->bytes;
+        kept.pop_back();
+    }
 }
 
 // Who made no region because memory ran out leaves it to the next one.
@@ -51,6 +63,9 @@ std::shared_ptr<KeptRegion> DrainageMaps::Map::region(DrainageCell corner) {
     std::call_once(found->made, [&] {
         TERRANE_ZONE("drainage region");
         found->region = makeDrainageRegion(heights, corner);
+        const std::lock_guard lock(mutex);
+        found->bytes = found->region->bytes();
+        forgetOldest();
     });
     return found;
 }
@@ -150,7 +165,7 @@ std::size_t DrainageMaps::bytes() const {
     std::size_t sum = 0;
     for (const auto& map : maps_) {
         const std::lock_guard lock(map->mutex);
-        for (const auto& r : map->kept) sum += r->region ? r->region->bytes() : 0;
+        for (const auto& r : map->kept) sum += r->bytes;
     }
     return sum;
 }

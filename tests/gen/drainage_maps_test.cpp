@@ -266,6 +266,20 @@ TEST(DrainageMaps, KeepsABoundedNumberOfRegions) {
     }
 }
 
+// A river at every node makes regions several times as large.
+TEST(DrainageMaps, KeepsABoundedNumberOfBytes) {
+    std::vector<DrainageGraph> graphs = DrainageRunner(kTestSeed).graph.drainages;
+    graphs.front().spec.minFlow = 1;
+    DrainageMaps maps(graphs, kTestSeed);
+    DrainageTile tile;
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(kKeptRegions); ++k) {
+        maps.prepare(tile, 0, {k * kRegionBlocks + kRegionBlocks / 2, kRegionBlocks / 2, 1});
+        EXPECT_LE(maps.bytes(), kKeptRegionBytes);
+    }
+    EXPECT_LT(maps.keptRegions(), kKeptRegions);
+    EXPECT_GT(maps.keptRegions(), 0u);
+}
+
 // Every river reaches the sea or a lake, whatever the seed.
 TEST(DrainageMaps, RiversReachTheSeaOrALake) {
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
