@@ -78,17 +78,22 @@ TEST_F(SlowNetwork, EditsArriveOnceAfterAStall) {
 TEST_F(SlowNetwork, CutsAtAnyTime) {
     startBoth(std::chrono::milliseconds(20), false);
     std::mt19937 random(1);
+    std::int64_t made = 0, acknowledged = 0;
     for (int cut = 0; cut < 4; ++cut) {
         for (int k = 0; k < 10; ++k) {
             const world::BlockPos pos = far_->above(static_cast<int>(random() % 4));
             const bool isAir = far_->session->world().block(pos) == world::kAir;
-            (void)far_->put(pos, isAir ? "glass" : "air");
+            made += far_->put(pos, isAir ? "glass" : "air") == game::EditResult::Applied;
             (void)runUntil([] { return true; });
         }
+        acknowledged = made - static_cast<std::int64_t>(far_->world->undecidedCount());
         proxy_->cutAll();
         ASSERT_TRUE(runUntil([&] { return far_->joins == cut + 2 && far_->isLoaded(); }))
             << far_->link.reason();
+        EXPECT_GE(server_->server.state().history.newest, acknowledged);
+        made = server_->server.state().history.newest;  // the others are lost
     }
+    EXPECT_GT(made, 0);
     const auto areEqual = [&] {
         for (int k = 0; k < 4; ++k) {
             const world::BlockPos pos = far_->above(k);
