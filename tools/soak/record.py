@@ -7,6 +7,8 @@ import statistics
 import time
 
 SAMPLE_SECONDS = 10
+# What memory may have in the last quarter beside the second one: players see other land in each round.
+MOST_GROWTH, MOST_GROWTH_MB = 1.25, 8
 
 
 def resident_mb(pid):
@@ -80,3 +82,8 @@ class Record:
             found[name] = {"second_quarter": statistics.median(values[quarter:2 * quarter]),
                            "last_quarter": statistics.median(values[-quarter:]), "most": max(values)}
         return found
+
+    def memory_problems(self):
+        return [f"{name}: memory grows from {found['second_quarter']:.0f} to {found['last_quarter']:.0f} MB"
+                for name, found in self.memory().items()
+                if found["last_quarter"] > MOST_GROWTH * found["second_quarter"] + MOST_GROWTH_MB]

@@ -1,0 +1,34 @@
+#!/usr/bin/env python3
+"""What tools/soak.py says about memory. Usage: soak_record_test.py FOLDER (of the package soak)"""
+import pathlib
+import sys
+import tempfile
+import unittest
+
+sys.path.insert(0, str(pathlib.Path(sys.argv.pop(1)).resolve().parent))
+
+from soak.record import Record  # noqa: E402
+
+
+class Memory(unittest.TestCase):
+    def problems(self, megabytes, processes=None):
+        with tempfile.TemporaryDirectory() as folder:
+            record = Record(pathlib.Path(folder))
+            processes = processes or [7] * len(megabytes)
+            record.series["server 3"] = [(10.0 * k, value, pid) for k, (value, pid) in enumerate(zip(megabytes, processes))]
+            record.samples.close()
+            record.events.close()
+            return record.memory_problems()
+
+    def test_what_stays_is_no_problem(self):
+        self.assertEqual(self.problems([30.0] * 10 + [80.0, 90.0] * 45), [])
+
+    def test_growth_is_told(self):
+        self.assertEqual(self.problems([80.0] * 60 + [120.0] * 40), ["server 3: memory grows from 80 to 120 MB"])
+
+    def test_who_was_killed_begins_anew(self):
+        self.assertEqual(self.problems([80.0] * 60 + [120.0] * 40, [7] * 50 + [8] * 50), [])
+
+
+if __name__ == "__main__":
+    unittest.main()
