@@ -22,6 +22,8 @@ from server_tools import Server, bots_command
 
 EDITS = 1000
 CHUNKS = 16
+CLIENTS = ("/usr/games/minetest", "/usr/games/luanti")  # of Debian 12, of later releases
+SERVERS = ("/usr/lib/minetest/minetestserver", "/usr/lib/luanti/luantiserver")
 QUIET_BYTES, QUIET_SECONDS, LONGEST_SECONDS = 20_000, 20, 400
 
 MOD = """
@@ -124,11 +126,11 @@ def terrane(program, folder):
             "seconds": visit["joined_ms_median"] / 1000}
 
 
-def visit_luanti(folder, name, port):
+def visit_luanti(folder, name, port, program):
     proxy = Proxy(port)
     proxy.start()
     client = subprocess.Popen(
-        ["xvfb-run", "-a", "-s", "-screen 0 320x240x24", "minetest", "--go", "--address", "127.0.0.1", "--port",
+        ["xvfb-run", "-a", "-s", "-screen 0 320x240x24", program, "--go", "--address", "127.0.0.1", "--port",
          str(proxy.port), "--name", name, "--config", folder / "luanti.conf", "--logfile", folder / f"{name}.log"],
         env={"HOME": str(folder), "PATH": "/usr/games:/usr/bin:/bin", "LIBGL_ALWAYS_SOFTWARE": "1"},
         stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, start_new_session=True)
@@ -144,7 +146,7 @@ def visit_luanti(folder, name, port):
     return {"kb": total / 1000, "seconds": seconds, "down": proxy.down}
 
 
-def luanti(folder):
+def luanti(folder, client, server_program):
     world = folder / "world"
     mod = world / "worldmods" / "joining"
     mod.mkdir(parents=True)
@@ -156,12 +158,12 @@ def luanti(folder):
         port = probe.getsockname()[1]
     (folder / "luanti.conf").write_text(CONFIG + f"port = {port}\nbind_address = 127.0.0.1\n")
     server = subprocess.Popen(
-        ["/usr/lib/minetest/minetestserver", "--world", world, "--gameid", "minetest", "--config", folder / "luanti.conf",
+        [server_program, "--world", world, "--gameid", "minetest", "--config", folder / "luanti.conf",
          "--logfile", folder / "server.log"], env={"HOME": str(folder)}, stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL)
     try:
         time.sleep(5)
-        rows = [{"program": f"Luanti, {label}", "edits": EDITS, **visit_luanti(folder, name, port)}
+        rows = [{"program": f"Luanti, {label}", "edits": EDITS, **visit_luanti(folder, name, port, client)}
                 for name, label in (("first", "first visit"), ("second", "pictures and sounds there"))]
     finally:
         server.terminate()
@@ -182,9 +184,10 @@ def main():
         (folder / "luanti").mkdir()
         rows = [terrane(options.program.resolve(), folder / "terrane")]
         if not options.without_luanti:
-            if not shutil.which("/usr/games/minetest"):
+            programs = [next(filter(shutil.which, names), None) for names in (CLIENTS, SERVERS)]
+            if None in programs:
                 sys.exit("joining: install minetest, minetest-server and xvfb, or say --without-luanti")
-            rows += luanti(folder / "luanti")
+            rows += luanti(folder / "luanti", *programs)
     print("program\tedits\tkB\tseconds")
     for row in rows:
         print(f"{row['program']}\t{row['edits']}\t{row['kb']:.1f}\t{row['seconds']:.1f}")

@@ -112,10 +112,10 @@ class Comparison:
         return {"join_kb": row["kb"], "join_first_kb": row["kb"], "join_seconds": row["seconds"]}, row
 
     def luanti_joining(self, _):
-        for names in (luanti.CLIENTS, luanti.SERVERS, ("xvfb-run",)):
-            process.find_program(names, luanti.HINT + " xvfb")
+        client, server, _ = (process.find_program(names, luanti.HINT + " xvfb")
+                             for names in (luanti.CLIENTS, luanti.SERVERS, ("xvfb-run",)))
         with self.scratch() as folder:
-            first, second = joining().luanti(pathlib.Path(folder))
+            first, second = joining().luanti(pathlib.Path(folder), client, server)
         return ({"join_kb": second["kb"], "join_first_kb": first["kb"], "join_seconds": second["seconds"]},
                 {"first": first, "second": second})
 
