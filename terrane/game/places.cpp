@@ -10,7 +10,6 @@
 namespace terrane::game {
 namespace {
 
-constexpr std::string_view kPlaces = "places";  // name of metadata
 constexpr int kPoseNumbers = 5;
 
 bool isContinuation(char c) {
@@ -70,11 +69,11 @@ bool namePlace(std::vector<Place>& places, std::string_view typed, const world::
 }
 
 std::vector<Place> savedPlaces(store::ReadableStore& store) {
-    return placesFrom(store.metadata(kPlaces).value_or(""));
+    return placesFrom(store.metadata(kPlacesMetadata).value_or(""));
 }
 
-void savePlaces(store::ChunkStore& store, const std::vector<Place>& places) {
-    store.setMetadata(kPlaces, textOf(places));
+store::SaveNumber savePlaces(store::ChunkStore& store, const std::vector<Place>& places) {
+    return store.setMetadata(kPlacesMetadata, textOf(places));
 }
 
 double compassDegrees(double x, double y) {

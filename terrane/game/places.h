@@ -34,8 +34,9 @@ std::string placeName(std::string_view typed);
 bool namePlace(std::vector<Place>& places, std::string_view name, const world::Pose& pose);
 
 // In the store's metadata.
+inline constexpr const char* kPlacesMetadata = "places";
 std::vector<Place> savedPlaces(store::ReadableStore& store);
-void savePlaces(store::ChunkStore& store, const std::vector<Place>& places);
+store::SaveNumber savePlaces(store::ChunkStore& store, const std::vector<Place>& places);
 
 // What a compass shows of a direction over the ground: degrees from north toward east, 0…360. The sun rises
 // in the east, which is -x; north is -y.

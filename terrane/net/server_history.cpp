@@ -5,6 +5,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
+#include "terrane/net/server_places.h"
 
 namespace terrane::net {
 namespace {
@@ -90,7 +91,10 @@ base::Result<void> saveEverything(ServerState& server) {
     if (auto decided = decideAll(server); !decided) return decided;
     game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
     if (auto saved = server.session.save(); !saved) return saved;
-    if (server.sharing.shared) server.sharing.shared->tellState(0, server.sharing.newest);
+    if (server.sharing.shared) {
+        tellSavedPlaces(server);
+        server.sharing.shared->tellState(0, server.sharing.newest);
+    }
     if (server.history.saved < server.history.newest) {
         server.history.saved = server.history.newest;
         server.records.setSavedEdit(server.history.newest);

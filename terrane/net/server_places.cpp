@@ -3,15 +3,26 @@
 #include <algorithm>
 #include <vector>
 
-#include "terrane/game/places.h"
-
 namespace terrane::net {
 namespace {
 
-// Changes it here, and tells the other servers of the world.
+void makeChange(std::vector<game::Place>& places, const PlaceChange& change) {
+    if (change.isGone)
+        std::erase_if(places, [&](const game::Place& place) { return place.name == change.name; });
+    else
+        (void)game::namePlace(places, change.name, poseOf(change.pose));
+}
+
+store::SaveNumber changeHere(ServerState& server, const PlaceChange& change) {
+    std::vector<game::Place> places = game::savedPlaces(server.session.store());
+    makeChange(places, change);
+    return game::savePlaces(server.session.store(), places);
+}
+
+// Here, and on the other servers of the world.
 void change(ServerState& server, const PlaceChange& change) {
-    applyPlaceChange(server, change);
-    if (server.sharing.shared) server.sharing.shared->tellPlace(change);
+    const store::SaveNumber save = changeHere(server, change);
+    if (server.sharing.shared) server.sharing.untoldPlaces.push_back({save, change});
 }
 
 bool hasPlace(ServerState& server, const std::string& name) {
@@ -21,12 +32,22 @@ bool hasPlace(ServerState& server, const std::string& name) {
 }  // namespace
 
 void applyPlaceChange(ServerState& server, const PlaceChange& change) {
-    std::vector<game::Place> places = game::savedPlaces(server.session.store());
-    if (change.isGone)
-        std::erase_if(places, [&](const game::Place& place) { return place.name == change.name; });
-    else
-        (void)game::namePlace(places, change.name, poseOf(change.pose));
-    game::savePlaces(server.session.store(), places);
+    (void)changeHere(server, change);
+}
+
+void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places) {
+    std::vector<game::Place> all = places;
+    for (const auto& [save, change] : server.sharing.untoldPlaces) makeChange(all, change);
+    if (game::textOf(all) != game::textOf(game::savedPlaces(server.session.store())))
+        game::savePlaces(server.session.store(), all);
+}
+
+void tellSavedPlaces(ServerState& server) {
+    auto& untold = server.sharing.untoldPlaces;
+    if (untold.empty()) return;
+    const store::SaveNumber durable = server.session.store().status().durable;
+    for (; !untold.empty() && untold.front().first <= durable; untold.pop_front())
+        server.sharing.shared->tellPlace(untold.front().second);
 }
 
 std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {

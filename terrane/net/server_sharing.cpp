@@ -283,6 +283,7 @@ void takeNews(ServerState& server) {
     takePoses(server, news);
     for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
     onTilesChanged(server, news.tiles);
+    if (news.allPlaces) takeAllPlaces(server, *news.allPlaces);
     for (const PlaceChange& change : news.places) applyPlaceChange(server, change);
     if (news.passwordHash) server.passwordHash = *news.passwordHash;
     if (news.timeDay) setTimeHere(server, *news.timeDay);
@@ -313,6 +314,7 @@ void keepSharing(ServerState& server) {
     sharing.refused.clear();  // whoever is still there was told
     if (server.tick % kTicksPerPoses == 0) tellPoses(server);
     takeOverEstates(server);
+    tellSavedPlaces(server);
     if (server.now < sharing.nextState) return;
     sharing.nextState = server.now + kStateEvery;
     sharing.shared->tellState(static_cast<int>(server.playing.size()), sharing.ownSaved);

@@ -66,6 +66,7 @@ struct SharingState {
     std::deque<Estate> estates;
     std::set<std::int64_t> forgotten;  // servers whose estates are saved; lists of servers may come later
     std::uint64_t savesBegun = 0, savesDone = 0;
+    std::deque<std::pair<store::SaveNumber, PlaceChange>> untoldPlaces;  // own, that wait to be saved
     Time nextState{};
 };
 

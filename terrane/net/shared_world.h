@@ -14,6 +14,7 @@
 #include <variant>
 #include <vector>
 
+#include "terrane/game/places.h"
 #include "terrane/net/server_records.h"
 #include "terrane/net/wire_pose.h"
 
@@ -67,6 +68,7 @@ struct SharedNews {
     std::optional<std::string> passwordHash;  // where it was changed
     std::optional<double> timeDay;            // where somebody set the time
     std::vector<OtherPlayer> poses;
+    std::optional<std::vector<game::Place>> allPlaces;  // where changes may have been missed; `places` are newer
     std::vector<PlaceChange> places;
     std::vector<world::ChunkPos> tiles;               // that others wrote
     std::optional<std::vector<OtherServer>> servers;  // all others, where that was looked up

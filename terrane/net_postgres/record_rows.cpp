@@ -23,6 +23,7 @@ constexpr Statement kPlayers = {"SELECT id, key, name, role, pose, ban FROM play
 constexpr Statement kPlayer = {"SELECT id, key, name, role, pose, ban FROM players WHERE id = $1"};
 constexpr Statement kClaims = {"SELECT name, x0, y0, x1, y1, owner, members FROM claims ORDER BY name"};
 constexpr Statement kText = {"SELECT value FROM texts WHERE name = $1"};
+constexpr Statement kPlaces = {"SELECT value FROM settings WHERE name = $1"};
 constexpr Statement kEnds = {"SELECT newest, saved FROM history"};
 // $1 to $8: numbers, player (below 0: any), times, chunks, how many.
 constexpr Statement kEditsUp = {
@@ -119,6 +120,12 @@ base::Result<std::string> readText(Connection& connection, const std::string& na
     const auto rows = connection.run(kText, Parameters().text(name));
     if (!rows) return tl::unexpected(rows.error());
     return rows->count() == 1 ? std::string(rows->text(0, 0)) : std::string();
+}
+
+base::Result<std::vector<game::Place>> readPlaces(Connection& connection) {
+    const auto rows = connection.run(kPlaces, Parameters().text(game::kPlacesMetadata));
+    if (!rows) return tl::unexpected(rows.error());
+    return game::placesFrom(rows->count() == 1 ? rows->text(0, 0) : std::string_view());
 }
 
 base::Result<net::HistoryEnds> readEnds(Connection& connection) {

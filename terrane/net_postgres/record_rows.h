@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "terrane/game/places.h"
 #include "terrane/net/server_records.h"
 #include "terrane/store_postgres/connection.h"
 
@@ -17,6 +18,8 @@ namespace terrane::net_postgres {
 [[nodiscard]] base::Result<std::vector<game::Claim>> readClaims(store_postgres::Connection& connection);
 [[nodiscard]] base::Result<std::string> readText(store_postgres::Connection& connection,
                                                  const std::string& name);
+// Names of places, which the store writes.
+[[nodiscard]] base::Result<std::vector<game::Place>> readPlaces(store_postgres::Connection& connection);
 [[nodiscard]] base::Result<net::HistoryEnds> readEnds(store_postgres::Connection& connection);
 // Players who are on other servers than this one.
 [[nodiscard]] base::Result<std::vector<game::PlayerId>> readElsewhere(store_postgres::Connection& connection,

@@ -104,6 +104,8 @@ base::Result<void> PostgresRecords::lookUp() {
     if (!claims) return tl::unexpected(claims.error());
     auto hash = readText(*connection_, net::kPasswordText);
     if (!hash) return tl::unexpected(hash.error());
+    auto places = readPlaces(*connection_);
+    if (!places) return tl::unexpected(places.error());
     auto elsewhere = readElsewhere(*connection_, server_);
     if (!elsewhere) return tl::unexpected(elsewhere.error());
     mustLookUp_ = false;
@@ -111,6 +113,8 @@ base::Result<void> PostgresRecords::lookUp() {
     std::move(players->begin(), players->end(), std::back_inserter(news_.players));
     news_.claims = std::move(*claims);
     news_.passwordHash = std::move(*hash);
+    news_.allPlaces = std::move(*places);
+    news_.places.clear();  // heard before
     const auto joinsHere = [&](game::PlayerId player) {
         const auto isJoin = [&](const QueuedWrite& write) {
             const auto* joined = write.note ? std::get_if<JoinedNote>(&*write.note) : nullptr;

@@ -326,6 +326,7 @@ TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
     postgres_.sql("UPDATE " + schema_ + ".players SET ban = 'noise' WHERE name = 'Bert'");
     postgres_.sql("INSERT INTO " + schema_ + ".texts VALUES ('password', 'a hash')");
     postgres_.sql("INSERT INTO " + schema_ + ".claims VALUES ('farm', 0, 0, 9, 9, 5, '')");
+    postgres_.sql("INSERT INTO " + schema_ + ".settings VALUES ('places', '1 2 70 0 0 The mill')");
     for (int k = 0; k < 50; ++k) servers_.tick();
     EXPECT_EQ(bert.find<net::Refused>(), nullptr);
     postgres_.query(
@@ -335,6 +336,9 @@ TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
     EXPECT_EQ(a.state().passwordHash, "a hash");
     EXPECT_EQ(a.state().people.claims().all().size(), 1u);
+    const auto places = game::savedPlaces(a.state().session.store());
+    ASSERT_EQ(places.size(), 1u);
+    EXPECT_EQ(places[0].name, "The mill");
     EXPECT_EQ(anna.find<net::Refused>(), nullptr) << "she plays here, and nowhere else";
     servers_.stopAll();
 }
