@@ -70,6 +70,7 @@ constexpr auto filled(std::uint32_t entry) {
 LightStore::LightStore(int viewDistance, int maxSlabs, std::size_t maxBytes)
     : maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()), maxBytes_(maxBytes) {
     gridChunks_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(2 * (viewDistance + 2) + 1)));
+    shown_.resize(static_cast<std::size_t>(gridChunks_) * static_cast<std::size_t>(gridChunks_));
     const int side = 2 * gridChunks_, high = static_cast<int>(shared::kLightTilesHigh);
     grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
     const shared::uint unknown = shared::kLightUnknown;
@@ -117,6 +118,11 @@ void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
     pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_BGRA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
                      std::as_bytes(std::span(values, kTileBlocks)));
     ++uploadedTiles_;
+}
+
+std::size_t LightStore::placeOf(world::ChunkPos pos) const {
+    const int mask = gridChunks_ - 1;
+    return static_cast<std::size_t>((pos.y & mask) * gridChunks_ + (pos.x & mask));
 }
 
 void LightStore::uploadEntries(world::ChunkPos pos, const Entries& entries) {
@@ -168,6 +174,7 @@ bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::u
                      light.brick(n));
     }
     uploadEntries(pos, it->second);
+    shown_[placeOf(pos)] = pos;
     return hasRoom;
 }
 
@@ -176,6 +183,10 @@ void LightStore::remove(world::ChunkPos pos) {
     if (found == chunks_.end()) return;
     release(found->second);
     chunks_.erase(found);
+    // A chunk that came to its place meanwhile stays.
+    std::optional<world::ChunkPos>& shown = shown_[placeOf(pos)];
+    if (shown != pos) return;
+    shown.reset();
     uploadEntries(pos, filled(shared::kLightUnknown));
 }
 

@@ -61,7 +61,10 @@ class LightStore {
     bool setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick);
     void release(std::span<const std::uint32_t> entries);
 
+    std::size_t placeOf(world::ChunkPos pos) const;
+
     int gridChunks_ = 0, maxSlabs_ = 0;
+    std::vector<std::optional<world::ChunkPos>> shown_;  // by place in the grid, which many chunks share
     std::size_t maxBytes_ = SIZE_MAX, peakBytes_ = 0;
     gpu::Texture3D grid_, pool_;
     std::size_t tileCount_ = 0;  // handed out so far, free ones included

@@ -162,6 +162,17 @@ TEST_F(LightImageTest, LightThatChangesReplacesTheOld) {
     EXPECT_EQ(largestDifference(draw(renderer, {}), imageOf({})), 0);
 }
 
+// Who flies far has light of new chunks at places of old ones, which are removed later.
+TEST_F(LightImageTest, AChunkThatIsFarAwayTakesNoLightAlong) {
+    Renderer renderer = makeRenderer();
+    renderer.setLight({-1024, 1024}, light::ChunkLight());
+    load(renderer, {});
+    const base::Image before = draw(renderer, {});
+    renderer.removeChunk({-1024, 1024});
+    EXPECT_EQ(largestDifference(draw(renderer, {}), before), 0);
+    EXPECT_EQ(largestDifference(before, imageOf({})), 0);
+}
+
 // Two rooms of stone whose only contact is an edge, a lamp in one.
 class LightCornerTest : public LightImageTest {
   protected:
