@@ -6,6 +6,7 @@ Each command runs under limits of its address space (RLIMIT_AS) from where the s
 where all works. Ten limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
 not run here: Mesa's software renderer ends the process by itself where it gets no memory (LLVM: "Unable to allocate
 section memory!"). So does, rarely, the C library, for variables of threads; that is passed over."""
+import functools
 import os
 import re
 import resource
@@ -23,29 +24,38 @@ INFORMATION = re.compile(r"terrane: (?!error: )")  # all but errors
 GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
 
+def run_within(limit, arguments):
+    def set_limit():
+        resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+    return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True,
+                          timeout=HANG_SECONDS, env=support.environment(), check=False, preexec_fn=set_limit)
+
+
+def first_limit(low, high, step, holds):
+    """A limit for which something holds that does not hold `step` below."""
+    while high - low > step:
+        middle = (low + high) // 2
+        low, high = (low, middle) if holds(middle) else (middle, high)
+    return high
+
+
+@functools.cache
+def limit_to_load():
+    """From here on the system can load the program."""
+    return first_limit(4 * MIB, 64 * MIB, 256 * KIB,
+                       lambda limit: run_within(limit, ["--version"]).returncode != CANNOT_BE_LOADED)
+
+
 class Memory(ProgramTest):
     def setUp(self):
         super().setUp()
         self.save = self.folder / "save.sqlite"
 
-    def run_within(self, limit, arguments):
-        def set_limit():
-            resource.setrlimit(resource.RLIMIT_AS, (limit, limit))
-            resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-        return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True,
-                              timeout=HANG_SECONDS, env=support.environment(), check=False, preexec_fn=set_limit)
-
-    def first_limit(self, low, high, holds):
-        """A limit for which something holds that does not hold 256 KiB below."""
-        while high - low > 256 * KIB:
-            middle = (low + high) // 2
-            low, high = (low, middle) if holds(middle) else (middle, high)
-        return high
-
     def limits(self, run):
         """Where all works is not one limit: threads take memory in another order each time."""
-        loads = self.first_limit(4 * MIB, 64 * MIB, lambda limit: run(limit).returncode != CANNOT_BE_LOADED)
-        works = self.first_limit(loads, 512 * MIB, lambda limit: run(limit).returncode == 0)
+        loads = limit_to_load()
+        works = first_limit(loads, 512 * MIB, MIB, lambda limit: run(limit).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
         return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
 
@@ -77,7 +87,7 @@ class Memory(ProgramTest):
         """`prepare` is called before each run."""
         def run(limit):
             prepare()
-            return self.run_within(limit, arguments)
+            return run_within(limit, arguments)
 
         seen = set()
         for limit in self.limits(run):
