@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "tests" / "app"))
 import support  # noqa: E402
 import virtual_display  # noqa: E402
-import window_test  # noqa: E402
+import window_support  # noqa: E402
 from server_tools import Server  # noqa: E402
 
 SIZE = (800, 450)
@@ -29,7 +29,7 @@ class Player:
         data.mkdir(parents=True)
         (data / "bookmarks.txt").write_text(POSES[name] + "\n")
         self.display, self.name = display, name
-        self.game = window_test.Game(display, folder / name, (
+        self.game = window_support.Game(display, folder / name, (
             "--connect", f"127.0.0.1:{server.port}", "--name", name, "--movement", "fast", "--view-distance", "6", "--preset",
             "medium", "--size", f"{SIZE[0]}x{SIZE[1]}"))
         self.game.open()
@@ -60,7 +60,7 @@ def main():
     support.set_program(program)
     screen = (SIZE[0] + 40, SIZE[1] + 40)
     with tempfile.TemporaryDirectory(prefix="terrane-together-") as name, \
-            window_test.Display(screen) as first, window_test.Display(screen) as second:
+            window_support.Display(screen) as first, window_support.Display(screen) as second:
         folder = pathlib.Path(name)
         server = Server(program, folder, 0, "--seed", str(SEED))
         ann, bob = Player(first, server, "Ann", folder), Player(second, server, "Bob", folder)

@@ -11,7 +11,7 @@ import struct
 import time
 import zlib
 
-import window_test
+import window_support
 from support import HANG_SECONDS, Npy, ProgramTest
 
 SIZE = (480, 300)
@@ -32,13 +32,13 @@ class BuildingScript(ProgramTest):
         (self.folder / "terrane" / "bookmarks.txt").write_text("".join(place + "\n" for place in places))
         save = self.folder / "terrane" / "home.sqlite"
         if not save.exists():
-            self.succeed("generate", "--world", save, "--radius", "1", *window_test.FLAT)
+            self.succeed("generate", "--world", save, "--radius", "1", *window_support.FLAT)
             with contextlib.closing(sqlite3.connect(save)) as database, database:
                 database.execute("INSERT OR REPLACE INTO settings VALUES ('hand', ?)", (hand,))
                 database.execute("UPDATE settings SET value = '' WHERE name = 'checksum'")  # the program finds it
         options = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "3", "--samples", "1", "--horizon", "0",
-                   "--movement", "medium", "--time", "0.5", "--world", "home", "--bookmark", str(start), *window_test.FLAT)
-        game = window_test.Game(display, self.folder, options)
+                   "--movement", "medium", "--time", "0.5", "--world", "home", "--bookmark", str(start), *window_support.FLAT)
+        game = window_support.Game(display, self.folder, options)
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)
         game.open()
@@ -105,7 +105,7 @@ class Building(BuildingScript):
 
     def test_boxes(self):
         file = self.folder / "terrane" / "structures" / "wall.structure"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play_with_box(display)
             self.press(game, "g")
             self.keep(display, game, "filled")
@@ -129,7 +129,7 @@ class Building(BuildingScript):
             self.assertGreater(file.stat().st_size, 40)
 
     def test_the_panel_of_the_tool_has_buttons(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play_with_box(display)
             game.tap(2, *MIDDLE, self.pause)  # gives the cursor back
             self.keep(display, game, "buttons")
@@ -147,7 +147,7 @@ class Building(BuildingScript):
 
     def test_sign(self):
         places = ("8.5 8.5 82.4 90 -35",)
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, places, "sign", 1)
             display.xdotool("click", 3)  # builds it
             game.wait_for(lambda: self.count("sign") == 1)
@@ -169,4 +169,4 @@ class Building(BuildingScript):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

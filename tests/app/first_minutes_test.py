@@ -2,12 +2,12 @@
 """A new player's first ten minutes, on a virtual display: a world from the title, a house, a pond, undo, quit, continue,
 kill. Usage: first_minutes_test.py PROGRAM
 
-Needs what window_test.py needs. TERRANE_SCREENSHOTS names a folder for images of the window on the way."""
+Needs what window_support.py needs. TERRANE_SCREENSHOTS names a folder for images of the window on the way."""
 import time
 
 import building_test
 import title_test
-import window_test
+import window_support
 from support import HANG_SECONDS, Npy
 
 # The house stands in the air, where no generator has land: a floor of two layers, and a wall behind.
@@ -121,7 +121,7 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
     def test_a_house_and_a_pond(self):
         self.worlds.mkdir(exist_ok=True)
         (self.worlds / "bookmarks.txt").write_text("".join(place + "\n" for place in self.places()))
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.make_world(display)
             self.build_house(display, player)
             self.build_pond(display, player)
@@ -147,4 +147,4 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

@@ -1,13 +1,13 @@
 #!/usr/bin/env python3
 """Picks blocks, names places and goes back to them, in the program's window on a virtual display. Usage: hud_test.py PROGRAM
 
-Needs what window_test.py needs."""
+Needs what window_support.py needs."""
 import contextlib
 import sqlite3
 import time
 
 import building_test
-import window_test
+import window_support
 
 
 class Hud(building_test.BuildingScript):
@@ -27,7 +27,7 @@ class Hud(building_test.BuildingScript):
         time.sleep(self.pause)
 
     def test_a_block_is_picked_and_chosen(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
             self.press(game, "3")
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble stone_bricks"))
@@ -46,7 +46,7 @@ class Hud(building_test.BuildingScript):
             self.close(game)
 
     def test_places_are_named_and_found_again(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, ("8.5 8.5 84 0 -89", "100.5 -40.5 95 180 -20"), "bricks", 2)
             self.hold(game, "n")
             game.type("far away")
@@ -62,7 +62,7 @@ class Hud(building_test.BuildingScript):
             self.close(game)
 
     def test_a_held_key_that_opens_a_text_field_does_not_type_into_it(self):
-        with window_test.Display(repeats_keys=True) as display:
+        with window_support.Display(repeats_keys=True) as display:
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
             # The display repeats it; the last repetition shares no frame with what is typed.
             display.xdotool("keydown", "n", "sleep", "2.5", "keyup", "n", "sleep", "1.5")
@@ -79,7 +79,7 @@ class Hud(building_test.BuildingScript):
 
     def test_a_screenshot_is_shown(self):
         folder = self.folder / "terrane" / "screenshots"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
             self.press(game, "F12")
             game.wait_for(lambda: list(folder.glob("*.png")))
@@ -94,4 +94,4 @@ class Hud(building_test.BuildingScript):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

@@ -13,8 +13,8 @@ import unittest.mock
 from support import ProgramTest
 
 sys.path.append(str(pathlib.Path(__file__).parent))
-import window_test  # noqa: E402
-from window_test import FLAT, SIZE, Display, Game, is_green  # noqa: E402
+import window_support  # noqa: E402
+from window_support import FLAT, SIZE, Display, Game, is_green  # noqa: E402
 
 HEADER_BYTES = 68  # of the WAV file that OpenAL writes
 
@@ -87,4 +87,4 @@ class Sound(ProgramTest):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

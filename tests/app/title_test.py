@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Goes through the title screen on a virtual display, by keyboard alone. Usage: title_test.py PROGRAM
 
-Needs what window_test.py needs."""
+Needs what window_support.py needs."""
 import contextlib
 import re
 import sqlite3
@@ -9,7 +9,7 @@ import subprocess
 import time
 
 import support
-import window_test
+import window_support
 from support import HANG_SECONDS, ProgramTest
 
 SIZE = (480, 300)
@@ -19,12 +19,12 @@ USUAL = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "2", "--horizon", 
 CLOSED = re.compile(r"closed after \d+ frames at (\S+)$", re.MULTILINE)
 
 
-class Player(window_test.Game):
+class Player(window_support.Game):
     """The program and somebody with a keyboard."""
 
     def __init__(self, display, folder, *arguments):
         self.display, self.window = display, None
-        self.log = window_test.tempfile.TemporaryFile(mode="w+")
+        self.log = window_support.tempfile.TemporaryFile(mode="w+")
         self.process = subprocess.Popen([support.program(), "--debug-gl", *USUAL, *arguments], cwd=folder,
                                         env=support.environment(display.name, folder), stdout=self.log, stderr=self.log)
 
@@ -117,7 +117,7 @@ class TitleScript(ProgramTest):
 
 class Title(TitleScript):
     def test_a_new_world_is_made_left_and_continued(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.open(display)
             player.choose()  # New world: nothing else is there
             player.choose()  # Create
@@ -149,7 +149,7 @@ class Title(TitleScript):
     def test_worlds_are_renamed_copied_and_deleted(self):
         self.worlds.mkdir(exist_ok=True)
         self.succeed("generate", "--world", self.worlds / "home.sqlite", "--radius", "1", "--generator", "flat")
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.open(display)
             player.choose("Down")  # Worlds
             player.press_once("Down", "Right", "Right")
@@ -177,7 +177,7 @@ class Title(TitleScript):
         self.assertTrue(self.succeed("check", self.worlds / f"{self.names()[0]}.sqlite").endswith("good\n"))
 
     def test_a_key_that_is_held_chooses_once(self):
-        with window_test.Display(repeats_keys=True) as display:
+        with window_support.Display(repeats_keys=True) as display:
             player = self.open(display)
             display.xdotool("keydown", "Return", "sleep", "3", "keyup", "Return")  # New world, with Create in focus
             player.settle()
@@ -187,7 +187,7 @@ class Title(TitleScript):
 
     def test_settings_are_kept(self):
         settings = self.folder / "terrane" / "settings.toml"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             for expected in (True, False):
                 player = self.open(display)
                 player.choose("Down", "Down")  # Settings
@@ -199,7 +199,7 @@ class Title(TitleScript):
                 self.assertEqual("invert-y = 'true'" in text, expected, text)
 
     def test_a_world_that_is_named_is_opened_at_once(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.open(display, "--world", "home", "--generator", "flat")
             player.wait_for(lambda: self.setting("home", "camera"))
             player.press("Escape")
@@ -211,7 +211,7 @@ class Title(TitleScript):
     def test_a_world_that_cannot_be_opened_is_told(self):
         self.worlds.mkdir(exist_ok=True)
         (self.worlds / "bad.sqlite").write_text("no save")
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.open(display)
             player.choose("Up")  # Worlds
             player.choose()  # plays the one there is: a message
@@ -222,4 +222,4 @@ class Title(TitleScript):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

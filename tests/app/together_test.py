@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Two windows on one server: what one player builds the other sees. Usage: together_test.py PROGRAM
 
-Needs what window_test.py needs. TERRANE_SCREENSHOTS names a folder for images of the windows."""
+Needs what window_support.py needs. TERRANE_SCREENSHOTS names a folder for images of the windows."""
 import os
 import pathlib
 import signal
@@ -9,9 +9,9 @@ import subprocess
 
 import support
 import title_test
-import window_test
+import window_support
 from support import HANG_SECONDS, ProgramTest
-from window_test import SIZE, is_green, is_grey
+from window_support import SIZE, is_green, is_grey
 
 
 class Server(support.RunningProgram):
@@ -41,7 +41,7 @@ class Together(ProgramTest):
         data = self.folder / name
         (data / "terrane").mkdir(parents=True)
         (data / "terrane" / "bookmarks.txt").write_text(pose + "\n")
-        game = window_test.Game(display, data, (
+        game = window_support.Game(display, data, (
             "--connect", f"127.0.0.1:{self.server.port}", "--name", name, "--movement", "fast", "--view-distance", "3",
             "--samples", "1", "--horizon", "0", "--size", f"{SIZE[0]}x{SIZE[1]}"))
         self.addCleanup(game.log.close)
@@ -60,7 +60,7 @@ class Together(ProgramTest):
         self.assertEqual(self.server.process.wait(HANG_SECONDS), 0, self.server.output())
 
     def test_what_one_builds_the_other_sees(self):
-        with window_test.Display() as first, window_test.Display() as second:
+        with window_support.Display() as first, window_support.Display() as second:
             ann = self.join(first, "Ann", "8.5 8.5 84 0 -89")
             bob = self.join(second, "Bob", "3.5 8.5 84 0 -26")  # it looks at the same block
             ann.wait_for_ground(is_green)
@@ -77,10 +77,10 @@ class Together(ProgramTest):
             self.stop()
 
     def test_a_wrong_name_is_one_line(self):
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             data = self.folder / "nobody"
             data.mkdir()
-            game = window_test.Game(display, data, ("--connect", f"127.0.0.1:{self.server.port}", "--name", " x "))
+            game = window_support.Game(display, data, ("--connect", f"127.0.0.1:{self.server.port}", "--name", " x "))
             self.addCleanup(game.log.close)
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"error: --name  x : a name has 1 to 24 bytes")
@@ -110,7 +110,7 @@ class JoinFromTheTitle(title_test.TitleScript):
 
     def test_a_server_is_joined_and_remembered(self):
         address = f"127.0.0.1:{self.server.port}"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             player = self.open(display)
             player.choose("Down")  # Join a server: no world is there to continue
             player.type(address)
@@ -137,4 +137,4 @@ class JoinFromTheTitle(title_test.TitleScript):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()

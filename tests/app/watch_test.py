@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
 """A content pack that changes while it is played: the land is made anew, edits stay. Usage: watch_test.py PROGRAM
 
-Needs what window_test.py needs."""
+Needs what window_support.py needs."""
 import json
 import signal
 
 import support
-import window_test
+import window_support
 from support import HANG_SECONDS, Npy, ProgramTest
-from window_test import SCREEN, SIZE, is_brown, is_green
+from window_support import SCREEN, SIZE, is_brown, is_green
 
 SCRIPT = """
 g:pass3D("ground", function(p)
@@ -35,7 +35,7 @@ class Watch(ProgramTest):
         return Npy(file)
 
     def play(self, display, world, size):
-        game = window_test.Game(display, self.folder, (
+        game = window_support.Game(display, self.folder, (
             "--content", self.pack, "--generator", "mine:plain", "--watch", "--world", world, "--recreate",
             "--bookmark", "1", "--movement", "fast", "--view-distance", "2", "--samples", "1", "--size", f"{size[0]}x{size[1]}"))
         self.addCleanup(game.log.close)
@@ -47,7 +47,7 @@ class Watch(ProgramTest):
 
     def test_a_script_that_changes(self):
         world = self.folder / "w.sqlite"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, world, SIZE)
             game.wait_for_ground(is_green)
             game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
@@ -69,7 +69,7 @@ class Watch(ProgramTest):
 
     def test_a_change_while_saving_fails(self):
         world = self.folder / "w.sqlite"
-        with window_test.Display() as display:
+        with window_support.Display() as display:
             game = self.play(display, world, SCREEN)
             world.rename(self.folder / "away.sqlite")
             game.wait_for(game.is_warned)
@@ -82,4 +82,4 @@ class Watch(ProgramTest):
 
 
 if __name__ == "__main__":
-    window_test.main()
+    window_support.main()
