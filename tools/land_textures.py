@@ -2,7 +2,7 @@
 paint_textures.py, which has the table of all textures and says what alpha means."""
 import math
 
-from texture_tools import (ALL, BARK, CREAM, GRASS, NO_GLOW, SIZE, STEM, WOOD, Image, Patches, apart, bled,
+from texture_tools import (ALL, CREAM, GRASS, NO_GLOW, SIZE, STEM, WOOD, Image, Patches, apart, bled,
                            cobbles, hash01, mix, ramp, scattered, settled, smooth, tone)
 
 BIRCH_BARK = ramp("8f8a80 b3aea2 c9c5b8 d8d5ca e4e2d9 efeee8")

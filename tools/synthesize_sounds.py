@@ -12,7 +12,7 @@ import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # the build runs this script: nothing is written into the source tree
-from sound_tools import (RATE, add, band, bubble, decay, finished, generator_of, grains, high, low, mixed,  # noqa: E402
+from sound_tools import (add, band, bubble, decay, finished, generator_of, grains, low, mixed,  # noqa: E402
                          noise, ring, samples, scaled, swell, without_offset, write)
 
 

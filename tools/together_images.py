@@ -12,7 +12,6 @@ import time
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 sys.path.append(str(ROOT / "tests" / "app"))
 import support  # noqa: E402
-import virtual_display  # noqa: E402
 import window_support  # noqa: E402
 from server_tools import Server  # noqa: E402
 

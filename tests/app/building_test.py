@@ -12,7 +12,7 @@ import time
 import zlib
 
 import window_support
-from support import HANG_SECONDS, Npy, ProgramTest
+from support import Npy, ProgramTest
 
 SIZE = (480, 300)
 MIDDLE = (SIZE[0] // 2, SIZE[1] // 2)

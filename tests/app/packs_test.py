@@ -1,10 +1,7 @@
 """Content packs through the command line: made, checked, listed, used by worlds that remember them, sent by servers."""
 import json
-import os
-import pathlib
 import shutil
 import subprocess
-import unittest
 
 import support
 

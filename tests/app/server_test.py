@@ -1,6 +1,5 @@
 """The program of a build without graphics: what a server needs, and no library that draws."""
 import subprocess
-import unittest
 
 import support
 

@@ -5,7 +5,6 @@ Needs what window_support.py needs."""
 import json
 import signal
 
-import support
 import window_support
 from support import HANG_SECONDS, Npy, ProgramTest
 from window_support import SCREEN, SIZE, is_brown, is_green
