@@ -23,7 +23,10 @@ std::string textOf(const toml::node& value) {
 
 base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value) {
     try {
-        flag.add_result(textOf(value));
+        if (const toml::array* list = value.as_array())
+            for (const toml::node& element : *list) flag.add_result(textOf(element));
+        else
+            flag.add_result(textOf(value));
         flag.run_callback();
     } catch (const CLI::ParseError& error) {
         std::string what = error.what();

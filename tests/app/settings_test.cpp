@@ -106,6 +106,24 @@ TEST_F(Settings, FormerNamesAreRead) {
     EXPECT_FALSE(settings.render.distanceFog);
 }
 
+TEST_F(Settings, AnOptionOfSeveralValuesTakesAList) {
+    std::filesystem::create_directories(file_.parent_path());
+    CLI::App command;
+    WorldOptions options;
+    int days = 0;
+    addContentOption(command, options);
+    command.add_option("--days", days);
+    write("content = ['isles', 'ores']\n");
+    const auto done = applySettings(file_, command, {});
+    ASSERT_TRUE(done) << done.error().message;
+    EXPECT_EQ(options.content, (std::vector<std::string>{"isles", "ores"}));
+    write("days = [1, 2]\n");
+    const auto wrong = applySettings(file_, command, {});
+    ASSERT_FALSE(wrong);
+    EXPECT_NE(wrong.error().message.find("settings.toml:1: days: "), std::string::npos)
+        << wrong.error().message;
+}
+
 TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {
     std::filesystem::create_directories(file_.parent_path());
     write("\natmosphere = 'maybe'\n");

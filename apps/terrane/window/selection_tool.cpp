@@ -42,7 +42,8 @@ std::string refusal(BuildOutcome::Result result) {
     using Result = BuildOutcome::Result;
     switch (result) {
         case Result::TooLarge:
-            return fmt::format("more than {} blocks are too many", withCommas(world::kMaxStructureBlocks));
+            return fmt::format("that is too large: at most {} blocks, less on a server",
+                               withCommas(world::kMaxStructureBlocks));
         case Result::OutOfWorld:
             return "that reaches above or below the world";
         case Result::NotLoaded:
