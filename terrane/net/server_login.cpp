@@ -6,6 +6,7 @@
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
 #include "terrane/net/keys.h"
+#include "terrane/net/other_servers.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_packs.h"
 #include "terrane/world/character.h"

@@ -6,6 +6,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
+#include "terrane/net/other_servers.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_places.h"
 #include "terrane/net/server_view.h"
@@ -16,12 +17,7 @@ namespace {
 using world::ChunkPos;
 
 constexpr std::chrono::seconds kStateEvery{1};
-constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
-// Of whom nothing was heard for so long is not there.
-constexpr std::chrono::seconds kForgetAfter{8};
 constexpr std::chrono::seconds kKeepTail{60};
-// What a server that is gone left, in a tick: some milliseconds. So many more are asked for meanwhile.
-constexpr std::size_t kEstateChunks = 8, kEstateAhead = 32;
 
 void addToTail(SharingState& sharing, ChunkPos chunk, std::int64_t number, const ChunkDifference& after) {
     sharing.tail[chunk].push_back({number, after});
@@ -149,83 +145,6 @@ void takePeople(ServerState& server, const SharedNews& news) {
     }
 }
 
-void takePoses(ServerState& server, const SharedNews& news) {
-    for (const OtherPlayer& other : news.poses) {
-        SharingState::OtherAt& known = server.sharing.players[other.id];
-        known.at.id = other.id;
-        known.at.pose = other.pose;
-        if (other.swings) known.at.swungTick = server.tick;
-        known.heardAt = server.now;
-    }
-    std::erase_if(server.sharing.players,
-                  [&](const auto& entry) { return server.now - entry.second.heardAt > kForgetAfter; });
-}
-
-void takeServers(ServerState& server, std::vector<OtherServer> servers) {
-    SharingState& sharing = server.sharing;
-    for (const OtherServer& other : servers) {
-        const auto isItsEstate = [&](const SharingState::Estate& estate) {
-            return estate.server == other.number;
-        };
-        // It had only stalled: what it changed is its own to save.
-        if (other.isAlive) {
-            std::erase_if(sharing.estates, isItsEstate);
-            sharing.forgotten.erase(other.number);
-            continue;
-        }
-        if (sharing.forgotten.contains(other.number) || std::ranges::any_of(sharing.estates, isItsEstate))
-            continue;
-        base::logInfo("the server {} is gone; {} chunks that it changed are saved here", other.name,
-                      other.unsaved.size());
-        sharing.estates.push_back({other.number, sharing.newest, other.unsaved});
-    }
-    // One that does not know its own place yet cannot be found.
-    std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive || other.address.empty(); });
-    const auto isSame = [](const OtherServer& a, const OtherServer& b) {
-        return a.address == b.address && a.key == b.key;
-    };
-    if (std::ranges::equal(servers, sharing.servers, isSame)) return;
-    sharing.servers = std::move(servers);
-    const Bytes message = encode(ServerMessage(otherServers(server)));
-    forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
-}
-
-// Loading a chunk adds the tail, which makes it a changed one that is saved.
-void takeOverEstates(ServerState& server) {
-    SharingState& sharing = server.sharing;
-    if (sharing.estates.empty()) return;
-    SharingState::Estate& estate = sharing.estates.front();
-    stream::ChunkPipeline& pipeline = server.session.pipeline();
-    for (const ChunkPos chunk : std::span(estate.chunks).last(std::min(kEstateAhead, estate.chunks.size())))
-        (void)pipeline.maybeLoadChunkAt(chunk);
-    for (std::size_t k = 0; k < kEstateChunks && !estate.chunks.empty(); ++k) {
-        if (!pipeline.maybeLoadChunkAt(estate.chunks.back())) return;
-        estate.chunks.pop_back();
-    }
-    if (!estate.chunks.empty()) return;
-    // A save that runs may have begun without the last of them.
-    if (!estate.savedBy) estate.savedBy = sharing.savesBegun + 1;
-    if (sharing.savesDone < *estate.savedBy || sharing.ownSaved < estate.newest) return;
-    sharing.shared->forgetServer(estate.server);
-    sharing.forgotten.insert(estate.server);
-    sharing.estates.pop_front();
-}
-
-void tellPoses(ServerState& server) {
-    const bool isAll = server.tick % kTicksPerAllPoses == 0;
-    std::vector<OtherPlayer> moved;
-    std::unordered_map<game::PlayerId, WirePose> told;
-    forEachPlaying(server, [&](const ServerClient& client) {
-        const auto before = server.sharing.toldPoses.find(client.player);
-        const bool isStill = before != server.sharing.toldPoses.end() && before->second == client.pose;
-        const bool swings = client.swungTick > 0 && server.tick - client.swungTick < kTicksPerPoses;
-        if (isAll || !isStill || swings) moved.push_back({client.player, client.pose, swings});
-        told[client.player] = client.pose;
-    });
-    server.sharing.toldPoses = std::move(told);
-    if (!moved.empty()) server.sharing.shared->tellPoses(moved);
-}
-
 }  // namespace
 
 base::Result<void> beginSharing(ServerState& server) {
@@ -312,8 +231,8 @@ void keepSharing(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
     sharing.refused.clear();  // whoever is still there was told
-    if (server.tick % kTicksPerPoses == 0) tellPoses(server);
-    takeOverEstates(server);
+    tellPosesIfDue(server);
+    saveOrphans(server);
     tellSavedPlaces(server);
     if (server.now < sharing.nextState) return;
     sharing.nextState = server.now + kStateEvery;
@@ -338,15 +257,6 @@ void keepSharedSaved(ServerState& server) {
     std::int64_t upTo = sharing.newest;
     for (const auto& [chunk, number] : sharing.firstUnsaved) upTo = std::min(upTo, number - 1);
     history.saving = {upTo, game::saveTimeDay(store, server.session.clock.timeDay)};
-}
-
-Servers otherServers(const ServerState& server) {
-    Servers others;
-    for (const OtherServer& other : server.sharing.servers)
-        if (others.places.size() < kMaxServersInMessage && other.address.size() <= kMaxAddressBytes &&
-            other.key.size() <= kServerKeyBytes && isPlainText(other.address) && isPlainText(other.key))
-            others.places.push_back({other.address, other.key});
-    return others;
 }
 
 bool mayGrow(const ServerState& server, ChunkPos chunk) {

@@ -58,13 +58,13 @@ struct SharingState {
     std::unordered_map<game::PlayerId, WirePose> toldPoses;
     std::vector<OtherServer> servers;  // that are there
     // Servers that are gone without saving: what they left is loaded, some chunks a tick, and saved.
-    struct Estate {
+    struct Orphans {
         std::int64_t server = 0, newest = 0;
         std::vector<world::ChunkPos> chunks;        // that are not loaded yet
         std::optional<std::uint64_t> savedBy = {};  // the save that has all of them
     };
-    std::deque<Estate> estates;
-    std::set<std::int64_t> forgotten;  // servers whose estates are saved; lists of servers may come later
+    std::deque<Orphans> orphans;
+    std::set<std::int64_t> forgotten;  // servers whose orphans are saved; lists of servers may come later
     std::uint64_t savesBegun = 0, savesDone = 0;
     std::deque<std::pair<store::SaveNumber, PlaceChange>> untoldPlaces;  // own, that wait to be saved
     Time nextState{};
@@ -82,8 +82,6 @@ void completeLoaded(ServerState& server);
 void keepSharing(ServerState& server);
 // Saves, and notes what is saved; in place of keepSaving().
 void keepSharedSaved(ServerState& server);
-// Other servers of the world, as a client is told.
-Servers otherServers(const ServerState& server);
 // Whether time may pass in a chunk here.
 bool mayGrow(const ServerState& server, world::ChunkPos chunk);
 // Of the chunks that live here: the leases that are wanted.

@@ -350,10 +350,10 @@ TEST_F(SharedServersTest, AServerThatHadOnlyStalledIsNotForgotten) {
     const auto number = anna.set(anna.near(1, 0), "cyan_glass");
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
     // As b finds it, before a says again that it is there.
-    b.state().sharing.estates.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
+    b.state().sharing.orphans.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
     net::SharedWorld& shared = *b.state().records.shared();
     shared.forgetServer(1);
-    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.estates.empty(); }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.orphans.empty(); }));
     EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "2");
     servers_.stopAll();
 }
