@@ -4,7 +4,6 @@
 #include <chrono>
 #include <utility>
 
-#include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
 #include "terrane/net/other_servers.h"
 #include "terrane/net/server_clients.h"
