@@ -1,5 +1,5 @@
-// A small game in a window: land of its own generator, a player who walks, breaks and places blocks, and one rule:
-// who breaks glowing ore collects it. The world is saved. docs/start/game.md explains the program.
+// A small game in a window: land of its own generator, a player who walks, breaks and places blocks, and one
+// rule: who breaks glowing ore collects it. The world is saved. docs/start/game.md explains the program.
 //
 //     small_game WORLD.sqlite
 //
@@ -135,7 +135,8 @@ base::Result<void> play(GLFWwindow* window, game::SessionParts parts) {
     int collected = 0;
     const world::BlockId ore = session.blocks().find("glowing_ore")->id;
     session.setEditListener([&](game::PlayerId, std::span<const world::BlockEdit> edits) {
-        for (const world::BlockEdit& edit : edits) collected += edit.before == ore && edit.after == world::kAir;
+        for (const world::BlockEdit& edit : edits)
+            collected += edit.before == ore && edit.after == world::kAir;
         glfwSetWindowTitle(window, ("Ore hills: " + std::to_string(collected) + " ore").c_str());
     });
 

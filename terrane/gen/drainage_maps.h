@@ -25,8 +25,9 @@ struct DrainageTile {
     std::int32_t step = 1;  // blocks from column to column
 };
 
-// Regions kept a map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB where few
-// nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that spacing.
+// Regions kept a map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB where
+// few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that
+// spacing.
 constexpr std::size_t kKeptRegions = 8;
 constexpr std::size_t kKeptRegionBytes = std::size_t{32} << 20;  // but the newest is kept
 

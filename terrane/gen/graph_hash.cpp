@@ -95,12 +95,13 @@ class NodeHashes {
     bool changes(const LoopVariable& variable) const { return variable.next != variable.in; }
 
     const Graph& graph_;
-    std::vector<std::uint64_t> hashes_;                   // by node
-    std::vector<std::uint32_t> places_;                   // by loop variable, among those of its loop that change
+    std::vector<std::uint64_t> hashes_;  // by node
+    std::vector<std::uint32_t> places_;  // by loop variable, among those of its loop that change
     std::vector<std::optional<std::uint64_t>> ofLoops_;  // by loop
 };
 
-NodeHashes::NodeHashes(const Graph& graph, const Calls& calls) : graph_(graph), ofLoops_(graph.loops().size()) {
+NodeHashes::NodeHashes(const Graph& graph, const Calls& calls)
+    : graph_(graph), ofLoops_(graph.loops().size()) {
     for (const Loop& loop : graph.loops()) {
         std::uint32_t count = 0;
         for (const std::uint32_t variable : loop.variables) {
@@ -210,9 +211,8 @@ std::uint64_t graphHash(const GeneratorGraph& generator) {
         values.add(field.writtenBy);
     });
     values.addList(generator.drainages, [&](const DrainageGraph& map) { add(values, map); });
-    values.addList(generator.passes, [&](const PassGraph& pass) {
-        add(values, pass, generator.noises, generator.hashNames);
-    });
+    values.addList(generator.passes,
+                   [&](const PassGraph& pass) { add(values, pass, generator.noises, generator.hashNames); });
     values.add(generator.shapes != nullptr);
     if (generator.shapes) add(values, *generator.shapes);
     return values.hash();

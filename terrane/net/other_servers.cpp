@@ -84,7 +84,8 @@ void saveOrphans(ServerState& server) {
     if (sharing.orphans.empty()) return;
     SharingState::Orphans& orphans = sharing.orphans.front();
     stream::ChunkPipeline& pipeline = server.session.pipeline();
-    for (const ChunkPos chunk : std::span(orphans.chunks).last(std::min(kOrphansAhead, orphans.chunks.size())))
+    for (const ChunkPos chunk :
+         std::span(orphans.chunks).last(std::min(kOrphansAhead, orphans.chunks.size())))
         (void)pipeline.maybeLoadChunkAt(chunk);
     for (std::size_t k = 0; k < kOrphans && !orphans.chunks.empty(); ++k) {
         if (!pipeline.maybeLoadChunkAt(orphans.chunks.back())) return;

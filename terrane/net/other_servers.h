@@ -1,5 +1,5 @@
-// The other servers of a shared world: their players, where they are reached, and what servers that are gone left to
-// save. On the server's thread.
+// The other servers of a shared world: their players, where they are reached, and what servers that are gone
+// left to save. On the server's thread.
 #pragma once
 
 #include <vector>

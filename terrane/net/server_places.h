@@ -22,8 +22,8 @@ std::string markHere(ServerState& server, const ServerClient& client, std::strin
 
 // As another server did.
 void applyPlaceChange(ServerState& server, const PlaceChange& change);
-// Takes all names of places that the world's store has now: changes of other servers may have been missed. Own
-// ones that wait to be saved are newer.
+// Takes all names of places that the world's store has now: changes of other servers may have been missed.
+// Own ones that wait to be saved are newer.
 void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places);
 // Tells other servers of own changes once the store has them: who misses that finds them there.
 void tellSavedPlaces(ServerState& server);

@@ -7,6 +7,7 @@
 #include "terrane/game/player_state.h"
 #include "terrane/net/other_servers.h"
 #include "terrane/net/server_clients.h"
+#include "terrane/net/server_history.h"
 #include "terrane/net/server_places.h"
 #include "terrane/net/server_view.h"
 

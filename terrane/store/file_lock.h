@@ -19,9 +19,9 @@ class FileLock {
   public:
     enum class Kind { Exclusive, Shared };
 
-    // Does not wait. The error names `path`, what is locked, and the program that has it. A shared lock needs no
-    // right to write. Where its file is missing and cannot be made, nobody writes now: what is returned locks
-    // nothing, and does not keep out who comes later.
+    // Does not wait. The error names `path`, what is locked, and the program that has it. A shared lock needs
+    // no right to write. Where its file is missing and cannot be made, nobody writes now: what is returned
+    // locks nothing, and does not keep out who comes later.
     [[nodiscard]] static base::Result<FileLock> acquire(const std::filesystem::path& path, Kind kind);
     ~FileLock();
     FileLock(FileLock&& other) noexcept;

@@ -60,7 +60,8 @@ TEST(GraphHash, SeesEveryChange) {
 // A pass that writes the block that `shade` computes.
 std::uint64_t hashOfPass(const std::function<Float(Pass&)>& shade) {
     GeneratorBuilder builder("test", contentBlocks());
-    builder.pass3D("blocks", [&](Pass& p) { p.setBlock(select(shade(p) > 0.0f, p.block("stone"), p.block("air"))); });
+    builder.pass3D("blocks",
+                   [&](Pass& p) { p.setBlock(select(shade(p) > 0.0f, p.block("stone"), p.block("air"))); });
     return graphHash(builder.finish().value());
 }
 
