@@ -18,9 +18,12 @@ from virtual_display import Display  # noqa: E402
 SIZE = (1280, 720)
 WATER_LEVEL = 1
 EYE_HEIGHT = 1.47      # of a player, blocks
-TURN_SECONDS = 1       # for an eighth of a turn while the view fills: the server sends what is ahead first
-QUIET_SECONDS = 24     # three turns in which next to nothing new comes
-QUIET_SHARE = 0.005    # of the map blocks
+# The server sends what is ahead, ring by ring, and begins anew whenever the camera turns: each direction waits until its
+# view is filled. Between two rings nothing comes for seconds.
+QUIET_SECONDS = 30
+QUIET_SHARE = 0.002    # of the map blocks
+FILL_RATE = 1          # frames a second while the view fills: the server needs the processor
+FULL_RATE = 1000
 SWING_SECONDS = 3      # after a turn to a direction, left out
 REPORT_SECONDS = 2     # of its profiler
 
@@ -56,10 +59,10 @@ class Client:
     def __init__(self, world, child, hud, place):
         self.world, self.child, self.hud, self.place = world, child, hud, place
 
-    def look(self, yaw):
+    def look(self, yaw, rate=FULL_RATE):
         x, z, y, _ = self.place
         path = self.world.path / "camera.txt"
-        path.with_suffix(".new").write_text(f"{x} {y - EYE_HEIGHT} {z} {yaw} {PITCH}\n", encoding="ascii")
+        path.with_suffix(".new").write_text(f"{x} {y - EYE_HEIGHT} {z} {yaw} {PITCH} {rate}\n", encoding="ascii")
         path.with_suffix(".new").replace(path)
 
     def check(self):
@@ -83,17 +86,22 @@ class Client:
         return [float(line) for line in path.read_text(encoding="ascii").split()] if path.exists() else []
 
     def fill_view(self, longest):
-        """Turns until nothing new comes; seconds, and whether it was done in time."""
-        start, history, yaw = time.monotonic(), [], 0
+        """Looks into each direction until nothing new comes; seconds, and whether it was done in time."""
+        start = time.monotonic()
+        is_full = [self.fill_direction(yaw, longest / len(YAWS)) for yaw in YAWS]
+        return time.monotonic() - start, all(is_full)
+
+    def fill_direction(self, yaw, longest):
+        """Whether it was done in time."""
+        self.look(yaw, FILL_RATE)
+        start, history = time.monotonic(), []
         while (now := time.monotonic() - start) < longest:
-            self.look(yaw)
-            yaw = (yaw + 45) % 360
-            self.sleep(TURN_SECONDS)
+            self.sleep(1)
             history.append((now, max(self.profile("MapBlocks loaded [#]"), default=0)))
             before = [count for at, count in history if at <= now - QUIET_SECONDS]
             if before and before[-1] > 0 and history[-1][1] - before[-1] <= QUIET_SHARE * before[-1]:
-                return now, True
-        return now, False
+                return True
+        return False
 
     def frames(self, yaw, seconds):
         """Frames a second: the median of readings of half a second; thousands of vertices."""

@@ -2,7 +2,8 @@
 --   compare_mode = generate | load | view
 --   compare_boxes = x0,y0,z0,x1,y1,z1;...  blocks, ends included, borders of mapchunks (generate, load)
 --   compare_heights = true                 write the heights of the ground into heights.txt of the world (generate)
--- Files in the folder of the world (view): camera.txt has "x y z yaw pitch", in degrees, pitch down; it is read twice a second.
+-- Files in the folder of the world (view): camera.txt has "x y z yaw pitch fps", in degrees, pitch down, and at most so many
+-- frames a second; it is read twice a second.
 local settings, world = minetest.settings, minetest.get_worldpath()
 local mode = settings:get("compare_mode")
 local kMapchunk, kCell = 80, 8  -- blocks
@@ -87,7 +88,7 @@ local function camera()
     for word in file:read("*a"):gmatch("%S+") do numbers[#numbers + 1] = tonumber(word) end
     file:close()
   end
-  return #numbers == 5 and numbers or nil
+  return #numbers == 6 and numbers or nil
 end
 
 local function follow_camera(player)
@@ -97,6 +98,9 @@ local function follow_camera(player)
     if vector.distance(player:get_pos(), pos) > 0.2 then player:set_pos(pos) end
     player:set_look_horizontal(math.rad(at[4]))
     player:set_look_vertical(math.rad(at[5]))
+    -- The client in the same process reads them for each frame.
+    settings:set("fps_max", at[6])
+    settings:set("fps_max_unfocused", at[6])
   end
   if player:get_pos() then minetest.after(0.5, follow_camera, player) end
 end
