@@ -1,4 +1,5 @@
 // Several servers of one world: edits, players, talk, time.
+#include <functional>
 #include <random>
 
 #include "terrane/game/places.h"
@@ -254,10 +255,18 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     EXPECT_TRUE(servers_.tickUntil([&] { return std::abs(b.state().session.clock.timeDay - 0.75) < 0.01; }));
     (void)net::runConsoleLine(a.state(), "mark 5 -6 70 The mill");
     const auto places = [&] { return game::savedPlaces(b.state().session.store()); };
-    EXPECT_TRUE(servers_.tickUntil([&] { return places().size() == 1; }));
+    // Others hear of them once they are saved.
+    const auto tickUntil = [&](const std::function<bool()>& isSo) {
+        return servers_.tickUntil([&] {
+            anna.stayAwake();
+            bert.stayAwake();
+            return isSo();
+        });
+    };
+    ASSERT_TRUE(tickUntil([&] { return places().size() == 1; }));
     EXPECT_EQ(places().at(0).name, "The mill");
     (void)net::runConsoleLine(b.state(), "unmark The mill");
-    EXPECT_TRUE(servers_.tickUntil([&] { return game::savedPlaces(a.state().session.store()).empty(); }));
+    EXPECT_TRUE(tickUntil([&] { return game::savedPlaces(a.state().session.store()).empty(); }));
     (void)net::runConsoleLine(a.state(), "ban Bert noise");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
