@@ -3,7 +3,7 @@
 Usage: memory_test.py PROGRAM
 
 Each command runs under limits of its address space (RLIMIT_AS) from where the system can just load the program to
-where all works. Ten limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
+where all works. Six limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
 not run here: Mesa's software renderer ends the process by itself where it gets no memory (LLVM: "Unable to allocate
 section memory!"). So does, rarely, the C library, for variables of threads; that is passed over."""
 import functools
@@ -19,7 +19,7 @@ from support import ProgramTest
 KIB, MIB = 1 << 10, 1 << 20
 HANG_SECONDS = 300  # a guard against hangs: commands take less than a second
 CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of ours
-COUNT = 10  # of limits
+COUNT = 6  # of limits
 INFORMATION = re.compile(r"terrane: (?!error: )")  # all but errors
 GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
@@ -55,7 +55,7 @@ class Memory(ProgramTest):
     def limits(self, run):
         """Where all works is not one limit: threads take memory in another order each time."""
         loads = limit_to_load()
-        works = first_limit(loads, 512 * MIB, MIB, lambda limit: run(limit).returncode == 0)
+        works = first_limit(loads, 512 * MIB, 4 * MIB, lambda limit: run(limit).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
         return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
 
@@ -103,10 +103,10 @@ class Memory(ProgramTest):
         self.succeed("generate", "--radius", 3, "--world", self.save)
 
     def test_generate(self):
-        self.sweep("generate", "--radius", 4, "--threads", 4, "--backend", "cpu")
+        self.sweep("generate", "--radius", 2, "--threads", 4, "--backend", "cpu")
 
     def test_generate_into_a_save(self):
-        self.sweep("generate", "--radius", 4, "--threads", 2, "--backend", "cpu", "--world", self.save,
+        self.sweep("generate", "--radius", 3, "--threads", 2, "--backend", "cpu", "--world", self.save,
                    prepare=self.empty_folder)
 
     def test_generate_into_a_save_that_is_there(self):
@@ -116,7 +116,7 @@ class Memory(ProgramTest):
         def put_back():
             self.empty_folder()
             self.save.write_bytes(small)
-        self.sweep("generate", "--radius", 5, "--threads", 2, "--backend", "cpu", "--world", self.save, prepare=put_back)
+        self.sweep("generate", "--radius", 4, "--threads", 2, "--backend", "cpu", "--world", self.save, prepare=put_back)
 
     def test_map(self):
         self.sweep("map", "--radius", 3, "--threads", 2, "--output", self.folder / "map.png")
