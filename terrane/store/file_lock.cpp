@@ -63,7 +63,8 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
         const int descriptor = openLockFile(file, kind);
         if (descriptor < 0 && errno == ENOENT && kind == Kind::Shared) return FileLock(-1, kind, {});
         if (descriptor < 0)
-            return base::fail(base::ErrorCode::Io, "{}: cannot be written: {}", file.string(),
+            return base::fail(base::ErrorCode::Io, "{}: cannot be {}: {}", file.string(),
+                              kind == Kind::Shared ? "opened" : "written",
                               errno == ELOOP ? "a symbolic link" : base::systemReason(errno));
         FileLock lock(descriptor, kind, file);
         if (!isOrdinary(descriptor)) {
