@@ -68,8 +68,8 @@ struct SharedNews {
     std::optional<std::string> passwordHash;  // where it was changed
     std::optional<double> timeDay;            // where somebody set the time
     std::vector<OtherPlayer> poses;
-    std::optional<std::vector<game::Place>>
-        allPlaces;  // where changes may have been missed; `places` are newer
+    // All names of places, where changes may have been missed; `places` are newer.
+    std::optional<std::vector<game::Place>> allPlaces;
     std::vector<PlaceChange> places;
     std::vector<world::ChunkPos> tiles;               // that others wrote
     std::optional<std::vector<OtherServer>> servers;  // all others, where that was looked up
