@@ -1,4 +1,4 @@
-// What the benchmarks share: the block types that come with the program.
+// Helpers for benchmarks: the block types that come with the program, exit on errors.
 #pragma once
 
 #include <cstdio>

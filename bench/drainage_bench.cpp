@@ -1,5 +1,5 @@
-// Drainage maps on one thread: a region, and what chunks pay for reading one. The label is a digest of what
-// was found: it changes where the result does.
+// Drainage maps on one thread: a region, and a pass that reads a map. The label is a digest of the result: it
+// changes with the result.
 #include <benchmark/benchmark.h>
 
 #include <span>

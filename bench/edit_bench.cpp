@@ -1,5 +1,5 @@
-// Edits in batches through the session's door: what a fill or a clear of N³ blocks costs until its light and
-// meshes are there. Items a second are blocks; they stay the same where time is linear in blocks. And a
+// Edits in batches through the session: the cost of filling or clearing N³ blocks until their light and
+// meshes are done. Items per second are blocks; they stay the same where time is linear in blocks. Also a
 // flood.
 #include <benchmark/benchmark.h>
 

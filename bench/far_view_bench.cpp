@@ -1,5 +1,5 @@
-// How land looks where tiles take the place of chunks: twenty views of 96 chunks (light of more than 97 finds
-// no room), all of them against the same with tiles of one level from the distance on where rings have it.
+// Land where tiles replace chunks: twenty views of 96 chunks (light of more than 97 does not fit), each
+// compared with the same view with tiles of one level from the distance on where its ring begins.
 //   bench_far_view [FOLDER [DISTANCE [PLACES]]]     96 chunks, 5 places; FOLDER gets the pictures, "" none
 #include <fmt/format.h>
 
@@ -43,7 +43,7 @@ constexpr std::array kPlaces = {
     Place{"town", {{-992, 96, 130}, 90, -8}, 60},
 };
 
-// Houses, lamps and a tower on a platform that stands on whatever land is there.
+// Houses, lamps and a tower on a platform.
 std::vector<game::EditCommand> villageAt(world::BlockPos corner) {
     std::vector<game::EditCommand> commands;
     const auto put = [&](int x, int y, int z, std::string_view name) {
@@ -123,12 +123,12 @@ bench::Pictures draw(Stage& stage, const render::Camera& camera, float time) {
     return pictures;
 }
 
-// Where rings of the level begin, chunks: see docs/levels.md.
+// Distance where the ring of a level begins, chunks: see docs/levels.md.
 int ringOf(int level) {
     return std::max(16, kDetail / 2 << level);
 }
 
-// Tiles of the level, from its ring on, that lie within the view whole.
+// Tiles of the level, from its ring on, that lie wholly within the view distance.
 std::vector<ChunkPos> tilesOf(const Stage& stage, int level) {
     std::vector<ChunkPos> tiles;
     const int width = 1 << level, across = stage.distance / width + 1;

@@ -48,7 +48,7 @@ std::string digestOf(const std::vector<world::Chunk>& chunks) {
     return digest.hex();
 }
 
-// One iteration makes 32×32 chunks in the order of rows, with what a new generator does not know yet.
+// One iteration makes 32×32 chunks in the order of rows with a new generator.
 void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0}) {
     constexpr int kSide = 32;
     std::vector<world::Chunk> chunks;
@@ -229,7 +229,7 @@ void registerNoises() {
             return p.stripes2D("noise", size, {0.6f, 0.8f}).cosine;
         });
     }
-    // What the slope costs comes from elsewhere.
+    // A synthetic slope, so that only the filter is timed.
     registerNoise2D("erode/octaves:5", [&](gen::Pass& p) {
         const gen::Float x(p.x() & 15), y(p.y() & 15);
         return gen::erode(p, "gullies", {x * 0.05f, y * 0.03f}, 1.0f, {}).height;

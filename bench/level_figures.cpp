@@ -14,7 +14,7 @@ constexpr std::array<const char*, kCoverCount> kCoverNames = {"grass", "stone", 
                                                               "water", "leaves", "wheat", "other"};
 constexpr std::array<const char*, kLandCount> kLandNames = {"ocean", "plains", "hills", "mountains",
                                                             "desert"};
-// Of leaves in an area of chunks: the densities of forest that crowns are compared at.
+// Shares of leaves in an area of chunks: the densities of forest at which crowns are compared.
 constexpr std::array<double, 4> kForestFrom = {0.005, 0.1, 0.3, 0.5};
 
 // A square of columns within an area.
@@ -102,7 +102,7 @@ void addCover(std::array<double, kCoverCount>& shares, const Columns& columns) {
     }
 }
 
-// Their mean height above the ground, and how many there are.
+// Sum of the heights of crowns above the ground, and their number.
 struct CrownSum {
     double height = 0, count = 0;
 

@@ -1,5 +1,5 @@
-// How well the tiles of a level stand for the chunks under them: heights, kinds of ground, crowns, water.
-// Used by bench_levels and by the tests of generators, which hold the figures to limits.
+// Compares the tiles of a level with the chunks under them: heights, kinds of ground, crowns, water. Used by
+// bench_levels and by tests of generators, which limit the differences.
 #pragma once
 
 #include <array>
@@ -12,11 +12,11 @@
 
 namespace terrane::bench {
 
-// What is seen of a column from above. Flowers and tufts do not hide their ground.
+// The top of a column as seen from above. Flowers and tufts do not hide their ground.
 enum class Cover : std::uint8_t { Grass, Stone, Sand, Snow, Dirt, Water, Leaves, Wheat, Other };
 constexpr int kCoverCount = 9;
 
-// Kinds of land, told from chunks: areas of kAreaBlocks².
+// Kinds of land, determined from chunks in areas of kAreaBlocks².
 enum class Land : std::uint8_t { Ocean, Plains, Hills, Mountains, Desert };
 constexpr int kLandCount = 5;
 constexpr int kAreaBlocks = 64;
@@ -30,7 +30,7 @@ struct Columns {
     std::vector<std::int16_t> crown;   // z of the highest leaf, or 0
 };
 
-// What is summed up of tiles and the chunks under them.
+// Sums over tiles and over the chunks under them.
 struct LevelFigures {
     double columns = 0;                                         // of tiles
     std::array<double, kCoverCount> chunkCover{}, tileCover{};  // shares of the area
@@ -65,7 +65,7 @@ class LevelComparison {
     std::vector<Columns> chunks_;  // by corner
 };
 
-// As lines of a table.
+// The sums as lines of a table.
 std::string coverTable(const std::vector<LevelFigures>& levels);
 std::string landTable(const std::vector<LevelFigures>& levels);
 

@@ -1,4 +1,4 @@
-// How tiles of each level compare with the chunks under them: cost, heights, kinds of ground, crowns, water.
+// Tiles of each level compared with the chunks under them: cost, heights, kinds of ground, crowns, water.
 //   bench_levels [GENERATOR [PLACES]]     overworld, 24 places of 512×512 blocks
 #include <fmt/format.h>
 
@@ -21,14 +21,15 @@ using world::ChunkPos;
 constexpr int kFigureLevels = 5;  // a tile of level 5 is 512 blocks wide
 constexpr int kSide = 32;         // chunks
 
-// Of the overworld of seed 1, by kinds of land in turn: mountains, coast, plains, desert, forest, hills.
+// Places in the overworld of seed 1, by kinds of land in turn: mountains, coast, plains, desert, forest,
+// hills.
 constexpr std::array<ChunkPos, 24> kPlaces = {
     {{-1824, -1920}, {-1344, -2304}, {-1056, -2112}, {-1536, -2208}, {-2112, -2304}, {0, -2208},
      {-1344, -672},  {96, -2304},    {-1920, -2016}, {-1632, -2112}, {-2208, -2304}, {-1056, -2208},
      {-96, 1344},    {-1632, -2208}, {576, -1920},   {-1056, -768},  {-1056, -1440}, {-1056, -192},
      {768, 1536},    {-1056, -1536}, {1632, -1536},  {-1056, 864},   {-288, -2304},  {-2208, -2208}}};
 
-// Microseconds of CPU time a chunk, from a generator that knows nothing yet: the least of some rounds.
+// Microseconds of CPU time per chunk of a new generator, the minimum of some rounds.
 double costOf(const std::string& name, int level) {
     constexpr int kRounds = 3, kTiles = 24;
     double best = 1e9;

@@ -25,7 +25,7 @@ gen::GeneratorGraph graphOf(const std::string& name, bool isScript) {
     return bench::orExit(lua::recordScript(scriptOf(name), {name, ""}, bench::blocks(), 0));
 }
 
-// An iteration makes 12×12 chunks with what a new generator does not know yet.
+// An iteration makes 12×12 chunks with a new generator.
 void generate(benchmark::State& state, const std::string& name, bool isScript) {
     constexpr int kSide = 12;
     std::string digest;

@@ -34,7 +34,7 @@ std::vector<MapTile> tilesAt(int zoom) {
     return tiles;
 }
 
-// The generator of the zoom is made, and has made nothing.
+// The generator of the zoom exists and has generated nothing.
 gen::LevelGenerators newGenerators(std::string_view name, int zoom) {
     auto generators = orExit(gen::makeLevelGenerators(name, blocks(), kSeed));
     orExit(generators.at(map::levelOf(zoom)));

@@ -71,7 +71,7 @@ bool isWater(const Pictures& pictures, std::size_t at) {
     return !std::equal(&pictures.color.rgba[at], &pictures.color.rgba[at] + 3, &pictures.dry.rgba[at]);
 }
 
-// The first row that shows something, or the picture's height.
+// The first row that shows something, or the image's height.
 int skylineOf(const Pictures& pictures, int x) {
     for (int y = 0; y < pictures.normal.height; ++y) {
         const std::size_t at = offsetOf(pictures.normal, x, y);

@@ -92,7 +92,7 @@ void verify(benchmark::State& state) {
 }
 BENCHMARK(verify)->Unit(benchmark::kMillisecond);
 
-// What loading is to be compared with.
+// Generation of the same chunks, to compare loading with.
 void generate(benchmark::State& state) {
     for (auto _ : state) {
         const gen::Generator generator(orExit(gen::makeGenerator("overworld", blocks())), kSeed);
@@ -131,7 +131,7 @@ void saveAll(store::ChunkStore& store) {
     }
 }
 
-// Until it is on the disk, in batches of 1,024.
+// Saves in batches of 1,024 until the data is on the disk.
 void saveToFile(benchmark::State& state) {
     const SaveFolder folder;
     for (auto _ : state) {
@@ -160,7 +160,7 @@ void loadFromFile(benchmark::State& state) {
 }
 BENCHMARK(loadFromFile)->Unit(benchmark::kMillisecond)->UseRealTime();
 
-// As the jobs of a pipeline may: 48 chunks a call.
+// 48 chunks a call, as jobs of a pipeline may load them.
 void loadManyFromFile(benchmark::State& state) {
     const SaveFolder folder;
     { saveAll(*openSave(folder)); }

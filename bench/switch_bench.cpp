@@ -1,7 +1,7 @@
-// What switching a graphics option costs while playing. Each option goes through its words from the preset
-// "medium" and back; its shaders are compiled in the background first. Counters are milliseconds, the worst
-// of the words: how long the option took to come (wait_ms), and the stall then, from the call to the end of
-// the first frame with it, less a frame as they are afterwards.
+// The cost of switching a graphics option while playing. Each option goes through its values from the preset
+// "medium" and back; its shaders are compiled in the background first. Counters are milliseconds, the maximum
+// over the values: wait_ms until the option is there, then stall_ms from the call to the end of the first
+// frame with it, less a later frame.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
@@ -103,7 +103,7 @@ void switchThrough(benchmark::State& state, const render::GraphicsRow& row) {
         for (int word = 0; word < static_cast<int>(row.valueNames.size()); ++word) {
             render::GraphicsSettings settings{.render = usual, .mesh = {}};
             row.set(settings, word);
-            if (settings.render == usual) continue;  // as it is, or of meshes
+            if (settings.render == usual) continue;  // unchanged, or an option of meshes
             wait = std::max(wait, stage.waitFor(settings.render));
             stall = std::max({stall, stage.stallOf(settings.render), stage.stallOf(usual)});
         }

@@ -1,5 +1,5 @@
-// Generates chunks many at a time, by whichever back end: threads here, compute shaders in terrane/gen_gpu.
-// They give the same blocks. Used on one thread; that of terrane/gen_gpu is the context's.
+// Generates chunks in batches on one of two back ends: threads here, compute shaders in terrane/gen_gpu. Both
+// give the same blocks. Used on one thread: with compute shaders, the context's.
 #pragma once
 
 #include <memory>
@@ -14,21 +14,21 @@ namespace terrane::gen {
 
 struct GeneratedChunk {
     world::ChunkPos pos;
-    std::shared_ptr<world::Chunk> chunk;  // nobody else holds it
+    std::shared_ptr<world::Chunk> chunk;  // the only reference
 };
 
 class BatchGenerator {
   public:
     virtual ~BatchGenerator() = default;
 
-    // Starts a batch from the front of `positions`, which are different, and returns how many it took. 0 when
-    // as many batches are in flight as there is room for: take one first. Does not wait. Throws
-    // std::invalid_argument, and takes none, where not all of the batch `isGenerated` at its level
-    // (generator.h).
+    // Starts a batch from the front of `positions`, which are different, and returns its size: 0 if as many
+    // batches are in flight as possible, so that take() must come first. Does not wait. Throws
+    // std::invalid_argument and starts nothing if a chunk of the batch is not generated at this level
+    // (isGenerated() in generator.h).
     [[nodiscard]] virtual std::size_t submit(std::span<const world::ChunkPos> positions) = 0;
 
-    // The oldest batch in the order of its positions, if it is finished (with `wait`: once it is); otherwise,
-    // and where none is in flight, nothing. Throws what generating a chunk of it threw.
+    // Returns the oldest batch in the order of its positions if it is finished; with `wait`, waits for it.
+    // Empty if it is not finished or none is in flight. Rethrows what generating a chunk of it threw.
     [[nodiscard]] virtual std::vector<GeneratedChunk> take(bool wait) = 0;
 
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"

@@ -1,6 +1,5 @@
-// How deep branches and loops of a pass nest once it is scheduled. Code that walks a schedule calls itself
-// for each level: the compiler, the executor, GLSL compilers. GeneratorBuilder::finish() refuses passes that
-// are too deep. Any thread.
+// Nesting depth of the branches and loops of a scheduled pass. The compiler, the executor and GLSL compilers
+// recurse once per level, so GeneratorBuilder::finish() refuses passes that nest too deep. Any thread.
 #pragma once
 
 #include <string>
@@ -12,12 +11,12 @@ namespace terrane::gen {
 // Levels of the schedule of a whole pass. Sequential ifs nest where one uses the result of another on one
 // side alone.
 constexpr int kMaxBranchDepth = 64;
-// Ifs and loops along one path from a node to its arguments. No schedule of a part of the pass is deeper:
-// parts are compiled again for rows where conditions are known, and then less holds their nodes up. 1,024
-// levels of the compiler take about half a megabyte of stack.
+// Ifs and loops along one path from a node to its arguments: no schedule of a part of the pass is deeper.
+// Parts with known conditions (short_pass.h) are compiled again, and their nodes may stand deeper than in the
+// whole pass. 1,024 levels of the compiler take about half a megabyte of stack.
 constexpr int kMaxBranchChain = 1024;
 
-// Levels below the root. Calls itself at no level.
+// Levels below the root. Both functions work without recursion.
 int branchDepth(const PassGraph& pass);
 int branchChain(const PassGraph& pass);
 

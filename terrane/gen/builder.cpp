@@ -20,7 +20,7 @@ GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry&
     generator_.level = level;
 }
 
-int GeneratorBuilder::newest3D() const {
+int GeneratorBuilder::last3DPass() const {
     for (std::size_t k = generator_.passes.size(); k-- > 0;) {
         if (generator_.passes[k].is3D) return static_cast<int>(k);
     }

@@ -65,7 +65,7 @@ class GeneratorBuilder {
     // A shape that passes can stamp. Its number: 0, 1, 2 … in the order of the calls, at most kMaxShapes.
     int shape(const VoxelShape& shape);
 
-    // Those so far, one line each: for who can name the line of the call that made one (terrane/lua).
+    // Mistakes so far, one line each. terrane/lua adds the line of the script whose call made one.
     const std::vector<std::string>& mistakes() const { return errors_; }
     // The generator as far as it is recorded. It makes sense where there are no mistakes.
     const GeneratorGraph& recorded() const { return generator_; }
@@ -74,12 +74,12 @@ class GeneratorBuilder {
 
   private:
     friend class Pass;
-    int newest3D() const;  // number of the newest finished 3D pass, or -1
+    int last3DPass() const;  // number of the last finished 3D pass, or -1
     std::uint32_t newField(std::string_view name, Type type);
     void setTint(std::uint32_t field, Type type);
     void addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body);
-    // The call with the weights of the level, or where it has a mistake, which is noted, one that has none. A
-    // name stands for one noise.
+    // Returns the call with the weights of the level. Notes a mistake in it and returns a valid call instead.
+    // A name belongs to one noise.
     NoiseCall checkedNoise(Pass& pass, std::string_view kind, NoiseCall call);
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);
@@ -90,7 +90,7 @@ class GeneratorBuilder {
     GeneratorGraph generator_;
     const world::BlockRegistry& blocks_;
     std::optional<std::uint32_t> tint_;                   // field
-    std::map<std::string, std::string> noiseParameters_;  // by name: of which kind, with which parameters
+    std::map<std::string, std::string> noiseParameters_;  // by name: kind and parameters
     std::vector<VoxelShape> shapes_;
     std::vector<std::string> errors_;
 };

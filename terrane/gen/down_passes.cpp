@@ -8,7 +8,7 @@
 namespace terrane::gen {
 namespace {
 
-// How far above z the height is, where that is certain. Farther than a chunk is high, a sum may overflow.
+// Returns `height` − z if it is constant. None beyond the height of a chunk, where the sum may overflow.
 std::optional<int> blocksAboveZ(const Graph& graph, NodeId height) {
     const Node& n = graph.node(height);
     if (n.op == Op::PosZ) return 0;

@@ -1,5 +1,5 @@
-// The last 3D passes of a chunk from the top down, as far as somebody wants to see it: each pass makes only
-// the layers that the next one reads. Used by generator.cpp; one a thread, as it keeps scratch memory.
+// Runs the last 3D passes of a chunk from the top down, as far as the caller requests: each pass computes
+// only the layers that the next one reads. Used by generator.cpp; one per thread, as it keeps scratch memory.
 #pragma once
 
 #include <functional>
@@ -15,18 +15,18 @@
 
 namespace terrane::gen {
 
-// Takes the blocks of a layer, x + 16 y, of height z, and drops the columns of which it has seen enough:
-// lower layers may have any blocks there.
+// Receives the blocks of layer z, x + 16 y, and drops columns whose lower layers are not needed: those may
+// have any blocks.
 using LayerTaker =
     std::function<void(int z, std::span<const world::BlockId, kTileLanes> layer, WantedColumns& wanted)>;
 
-// How many layers below its own a 3D pass reads of the 3D pass before; none where that is not known before it
-// runs, or where it reads blocks of neighbors.
+// Number of layers below its own that a 3D pass reads from the 3D pass before it. None if that is not known
+// before the pass runs, or if it reads blocks of neighbors.
 std::optional<int> layersReadBelow(const PassGraph& pass);
 
 // Whether the last pass makes blocks. Generators of columns alone have none.
 bool canRunDown(const GeneratorGraph& generator);
-// The first of the last passes that can run together from the top down, of a generator that can run down.
+// Number of the first of the last passes that can run together from the top down. Requires canRunDown().
 int firstDownPass(const GeneratorGraph& generator);
 
 class DownPasses {
@@ -40,8 +40,8 @@ class DownPasses {
     // The next pass, which must be able to run down. Blocks of the pass before are among `inputs` for the
     // first one only. Refers to the arguments until cleared.
     void add(const VoxelPass& pass, PassInputs inputs);
-    // Hands out the layers of the last pass, from the top until no column is wanted. Layers that are one
-    // block and the same as the one above are left out.
+    // Passes the layers of the last pass to `take` from the top, until no column is requested. Leaves out
+    // layers that are one block and equal the layer above.
     void run(const LayerTaker& take);
 
   private:

@@ -1,8 +1,8 @@
 // Drainage networks: rivers and lakes over a coarse graph of nodes, found from heights that the generator's
 // author records. Plain values; GeneratorBuilder::drainage declares a map, Pass::drainage reads it.
 //
-// The world is divided into square cells of `spacing` blocks with a node in each. How water runs from node to
-// node is told in drainage_network.h, its course between them in drainage_curves.h.
+// The world is divided into square cells of `spacing` blocks with a node in each. drainage_network.h
+// describes how nodes drain, drainage_curves.h the course of the water between them.
 #pragma once
 
 #include <cstdint>
@@ -32,8 +32,8 @@ struct Drainage {
 
 using shared::kNoRiver;  // distance where nothing is within reach
 
-// Where a column lies in a map. Of several rivers that one counts which has the column deepest within its
-// width (smallest distance² − halfWidth²), so that confluences have no gaps.
+// The river and the lake that count at a column. Of several rivers the one with the smallest distance² −
+// halfWidth² counts, so that confluences have no gaps.
 struct DrainageSample {
     Float distance;      // blocks, to the middle of the river; kNoRiver where none is within reach
     Float halfWidth;     // blocks, there; the column is water where distance < halfWidth

@@ -92,7 +92,7 @@ class CurveMaker {
                 static_cast<float>(y) * spacing + static_cast<float>(p.y) * kBlock};
     }
 
-    // Half way to the middle between the nodes before and after it, which takes the corners out of courses.
+    // Moves a node half way to the middle between the nodes before and after it, which rounds corners.
     Place smoothPlace(int x, int y) const {
         const Place here = place(x, y);
         const std::size_t node = at(cellX_ + x, cellY_ + y);
@@ -116,7 +116,7 @@ class CurveMaker {
         return network_.drains[node] != kNoDrain && network_.drainOf(node) == to;
     }
 
-    // Of the node at an offset from the cell that curves are made for.
+    // Control point of the node at an offset from the current cell.
     Control control(int x, int y) const {
         const std::size_t node = at(cellX_ + x, cellY_ + y);
         const Place place = smoothPlace(x, y);
@@ -245,7 +245,7 @@ class CurveMaker {
     std::vector<NodePlace> places_;
     DrainageNetwork network_;
     std::uint32_t bendSeed_ = 0;
-    // Of the node that curves are made for: its cell, and the lake there.
+    // The cell whose curves are made, and its lake.
     int cellX_ = 0, cellY_ = 0;
     struct {
         float x, y, radius, level;

@@ -17,7 +17,7 @@ namespace HWY_NAMESPACE {
 
 constexpr float kNoPower = std::numeric_limits<float>::max();
 
-// Of one vector of columns: the river and the lake that count so far.
+// The river and the lake that count so far, for one vector of columns.
 struct NearestWater {
     VF power, distance2, halfWidth, level, flow;
     VF lakePower, lakeDistance2, radius, lakeLevel;

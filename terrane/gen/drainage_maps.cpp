@@ -57,7 +57,7 @@ void DrainageMaps::Map::forgetOldest() {
     }
 }
 
-// Who made no region because memory ran out leaves it to the next one.
+// If making the region throws, the next caller makes it.
 std::shared_ptr<KeptRegion> DrainageMaps::Map::region(DrainageCell corner) {
     std::shared_ptr<KeptRegion> found = find(corner);
     std::call_once(found->made, [&] {
@@ -121,7 +121,7 @@ DrainageMaps::DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64
 
 DrainageMaps::~DrainageMaps() = default;
 
-// Cells count from the tile's own, so that nothing is beyond the world's edge.
+// Cells are counted from the tile's own and then wrapped: the world's edge is no special case.
 void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid) {
     Map& m = *maps_[map];
     const DrainageSpec& spec = m.heights.spec();

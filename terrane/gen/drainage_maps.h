@@ -16,8 +16,8 @@ namespace terrane::gen {
 
 struct DrainageRegion;
 
-// What can be within reach of some column of a tile, in the order of cells by y, then x: of equals the first
-// counts.
+// Segments and lakes that may be within reach of a column of a tile, in the order of cells by y, then x. On a
+// tie the first one counts.
 struct DrainageTile {
     std::vector<shared::RiverSegment> segments;
     std::vector<shared::vec4> lakes;
@@ -25,11 +25,11 @@ struct DrainageTile {
     std::int32_t step = 1;  // blocks from column to column
 };
 
-// Regions kept a map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB where
-// few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that
+// Regions kept per map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB
+// where few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that
 // spacing.
 constexpr std::size_t kKeptRegions = 8;
-constexpr std::size_t kKeptRegionBytes = std::size_t{32} << 20;  // but the newest is kept
+constexpr std::size_t kKeptRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
 
 class DrainageMaps {
   public:

@@ -157,9 +157,9 @@ void findDrains(DrainageNetwork& n, HeightKey sea) {
     }
 }
 
-// Of each node the one that it drains to, or kNoNode.
 constexpr std::uint32_t kNoNode = std::numeric_limits<std::uint32_t>::max();
 
+// By node: the node that it drains to, or kNoNode.
 std::vector<std::uint32_t> nextNodes(const DrainageNetwork& n) {
     std::vector<std::uint32_t> next(n.drains.size(), kNoNode);
     for (std::size_t node = 0; node < next.size(); ++node) {
@@ -168,7 +168,7 @@ std::vector<std::uint32_t> nextNodes(const DrainageNetwork& n) {
     return next;
 }
 
-// Nodes upstream of each, itself among them, as far as the window goes.
+// By node: the number of nodes upstream within the window, itself among them.
 std::vector<std::uint32_t> countUpstream(const std::vector<std::uint32_t>& next) {
     std::vector<std::uint32_t> counts(next.size(), 1);
     std::vector<std::uint8_t> waiting(next.size(), 0);  // neighbors that drain here and are not counted yet
@@ -176,7 +176,7 @@ std::vector<std::uint32_t> countUpstream(const std::vector<std::uint32_t>& next)
         if (to != kNoNode) ++waiting[to];
     }
     for (std::uint32_t first = 0; first < next.size(); ++first) {
-        // Down from here as long as all that comes to a node is counted. A node passed is not passed again.
+        // Goes downstream while all inflows of a node are counted. Passes each node once.
         std::uint32_t node = first;
         while (node != kNoNode && waiting[node] == 0) {
             waiting[node] = kPassed;
@@ -191,7 +191,7 @@ std::vector<std::uint32_t> countUpstream(const std::vector<std::uint32_t>& next)
     return counts;
 }
 
-// Who is upstream by more steps is upstream of some node kMaxUpstream + 1 steps away.
+// Subtracts nodes farther upstream: each is upstream of a node that is kMaxUpstream + 1 steps away.
 void countFlow(DrainageNetwork& n) {
     static_assert(std::has_single_bit(static_cast<unsigned>(kMaxUpstream)), "steps are doubled");
     const std::vector<std::uint32_t> next = nextNodes(n), counts = countUpstream(next);
@@ -208,7 +208,7 @@ void countFlow(DrainageNetwork& n) {
     for (std::size_t k = 0; k < next.size(); ++k) n.flows[k] = static_cast<std::uint16_t>(flows[k]);
 }
 
-// Of lakes too near each other the lowest stays, and those without outlet.
+// Removes lakes too near a lower lake or a lake without outlet. Lakes without outlet stay.
 void thinLakes(DrainageNetwork& n) {
     const std::vector<std::uint8_t> found = n.lakeNodes;
     for (int y = kLakeDistance; y < n.side - kLakeDistance; ++y) {

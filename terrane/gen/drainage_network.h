@@ -1,7 +1,7 @@
-// How water runs over a window of drainage nodes: pits are cut open, every node drains to its lowest
-// neighbor, and flow is counted. Pure functions of heights; any thread.
+// Computes the drainage of a window of nodes: cuts pits open, drains every node to its lowest neighbor and
+// counts flow. Pure functions of heights; any thread.
 //
-// Every step looks at a bounded neighborhood, so that a node comes out the same from any window that holds
+// Every step reads a bounded neighborhood, so a node has the same result in every window that includes
 // kNetworkMargin cells around it:
 //  1. A land node lower than its eight neighbors is a pit. From it water rises, always over the lowest node
 //     at the shore (R. Barnes et al., Priority-Flood, 2014), at most kFloodReach cells away, until it finds a
@@ -39,7 +39,7 @@ constexpr std::uint8_t kNoDrain = 8;
 constexpr std::array<std::array<int, 2>, 8> kDirections = {
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-// A square of nodes by y, then x. Filled up to `heights` by whoever makes it.
+// A square of nodes by y, then x. The caller sets `side` and `heights`; findDrainage() computes the rest.
 struct DrainageNetwork {
     int side = 0;
     std::vector<HeightKey> heights;
@@ -55,7 +55,8 @@ struct DrainageNetwork {
     std::size_t drainOf(std::size_t node) const;  // the node that it drains to
 };
 
-// From heights to the rest. Right for nodes at least kNetworkMargin − 2 cells inside the window.
+// Computes all members after `heights`. Correct for nodes at least kNetworkMargin − 2 cells inside the
+// window.
 void findDrainage(DrainageNetwork& network, const DrainageSpec& spec);
 
 }  // namespace terrane::gen

@@ -87,9 +87,9 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
     }
 }
 
-// A slab that must be computed layer by layer is made a few layers at a time, the next may be one too many;
-// what was found for it holds for its rest. Slabs stay as high as kFirstSlab: rows without wanted columns
-// that take a branch skip it anyway.
+// A slab that must be computed layer by layer is made a few layers at a time, as the caller may need no more;
+// its analysis holds for the rest. Slabs are not split below kFirstSlab: rows without requested columns skip
+// branches anyway.
 void Executor::runDown(int lowest, const WantedColumns& wanted) {
     context_.rows = wanted.rows();
     context_.wanted = wanted.lanes();
@@ -126,7 +126,7 @@ void Executor::continueSlab(int lowest) {
     lowestMade_ -= count;
 }
 
-// As far as needed by what ranges_ found of it.
+// Computes only what the analysis in ranges_ leaves open.
 void Executor::runSlab(int z, int count) {
     bool writesNothing = true;
     for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
@@ -174,7 +174,7 @@ void Executor::runShort(const ShortPass& pass, int z, int count) {
     context_.program = &run_.pass->program();
 }
 
-// Fills what its layers share; `z` of one of them.
+// Computes values that all layers of the pass share. `z`: any of these layers.
 void Executor::startShort(const ShortPass& pass, int z) {
     const Program& program = pass.program;
     if (arena_.size() < program.arenaRows) {

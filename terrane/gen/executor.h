@@ -19,20 +19,20 @@ namespace terrane::gen {
 using ColumnValues = std::array<Bits, kTileLanes>;
 using BlockArray = std::array<std::uint16_t, world::kBlocksPerChunk>;
 
-// What a pass reads of its chunk and the eight around it.
+// Inputs of a pass from its chunk and the eight around it.
 struct PassInputs {
     world::ChunkPos chunk;
     // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the
     // middle one is set where the pass reads the field without an offset.
     std::vector<std::array<const ColumnValues*, 9>> fields;
-    // Of the newest earlier 3D pass, in the same order; the middle one alone where the pass reads blocks
-    // without an offset.
+    // Blocks of the last earlier 3D pass, in the same order. Only the middle one is set where the pass reads
+    // blocks without an offset.
     std::array<const BlockArray*, 9> blocks{};
-    // Of the layers of blocks[4], where they are known.
+    // Ranges of the layers of blocks[4], if they are known.
     const LayerRanges* layerRanges = nullptr;
 };
 
-// How the layers of a slab were made.
+// Statistics of a slab.
 struct SlabRun {
     enum class Way : std::uint8_t {
         Filled,    // one block
@@ -62,19 +62,19 @@ class Executor {
     // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
     void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
-    // The same pass from the top down, as far as somebody asks: begin3D(), then runDown() until enough is
-    // there. Writes no fields. Refers to its arguments until then; nothing else runs in between.
+    // Runs the pass from the top down as far as requested: begin3D(), then runDown() until there are enough
+    // layers. Writes no fields. Refers to its arguments until then; no other pass runs in between.
     void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result);
-    // Makes some of the layers from `lowest` on that are not made, the highest ones and at least one. Columns
-    // that are not wanted, and never will be again, get any blocks.
+    // Makes at least one of the missing layers down to `lowest`, the highest first. Columns that are dropped
+    // from `wanted` get any blocks.
     void runDown(int lowest, const WantedColumns& wanted);
     // The lowest layer that is made; world::kChunkHeight before the first.
     int lowestMade() const { return lowestMade_; }
-    // Whether run3D leaves out what cannot change the result. Tests compare.
+    // Whether run3D skips work that cannot change the result. Tests compare both.
     void setShortens(bool shortens) { shortens_ = shortens; }
-    // Of the last run3D, from the bottom.
+    // Slabs of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
-    // Of its layers, or of those that runDown made.
+    // Ranges of the layers of the last run3D, or of those that runDown made.
     const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
@@ -108,14 +108,14 @@ class Executor {
     LayerRanges layerRanges_{};
     bool shortens_ = true;
     std::vector<SlabRun> slabs_;
-    // What the layers of a tile are made of, while a 3D pass runs.
+    // Arguments of the 3D pass that runs.
     struct TileRun {
         const VoxelPass* pass = nullptr;
         BlockArray* result = nullptr;
         std::span<ColumnValues* const> fieldResults;
     };
     TileRun run_;
-    // Of runDown.
+    // State of runDown.
     int lowestMade_ = 0;                    // z of the lowest layer that is made
     int nextLayers_ = 0;                    // how many layers the next slab should have
     int slabBottom_ = 0;                    // z of the lowest layer of the slab that is being made

@@ -10,7 +10,7 @@
 
 namespace terrane::gen {
 
-// What all expressions share.
+// Base of all expressions.
 struct Value {
     Graph* graph = nullptr;  // null for a literal
     Bits bits = 0;           // node, or the literal's bits

@@ -25,9 +25,9 @@ struct Generator::Impl {
         Executor executor;
         DownPasses downPasses;
         std::vector<ColumnValues> fields;                   // by field
-        std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the newest two 3D passes, in turn
-        LayerRanges layerRanges{};                          // of the newest one
-        std::vector<PassReport>* report = nullptr;          // of reportedChunk, where somebody asks
+        std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the last two 3D passes, alternating
+        LayerRanges layerRanges{};                          // of the last one
+        std::vector<PassReport>* report = nullptr;          // of reportedChunk, or null
         world::ChunkPos reportedChunk;
     };
 
@@ -81,15 +81,15 @@ struct Generator::Impl {
     using Works = std::array<std::shared_ptr<ChunkWork>, 9>;
     static constexpr std::size_t kOwn = 4;  // the chunk itself among the nine
 
-    // Runs the first `passes` passes of a chunk, which are shared ones, and of its neighbors what they need.
-    // Who runs a pass waits only for lower passes of other chunks, so that threads never wait in a circle.
+    // Runs the first `passes` passes of a chunk, all of them shared, and the passes of neighbors that these
+    // need. A thread that runs a pass waits only for lower passes of other chunks, so there is no deadlock.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
     void runDown(world::ChunkPos pos, ChunkWork& work, const LayerTaker& take, Worker& worker);
     // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
-    // Where the chunk that `worker` is at has its results.
+    // Storage for results of the chunk that `worker` computes.
     ColumnValues& fieldOf(std::size_t field, ChunkWork& work, Worker& worker) const;
     BlockArray& blocksOf(int pass, ChunkWork& work, Worker& worker) const;
 
@@ -141,7 +141,7 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
         const int writer = graph.fields[f].writtenBy;
         if (writer >= 0 && writer < pass) inputs.fields[f][kOwn] = &fieldOf(f, work, worker);
     }
-    const int source = newest3DBefore(graph, pass);
+    const int source = last3DPassBefore(graph, pass);
     if (source >= 0) inputs.blocks[kOwn] = &blocksOf(source, work, worker);
     if (source >= shared) inputs.layerRanges = &worker.layerRanges;
     for (std::size_t n = 0; n < works.size(); ++n) {
@@ -191,7 +191,7 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
 
 namespace {
 
-// `ranges` of the blocks' layers, or null: sections of one block need no look at their blocks.
+// `ranges`: of each layer, or null. With it, sections of one block are made without reading their blocks.
 world::Chunk packChunk(const BlockArray& blocks, const LayerRanges* ranges) {
     world::Chunk chunk;
     for (int s = 0; s < world::kSectionsPerChunk; ++s) {

@@ -1,8 +1,8 @@
 // A generator ready to run for one world seed and one level: position in, chunk out. The blocks depend on
 // nothing but the generator, the seed and the position: not on threads, order of requests or instruction set.
 //
-// What neighbors may need of a chunk is computed once and kept, in a cache of bounded size; what they do not
-// is computed with the chunk itself.
+// Results of a chunk that neighbors may need are computed once and kept in a cache of bounded size. Other
+// results are computed with the chunk itself.
 #pragma once
 
 #include <array>
@@ -20,9 +20,8 @@
 
 namespace terrane::gen {
 
-// Room for what chunks' neighbors need of them: 1 KiB a field and, where they read blocks, 128 KiB a 3D
-// pass. Overworld: 15 KiB a chunk, so that the default holds 4,350 chunks, more than the 4,225 of a view
-// of 32.
+// Size of the cache of results that neighbors need: 1 KiB per field and 128 KiB per 3D pass whose blocks they
+// read. Overworld: 15 KiB per chunk, so the default holds 4,350 chunks, more than the 4,225 of a view of 32.
 struct CacheSize {
     std::size_t bytes = std::size_t{64} << 20;
     // Kept even where they need more bytes: with less than some rows of a wide area nearly everything would
@@ -35,17 +34,16 @@ constexpr CacheSize cacheSizeOf(int level) {
     return level == 0 ? CacheSize{} : CacheSize{.bytes = std::size_t{8} << 20};
 }
 
-// Whether a generator of `level` makes the chunk: of that level, in the world. Nobody gets blocks of another
-// level in place of those.
+// Whether a generator of `level` makes the chunk: it is of that level and in the world.
 constexpr bool isGenerated(world::ChunkPos pos, int level = 0) {
     return pos.level == level && world::isInWorld(pos);
 }
-// The reason where it is not.
+// Fails with the reason if it does not.
 base::Result<void> checkGenerated(world::ChunkPos pos, int level = 0);
-// Throws std::invalid_argument with the reason.
+// Throws std::invalid_argument with the reason if it does not.
 void requireGenerated(world::ChunkPos pos, int level = 0);
 
-// How a 3D pass went over a chunk.
+// Statistics of a 3D pass over a chunk.
 struct PassReport {
     int pass;
     std::vector<SlabRun> slabs;     // from the bottom
@@ -65,17 +63,16 @@ class Generator {
     // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
-    // The same, and how its 3D passes went as far as neighbors had not asked for them.
+    // The same. Appends reports of its 3D passes, but not of passes that neighbors had run already.
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
 
-    // The chunk's blocks from the top down, no deeper than `take` asks for: cheaper than generate() for those
-    // who look at the land from above. Calls it with one layer after the other until it wants no column
-    // any more; layers of one block that are the same as the one above are left out. Threads and errors as
-    // generate(); `take` may throw.
+    // Passes the chunk's blocks to `take`, layer by layer from the top, until no column is requested: cheaper
+    // than generate() for views from above. Leaves out layers that are one block and equal the layer above.
+    // Threads and errors as generate(); `take` may throw.
     void generateDown(world::ChunkPos pos, const LayerTaker& take) const;
 
-    // What 2D passes write to a field in the chunk's columns, x + 16 y, of a graph that has no 3D passes
-    // (tint_graph.h). Threads and errors as generate().
+    // Values of a field in the chunk's columns, x + 16 y, for a graph without 3D passes (tint_graph.h).
+    // Threads and errors as generate().
     std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
 
     const std::string& name() const;

@@ -14,7 +14,7 @@ std::vector<NodeId> outputsOf(const PassGraph& pass) {
     return outputs;
 }
 
-int newest3DBefore(const GeneratorGraph& generator, int pass) {
+int last3DPassBefore(const GeneratorGraph& generator, int pass) {
     while (--pass >= 0 && !generator.passes[static_cast<std::size_t>(pass)].is3D) {
     }
     return pass;
@@ -22,7 +22,7 @@ int newest3DBefore(const GeneratorGraph& generator, int pass) {
 
 int passesNeededAround(const GeneratorGraph& generator, int pass) {
     const PassGraph& graph = generator.passes[static_cast<std::size_t>(pass)];
-    int needed = graph.readsBlocksAt ? newest3DBefore(generator, pass) + 1 : 0;
+    int needed = graph.readsBlocksAt ? last3DPassBefore(generator, pass) + 1 : 0;
     for (const std::uint32_t f : graph.readsAt) needed = std::max(needed, generator.fields[f].writtenBy + 1);
     return needed;
 }

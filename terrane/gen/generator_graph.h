@@ -50,7 +50,7 @@ struct PassGraph {
     std::vector<StampCall> stamps;       // by imm of Op::Stamp
 };
 
-// What a pass writes: values of fields with their conditions, then the block.
+// Outputs of a pass: values of fields with their conditions, then the block.
 std::vector<NodeId> outputsOf(const PassGraph& pass);
 
 // A drainage map: how heights are computed at its nodes, by a pass with one field that calls noises and
@@ -76,12 +76,12 @@ struct GeneratorGraph {
     std::shared_ptr<const TintGraph> tint;     // null: the generator has none
 };
 
-// The newest 3D pass before `pass`, whose blocks it reads; -1 where there is none.
-int newest3DBefore(const GeneratorGraph& generator, int pass);
-// How many passes the chunks around one must have done before it runs `pass`; 0 where it reads nothing of
-// theirs.
+// The last 3D pass before `pass`, whose blocks it reads; -1 if there is none.
+int last3DPassBefore(const GeneratorGraph& generator, int pass);
+// Number of passes that the chunks around a chunk must have done before it runs `pass`; 0 if it reads nothing
+// of them.
 int passesNeededAround(const GeneratorGraph& generator, int pass);
-// How many of the first passes some chunk's neighbors may need.
+// Number of the first passes whose results neighbors may need.
 int sharedPasses(const GeneratorGraph& generator);
 
 }  // namespace terrane::gen

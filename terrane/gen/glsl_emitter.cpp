@@ -29,7 +29,7 @@ std::string literal(Type type, Bits bits) {
     return asInt(bits) < 0 ? fmt::format("int({:#x}u)", bits) : fmt::format("{}", bits);
 }
 
-// How a field's 32 bits become a value of its type, and back.
+// Convert a field's 32 bits to a value of its type, and back.
 std::string fromBits(Type type, const std::string& bits) {
     if (type == Type::Bool) return bits + " != 0u";
     return type == Type::Float ? "uintBitsToFloat(" + bits + ")" : "int(" + bits + ")";

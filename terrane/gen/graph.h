@@ -13,7 +13,7 @@ namespace terrane::gen {
 
 using NodeId = std::uint32_t;
 
-// What a node's value depends on, as a set of bits. A value that depends on neither is the same everywhere.
+// Dependence of a node's value, as a set of bits. A value with neither bit is the same everywhere.
 enum Dependence : std::uint8_t { kDependsNone = 0, kDependsColumn = 1, kDependsZ = 2, kDependsVoxel = 3 };
 
 constexpr std::int32_t kNoLoop = -1;
@@ -70,9 +70,9 @@ class Graph {
     // Whether some node outside of a loop depends on a node inside otherwise than through a variable's `out`.
     bool leaksOutOfLoop() const { return leaksOutOfLoop_; }
 
-    // A copy, with the numbers of this graph, for where some conditions are known: these nodes are constants,
-    // and what depends on z is simplified. `standIn`, by node: the one that has its value there. Nothing can
-    // be added to the copy.
+    // Returns a copy with the same node numbers in which some conditions are known: they become constants,
+    // and nodes that depend on z are simplified. `standIn`, by node: the node that has its value in the copy.
+    // Nothing can be added to the copy.
     struct Known {
         NodeId condition;
         bool holds;

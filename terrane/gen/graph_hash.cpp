@@ -52,7 +52,7 @@ void add(Values& values, const NoiseCall& call) {
     values.add(call.exponent);
 }
 
-// What nodes call by number. The numbers count in the order of recording, which tells nothing.
+// Objects that nodes refer to by number. Numbers follow the order of recording, so they are not hashed.
 struct Calls {
     const std::vector<NoiseCall>& noises;
     const std::vector<std::string>& hashNames;
@@ -131,8 +131,8 @@ std::uint64_t NodeHashes::hashOf(const Node& node, const Calls& calls) const {
     return values.hash();
 }
 
-// What does not change in a loop has its initial value there and after it. In the loop the others are told
-// apart by loop and place; after it they are what the loop makes of them.
+// A variable that does not change in a loop has its initial value there and after it. Other variables are
+// told apart by the depth of their loop and by their place in it, after the loop by its hash.
 std::uint64_t NodeHashes::hashOfLoopValue(const Node& node) {
     const LoopVariable& variable = graph_.loopVariable(node.imm);
     if (!changes(variable)) return hashes_[variable.initial];

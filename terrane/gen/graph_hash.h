@@ -1,5 +1,4 @@
-// A number that tells two recorded generators apart: two programs whose numbers are equal generate the same
-// blocks. Any thread.
+// A hash of a recorded generator: two programs with equal hashes generate the same blocks. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +7,9 @@
 
 namespace terrane::gen {
 
-// Of all that blocks follow from: what passes write and from which nodes, noises and names of hashes,
-// drainage maps, shapes, fields. Not of names of passes, of what is recorded and not used, nor of the tint.
-// The order in which a pass is recorded does not count: compilers choose different ones.
+// Hashes everything that blocks depend on: outputs of passes and the nodes that compute them, noises and
+// names of hashes, drainage maps, shapes, fields. Ignores names of passes, unused nodes and the tint. The
+// order in which a pass is recorded does not count: compilers choose different ones.
 [[nodiscard]] std::uint64_t graphHash(const GeneratorGraph& generator);
 
 }  // namespace terrane::gen

@@ -97,7 +97,7 @@ HWY_INLINE VI floorDivide(VI a, VI b) {
 
 void run(const InstructionList& list, TileContext& c, const RowList& rows);
 
-// Of `rows` those with a lane for which the condition holds.
+// Returns the rows with a lane for which the condition holds.
 RowList rowsWithSome(Operand condition, Bits* arena, const RowList& rows) {
     RowList result{{}, 0};
     for (int k = 0; k < rows.count; ++k) {
@@ -132,8 +132,8 @@ void loop(const Instruction& i, TileContext& c, const RowList& rows) {
     }
 }
 
-// Splits the rows by whether some lane takes the branch, and whether some lane does not. Lanes that nobody
-// wants count as neither.
+// Splits the rows by whether some lane takes the branch, and whether some lane does not. Lanes that are not
+// requested count as neither.
 void branch(const Instruction& i, TileContext& c, const RowList& rows) {
     const Branch& b = c.program->branches[i.imm];
     RowList taken{{}, 0}, notTaken{{}, 0};
@@ -147,7 +147,7 @@ void branch(const Instruction& i, TileContext& c, const RowList& rows) {
             all = all && hn::AllFalse(di, hn::MaskFromVec(hn::AndNot(holds, wanted)));
             none = none && hn::AllFalse(di, hn::MaskFromVec(hn::And(holds, wanted)));
         }
-        // Without branches, which nobody could predict.
+        // Without branches, which would be mispredicted.
         taken.rows[taken.count] = row;
         notTaken.rows[notTaken.count] = row;
         taken.count += none ? 0 : 1;

@@ -22,7 +22,7 @@ namespace terrane::gen {
 // column at (16, 16).
 constexpr int kWindowSize = kTileSize + 2 * kMaxReadOffset;
 
-// What instructions read and write. Filled by executor.cpp; one a thread.
+// State that instructions read and write. Filled by executor.cpp; one per thread.
 struct TileContext {
     const Program* program = nullptr;
     Bits* arena = nullptr;  // 64-byte aligned; program->arenaRows rows
@@ -38,19 +38,19 @@ struct TileContext {
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;
-    // Of the newest earlier 3D pass, 256 layers of 256 blocks: in this chunk, and in all nine around it by y,
-    // then x, where the program reads them with an offset.
+    // Blocks of the last earlier 3D pass, 256 layers of 256: of this chunk, and of the nine chunks around it
+    // by y, then x, where the program reads them with an offset.
     const std::uint16_t* blocks = nullptr;
     std::array<const std::uint16_t*, 9> blocksAround{};
     std::vector<StampTile> stamps;  // by the pass's stamps, painted
     std::int32_t z = 0;             // of the layer
     RowMask rows = kAllRows;        // for which instructions run
-    // All bits of a column, or none where nobody wants its values; null: all are wanted.
+    // By column: all bits set if its values are requested, else 0. Null: all are requested.
     const Bits* wanted = nullptr;
 };
 
-// Runs a list for the context's rows of the tile. Values that are the same in all columns have theirs
-// whichever rows these are.
+// Runs a list for the rows in context.rows. Values that are equal in all columns are computed whatever the
+// rows.
 void runInstructions(const InstructionList& list, TileContext& context);
 
 // Names of the instruction sets this machine can run, best first, as Highway calls them.

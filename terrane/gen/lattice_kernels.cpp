@@ -146,7 +146,7 @@ float lerp(float a, float b, float t) {
     return a + t * (b - a);
 }
 
-// Calls useAt(column, gradients left and right of it); lookup(cell) once a cell.
+// Calls lookup(node) once per node, and useAt(column, result of the node to its left, to its right).
 template <class Lookup, class Use>
 void forEachX(const std::array<std::uint32_t, kTileSize>& cells, Lookup lookup, Use useAt) {
     std::uint32_t left = lookup(cells[0]);

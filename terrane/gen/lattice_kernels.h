@@ -1,4 +1,4 @@
-// Gradients of lattice nodes over 16 columns, with SIMD instructions: what perlin_tile.cpp makes tiles of.
+// Gradients of lattice nodes over 16 columns, with SIMD instructions. perlin_tile.cpp makes tiles of them.
 #pragma once
 
 #include <array>
@@ -17,7 +17,8 @@ struct AxisCells {
     TileRow fadeOf;
 };
 
-// Of columns `step` blocks apart from `first` on, in cells of `size` blocks, which is `step` or more.
+// Cells of 16 columns `step` blocks apart, the first at block `first`. `size`: width of a cell, at least
+// `step`.
 AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size);
 
 // The coefficients of 1 and of the y offset along the node row `y`, blended along x. Rows of results are

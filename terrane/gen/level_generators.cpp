@@ -21,7 +21,7 @@ struct LevelGenerators::Impl {
         Generator generator;
         std::uint32_t field;
     };
-    // Of levels that were asked for; some levels of a generator may have none.
+    // Set for the levels requested so far; a level may have no tint.
     std::array<std::optional<base::Result<std::optional<Tint>>>, world::kMaxLevel + 1> tints;
     base::Result<std::optional<Tint>> makeTint(int level);
 
@@ -60,7 +60,7 @@ base::Result<std::optional<LevelGenerators::Impl::Tint>>& LevelGenerators::Impl:
     return *made;
 }
 
-// What level 0 lacks no other level has.
+// A level has a tint only if level 0 has one.
 const LevelGenerators::Impl::Tint* LevelGenerators::Impl::tint(int level) {
     const std::lock_guard lock(mutex);
     if (const auto& lowest = madeTint(0); lowest && !*lowest) return nullptr;

@@ -1,7 +1,7 @@
-// A generator at every level: chunks of any level of detail from one seed. Used by whoever streams tiles.
+// A generator at every level: chunks of any level of detail from one seed. Used by code that streams tiles.
 //
-// The graph of a level and its Generator are made when the level is first asked for, so that a world that
-// shows no far tiles pays for none. Any thread.
+// The graph of a level and its Generator are made on the first request for the level: a world without far
+// tiles does not pay for them. Any thread.
 #pragma once
 
 #include <cstdint>

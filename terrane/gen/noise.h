@@ -48,8 +48,8 @@ enum class NoiseKind : std::uint8_t {
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
     std::string name;  // names the seed: stable when code moves
-    // Blocks: smallest lattice, 1…65,536; Voronoi: cell, 1…kMaxVoronoiSize. Of Drainage the number of the
-    // map.
+    // Blocks: width of the smallest lattice, 1…65,536; Voronoi: width of a cell, 1…kMaxVoronoiSize. Drainage:
+    // number of the map.
     std::int32_t size = 1;
     std::vector<float> weights;  // Perlin, simplex: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
@@ -58,20 +58,20 @@ struct NoiseCall {
     bool operator==(const NoiseCall&) const = default;
 };
 
-// What is left at `step` blocks from sample to sample of noise with cells of `size` blocks: cells shorter
-// than two steps cannot be seen there and would only flicker, so they fade. All at two steps, nothing at one;
-// at step 1 nothing fades.
+// The share of its amplitude that noise with cells of `size` blocks keeps at `step` blocks between samples.
+// Cells smaller than two steps would only flicker, so they fade: 1 for cells of two steps or more, 0 for one
+// step or less. Always 1 at step 1.
 float shareLeft(std::int32_t size, std::int32_t step);
-// The weights of octaves times what is left of them.
+// Octave weights, each multiplied by its shareLeft().
 std::vector<float> fadedWeights(std::vector<float> weights, std::int32_t size, std::int32_t step);
 
-// What fades of Perlin noise in 2D from step 1 to `step`, as standard deviations: of its value, and of its
-// slope along an axis as Pass::slope measures it at both steps, a block. 0 at step 1.
+// Standard deviation of the part of 2D Perlin noise that fades between step 1 and `step`: of its value, and
+// of its slope per block along an axis as Pass::slope measures it at both steps. 0 at step 1.
 float lostDeviation(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 float lostSlope(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 
-// Half the distance over which Pass::slope measures, in blocks. At step 1 over two blocks a single step of
-// the ground would count in full.
+// Half the distance over which Pass::slope measures, in blocks. At step 1 a distance of two blocks would
+// count each single step of the ground in full.
 constexpr std::int32_t slopeReach(std::int32_t step) {
     return step == 1 ? 2 : step;
 }
@@ -103,7 +103,7 @@ constexpr std::uint32_t kDrainageResultCount = 6;
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
 
-// What seeds are made from, with the world's: calls of different kinds and equal names differ.
+// Names that seeds are derived from, with the world's seed: noise and random numbers of one name differ.
 inline std::string noiseSeedName(std::string_view name) {
     return "noise " + std::string(name);
 }
@@ -111,7 +111,7 @@ inline std::string randomSeedName(std::string_view name) {
     return "random " + std::string(name);
 }
 
-// What octave number `octave` adds to a call's seed: 2^32 / golden ratio, odd.
+// Added to a call's seed for octave `octave`: that number times 2^32 / golden ratio, which is rounded to odd.
 constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
     return static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
 }
@@ -127,7 +127,7 @@ constexpr bool is3D(NoiseKind kind) {
     return kind == NoiseKind::Perlin3D || kind == NoiseKind::Voronoi3D;
 }
 
-// One octave of a Perlin or simplex call. Octaves of weight 0 are not there: nothing is computed for them.
+// One octave of a Perlin or simplex call. Octaves of weight 0 are left out.
 struct Octave {
     std::int32_t size;
     std::uint32_t seedStep;

@@ -1,5 +1,5 @@
-// Noise written as expressions of the generator language itself: both back ends get it for nothing, to the
-// bit. Slower than the kinds of noise.h, which have kernels of their own.
+// Noise written as expressions of the generator language: both back ends compute the same bits without code
+// of their own. Slower than the kinds of noise.h, which have kernels.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@ namespace terrane::gen {
 // A hash of lattice coordinates (2 or 3) with an octave's seed.
 using LatticeHash = std::function<Int(std::span<const Int> node)>;
 
-// How the Perlin noise of noise.h changes, by axis, in its value a block; 0 along axes that `position` lacks.
-// `position`: block coordinates, 2 or 3.
+// Gradient of the Perlin noise of noise.h per block, by axis; 0 along axes that `position` lacks. `position`:
+// block coordinates, 2 or 3.
 std::array<Float, 3> perlinGradient(std::span<const Int> position, std::int32_t size,
                                     const LatticeHash& hash);
 

@@ -1,4 +1,4 @@
-// What noise calls of several results give: see Pass (pass.h).
+// Results of noise calls that return several values: see Pass (pass.h).
 #pragma once
 
 #include "terrane/gen/expr_vec.h"
@@ -12,7 +12,7 @@ struct Voronoi2D {
 };
 
 struct Voronoi3D {
-    Float distance;  // blocks, by the metric asked for
+    Float distance;  // blocks, by the call's metric
     Float ratio;     // nearest / second nearest, 0…1
     IVec3 offset;    // blocks, to the nearest point
 };

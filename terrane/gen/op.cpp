@@ -27,7 +27,7 @@ Bits select(bool c, Bits a, Bits b) {
     return c ? a : b;
 }
 
-// What x86 gives for values outside the range, so that folding never differs from running.
+// Returns the result of x86 for values outside the range, so that folding never differs from running.
 Bits truncated(float v) {
     return v > -2147483904.0f && v < 2147483648.0f ? bitsOf(static_cast<std::int32_t>(v)) : 0x80000000u;
 }

@@ -58,10 +58,10 @@ enum class Op : std::uint8_t {
     Field,      // imm: field; of this column
     Noise,      // imm: noise call; its results are taken with Component
     Stamp,      // block of the shapes that stand around, imm: stamp of the pass
-    BlockHere,  // block of the newest 3D pass before this one, at this voxel
+    BlockHere,  // block of the last 3D pass before this one, at this voxel
     // Reads with an offset of at most 16 blocks in x and y
     FieldAt,  // (dx, dy), imm: field
-    // Blocks of the newest 3D pass before this one; z is absolute and clamped into the world
+    // Blocks of the last 3D pass before this one; z is absolute and clamped into the world
     BlockInColumn,  // (z), in this column
     BlockAt,        // (dx, dy, z)
     Stripes,        // (x, y of the direction across the stripes), imm: noise call; results as of Noise

@@ -11,7 +11,7 @@ Pass::Pass(GeneratorBuilder& generator, int number, std::string name, bool is3D)
     graph_.name = std::move(name);
     graph_.is3D = is3D;
     if (is3D) {
-        const bool first = generator.newest3D() < 0;
+        const bool first = generator.last3DPass() < 0;
         blockSlot_ = newSlot(Type::Int, first ? Value(Block(world::kAir)) : Value(blockHere()));
         return;
     }

@@ -37,24 +37,26 @@ class Pass {
         return Var<T>(*this, newSlot(T::kType, initial));
     }
     void if_(Bool condition, const std::function<void()>& then, const std::function<void()>& otherwise = {});
-    // Repeats `body` while `condition` holds, shared::kMaxLoopRounds times at most. What changes from round
-    // to round are Vars made before; both functions are called once, while the pass is written.
+    // Repeats `body` while `condition` holds, at most shared::kMaxLoopRounds times. Values that change
+    // between rounds are Vars made before the loop. Both functions are called once, while the pass is
+    // recorded.
     void while_(const std::function<Bool()>& condition, const std::function<void()>& body);
 
     // Noise at this column or voxel (3D: in 3D passes). `name` makes the seed. Sizes in blocks; see noise.h
     // and noise_expressions.h.
     Float perlin2D(std::string_view name, int size, std::vector<float> weights);
     Float perlin3D(std::string_view name, int size, std::vector<float> weights);
-    // The noise, and for what faded of it at this level grain: a random number for each column, of the same
-    // spread. What a threshold divides keeps its shares, where noise alone would let the larger part win.
+    // The noise plus grain: a random number per column with the deviation of the part that faded at this
+    // level. A threshold then separates the same shares of columns; faded noise alone would favor the larger
+    // share.
     Float perlin2DWithGrain(std::string_view name, int size, std::vector<float> weights);
     // A random number and pair for each column with mean 0 and deviation 1.
     Float grain(std::string_view name);
     Vec2 grain2D(std::string_view name);
-    // How the noise of the same name and parameters changes, a block.
+    // Gradient per block of the noise of the same name and parameters.
     Vec2 perlin2DGradient(std::string_view name, int size, std::vector<float> weights);
     Vec3 perlin3DGradient(std::string_view name, int size, std::vector<float> weights);
-    // Without the directions along the axes that Perlin noise shows.
+    // Without the artifacts along the axes that Perlin noise has.
     Float simplex2D(std::string_view name, int size, std::vector<float> weights);
     Float simplex3D(std::string_view name, int size, std::vector<float> weights);
     // Waves of about `size` blocks that run across: their phase grows along `direction`, of length 1. 0 where
@@ -82,7 +84,7 @@ class Pass {
     T readAt(Field<T> field, IVec2 offset) {
         return T(readFieldAt(field.index, T::kType, offset));
     }
-    // How a field changes a block: over 4 blocks at level 0, over two columns at others.
+    // Slope of a field per block, measured over 4 blocks at level 0 and over two columns at other levels.
     Vec2 slope(Field<Float> field);
     // A field at an offset of any fraction of a block, blended from the four columns around it. Offset and
     // the block beyond it within ±kMaxReadOffset.
@@ -91,24 +93,25 @@ class Pass {
     void set(Field<T> field, T value) {  // 2D passes
         setField(field.index, T::kType, value);
     }
-    // From a 3D pass: the field takes what `value` is at height z of the column, clamped into the world. Not
-    // inside if_ or while_.
+    // In a 3D pass: sets the field to `value` at height z of the column, where z is clamped into the world.
+    // Not inside if_ or while_.
     template <class T>
     void setAt(Field<T> field, Int z, T value) {
         setFieldAt(field.index, T::kType, z, value);
     }
 
-    // The block that the newest earlier 3D pass put here (3D passes), or in this column at z, clamped into
-    // the world, or in another one within ±kMaxReadOffset.
+    // The block of the last earlier 3D pass: here (3D passes), in this column at z, which is clamped into the
+    // world, or in another column within ±kMaxReadOffset.
     Block blockHere();
     Block blockInColumn(Int z);
     Block blockAt(IVec2 offset, Int z);
     void setBlock(Block block);  // 3D passes; without it the block stays
-    // The block that shapes put here, air where none (3D passes). In every column where `shape` is the number
-    // of one it has its foot, at height `base`. Where shapes meet, stamp_tile.h says which stays.
+    // The block of stamped shapes here, air if there is none (3D passes). In every column where `shape` is
+    // the number of a shape, its foot stands at height `base`. stamp_tile.h says which block stays where
+    // shapes overlap.
     Block stamp(Field<Int> shape, Field<Int> base);
 
-    // Of the builder that the pass belongs to, so far.
+    // Mistakes of the builder that the pass belongs to, so far.
     const std::vector<std::string>& mistakes() const;
     std::size_t nodeCount() const { return graph_.graph.size(); }
 

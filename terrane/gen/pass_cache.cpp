@@ -8,9 +8,10 @@ std::shared_ptr<ChunkWork> PassCache::get(world::ChunkPos pos) {
         order_.splice(order_.begin(), order_, it->second.order);
         return it->second.work;
     }
-    order_.push_front(pos);
     auto work = std::make_shared<ChunkWork>(fieldCount_, passCount_);
-    entries_.emplace(pos, Entry{work, order_.begin()});
+    Order newest = {pos};
+    entries_.emplace(pos, Entry{work, newest.begin()});
+    order_.splice(order_.begin(), newest);  // last, as it cannot throw: both containers have the same chunks
     if (entries_.size() > capacity_) {
         entries_.erase(order_.back());
         order_.pop_back();

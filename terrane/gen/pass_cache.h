@@ -16,8 +16,8 @@ namespace terrane::gen {
 struct ChunkWork {
     ChunkWork(std::size_t fieldCount, std::size_t passCount) : fields(fieldCount), blocks(passCount) {}
 
-    // Until the first `passes` passes are done: calls run(pass) for each that nobody is at, waits where
-    // another thread is. An exception of `run` passes through; then the pass is anybody's again.
+    // Completes the first `passes` passes: calls run(pass) for each pass that no thread runs, and waits for a
+    // pass that another thread runs. Rethrows an exception of `run`; then any thread may run the pass.
     template <class Run>
     void advance(int passes, const Run& run);
 
@@ -32,7 +32,7 @@ struct ChunkWork {
         state_.notify_all();
     }
 
-    std::atomic<int> state_ = 0;  // twice the passes done, and one more while a thread is at the next
+    std::atomic<int> state_ = 0;  // 2 × passes done, + 1 while a thread runs the next one
 };
 
 template <class Run>
@@ -48,7 +48,7 @@ void ChunkWork::advance(int passes, const Run& run) {
         try {
             run(state / 2);
         } catch (...) {
-            setState(state);  // or those who wait would wait for ever
+            setState(state);  // wakes the threads that wait for this pass
             throw;
         }
         setState(state + 2);
@@ -60,7 +60,7 @@ class PassCache {
     PassCache(std::size_t capacity, std::size_t fieldCount, std::size_t passCount)
         : capacity_(capacity), fieldCount_(fieldCount), passCount_(passCount) {}
 
-    // The chunk's work, new where it is not kept. A work stays alive while somebody holds it.
+    // The chunk's work, new if it is not kept. A work stays alive while a caller holds it.
     std::shared_ptr<ChunkWork> get(world::ChunkPos pos);
 
     std::size_t size() {

@@ -1,4 +1,4 @@
-// What a pass reads of earlier ones: fields and blocks, here and around.
+// Reads of a pass: fields and blocks of earlier passes, in this column and around it.
 #include <algorithm>
 
 #include "terrane/gen/builder.h"
@@ -22,7 +22,7 @@ bool Pass::requireWritten(std::uint32_t field) {
 }
 
 bool Pass::requireBlocks() {
-    const bool earlier = generator_.newest3D() >= 0;
+    const bool earlier = generator_.last3DPass() >= 0;
     if (!earlier) error("blocks are read, but no earlier 3D pass sets them");
     return earlier;
 }

@@ -1,4 +1,4 @@
-// Where shapes stand in a pass, and their table.
+// Stamps of a pass, and the table of shapes of a generator.
 #include <algorithm>
 
 #include "terrane/gen/builder.h"

@@ -29,7 +29,7 @@ class RowAllocator {
     }
     void release(Operand o) { (o.rowStep ? freeTiles_ : freeRows_).push_back(o.row); }
     std::uint32_t rows() const { return next_; }
-    // What is allocated from here on never shares rows with what was before.
+    // Rows allocated from here on are never shared with earlier values.
     void seal() {
         freeTiles_.clear();
         freeRows_.clear();
@@ -92,7 +92,7 @@ class Compiler {
         placePositions();
     }
 
-    // In the rows of `base`, and of constants that are none there in rows of their own.
+    // Uses the rows of `base`, and rows of its own for constants that `base` lacks.
     void placeLeavesAfter(const Program& base, std::vector<RowConstant>& constants) {
         for (std::size_t row = 0; row < base.constants.size(); ++row) {
             constants.push_back({{static_cast<std::uint16_t>(row), 0}, base.constants[row]});
@@ -162,7 +162,7 @@ class Compiler {
         }
     }
 
-    // A round finds what it is given as the round before it did.
+    // Keeps the inputs of a loop, which every round reads.
     void keepLoop(const Schedule::Loop& loop) {
         for (const std::uint32_t v : loop.variables) {
             const LoopVariable& variable = graph_.loopVariable(v);

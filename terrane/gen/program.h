@@ -1,8 +1,8 @@
 // A pass's graph put in order for the CPU: instructions over tiles of 16×16 columns with registers allocated.
 //
-// What does not depend on z is computed once a chunk by `column`; `layer` then runs for each z. A branch is
-// entered only by the rows (16 columns of equal y) of which some lane takes it. Made once a generator; read
-// by all threads.
+// `column` computes values that do not depend on z, once per chunk; `layer` then runs for each z. Only rows
+// (16 columns of equal y) in which some lane takes a branch run it. Made once per generator; read by all
+// threads.
 #pragma once
 
 #include <cstdint>
@@ -24,8 +24,8 @@ constexpr RowMask kAllRows = 0xFFFF;
 // Operands count rows in 16 bits: 65,536 × 64 bytes = 4 MiB.
 constexpr std::uint32_t kMaxArenaRows = 65536;
 
-// Where a value lies in the arena: rows of 16 lanes of 32 bits. A value that is the same in every column has
-// one row (rowStep 0), others have 16.
+// Location of a value in the arena: rows of 16 lanes of 32 bits. A value that is equal in all columns has one
+// row (rowStep 0), others have 16.
 struct Operand {
     std::uint16_t row = 0;
     std::uint16_t rowStep = 0;
@@ -36,8 +36,8 @@ struct Instruction {
     Op op = Op::Constant;
     Operand dst;
     std::array<Operand, 3> args{};
-    // Of the operation. For Op::Phi and Op::LoopOut, which here stand for a whole if or loop, the number of
-    // the branch or loop.
+    // Immediate of the operation. Op::Phi and Op::LoopOut stand for a whole if or loop here; theirs is the
+    // number of the branch or loop.
     std::uint32_t imm = 0;
 };
 
@@ -73,7 +73,7 @@ struct Program {
     Operand x, y, z;              // filled by the executor
     std::uint32_t arenaRows = 0;
 
-    // 3D passes: what `column` leaves for `layer`, which writes no row below `layerRows`.
+    // 3D passes: values that `column` computes for `layer`, which writes no row below `layerRows`.
     struct Input {
         NodeId node;
         Operand value;
@@ -102,9 +102,10 @@ struct RowConstant {
     Bits value;
 };
 
-// Of a 3D pass whose graph has the numbers of another one's (Graph::withKnown), to run in the arena after the
-// other's program, `base`, has run its `column`: this one's takes only what depends on z no more.
-// `constants`: rows to fill before; base.constants are there. Program::constants stays empty.
+// Compiles a 3D pass whose graph has the node numbers of another pass (Graph::withKnown). The program runs in
+// the same arena after the `column` of `base`, the program of that pass; its own `column` computes only
+// values that no longer depend on z. `constants` receives the rows to fill before it runs; base.constants are
+// filled already. Program::constants stays empty.
 Program compileAfter(const Program& base, const PassGraph& pass, const std::vector<NoiseCall>& noises,
                      std::vector<RowConstant>& constants);
 

@@ -1,4 +1,4 @@
-// Where the columns of a chunk are sampled, at every level. Both back ends take positions from here.
+// Sample positions of the columns of a chunk, at every level. Both back ends take positions from here.
 #pragma once
 
 #include <cstdint>

@@ -77,7 +77,8 @@ class Scheduler {
         };
         std::uint32_t number = graph_.node(id).imm;
         if (!sameLoop(result_.ifs[number])) {
-            // The phis of an if are made one after the other: its second half is the newest one or none yet.
+            // The phis of an if are made one after the other: its second half is the last entry or does not
+            // exist yet.
             const bool isFirst = result_.ifs.size() == graph_.ifCount() ||
                                  graph_.node(result_.ifs.back().phis.front()).imm != number ||
                                  !sameLoop(result_.ifs.back());
@@ -146,7 +147,7 @@ class Scheduler {
     void use(NodeId id, int user) {
         assert(user != kNowhere && "a user is placed before its arguments");
         if (!live_[id]) return;
-        // What does not change in a loop stands before it.
+        // Values that do not change in a loop are computed before it.
         while (basicBlock(user).loop != graph_.node(id).loop) {
             assert(basicBlock(user).loop != kNoLoop && "values leave a loop through its variables");
             user = basicBlock(result_.loops[static_cast<std::size_t>(basicBlock(user).loop)].head).parent;

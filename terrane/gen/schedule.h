@@ -1,6 +1,6 @@
-// Places the nodes of a graph in branches and loops: each as deep in branches as all its uses allow, so that
-// what only one side of an if needs is computed only there, and what nobody needs not at all; and outside of
-// loops whose variables it does not depend on. A step of compile() in program.h.
+// Places the nodes of a graph in branches and loops: as deep in branches as all their uses allow, so that a
+// value that only one side of an if needs is computed only there, and outside of loops whose variables they
+// do not depend on. Unused nodes are left out. A step of compile() in program.h.
 #pragma once
 
 #include <functional>
@@ -44,11 +44,12 @@ struct Schedule {
     std::vector<std::uint32_t> ifOf;  // by node: of phis
 };
 
-// Schedules what `roots` need. Nodes for which `isInput` holds are there already and end the search.
+// Schedules the nodes that `roots` need. Nodes for which `isInput` holds have their values already.
 Schedule schedule(const Graph& graph, const std::vector<NodeId>& roots,
                   const std::function<bool(NodeId)>& isInput);
 
-// Of what `outputs` need, the outermost nodes that do not depend on z: a 3D pass computes them once a column.
+// The outermost nodes that `outputs` need and that do not depend on z: a 3D pass computes them once per
+// column.
 std::vector<NodeId> columnBoundary(const Graph& graph, const std::vector<NodeId>& outputs);
 
 }  // namespace terrane::gen

@@ -49,7 +49,7 @@ std::uint32_t cellsOf(const ShapeRecord& shape) {
     return sizeOf(shape, 0) * sizeOf(shape, 1) * sizeOf(shape, 2);
 }
 
-// A block with its rank, and their number among those of the table.
+// A word of the palette: a block with its rank.
 std::uint32_t paletteWord(world::BlockId block, std::size_t rank) {
     return block | static_cast<std::uint32_t>(rank) << 16;
 }
@@ -66,7 +66,7 @@ std::vector<std::uint32_t> paletteOf(const ShapeTable& table) {
     return {words.begin(), words.end()};
 }
 
-// Of a run's first voxel, from the shape's first cell.
+// Cell of a run's first voxel, counted from the shape's first cell.
 std::uint32_t cellOf(const ShapeRecord& shape, const ShapeRun& run) {
     const auto from = [&](int at, std::size_t axis) {
         return static_cast<std::uint32_t>(at - shape.low[axis]);

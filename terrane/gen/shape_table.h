@@ -36,14 +36,14 @@ struct ShapeTable {
 // Adds a shape in the columns of a level. Its blocks must be in the registry.
 void addShape(ShapeTable& table, const VoxelShape& shape, int level, const world::BlockRegistry& blocks);
 
-// What is wrong with a shape, one line; empty where nothing is.
+// The reason why a shape is invalid, in one line; empty if it is valid.
 std::string shapeMistake(const VoxelShape& shape, const world::BlockRegistry& blocks);
 
 // The table for shaders, as gen_gpu/stamps.glsl reads it.
 std::vector<std::uint32_t> shapeWords(const ShapeTable& table);
-// How many bytes of cells that has.
+// Bytes of the cells in that table.
 std::size_t shapeCellBytes(const ShapeTable& table);
-// How many pairs of a block and a rank the shapes have; cells name them with 8 bits.
+// Number of different pairs of block and rank in the shapes; cells store it in 8 bits.
 std::size_t shapePaletteSize(const ShapeTable& table);
 
 }  // namespace terrane::gen

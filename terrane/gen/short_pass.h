@@ -1,5 +1,5 @@
-// A 3D pass cut down to what a slab needs: choices that all its voxels make alike are gone, with everything
-// that only the other side of them needed. Used by voxel_pass.cpp.
+// A 3D pass reduced for a slab, without choices that are equal in all voxels and without the values that only
+// their other sides need. Used by voxel_pass.cpp.
 #pragma once
 
 #include "terrane/gen/slab_ranges.h"
@@ -9,7 +9,7 @@ namespace terrane::gen {
 struct ShortPass {
     enum class Kind : std::uint8_t {
         CopyBlocks,  // leaves the blocks of the 3D pass before as they are
-        OneLayer,    // layer after layer the same
+        OneLayer,    // all layers are equal
         EachLayer
     };
     Kind kind = Kind::EachLayer;

@@ -54,7 +54,7 @@ HWY_INLINE Gradients choose(hn::Mask<DF> first, const Gradients& a, const Gradie
     return {hn::IfThenElse(first, a.x, b.x), hn::IfThenElse(first, a.y, b.y)};
 }
 
-// Where a row of columns lies in the lattice.
+// Position of a row of columns in the lattice.
 struct SimplexCells {
     VF x0, y0;  // from the cell's corner
     VU x, y;    // cells, modulo 2^32
@@ -99,8 +99,8 @@ HWY_INLINE VF simplexSum(const SimplexCells& cells, hn::Mask<DF> isRight, const 
     return hn::Mul(hn::Set(df, kSimplexScale), hn::Add(hn::Add(first, second), third));
 }
 
-// Gives write(row, lane, value) for each vector. Wide cells hold whole rows: their gradients are found once
-// for many rows.
+// Calls write(row, lane, value) for each vector. Wide cells hold whole rows: the gradients of such a cell are
+// computed once for all of its rows.
 template <class Write>
 HWY_INLINE void simplexOctave(const Simplex2DTile::Octave& o, const RowList& rows, Operand dst, Write write) {
     const VU seed = hn::Set(du, o.seed);

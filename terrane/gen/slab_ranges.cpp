@@ -12,7 +12,7 @@ bool dependsOnZ(const Node& n) {
     return (n.dependence & kDependsZ) != 0;
 }
 
-// What the layers need: nodes that depend on z, and those that they take as given.
+// Nodes that the layers need: those that depend on z, and their arguments that do not.
 std::vector<bool> neededByLayers(const PassGraph& pass) {
     std::vector<bool> needed(pass.graph.size());
     std::vector<NodeId> stack = outputsOf(pass);
@@ -158,7 +158,7 @@ ValueRange SlabRanges::compute(NodeId id) {
     return resultRange(n.op, n.type, std::span(args).first(count));
 }
 
-// A condition on which something hangs.
+// Range of a condition of a choice or of a written field. Notes it as a decision if it is certain.
 const ValueRange& SlabRanges::condition(NodeId id) {
     const ValueRange& range = find(id);
     decide(id, range);
@@ -172,7 +172,7 @@ void SlabRanges::decide(NodeId id, const ValueRange& range) {
     decisions_[static_cast<std::size_t>(number)] = range.low != 0 ? Decision::True : Decision::False;
 }
 
-// A side that no voxel takes is not looked at.
+// Skips a side that no voxel takes.
 ValueRange SlabRanges::choice(const Node& n) {
     const ValueRange& when = condition(n.args[0]);
     if (isCertain(when)) return find(when.low != 0 ? n.args[1] : n.args[2]);
@@ -180,8 +180,8 @@ ValueRange SlabRanges::choice(const Node& n) {
     return resultRange(n.op, n.type, args);
 }
 
-// The second argument only where the first leaves the result open. Where both do, one that is certain needs
-// not be computed.
+// Evaluates the second argument only if the first leaves the result open. If the result stays open, notes an
+// argument that is certain as a decision, so that it is not computed.
 ValueRange SlabRanges::logic(const Node& n) {
     const ValueRange first = find(n.args[0]);
     const std::int32_t decisive = n.op == Op::And ? 0 : -1;
@@ -218,7 +218,7 @@ BlockRange SlabRanges::layerBefore(int z) {
     return layers_[k];
 }
 
-// Of the pass before; heights beyond the world are clamped into it.
+// Range of the blocks of the pass before in layers z. Heights beyond the world are clamped into it.
 ValueRange SlabRanges::blocksBetween(const ValueRange& z) {
     if (!blocks_) return intRange(0, UINT16_MAX);
     const auto first = static_cast<std::size_t>(std::clamp(z.low, 0, world::kChunkHeight - 1));

@@ -1,6 +1,6 @@
-// What is certain in a slab, some successive layers of a tile, before any voxel of it is computed: interval
-// arithmetic over the expressions of a 3D pass, from the ranges of what its columns have computed already.
-// Used by executor.cpp.
+// Finds values that are certain in a slab (successive layers of a tile) before its voxels are computed:
+// interval arithmetic over the expressions of a 3D pass, starting from the ranges of its column values. Used
+// by executor.cpp.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ namespace terrane::gen {
 
 enum class Decision : std::uint8_t { Open, True, False };
 
-// What never changes for a pass. Made once a generator; any thread. Refers to its arguments.
+// Constant data of a pass for the analysis. Made once per generator; any thread. Refers to its arguments.
 struct SlabPlan {
     SlabPlan(const PassGraph& pass, const Program& program, const std::vector<NoiseCall>& noises);
 
@@ -28,8 +28,8 @@ struct SlabPlan {
     const Program& program;
     const std::vector<NoiseCall>& noises;
     std::vector<std::optional<Operand>>
-        columnValues;  // by node: what lies in the arena before the layers run
-    // Conditions that a slab may decide: those of choices, and what they are made of.
+        columnValues;  // by node: its value in the arena before the layers run
+    // Conditions that a slab may decide: those of choices, and their subexpressions.
     std::vector<NodeId> choices;
     std::vector<std::int32_t> choiceOf;  // by node; -1: none
     bool isTooDeep = false;              // expressions nest deeper than the analysis goes
@@ -40,29 +40,29 @@ using Decisions = std::vector<Decision>;
 
 class SlabRanges {
   public:
-    // For a tile whose `column` instructions have run. Refers to its arguments until begun again.
+    // Begins a tile whose `column` instructions have run. Refers to its arguments until the next call.
     // `blocks`: of the 3D pass before, by world::BlockIndex, or null.
-    // `layers`: of them, or null where they are to be found.
-    // `stamps`: of the pass, painted.
+    // `layers`: their ranges by layer, or null to compute them.
+    // `stamps`: painted stamps of the pass.
     void begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
                std::span<const StampTile> stamps = {}, const LayerRanges* layers = nullptr);
 
-    // The same values, moved to another place.
+    // Sets another address of the same values.
     void moveArena(const Bits* arena) { arena_ = arena; }
 
-    // Looks at `count` layers, the lowest at height z.
+    // Analyzes `count` layers, the lowest at height z.
     void analyze(std::int32_t z, std::int32_t count);
 
-    // Of the slab looked at last: the choices that all its voxels make alike,
+    // Results of the last analyzed slab: the choices that are equal in all voxels,
     const Decisions& decisions() const { return decisions_; }
-    // the block of all of its voxels, where that is certain,
+    // the block of all voxels, if it is certain,
     std::optional<std::uint16_t> block() const;
-    // whether its voxels leave a field that the pass writes as it is,
+    // whether no voxel writes this field of the pass,
     bool writesNothing(std::size_t fieldOutput) const;
-    // and whether slabs of fewer layers would decide no more choices than it.
+    // and whether slabs of fewer layers would decide no more choices.
     bool isSettled() const { return isSettled_; }
 
-    // Of the blocks of the 3D pass before in the layer z.
+    // Range of the blocks of the 3D pass before in layer z.
     BlockRange layerBefore(int z);
 
   private:

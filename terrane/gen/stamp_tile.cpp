@@ -27,7 +27,7 @@ void StampTile::paint(const ShapeTable& shapes, std::span<const Bits> numbers, s
     assert(numbers.size() == std::size_t{kWindowSize} * kWindowSize && bases.size() == numbers.size());
     clear();
     findFeet(shapes, numbers, bases);
-    // What is painted first stays: the feet are in the order of their rule.
+    // The block painted first stays: feet are in the order of precedence.
     for (std::size_t rank = kMaxShapeRank + 1; rank-- > 0;) {
         for (const StampFoot& foot : feet_) {
             const auto& first = foot.shape->firstRun;
@@ -56,7 +56,8 @@ void StampTile::clear() {
 
 void StampTile::findFeet(const ShapeTable& shapes, std::span<const Bits> numbers,
                          std::span<const Bits> bases) {
-    // Of feet this far from the world's layers no shape reaches them; sums of others do not overflow.
+    // Shapes whose feet are beyond these heights do not reach the world; sums of other heights do not
+    // overflow.
     constexpr int kLowest = -kMaxShapeZ, kHighest = world::kChunkHeight - kMinShapeZ;
     feet_.clear();
     for (int y = 0; y < kWindowSize; ++y) {

@@ -13,7 +13,7 @@
 
 namespace terrane::gen {
 
-// Where a shape stands: columns from the tile's corner, z of its foot.
+// Foot of a shape: x and y in columns from the tile's corner, z in blocks.
 struct StampFoot {
     const ShapeRecord* shape;
     int x, y, z;
@@ -21,9 +21,9 @@ struct StampFoot {
 
 class StampTile {
   public:
-    // Paints the shapes of all feet in 48×48 columns around the tile (kWindowSize of kernels.h): the shape's
-    // number, where it is one of the table, and the height of its foot. Of blocks that meet in a voxel the
-    // highest rank stays, then the smallest y, then the smallest x of the foot.
+    // Paints the shapes of all feet in 48×48 columns around the tile (kWindowSize of kernels.h). `numbers`:
+    // the shape of a column, if the table has it. `bases`: height of its foot. Where blocks of several shapes
+    // meet in a voxel, the highest rank stays, then the smallest y, then the smallest x of the foot.
     void paint(const ShapeTable& shapes, std::span<const Bits> numbers, std::span<const Bits> bases);
 
     bool isPainted(int z) const { return painted_[static_cast<std::size_t>(z)]; }

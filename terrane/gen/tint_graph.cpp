@@ -26,7 +26,7 @@ bool readsBlocks(const PassGraph& pass) {
     return false;
 }
 
-// Adds the passes whose results those of the set read.
+// Adds the passes whose results the passes of the set read.
 void addWhatIsRead(const GeneratorGraph& generator, PassSet& set) {
     for (std::size_t pass = set.size(); pass-- > 0;) {
         if (!set[pass]) continue;
@@ -35,12 +35,12 @@ void addWhatIsRead(const GeneratorGraph& generator, PassSet& set) {
             const int writer = generator.fields[f].writtenBy;
             if (writer >= 0 && readsField(graph, f)) set[static_cast<std::size_t>(writer)] = true;
         }
-        const int before = newest3DBefore(generator, static_cast<int>(pass));
+        const int before = last3DPassBefore(generator, static_cast<int>(pass));
         if (before >= 0 && (graph.is3D || readsBlocks(graph))) set[static_cast<std::size_t>(before)] = true;
     }
 }
 
-// Those of the set alone, numbered anew.
+// The generator with only the passes of the set, renumbered.
 GeneratorGraph withPasses(const GeneratorGraph& generator, const PassSet& set) {
     GeneratorGraph part = generator;
     part.passes.clear();

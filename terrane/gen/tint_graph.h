@@ -1,5 +1,5 @@
-// The tint of a generator (GeneratorBuilder::tint): the passes that make it are cut out of the others, so
-// that chunks cost nothing for it and it costs no chunk. Any thread.
+// The tint of a generator (GeneratorBuilder::tint) as a graph of its own: chunks do not compute it, and it
+// needs no chunks. Any thread.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct TintGraph {
     std::uint32_t field = 0;  // what they make: packed colors (world/tint.h)
 };
 
-// Sets generator.tint for a field that is of type Int, and takes out of the generator's passes what only the
-// tint needs. What is wrong with the field, or nothing.
+// Sets generator.tint for a field of type Int, and removes from the generator what only the tint needs.
+// Returns the reason if the field is no tint, else an empty string.
 std::string cutTint(GeneratorGraph& generator, std::uint32_t field);
 
 }  // namespace terrane::gen

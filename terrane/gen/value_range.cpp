@@ -25,7 +25,7 @@ ValueRange unlessWrapped(std::int64_t low, std::int64_t high) {
     return intRange(static_cast<std::int32_t>(low), static_cast<std::int32_t>(high));
 }
 
-// Of the results at the four corners, for operations that rise or fall all along each argument.
+// Range of the results at the four corners, for operations that are monotone in each argument.
 template <class Function>
 ValueRange cornersOf(Ranges a, Function f) {
     const std::int64_t r[] = {f(a[0].low, a[1].low), f(a[0].low, a[1].high), f(a[0].high, a[1].low),
@@ -78,7 +78,7 @@ ValueRange absoluteF(const ValueRange& a) {
     return r;
 }
 
-// Where one is NaN the result is the first.
+// The result is the first argument if either is NaN.
 template <class Function>
 ValueRange minOrMax(Ranges a, Function f) {
     if (a[0].mayBeNaN || a[1].mayBeNaN) return unite(Type::Float, a[0], a[1]);
@@ -111,7 +111,7 @@ ValueRange toInt(const ValueRange& a) {
     return intRange(static_cast<std::int32_t>(a.lowF), static_cast<std::int32_t>(a.highF));
 }
 
-// Bits rise with floats that are not negative. -0 is no such float.
+// The bits of positive floats increase with their value. −0 has other bits.
 ValueRange floatBits(const ValueRange& a) {
     if (a.mayBeNaN || a.lowF <= 0) return kAnyInt;
     return intRange(asInt(bitsOf(a.lowF)), asInt(bitsOf(a.highF)));
@@ -223,18 +223,6 @@ ValueRange rangeOf(Type type, Bits value) {
     if (type != Type::Float) return intRange(asInt(value), asInt(value));
     const float f = asFloat(value);
     return std::isnan(f) ? kAnyFloat : floatRange(f, f);
-}
-
-ValueRange rangeOf(Type type, std::span<const Bits> values) {
-    ValueRange r = rangeOf(type, values[0]);
-    for (const Bits value : values.subspan(1)) r = unite(type, r, rangeOf(type, value));
-    return r;
-}
-
-bool contains(const ValueRange& range, Type type, Bits value) {
-    if (type != Type::Float) return asInt(value) >= range.low && asInt(value) <= range.high;
-    const float f = asFloat(value);
-    return std::isnan(f) ? range.mayBeNaN : f >= range.lowF && f <= range.highF;
 }
 
 ValueRange unite(Type type, const ValueRange& a, const ValueRange& b) {

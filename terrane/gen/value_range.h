@@ -1,5 +1,5 @@
-// Intervals of the values of expressions: what an operation can give for arguments of known ranges, whatever
-// values in them columns and layers have. Used by slab_ranges.cpp to find what need not be computed.
+// Interval arithmetic for expressions: the results that an operation can have for arguments in known ranges.
+// Used by slab_ranges.cpp to find computations that can be skipped.
 //
 // Every range holds all values the operation gives, to the bit: integers that may wrap are unknown, and the
 // bounds of float operations are rounded as the operation itself is (rounding to nearest is monotone).
@@ -15,10 +15,10 @@
 namespace terrane::gen {
 
 struct ValueRange {
-    // Which ones hold is the type of the value's node to know.
+    // The type of the value's node says which members hold.
     union {
         std::int32_t low;  // Int: as it is. Bool: 0 and -1, a lane's bits as a number.
-        float lowF;        // of what is not NaN; zeros are equal whatever their signs
+        float lowF;        // NaN excluded; −0 equals 0
     };
     union {
         std::int32_t high;
@@ -47,27 +47,24 @@ constexpr ValueRange unknownRange(Type type) {
     if (type == Type::Float) return kAnyFloat;
     return type == Type::Int ? kAnyInt : kAnyBool;
 }
-// Of one value.
+// The range of one value, which may be NaN.
 ValueRange rangeOf(Type type, Bits value);
-// Of several: NaN is allowed.
-ValueRange rangeOf(Type type, std::span<const Bits> values);
 
 inline bool isCertain(const ValueRange& intOrBool) {
     return intOrBool.low == intOrBool.high;
 }
-bool contains(const ValueRange& range, Type type, Bits value);
 
-// Of either of two values of a type.
+// The smallest range that includes both.
 ValueRange unite(Type type, const ValueRange& a, const ValueRange& b);
 
 // The result of an operation that is a function of its arguments (record(op).evaluate). `type` is its
 // result's. Select and Phi: the condition, then both sides.
 ValueRange resultRange(Op op, Type type, std::span<const ValueRange> args);
 
-// Of Perlin noise in 3D: within ±1.5 Σ|weight|. Along an axis the nodes' distances, weighted as the blend
-// weights them, add up to f + t − 2ft = ½ − 2(½ − f)(½ − t), at most ½ as the fade t is on the same side of ½
-// as f. A gradient has components of 0 and ±1, so that three axes give 1.5 at most; and a little more for
-// rounding.
+// Range of Perlin noise in 3D: ±1.5 Σ|weight|. Along an axis the distances of the nodes, weighted as the
+// blend weights them, add up to f + t − 2ft = ½ − 2(½ − f)(½ − t), at most ½, as the fade t is on the same
+// side of ½ as f. A gradient has components of 0 and ±1, so three axes give 1.5 at most. A small margin
+// covers rounding.
 ValueRange perlin3DRange(const NoiseCall& call);
 
 }  // namespace terrane::gen

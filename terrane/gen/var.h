@@ -1,4 +1,5 @@
-// What a pass writes to: fields, which later passes read, and variables of its own. See pass.h.
+// Outputs and variables of a pass: fields, which later passes read, and variables of the pass itself. See
+// pass.h.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,4 @@
-// What Voronoi noise is on average: what stands for it where cells are smaller than a column
-// (Pass::voronoi2D).
+// Means of Voronoi noise. They replace it where cells are smaller than a column (Pass::voronoi2D).
 //
 // Measured over 1,500,000 (2D) and 150,000 (3D) random places among random points, to within 0.001. The
 // metric's exponent changes the distance alone.

@@ -161,7 +161,7 @@ void moveToLayer(Voronoi3DTile& tile, std::int32_t z) {
         tile.zCell = zCell;
     }
     tile.layer = z;
-    // As for columns: who is farther from everywhere than two others is from anywhere does not count.
+    // As in 2D: a point farther from every column than two others are from any column does not count.
     constexpr float kFar = std::numeric_limits<float>::max();
     float best = kFar, second = kFar;
     for (const auto& cell : tile.cells) {

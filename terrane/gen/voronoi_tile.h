@@ -21,7 +21,7 @@ struct Voronoi2DTile {
     std::int32_t size = 1, step = 1;
 };
 
-// The call's cells are at least as wide as the grid's step: at most (16 + 5)² of them are looked at.
+// The call's cells are at least as wide as the grid's step: at most (16 + 5)² of them are searched.
 void prepare(Voronoi2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 struct Voronoi3DPoint {

@@ -1,5 +1,5 @@
-// A 3D pass ready to run: its whole program, and the short ones that slabs of layers are content with, made
-// when a slab asks for one. One a generator's pass; any thread.
+// A 3D pass ready to run: its whole program, and short programs for slabs of layers, which are compiled when
+// a slab first needs one. One per 3D pass of a generator; any thread.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ class VoxelPass {
     const SlabPlan& plan() const { return plan_; }
     std::size_t layerInstructions() const { return layerInstructions_; }  // of the whole program
 
-    // The pass for slabs that decide so; null where the whole one must run, as there is no room for more.
+    // The short pass for these decisions, or null if the whole program must run because the table is full.
     const ShortPass* find(const Decisions& decisions) const;
 
   private:

@@ -13,12 +13,12 @@ namespace {
 // Beyond this step leaves reach down to the ground in place of trunks that are much thinner than a column.
 constexpr int kMaxWoodStep = 2;
 
-// Of all places and one more on each side.
+// Size of the grid: all places and a margin of one on each side.
 constexpr int kGridSide = 2 * kMaxShapeReach + 3, kGridLayers = kMaxShapeZ - kMinShapeZ + 3;
 
 using ColumnAt = std::pair<int, int>;  // y, x: the order in which equal columns are chosen
 
-// Blocks and how often they are there.
+// Pairs of a block and its number of voxels.
 using BlockCounts = std::vector<std::pair<int, int>>;
 
 void count(BlockCounts& counts, int block) {
@@ -36,7 +36,7 @@ int mostFrequent(const BlockCounts& counts) {
     return std::max_element(counts.begin(), counts.end(), isLess)->first;
 }
 
-// What the voxels of a layer of a wide column are.
+// Voxels in a layer of a wide column.
 struct LayerCount {
     int filled = 0;
     BlockCounts byBlock;
@@ -49,7 +49,7 @@ struct WideColumn {
 
 using WideColumns = std::map<ColumnAt, WideColumn>;
 
-// The foot stands in the middle of its column, as the block that stands for a column does.
+// The foot lies in the middle of its column, at the block that a column is sampled at.
 int columnOf(int blocks, int level) {
     return (blocks + (1 << level) / 2) >> level;
 }
@@ -71,7 +71,7 @@ WideColumns gather(const VoxelShape& shape, int level) {
     return columns;
 }
 
-// The columns with most of their area covered, as many as have the shape's area; the foot's always.
+// The columns with the largest covered area, as many as have the shape's area, and always the foot's.
 std::vector<ColumnAt> fullest(const WideColumns& columns, int level) {
     const int area = 1 << (2 * level);
     int covered = 0;
@@ -82,9 +82,9 @@ std::vector<ColumnAt> fullest(const WideColumns& columns, int level) {
         order.push_back({at == ColumnAt{0, 0} ? -2 * area : -count, at});
     }
     std::sort(order.begin(), order.end());
-    const int wanted = std::max(1, (covered + area / 2) / area);
+    const int chosenCount = std::max(1, (covered + area / 2) / area);
     std::vector<ColumnAt> chosen;
-    for (int k = 0; k < std::min<int>(wanted, static_cast<int>(order.size())); ++k) {
+    for (int k = 0; k < std::min<int>(chosenCount, static_cast<int>(order.size())); ++k) {
         chosen.push_back(order[static_cast<std::size_t>(k)].second);
     }
     return chosen;
@@ -112,7 +112,7 @@ class Coarsener {
                                   static_cast<std::int8_t>(z), static_cast<std::uint8_t>(block)});
     }
 
-    // A layer is there where a quarter of the covered area is.
+    // Keeps a layer if it fills a quarter of the covered area.
     void addColumn(ColumnAt at, const WideColumn& column) {
         for (const auto& [z, layer] : column.layers) {
             if (4 * layer.filled >= static_cast<int>(column.covered.size()))
@@ -150,7 +150,7 @@ class Coarsener {
 
     bool isWood(int block) const { return shape_.blocks[static_cast<std::size_t>(block)].rank > 0; }
 
-    // Leaves what hangs together with the foot's column, face to face or over an edge.
+    // Removes voxels that are not connected to the foot's column by faces, edges or corners.
     void dropLoose() {
         enum State : std::uint8_t { kEmpty, kLoose, kJoined };
         std::vector<State> states(std::size_t{kGridSide} * kGridSide * kGridLayers, kEmpty);
@@ -190,15 +190,15 @@ VoxelShape coarsened(const VoxelShape& shape, int level) {
     return Coarsener(shape, level).run();
 }
 
-ShapeFigures figuresOf(const VoxelShape& shape) {
+ShapeStatistics statisticsOf(const VoxelShape& shape) {
     std::set<ColumnAt> covered;
-    ShapeFigures figures;
+    ShapeStatistics statistics;
     for (const ShapeVoxel& v : shape.voxels) {
         covered.insert({v.y, v.x});
-        figures.height = std::max<int>(figures.height, v.z);
+        statistics.height = std::max<int>(statistics.height, v.z);
     }
-    figures.cover = static_cast<int>(covered.size());
-    return figures;
+    statistics.cover = static_cast<int>(covered.size());
+    return statistics;
 }
 
 }  // namespace terrane::gen

@@ -11,7 +11,7 @@ namespace terrane::gen {
 // Offsets from the foot, blocks. Neighbors are read as far as kMaxReadOffset = 16.
 constexpr int kMaxShapeReach = 16;
 constexpr int kMinShapeZ = -8, kMaxShapeZ = 48;
-// Where shapes overlap, the block of the higher rank stays: wood is not cut by a neighbor's leaves.
+// The block of the higher rank stays where shapes overlap: a neighbor's leaves do not replace wood.
 constexpr int kMaxShapeRank = 3;
 
 struct ShapeBlock {
@@ -32,16 +32,16 @@ struct VoxelShape {
     std::vector<ShapeVoxel> voxels;  // each place once
 };
 
-// The shape in columns that are 2^level blocks wide; z stays in blocks. Of all columns those stay that are
-// filled most, as many as have the same area. The foot's column is filled from bottom to top, so that nothing
+// The shape in columns that are 2^level blocks wide; z stays in blocks. Keeps the columns that are filled
+// most, as many as have the shape's area. The foot's column is filled from bottom to top, so that nothing
 // floats: with wood where columns are at most 2 blocks wide or the trunk has half their area, else with
 // leaves.
 VoxelShape coarsened(const VoxelShape& shape, int level);
 
 // Blocks (not columns) seen from above, and the highest voxel's z.
-struct ShapeFigures {
+struct ShapeStatistics {
     int cover = 0, height = 0;
 };
-ShapeFigures figuresOf(const VoxelShape& shape);
+ShapeStatistics statisticsOf(const VoxelShape& shape);
 
 }  // namespace terrane::gen

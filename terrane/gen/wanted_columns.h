@@ -1,5 +1,5 @@
-// The columns of a tile of which somebody wants lower layers, while 3D passes run from the top down. All at
-// first, fewer and fewer.
+// The columns of a tile whose lower layers are requested, while 3D passes run from the top down. All at
+// first; callers drop columns.
 #pragma once
 
 #include <array>
@@ -21,11 +21,6 @@ class WantedColumns {
         lanes_[column] = 0;
         const std::size_t row = column / kRowLanes;
         if (--left_[row] == 0) rows_ = static_cast<RowMask>(rows_ & ~(1u << row));
-    }
-    void dropAll() {
-        lanes_.fill(0);
-        left_.fill(0);
-        rows_ = 0;
     }
 
     RowMask rows() const { return rows_; }               // those with wanted columns

@@ -89,7 +89,7 @@ struct GpuGenerator::Impl {
     base::Result<gpu::Program> buildPass(std::size_t pass) const;
     int blockNumber(std::size_t pass) const;  // of the 3D passes before it
     void runPass(std::size_t pass, const std::vector<ChunkPos>& chunks);
-    void runPasses(const PassCounts& needed, const std::vector<ChunkPos>& wanted);
+    void runPasses(const PassCounts& needed, const std::vector<ChunkPos>& requested);
     gpu::Buffer tileJobs(const std::vector<ChunkPos>& chunks) const;
 
     gen::GeneratorGraph generator;
@@ -188,7 +188,7 @@ void GpuGenerator::Impl::runPass(std::size_t pass, const std::vector<ChunkPos>& 
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);
 }
 
-void GpuGenerator::Impl::runPasses(const PassCounts& needed, const std::vector<ChunkPos>& wanted) {
+void GpuGenerator::Impl::runPasses(const PassCounts& needed, const std::vector<ChunkPos>& requested) {
     std::vector<ChunkPos> all;
     for (const auto& [pos, count] : needed) all.push_back(pos);
     slots.reserve(all);
@@ -201,7 +201,7 @@ void GpuGenerator::Impl::runPasses(const PassCounts& needed, const std::vector<C
         runPass(static_cast<std::size_t>(pass), running);
         for (const ChunkPos pos : running) slots.setPassesDone(pos, pass + 1);
     }
-    runPass(static_cast<std::size_t>(last), wanted);
+    runPass(static_cast<std::size_t>(last), requested);
 }
 
 int GpuGenerator::level() const {
@@ -215,7 +215,7 @@ GpuGenerator::~GpuGenerator() = default;
 
 base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders,
                                                 const gen::GeneratorGraph& generator, std::uint64_t seed) {
-    // submit() could take no chunk of it, and its caller would never end.
+    // submit() would take no chunk of it, and its caller would never end.
     const std::size_t slotsOfOne = neededPasses(generator, {{0, 0}}).size();
     if (slotsOfOne > kSlots) {
         return base::fail(
@@ -232,21 +232,21 @@ std::size_t GpuGenerator::submit(std::span<const ChunkPos> positions) {
     TERRANE_ZONE("submit generation");
     Impl& impl = *impl_;
     if (impl.inFlight.size() == kBatchesInFlight || positions.empty()) return 0;
-    std::vector<ChunkPos> wanted(positions.begin(),
-                                 positions.begin() + std::min<long>(kMaxBatch, std::ssize(positions)));
-    for (const ChunkPos pos : wanted) gen::requireGenerated(pos, impl.generator.level);
-    PassCounts needed = neededPasses(impl.generator, wanted);
+    std::vector<ChunkPos> requested(positions.begin(),
+                                    positions.begin() + std::min<long>(kMaxBatch, std::ssize(positions)));
+    for (const ChunkPos pos : requested) gen::requireGenerated(pos, impl.generator.level);
+    PassCounts needed = neededPasses(impl.generator, requested);
     while (needed.size() > kSlots) {
-        assert(wanted.size() > 1 && "the slots hold what one chunk needs");
-        wanted.resize(wanted.size() / 2);
-        needed = neededPasses(impl.generator, wanted);
+        assert(requested.size() > 1 && "the slots hold what one chunk needs");
+        requested.resize(requested.size() / 2);
+        needed = neededPasses(impl.generator, requested);
     }
-    impl.runPasses(needed, wanted);
+    impl.runPasses(needed, requested);
     const std::size_t readback = impl.nextReadback;
     impl.nextReadback = (readback + 1) % kBatchesInFlight;
-    impl.readbacks[readback].copyFrom(impl.result, wanted.size() * kChunkBytes);
-    impl.inFlight.push_back({wanted, readback, gpu::Fence::insert()});
-    return wanted.size();
+    impl.readbacks[readback].copyFrom(impl.result, requested.size() * kChunkBytes);
+    impl.inFlight.push_back({requested, readback, gpu::Fence::insert()});
+    return requested.size();
 }
 
 std::vector<gen::GeneratedChunk> GpuGenerator::take(bool wait) {

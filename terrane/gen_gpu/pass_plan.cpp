@@ -5,10 +5,11 @@
 #include "terrane/gen/chunks_around.h"
 
 namespace terrane::gen_gpu {
-PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& wanted) {
+
+PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& requested) {
     const int passCount = static_cast<int>(generator.passes.size());
     PassCounts counts;
-    for (const world::ChunkPos pos : wanted) counts[pos] = passCount;
+    for (const world::ChunkPos pos : requested) counts[pos] = passCount;
     // A pass asks its neighbors only for lower ones: from the last pass down each count is final when it is
     // used.
     for (int pass = passCount; pass-- > 0;) {

@@ -1,5 +1,5 @@
-// Which passes of which chunks a batch needs: pure bookkeeping without OpenGL. Used by gpu_generator.cpp. Any
-// thread.
+// Plans the passes of each chunk that a batch needs: pure bookkeeping without OpenGL. Used by
+// gpu_generator.cpp. Any thread.
 #pragma once
 
 #include <unordered_map>
@@ -12,7 +12,7 @@ namespace terrane::gen_gpu {
 
 using PassCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
 
-// How many passes each chunk must have done so that all of `wanted` can be finished.
-PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& wanted);
+// Number of passes that each chunk must have done so that all of `requested` can be finished.
+PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& requested);
 
 }  // namespace terrane::gen_gpu

@@ -10,7 +10,7 @@ SlotCache::SlotCache(std::size_t slots) {
 
 void SlotCache::reserve(const std::vector<world::ChunkPos>& chunks) {
     assert(chunks.size() <= entries_.size() + free_.size() && "all chunks have a slot at once");
-    // Those that are there first, so that none of them is at the end when others need room.
+    // Moves chunks that have a slot to the front first, so that none of them is replaced below.
     for (const world::ChunkPos pos : chunks) {
         const auto it = entries_.find(pos);
         if (it != entries_.end()) order_.splice(order_.begin(), order_, it->second.order);

@@ -1,5 +1,5 @@
-// Which chunk's intermediate results lie in which slot on the GPU, and how far they are. Pure bookkeeping
-// without OpenGL. Used on one thread, that of gpu_generator.cpp.
+// Assigns slots on the GPU to the intermediate results of chunks, and counts their finished passes. Pure
+// bookkeeping without OpenGL. Used on one thread, that of gpu_generator.cpp.
 #pragma once
 
 #include <cstdint>
@@ -16,11 +16,11 @@ class SlotCache {
   public:
     explicit SlotCache(std::size_t slots);
 
-    // Slots for all of `chunks`, at most as many as there are: kept ones stay, others replace the least
-    // recently used.
+    // Gives all of `chunks` slots at once; the cache must have as many. Chunks that have a slot keep it,
+    // others replace the least recently used.
     void reserve(const std::vector<world::ChunkPos>& chunks);
 
-    // Of a chunk reserved last.
+    // Slot of a chunk of the last reserve().
     std::uint32_t slot(world::ChunkPos pos) const { return entries_.at(pos).slot; }
     std::optional<std::uint32_t> find(world::ChunkPos pos) const;
     int passesDone(world::ChunkPos pos) const { return entries_.at(pos).passesDone; }

@@ -16,8 +16,8 @@ shared uint feet[kFeetWindow * kFeetWindow * kMaxStampsInPass];
 shared uint footCount;
 int stampLow, stampHigh;  // layers of this column that shapes may reach
 
-// Those of the feet whose shapes may reach this column. Where they are more, all feet are looked at: a driver without a
-// card may end loops after 65,536 rounds in all, which only more than a thousand feet could need.
+// Feet whose shapes may reach this column. If there are more than kMaxNearFeet, all feet are searched: a software
+// driver may end loops after 65,536 rounds in total, which only more than a thousand feet could exceed.
 const uint kMaxNearFeet = 24u;
 uint nearFeet[kMaxNearFeet];
 uint nearCount;
@@ -95,7 +95,7 @@ uint shapeCell(uint shape, ivec3 offset) {
     return shapeWords[1u + (shapeWords[cell >> 2] >> 8u * (cell & 3u) & 255u)];
 }
 
-// Of all feet the one with the highest rank, then the smallest y, then the smallest x.
+// Takes the foot with the highest rank, then the smallest y, then the smallest x.
 int stampAt(uint call, int z) {
     if (z < stampLow || z > stampHigh) return 0;
     uint best = 0u, block = 0u;

@@ -1,5 +1,5 @@
-// What an emitted pass reads and writes: its column, fields, blocks, seeds. One work group is a chunk's 16×16 columns; the
-// second dimension of the dispatch splits the layers of a 3D pass.
+// Inputs and outputs of an emitted pass: its column, fields, blocks, seeds. One work group is a chunk's 16×16 columns;
+// the second dimension of the dispatch splits the layers of a 3D pass.
 //
 // Defined by the host: FIELD_COUNT, BLOCK_PASS_COUNT (3D passes whose blocks are kept), SOURCE_BLOCKS (which of them this
 // pass reads), TARGET_BLOCKS (which it writes; -1: the result of the generator), LAYERS_PER_GROUP.
@@ -77,7 +77,7 @@ uint readFieldAt(uint field, int dx, int dy) {
 }
 
 int readBlock(Place place, int z) {
-    uint layer = uint(clamp(z, 0, 255));
+    uint layer = uint(clamp(z, 0, int(kChunkHeight) - 1));
     uint columns = (place.slot * BLOCK_PASS_COUNT + SOURCE_BLOCKS) * kBlocksPerLayer + place.column;
     uint word = blocks[columns * kWordsPerColumn + layer / 2u];
     return int((layer & 1u) == 0u ? word & 0xFFFFu : word >> 16);

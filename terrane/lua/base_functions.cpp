@@ -10,17 +10,9 @@ namespace {
 constexpr int kMaxPrintedLines = 20;
 constexpr std::size_t kMaxPrintedBytes = 200;
 
-std::string_view typeNameOf(Call& c, int argument) {
-    if (const Object* object = objectAt(c.L, argument)) return nameOf(*object);
-    return luaL_typename(c.L, argument);
-}
-
 // As text; of tables, functions and objects the type, since the rest is an address.
 std::string asText(Call& c, int argument) {
-    const int type = lua_type(c.L, argument);
-    const bool hasText =
-        type == LUA_TNUMBER || type == LUA_TSTRING || type == LUA_TBOOLEAN || type == LUA_TNIL;
-    if (!hasText) return std::string(typeNameOf(c, argument));
+    if (!hasText(c.L, argument)) return std::string(typeNameAt(c.L, argument));
     if (isNotANumber(c.L, argument)) return "nan";
     std::size_t size = 0;
     const char* bytes = luaL_tolstring(c.L, argument, &size);
@@ -31,7 +23,7 @@ std::string asText(Call& c, int argument) {
 
 int typeOfValue(Call& c) {
     if (c.count() < 1) c.expected(1, "a value");
-    const std::string_view name = typeNameOf(c, 1);
+    const std::string_view name = typeNameAt(c.L, 1);
     lua_pushlstring(c.L, name.data(), name.size());
     return 1;
 }
@@ -46,9 +38,10 @@ int toString(Call& c) {
     return 1;
 }
 
-// A line of the log, while level 0 is recorded: else each line would be there once a level.
+// Writes a line to the log, while level 0 is recorded: else each level would repeat it.
 int print(Call& c) {
-    if (c.recording.builder.step() > 1 || c.recording.printedLines++ >= kMaxPrintedLines) return 0;
+    if (!c.recording.prints || c.recording.builder.step() > 1) return 0;
+    if (c.recording.printedLines++ >= kMaxPrintedLines) return 0;
     std::string line;
     for (int k = 1; k <= c.count() && line.size() < kMaxPrintedBytes; ++k) {
         if (k > 1) line += ' ';

@@ -12,19 +12,6 @@ constexpr std::int64_t kStepsOfCall = 40;  // 200 ns
 constexpr std::int64_t kStepsOfNode = 40;
 constexpr std::int64_t kStepsOfKey = 4;  // 20 ns a key of a table
 
-Recording& recordingOf(lua_State* L) {
-    return **static_cast<Recording**>(lua_getextraspace(L));
-}
-
-std::string_view typeNameAt(lua_State* L, int index) {
-    if (const Object* object = objectAt(L, index)) return nameOf(*object);
-    return luaL_typename(L, index);
-}
-
-bool isOpenPass(const Recording& recording, const Object& object) {
-    return recording.pass != nullptr && object.expression.pass == recording.passNumber;
-}
-
 // Takes the object of a method away.
 void takeSelf(Call& c, Tag self) {
     const Object* object = objectAt(c.L, 1);
@@ -32,7 +19,7 @@ void takeSelf(Call& c, Tag self) {
         fail("{0}: its object is missing: write a colon, as in {1}:{0}(…)", c.function,
              self == Tag::Pass ? "p" : "g");
     }
-    if (self == Tag::Pass && !isOpenPass(c.recording, *object))
+    if (self == Tag::Pass && !c.recording.isOpenPass(object->expression.pass))
         fail("{}: this pass is not the one that is being written", c.function);
     lua_remove(c.L, 1);
 }
@@ -89,6 +76,11 @@ std::string Call::prefix(int argument) const {
 
 bool isNotANumber(lua_State* L, int index) {
     return lua_type(L, index) == LUA_TNUMBER && std::isnan(lua_tonumber(L, index));
+}
+
+bool hasText(lua_State* L, int index) {
+    const int type = lua_type(L, index);
+    return type == LUA_TNUMBER || type == LUA_TSTRING || type == LUA_TBOOLEAN || type == LUA_TNIL;
 }
 
 std::string Call::described(int argument) const {
@@ -196,7 +188,7 @@ const Expression* Call::expression(int argument) const {
     if (found->tag == Tag::Variable) fail("{}this is a variable: its value is v.value", prefix(argument));
     if (found->tag == Tag::Field) fail("{}this is a field: p:read(field) gives its value", prefix(argument));
     if (found->tag != Tag::Expression) return nullptr;
-    const bool isForeign = found->expression.pass != 0 && !isOpenPass(recording, *found);
+    const bool isForeign = found->expression.pass != 0 && !recording.isOpenPass(found->expression.pass);
     if (isForeign)
         fail("{}this {} belongs to another pass: hand it on in a field", prefix(argument), nameOf(*found));
     return &found->expression;
@@ -300,8 +292,6 @@ void Call::checkMistakes() {
             "a pass has more than {} operations: divide it into several, or leave out what large steps do "
             "not show",
             kMaxNodesInPass);
-    if (recording.nodesBefore + nodes > kMaxNodes)
-        fail("the generator has more than {} operations", kMaxNodes);
 }
 
 }  // namespace terrane::lua

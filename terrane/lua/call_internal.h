@@ -74,7 +74,7 @@ class Call {
     // The kind that arguments share: numbers take that of the others. Throws where there is none.
     Kind commonKind(std::initializer_list<int> arguments) const;
     const Object& object(int argument, Tag tag) const;
-    // The number of a field of this kind.
+    // The number of the field that is the argument. Throws unless it is of this kind.
     std::uint32_t field(int argument, Kind kind) const;
 
     // Pushes a value; literals but for blocks as Lua's own.
@@ -90,7 +90,7 @@ class Call {
         lua_setfield(L, -2, key);
     }
 
-    // Throws the newest mistake that the builder noted, and where too much is recorded.
+    // Throws the last mistake that the builder noted, or that a limit of what is recorded is exceeded.
     void checkMistakes();
 
     // Sets how many arguments the function was called with, after the object of a method.
@@ -108,6 +108,9 @@ struct Function {
 
 // Whether the value is a number that is not a number: its sign, which C prints, differs by processor.
 bool isNotANumber(lua_State* L, int index);
+// Whether the text of the value is the same on every machine. That of tables, functions and objects is an
+// address.
+bool hasText(lua_State* L, int index);
 
 // Pushes the function. `self`: of which object it is a method, with a colon; Tag::None: of none.
 void pushFunction(lua_State* L, const Function& function, Tag self);

@@ -59,10 +59,7 @@ class OpenPass {
         ++recording_.passNumber;
         recording_.variables.clear();
     }
-    ~OpenPass() {
-        recording_.nodesBefore += recording_.pass->nodeCount();
-        recording_.pass = nullptr;
-    }
+    ~OpenPass() { recording_.pass = nullptr; }
     OpenPass(const OpenPass&) = delete;
     OpenPass& operator=(const OpenPass&) = delete;
 

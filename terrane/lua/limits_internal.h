@@ -23,9 +23,9 @@ struct Limits {
     std::chrono::milliseconds time{100};  // thread time
 };
 
-// Limits of what a script records. The larger generators of the program have some 3,000 nodes a pass.
+// Limits of what a script records. The larger generators of the program have some 3,000 nodes a pass. All
+// passes together have at most 100,000 nodes, as a node counts 40 steps (call.cpp).
 constexpr std::size_t kMaxNodesInPass = 20'000;
-constexpr std::size_t kMaxNodes = 100'000;
 constexpr std::size_t kMaxPasses = 32;
 constexpr std::size_t kMaxFields = 128;
 constexpr std::size_t kMaxVariablesInPass = 256;

@@ -54,7 +54,7 @@ int indexPass(Call& c) {
     const Object& object = c.object(1, Tag::Pass);
     const std::string_view key = lua_type(c.L, 2) == LUA_TSTRING ? c.text(2) : "";
     if (key == "step" || key == "x" || key == "y" || key == "z") {
-        if (c.recording.pass == nullptr || object.expression.pass != c.recording.passNumber)
+        if (!c.recording.isOpenPass(object.expression.pass))
             fail("p.{}: this pass is not the one that is being written", key);
         if (key == "x") return c.push(c.pass().x());
         if (key == "y") return c.push(c.pass().y());
@@ -75,8 +75,7 @@ int indexGenerator(Call& c) {
 
 Variable& variableAt(Call& c) {
     const Object& object = c.object(1, Tag::Variable);
-    if (c.recording.pass == nullptr || object.expression.pass != c.recording.passNumber)
-        fail("this variable belongs to another pass");
+    if (!c.recording.isOpenPass(object.expression.pass)) fail("this variable belongs to another pass");
     if (lua_type(c.L, 2) != LUA_TSTRING || c.text(2) != "value")
         fail("a variable has nothing but its value: v.value");
     return c.recording.variables[object.number];
@@ -159,6 +158,11 @@ const Object* objectAt(lua_State* L, int index) {
                                                : nullptr;
 }
 
+std::string_view typeNameAt(lua_State* L, int index) {
+    if (const Object* object = objectAt(L, index)) return nameOf(*object);
+    return luaL_typename(L, index);
+}
+
 void pushObject(lua_State* L, const Object& object) {
     void* memory = lua_newuserdatauv(L, sizeof(Object), 0);
     new (memory) Object(object);
@@ -192,7 +196,7 @@ void makeObjectTypes(lua_State* L) {
     for (const Type& type : types) {
         luaL_newmetatable(L, type.name);
         makeType(L, type.index, type.newIndex);
-        // Their operators fail and say how to write it.
+        // Operators on these objects fail with advice.
         if (&type.index == &kIndexVariable || &type.index == &kIndexNothing)
             addFunctions(L, operators(), Tag::None);
         lua_pop(L, 1);

@@ -21,6 +21,8 @@ struct Object {
 const Object* objectAt(lua_State* L, int index);
 // "Float", "Pass", "Field": what type() gives.
 std::string_view nameOf(const Object& object);
+// The same for any value: "number", "Float".
+std::string_view typeNameAt(lua_State* L, int index);
 
 void pushObject(lua_State* L, const Object& object);
 // Makes what pushObject needs: operators and methods of each kind of object.

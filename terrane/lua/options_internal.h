@@ -13,7 +13,7 @@ struct Option {
     std::variant<int*, float*> value;
 };
 
-// Sets what the table names. Throws where it names anything else.
+// Sets the options that the table names. Throws on unknown names and on values that are not numbers.
 void readOptions(Call& c, int argument, std::initializer_list<Option> options);
 
 }  // namespace terrane::lua

@@ -54,19 +54,28 @@ struct Recording {
     gen::GeneratorBuilder& builder;
     BlockNames& blocks;
     Budget budget{Limits{}};
+    bool prints = true;  // whether print() writes to the log
 
     // The open pass. Null outside of the functions that scripts give to pass2D, pass3D and drainage.
     gen::Pass* pass = nullptr;
     std::uint32_t passNumber = 0;  // counts passes from 1: values know theirs
     std::vector<Variable> variables;
-    std::size_t passCount = 0, nodesBefore = 0;  // nodesBefore: nodes in finished passes
-    std::size_t chargedNodes = 0;                // nodes of the open pass that were counted as steps
+    std::size_t passCount = 0;
+    std::size_t chargedNodes = 0;  // nodes of the open pass that were counted as steps
 
     std::vector<Kind> fields;  // by number
     std::size_t drainageCount = 0, voxelCount = 0;
     std::set<std::string, std::less<>> seedNames;
     bool hasTrees = false;
     int printedLines = 0;
+
+    // Whether a value of the pass with this number can be used now.
+    bool isOpenPass(std::uint32_t number) const { return pass != nullptr && number == passNumber; }
 };
+
+// The recording of a state from makeState().
+inline Recording& recordingOf(lua_State* L) {
+    return **static_cast<Recording**>(lua_getextraspace(L));
+}
 
 }  // namespace terrane::lua

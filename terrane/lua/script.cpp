@@ -3,49 +3,35 @@
 #include <algorithm>
 
 #include "terrane/base/digest.h"
-#include "terrane/base/nearest_name.h"
 #include "terrane/gen/graph_hash.h"
 #include "terrane/lua/call_internal.h"
 #include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/state_internal.h"
 
 namespace terrane::lua {
-
-std::string BlockNames::find(std::string_view name) {
-    if (name == "air") return std::string(name);
-    const std::string ofPack = pack_.empty() ? std::string() : fmt::format("{}:{}", pack_, name);
-    for (std::string candidate : {ofPack, std::string(name)}) {
-        if (const auto alias = aliases_.find(candidate); alias != aliases_.end()) candidate = alias->second;
-        if (candidate.empty() || blocks_.find(candidate) == nullptr) continue;
-        addUsed(candidate);
-        return candidate;
-    }
-    std::vector<std::string> known;
-    const std::string prefix = pack_ + ":";
-    for (const world::BlockType& type : blocks_.types())
-        known.push_back(type.name.starts_with(prefix) ? type.name.substr(prefix.size()) : type.name);
-    fail("unknown block \"{}\"{}", name, base::didYouMean(name, known));
-}
-
-void BlockNames::addUsed(std::string_view name) {
-    if (std::find(used_.begin(), used_.end(), name) == used_.end()) used_.emplace_back(name);
-}
-
 namespace {
 
 constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
 
-base::Result<gen::GeneratorGraph> record(const Script& script, const std::string& generator,
-                                         BlockNames& names, const world::BlockRegistry& blocks, int level) {
+struct RecordRequest {
+    const std::string& generator;  // name of the graph
+    const world::BlockRegistry& blocks;
+    int level;
+    bool prints;  // whether print() writes to the log
+};
+
+base::Result<gen::GeneratorGraph> record(const Script& script, BlockNames& names,
+                                         const RecordRequest& request) {
     if (script.text.size() > kMaxScriptBytes)
         return base::fail("{}: more than {} bytes", script.file, kMaxScriptBytes);
-    gen::GeneratorBuilder builder(generator, blocks, level);
+    gen::GeneratorBuilder builder(request.generator, request.blocks, request.level);
     Recording recording(builder, names);
+    recording.prints = request.prints;
     const StatePtr state = makeState(recording);
     if (!state) return base::fail(base::ErrorCode::OutOfResources, "{}: no memory to run it", script.file);
     if (std::string reason = runScript(state.get(), script); !reason.empty())
         return base::fail(base::ErrorCode::BadInput, "{}", reason);
-    // Before finish() compiles it, which takes the longest for what is too much.
+    // Before finish() compiles it, which takes longest for graphs that are too large.
     const std::string early = builder.mistakes().empty() ? unboundedWork(builder.recorded()) : "";
     if (!early.empty()) return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, early);
     auto graph = builder.finish();
@@ -55,7 +41,7 @@ base::Result<gen::GeneratorGraph> record(const Script& script, const std::string
     return graph;
 }
 
-// Names as content files may have them, for those of packs: "pack:block".
+// For names that content files do not allow, such as "pack:block", other names that they do.
 BlockNames::Aliases aliasesOf(const std::vector<std::string>& names) {
     BlockNames::Aliases aliases;
     const auto isTaken = [&](const std::string& alias) {
@@ -76,7 +62,7 @@ BlockNames::Aliases aliasesOf(const std::vector<std::string>& names) {
     return aliases;
 }
 
-// A registry with these blocks alone. What they look like makes no difference to a graph.
+// A registry with only these blocks. Their appearance does not affect a graph.
 base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& names,
                                               const BlockNames::Aliases& aliases) {
     std::string toml;
@@ -93,7 +79,7 @@ base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& na
 base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                const world::BlockRegistry& blocks, int level) {
     BlockNames blockNames(blocks, names.pack);
-    return record(script, names.generator, blockNames, blocks, level);
+    return record(script, blockNames, {names.generator, blocks, level, true});
 }
 
 base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
@@ -102,7 +88,7 @@ base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
     const int lastLevel = script.text.find("step") == std::string::npos ? 0 : world::kMaxLevel;
     BlockNames used(blocks, names.pack);
     for (int level = 0; level <= lastLevel; ++level)
-        if (auto first = record(script, names.generator, used, blocks, level); !first)
+        if (auto first = record(script, used, {names.generator, blocks, level, false}); !first)
             return tl::unexpected(first.error());
     const BlockNames::Aliases aliases = aliasesOf(used.used());
     const auto registry = registryOf(used.used(), aliases);
@@ -110,7 +96,7 @@ base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
     std::string text;
     for (int level = 0; level <= lastLevel; ++level) {
         BlockNames again(*registry, names.pack, aliases);
-        const auto graph = record(script, names.generator, again, *registry, level);
+        const auto graph = record(script, again, {names.generator, *registry, level, false});
         if (!graph) return tl::unexpected(graph.error());
         text += fmt::format("{:016x}", gen::graphHash(*graph));
     }

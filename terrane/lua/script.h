@@ -1,7 +1,7 @@
 // Generators written in Lua (docs/lua.md). A script runs once for each level of detail and records a graph,
 // as gen::GeneratorBuilder does for C++; nothing of Lua runs when chunks are made.
 //
-// Used by whoever opens a world whose generator is a script. Any thread: each call has a Lua state of its
+// Used by code that opens a world whose generator is a script. Any thread: each call has a Lua state of its
 // own. Scripts are untrusted: they reach no files, no clock and no other script, and a limit stops each of
 // memory, steps, time and what they record (limits_internal.h). The same script gives the same graph on every
 // machine.
@@ -32,7 +32,7 @@ struct ScriptNames {
 
 // 1…2^31 − 1: a hash of what the script records (at level 0; at all levels where it names the step) and of
 // the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
-// comments or layout. Saves keep it as the generator's version.
+// comments or layout. Saves keep it as the generator's version. print() of the script writes nothing.
 [[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
                                               const world::BlockRegistry& blocks);
 

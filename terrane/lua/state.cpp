@@ -23,8 +23,7 @@ constexpr const char* kMath[] = {"abs", "ceil",       "floor", "fmod", "huge",  
                                  "min", "mininteger", "pi",    "sqrt", "tointeger", "type", "ult"};
 
 void hook(lua_State* L, lua_Debug*) {
-    Recording& recording = **static_cast<Recording**>(lua_getextraspace(L));
-    if (!recording.budget.chargeAndReadClock(kStepsBetweenHooks)) luaL_error(L, "runs too long");
+    if (!recordingOf(L).budget.chargeAndReadClock(kStepsBetweenHooks)) luaL_error(L, "runs too long");
 }
 
 // Opens one of Lua's libraries and gives the table on top of the stack some of its members.
@@ -57,7 +56,7 @@ void addStrings(lua_State* L) {
     lua_setfield(L, -2, "string");
 }
 
-// Everything goes into a new table of globals, so that nothing of Lua's is there but by its name here.
+// Fills a new table of globals, so that it has nothing of Lua but the names listed here.
 int fillState(lua_State* L) {
     lua_createtable(L, 0, 64);
     takeFrom(L, luaopen_base, kBase);
@@ -77,7 +76,7 @@ int fillState(lua_State* L) {
     return 0;
 }
 
-// Puts the innermost line of the script before an error that names none. Runs where the error is.
+// Adds the innermost line of the script to an error that has none. Called where the error occurs.
 int nameLine(lua_State* L) {
     if (isNotANumber(L, 1)) {
         lua_settop(L, 0);
@@ -101,7 +100,7 @@ int nameLine(lua_State* L) {
 }
 
 std::string limitReached(lua_State* L, int status) {
-    const Recording& recording = **static_cast<Recording**>(lua_getextraspace(L));
+    const Recording& recording = recordingOf(L);
     const bool isSpent = recording.budget.spent() != Budget::Spent::Nothing;
     if (!isSpent && status != LUA_ERRMEM) return "";
     const int line = recording.budget.line();

@@ -15,10 +15,10 @@ struct CloseState {
 };
 using StatePtr = std::unique_ptr<lua_State, CloseState>;
 
-// The recording outlives the state, whose memory it counts. Null where there is no memory.
+// The recording must outlive the state, whose memory it counts. Null if there is no memory.
 StatePtr makeState(Recording& recording);
 
-// Runs the script; the reason where it does not come to its end, "FILE:LINE: reason".
+// Runs the script. Returns the reason if it fails, "FILE:LINE: reason", else an empty string.
 std::string runScript(lua_State* state, const Script& script);
 
 }  // namespace terrane::lua

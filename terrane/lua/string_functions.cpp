@@ -60,11 +60,6 @@ int find(Call& c) {
     return 2;
 }
 
-bool hasText(lua_State* L, int argument) {
-    const int type = lua_type(L, argument);
-    return type == LUA_TNUMBER || type == LUA_TSTRING || type == LUA_TBOOLEAN || type == LUA_TNIL;
-}
-
 // Calls Lua's own, which the registry keeps. Refuses first where that would print an address: for %p, and for
 // %s of a table or a function.
 int format(Call& c) {

@@ -18,8 +18,8 @@ using LightLevels = std::array<std::uint8_t, kChannelCount>;
 
 LightLevels lightLevels(light::LightValue value);
 
-// Copies the chunk's blocks that lie in the area to where they are in `blocks`, the area's array. What is air
-// is left as it is: the array begins as zeros, so that memory of empty air is never touched.
+// Copies the chunk's blocks that lie in the area to their place in `blocks`, the area's array. Writes no air:
+// the array begins as zeros, and the memory of empty air is never touched.
 void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
                 std::span<world::BlockId> blocks);
 
@@ -27,9 +27,9 @@ void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea&
 void copyLight(const light::ChunkLight& light, world::ChunkPos pos, const BlockArea& area,
                std::span<LightLevels> levels);
 
-// The other way round: writes the array's blocks that lie in the chunk to it. `blocks` has one id for all
-// blocks, or one for each block of the area. Block state and block entity data of blocks that change are
-// reset. How many changed.
+// Writes the array's blocks that lie in the chunk to it. `blocks` has one id for all blocks, or one for each
+// block of the area. Resets block state and block entity data of blocks that change. Returns how many
+// changed.
 std::int64_t writeBlocks(std::span<const world::BlockId> blocks, const BlockArea& area, world::ChunkPos pos,
                          world::Chunk& chunk);
 

@@ -33,7 +33,7 @@ void OpenedWorld::noteEdited(std::span<const world::ChunkPos> chunks) {
 }
 
 base::Result<void> OpenedWorld::settleTiles() {
-    const std::lock_guard lock(settleMutex_);  // whoever comes meanwhile waits as well
+    const std::lock_guard lock(settleMutex_);  // other callers wait as well
     if (!hasUnsettledTiles_.exchange(false)) return {};
     auto flushed = store_->flush();
     if (!flushed) hasUnsettledTiles_ = true;

@@ -29,7 +29,7 @@ struct WorldParts {
     unsigned threads = 1;  // that work at a time, the calling one among them; 1 or more
 };
 
-// Asked from time to time on the thread that called: false ends the work with an error (kStopped).
+// Called from time to time on the calling thread: false ends the work with the error kStopped.
 using GoesOn = std::function<bool()>;
 inline constexpr const char* kStopped = "stopped by the caller";
 
@@ -51,11 +51,11 @@ class OpenedWorld {
     map::SurfaceSource& surfaces() { return surfaces_; }
     std::mutex& editMutex() { return editMutex_; }  // held while chunks are read, changed and saved
 
-    // Edited chunks are saved to the store: tiles follow from them, and the surfaces of the land.
+    // Notes edited chunks that were saved to the store: their tiles and the surfaces of the land change.
     void noteEdited(std::span<const world::ChunkPos> chunks);
     // Waits until tiles of levels above 0 show all edits so far.
     [[nodiscard]] base::Result<void> settleTiles();
-    // The edited ones of these chunks of any level. The first call reads all rows of a saved world.
+    // The chunks among these, of any level, that are edited. The first call reads all rows of a saved world.
     [[nodiscard]] base::Result<std::vector<map::EditedChunk>> editedAmong(
         std::span<const world::ChunkPos> chunks);
 
@@ -74,7 +74,7 @@ class OpenedWorld {
     std::mutex editMutex_, settleMutex_;
     std::atomic<bool> hasUnsettledTiles_{false};
     std::mutex editedMutex_;
-    std::optional<map::EditedPositions> edited_;  // once they were asked for
+    std::optional<map::EditedPositions> edited_;  // set by the first editedAmong()
 };
 
 }  // namespace terrane::volume

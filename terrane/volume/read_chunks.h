@@ -1,5 +1,5 @@
-// Chunks of a world on all of its threads: from the store, else generated. What the other readers of this
-// module are made of. Called by any thread, which works too.
+// Reads chunks of a world on all of its threads: from the store, else generated. The module's other readers
+// use it. Called by any thread, which works too.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace terrane::volume {
 
-// Which chunks are read.
+// The chunks to read.
 struct ChunkList {
     std::int64_t count = 0;
     std::function<world::ChunkPos(std::int64_t number)> at;  // called by several threads

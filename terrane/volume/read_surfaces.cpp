@@ -7,7 +7,7 @@
 namespace terrane::volume {
 namespace {
 
-// Of a piece, which one thread reads: 64 chunks.
+// Width and height of a piece, which one thread reads: 8×8 chunks.
 constexpr int kPieceColumns = 128;
 
 // Piece `number` of an area, by y, then x; those at its end may be smaller.

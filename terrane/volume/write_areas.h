@@ -11,8 +11,8 @@ namespace terrane::volume {
 
 // Sets a checked area to exactly these blocks: one id for all, or one for each by z, y, x. No behavior runs
 // (world/block_behavior.h): sand stays in the air. Chunks that change are saved as edited; they are durable
-// after the store's next flush(). How many blocks changed. BadInput where an id is no block's: then nothing
-// is written. After another error some chunks may be written.
+// after the store's next flush(). Returns how many blocks changed. BadInput if an id is not a block's: then
+// nothing is written. After another error some chunks may be written.
 [[nodiscard]] base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
                                                    std::span<const world::BlockId> blocks,
                                                    const GoesOn& goesOn);

@@ -1,4 +1,4 @@
-// What every back end of BatchGenerator must do, against gen::Generator.
+// Tests of BatchGenerator that every back end must pass, compared with gen::Generator.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -33,7 +33,7 @@ inline void expectAllGenerated(BatchGenerator& batches, const Generator& expecte
     EXPECT_TRUE(generateAll(batches, {})->empty());
 }
 
-// As a frame does that never waits.
+// Polls without waiting, as a frame does.
 inline void expectBatchesInOrder(BatchGenerator& batches, const Generator& expected) {
     const std::vector<world::ChunkPos> positions = chunksInSquare({30, -7}, 7);
     EXPECT_TRUE(batches.take(false).empty());
@@ -59,7 +59,7 @@ inline void expectBatchesInOrder(BatchGenerator& batches, const Generator& expec
     EXPECT_EQ(taken, submitted);
 }
 
-// Nobody gets blocks of level 0 for a chunk of another level, nor blocks from outside of the world.
+// Chunks of another level and chunks outside the world are refused.
 inline void expectOthersRefused(BatchGenerator& batches) {
     for (const world::ChunkPos refused :
          {world::ChunkPos{3, 4, 2}, {world::kMaxChunk + 1, 0}, {0, world::kMinChunk - 1}}) {

@@ -149,7 +149,7 @@ TEST(BuilderBranch, VariablesOfABranchEndWithIt) {
         });
 }
 
-// An expression that a branch made is a value like any other: whoever uses it makes it available.
+// An expression made in a branch is a value like any other: other code may use it.
 TEST(BuilderBranch, ExpressionsOfABranchMayLeaveIt) {
     expectNumbers(
         [](Pass& p) {
@@ -232,7 +232,7 @@ TEST(BuilderBranch, VariablesOfEveryType) {
         });
 }
 
-// What is the same in a layer, in a branch that only some columns take, and the other way round.
+// Values that are equal in a layer, in a branch that only some columns take, and the other way round.
 TEST(BuilderBranch, ValuesThatVaryAndValuesThatDoNot) {
     expectNumbers(
         [](Pass& p) {

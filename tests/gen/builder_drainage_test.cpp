@@ -1,4 +1,4 @@
-// What may be wrong with drainage maps in a generator's recording.
+// Mistakes in drainage maps in a generator's recording.
 #include "tests/gen/drainage_land.h"
 
 namespace terrane::gen {

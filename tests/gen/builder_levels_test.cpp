@@ -1,4 +1,4 @@
-// What a generator records at other levels: positions, steps, noise that fades, reads by the nearest column.
+// Recordings of a generator at other levels: positions, steps, noise that fades, reads by the nearest column.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// What passes read: fields of earlier passes, here and at offsets across chunks, blocks, random numbers.
+// Reads of passes: fields of earlier passes, here and at offsets across chunks, blocks, random numbers.
 #include <gtest/gtest.h>
 #include <xxhash.h>
 
@@ -188,7 +188,7 @@ TEST(BuilderReads, BlocksOfOtherColumns) {
         });
 }
 
-// What a 3D pass found at one height of each column, also of neighboring chunks, is there for later passes.
+// Later passes read the value that a 3D pass wrote at one height of each column, also in neighboring chunks.
 TEST(BuilderReads, FieldsWrittenBy3DPasses) {
     expectBlocks(
         [](GeneratorBuilder& g) {

@@ -22,7 +22,7 @@ using shared::detSqrt;
 using std::int32_t;
 using std::int64_t;
 
-// What a test writes, and what it must give at (x, y, z).
+// An expression, and its expected value at (x, y, z).
 struct Case {
     const char* name;
     std::function<Int(Int x, Int y, Int z)> write;

@@ -1,4 +1,4 @@
-// What tests of generated land share: generators, areas of chunks, block ids.
+// Helpers for tests of generated land: generators, areas of chunks, block ids.
 #pragma once
 
 #include <array>

@@ -1,5 +1,5 @@
-// What must hold on every continent: nothing floats, water is held by its banks, levels agree, each biome and
-// each kind of tree is somewhere.
+// Invariants of every continent: nothing floats, plants stand on ground, water is held by its banks, the
+// bottom is solid, worlds begin on land, levels are as high as the land.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kAreaChunks = 4;
 constexpr int kAreaBlocks = kAreaChunks * world::kChunkSize;
-// Blocks from the edge of an area within which what holds a tree may lie outside.
+// Near the edge of an area, within this many blocks, the support of a tree may lie outside.
 constexpr int kEdge = 18;
 
 struct Land {
@@ -66,7 +66,7 @@ class Continents : public testing::TestWithParam<Land> {
 INSTANTIATE_TEST_SUITE_P(Places, Continents, testing::ValuesIn(kLands),
                          [](const auto& place) { return place.param.name; });
 
-// Every block hangs together with the bottom, by sides, edges or corners: branches grow aslant.
+// Every block is connected to the bottom by faces, edges or corners: branches grow aslant.
 TEST_P(Continents, NothingFloats) {
     const auto index = [](int x, int y, int z) {
         return static_cast<std::size_t>(x + kAreaBlocks * (y + kAreaBlocks * z));
@@ -88,7 +88,7 @@ TEST_P(Continents, NothingFloats) {
         open.pop_front();
         for (int n = 0; n < 27; ++n) hold(x + n % 3 - 1, y + n / 3 % 3 - 1, z + n / 9 - 1);
     }
-    // Ice swims, and what is under the ground may hang together outside of the area.
+    // Ice floats on water, and blocks under the ground may be connected outside of the area.
     forEachBlock(kEdge, [&](int x, int y, int z, BlockId block) {
         if (isLiquid(block) || block == ice) return;
         ASSERT_TRUE(held[index(x, y, z)]) << area.where(x, y, z);

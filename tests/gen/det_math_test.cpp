@@ -106,7 +106,7 @@ TEST(DetMath, DivisionByPowersOfTwoIsExact) {
     }
 }
 
-// 19 · 127 / 19 is a unit below 127: who rounds a quotient must expect that.
+// 19 · 127 / 19 is a unit below 127: code that rounds a quotient must allow for that.
 TEST(DetMath, WholeQuotientsAreWithinOneUnit) {
     for (int b = 1; b <= 64; ++b) {
         for (int q = -200; q <= 200; ++q) {

@@ -17,7 +17,7 @@ namespace {
 
 using Layer = std::span<const BlockId, kTileLanes>;
 
-// A column is wanted down to a random height, some down to the bottom.
+// Each column is requested down to a random height, some down to the bottom.
 std::vector<int> randomDepths(std::mt19937& random) {
     std::vector<int> depths(kTileLanes);
     const int low = static_cast<int>(random() % 250);
@@ -25,7 +25,7 @@ std::vector<int> randomDepths(std::mt19937& random) {
     return depths;
 }
 
-// The chunk's blocks as layers from the top have them, each column down to its depth and others unknown.
+// The chunk's blocks from generateDown(): each column down to its depth, others unknown.
 std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, ChunkPos pos,
                                                   const std::vector<int>& depths) {
     std::vector<std::optional<BlockId>> seen(world::kBlocksPerChunk);
@@ -47,7 +47,7 @@ std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, Ch
     return seen;
 }
 
-// From above first: what a whole chunk leaves behind must not help.
+// From above first: results of a whole chunk must not help.
 void expectLayersOf(const Generator& generator, ChunkPos pos, const std::vector<int>& depths) {
     const auto seen = seenFromAbove(generator, pos, depths);
     const std::vector<BlockId> whole = blocksOf(generator.generate(pos));
@@ -90,7 +90,7 @@ void hollowGround(Pass& p) {
     p.setBlock(select(isGround && p.perlin3D("holes", 12, {1.0f}) < 0.25f, p.block("stone"), p.block("air")));
 }
 
-// What is so many blocks above or below is turned into something else.
+// Changes a block by the blocks `below` and `above` it.
 void nearLayers(Pass& p, int below, int above) {
     const Bool isOpen = p.blockInColumn(p.z() + above) == p.block("air");
     const Bool isHigh = p.blockInColumn(p.z() - below) == p.block("air");
@@ -147,7 +147,8 @@ TEST(GenerateDown, NothingIsMadeOnceNoColumnIsWanted) {
                               kTestSeed);
     int layers = 0;
     generator.generateDown({0, 0}, [&](int, Layer, WantedColumns& wanted) {
-        if (++layers == 3) wanted.dropAll();
+        if (++layers < 3) return;
+        for (std::size_t k = 0; k < kTileLanes; ++k) wanted.drop(k);
     });
     EXPECT_EQ(layers, 3);
 }
@@ -223,7 +224,7 @@ TEST(WantedColumns, AreDroppedOneByOne) {
     EXPECT_EQ(wanted.rows(), kAllRows);
     wanted.drop(47);
     EXPECT_EQ(wanted.rows(), kAllRows & ~(1 << 2));
-    wanted.dropAll();
+    for (std::size_t k = 0; k < kTileLanes; ++k) wanted.drop(k);
     EXPECT_EQ(wanted.rows(), 0);
     EXPECT_FALSE(wanted.has(255));
 }

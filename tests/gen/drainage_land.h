@@ -1,4 +1,4 @@
-// A land with a sea for the tests of drainage, and a generator that keeps all that a map says.
+// A land with a sea for the tests of drainage, and a generator that stores all results of a map.
 #pragma once
 
 #include <array>

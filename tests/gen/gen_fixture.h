@@ -1,4 +1,4 @@
-// What the generator's tests share: block types, ways to run what a test writes, every instruction set.
+// Helpers for tests of the generator: block types, functions that run recorded passes, every instruction set.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -18,7 +18,7 @@
 namespace terrane::gen {
 namespace {
 
-// Every kind of pass and read: what one chunk shows depends on chunks three away.
+// Every kind of pass and read: a chunk depends on chunks three away.
 void writeDeep(GeneratorBuilder& g) {
     const auto a = g.field<Float>("a"), b = g.field<Float>("b"), d = g.field<Float>("d");
     const auto c = g.field<Int>("c");
@@ -62,7 +62,7 @@ Chunks generateAll(const Generator& generator, const std::vector<ChunkPos>& posi
     return chunks;
 }
 
-// The chunks by position in the list, made by threads that each take the next one of `order`.
+// Generates `positions`, in their order, on threads that each take the next index of `order`.
 Chunks generateBy(const Generator& generator, const std::vector<ChunkPos>& positions,
                   const std::vector<std::size_t>& order, int threadCount) {
     Chunks chunks(positions.size());
@@ -84,12 +84,12 @@ std::vector<std::size_t> inOrder(std::size_t count) {
     return order;
 }
 
-// A cache of so many chunks, however much memory they need.
+// A cache of this many chunks, however much memory they need.
 CacheSize chunks(std::size_t count) {
     return {.bytes = 0, .minChunks = count};
 }
 
-// Fails unless the cache of a generator that made these chunks had to let some of what they need go.
+// Fails unless the cache of a generator that made these chunks evicted results that they need.
 void expectEvictions(const Generator& generator, const std::vector<ChunkPos>& positions) {
     const Generator roomy(build(writeDeep), kTestSeed);
     for (const ChunkPos pos : positions) roomy.generate(pos);
@@ -103,7 +103,7 @@ void expectSame(const Chunks& a, const Chunks& b) {
 
 class GeneratorTest : public testing::Test {
   protected:
-    // What one thread makes in the order of the list.
+    // The chunks made by one thread in the order of the list.
     const Chunks& expected() {
         if (expected_.empty()) expected_ = generateAll(Generator(build(writeDeep), kTestSeed), positions_);
         return expected_;
@@ -243,7 +243,7 @@ TEST_F(GeneratorTest, AGeneratorOfOnePass) {
     for (const ChunkPos pos : kPlaces) ASSERT_NO_FATAL_FAILURE(expectChunk(generator, pos, flat));
 }
 
-// What a generator's noise is at a block depends on its name and on nothing that stands before it.
+// Noise at a block depends on the name of the noise, not on the code before it.
 TEST_F(GeneratorTest, SeedsStayWhenCodeMoves) {
     const auto noise = [](Pass& p, const char* name) { return Int(p.perlin2D(name, 7, {1.0f}) * 1000.0f); };
     const Generator one(build([&](GeneratorBuilder& g) {

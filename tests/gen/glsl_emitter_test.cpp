@@ -73,7 +73,7 @@ std::string emitted(const std::function<void(Pass&)>& pass) {
     return emitGlsl(build([&](GeneratorBuilder& g) { g.pass3D("pass", pass); }), 0);
 }
 
-// A decimal fraction would be rounded by whoever compiles it.
+// Compilers would round a decimal fraction differently.
 TEST(GlslEmitter, FloatsAreWrittenAsBits) {
     const std::string text = emitted([](Pass& p) { p.setBlock(Block(Int(Float(p.z()) * 0.1f))); });
     EXPECT_THAT(text, HasSubstr("uintBitsToFloat(0x3dcccccdu)"));

@@ -31,7 +31,7 @@ TEST(GraphHash, TellsGeneratorsAndLevelsApart) {
         }
 }
 
-// Each part that blocks follow from.
+// Each part that blocks depend on.
 TEST(GraphHash, SeesEveryChange) {
     const GeneratorGraph original = graphOf("continents");
     ASSERT_FALSE(original.noises.empty() || original.drainages.empty() || !original.shapes);

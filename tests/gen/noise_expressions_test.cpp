@@ -129,8 +129,8 @@ TEST_P(Simplex, DifferentSeedsHaveNothingInCommon) {
     EXPECT_LT(std::abs(product / squares), 0.05);
 }
 
-// How unevenly the power of a noise is spread over directions: the spectrum of many patches, summed over a
-// ring of wavelengths around the lattice's, by angle; standard deviation over mean.
+// Anisotropy of a noise: the power spectrum of many patches by angle, summed over a ring of wavelengths
+// around the lattice's; standard deviation over mean.
 template <class Sample>
 double anisotropy(Sample sample) {
     constexpr int kPatch = 48, kDirections = 16;

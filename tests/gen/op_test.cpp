@@ -57,7 +57,7 @@ TEST(OpRecord, EveryOperationHasItsOwnRecord) {
     }
 }
 
-// What depends on the position or the world's seed must never be folded.
+// Values that depend on the position or the world's seed must never be folded.
 TEST(OpRecord, OnlyFunctionsOfTheArgumentsAloneCanBeEvaluated) {
     const std::set<Op> notPure = {Op::Constant, Op::PosX,    Op::PosY,      Op::PosZ,          Op::Field,
                                   Op::Noise,    Op::FieldAt, Op::BlockHere, Op::BlockInColumn, Op::Component,

@@ -25,7 +25,7 @@ struct Shares {
     double sea = 0, desert = 0, mountains = 0, forest = 0;
 };
 
-// Of columns in chunks that stand kSampleStep apart, from `corner` on.
+// Shares of the columns of chunks kSampleStep apart, from `corner` on.
 Shares sharesFrom(std::uint64_t seed, ChunkPos corner) {
     constexpr int kMountainFoot = 115;  // z
     const Generator generator = overworld(seed);

@@ -1,5 +1,5 @@
-// What must hold in every overworld: solid bottom, nothing that floats, water no higher than the sea, no
-// seams.
+// Invariants of every overworld: the bottom is solid, nothing floats, water is no higher than the sea, there
+// are no seams.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

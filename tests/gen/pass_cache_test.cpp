@@ -74,7 +74,7 @@ TEST(PassCache, KeepsAsManyAsItsCapacity) {
 
 TEST(ChunkWork, EachPassRunsOnceAndInOrder) {
     ChunkWork work(1, 3);
-    std::vector<int> passes;  // never two at a time, or TSan tells
+    std::vector<int> passes;  // never two at a time, which TSan checks
     const auto advance = [&](int count) { work.advance(count, [&](int pass) { passes.push_back(pass); }); };
     std::vector<std::thread> threads;
     for (int t = 0; t < 6; ++t) threads.emplace_back([&, t] { advance(1 + t % 3); });
@@ -83,7 +83,7 @@ TEST(ChunkWork, EachPassRunsOnceAndInOrder) {
     EXPECT_EQ(work.passesDone(), 3);
 }
 
-// As when memory runs out: who waits for the pass runs it.
+// As when memory runs out: a thread that waits for the pass runs it.
 TEST(ChunkWork, APassThatThrowsIsAnybodysAgain) {
     ChunkWork work(1, 1);
     std::atomic<bool> isRunning = false, mayThrow = false;

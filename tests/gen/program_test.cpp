@@ -182,7 +182,7 @@ class Rows {
     const std::vector<NoiseCall>& noises_;
 };
 
-// What the executor fills once a chunk: constants and positions.
+// Rows that the executor fills once per chunk: constants and positions.
 std::set<std::uint32_t> filledRows(const Program& program) {
     std::set<std::uint32_t> rows = {program.z.row};
     for (std::uint32_t k = 0; k < program.constants.size(); ++k) rows.insert(k);
@@ -213,7 +213,7 @@ TEST(ProgramRandom, RowsLieInTheArenaAndInputsStay) {
     EXPECT_GT(branches, 400u) << "random passes have branches in them";
 }
 
-// Layers run 256 times: what they find there the first time they must find there every time.
+// Layers run 256 times: each run must find the same inputs.
 TEST(ProgramRandom, LayersDoNotWriteOverWhatTheyAreGiven) {
     for (std::uint32_t seed = 0; seed < 400; seed += 2) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -225,7 +225,7 @@ TEST(ProgramRandom, LayersDoNotWriteOverWhatTheyAreGiven) {
     }
 }
 
-// Rounds find what they are given as the first one did; only the loop's variables change.
+// Each round must find the same inputs; only the loop's variables change.
 TEST(ProgramRandom, RoundsDoNotWriteOverWhatTheyAreGiven) {
     std::size_t loops = 0;
     for (std::uint32_t seed = 0; seed < 400; ++seed) {

@@ -15,7 +15,7 @@
 namespace terrane::gen {
 namespace {
 
-// What scatter gives in the columns of a chunk: the block tells all of it.
+// The point in a column, read back from its blocks.
 struct ColumnPoint {
     bool isHere;
     std::int32_t x, y;  // of the point, modulo 4096
@@ -110,7 +110,7 @@ TEST(Scatter, LevelsAgree) {
     const auto nearby = Points(0, 7, 4).around(8);
     EXPECT_EQ(Points(1, 7, 4).around(4), nearby);
     EXPECT_EQ(Points(2, 7, 4).around(2), nearby);
-    // Of points that share a column one is left.
+    // One of the points in a column is left.
     const auto far = Points(3, 7, 4).around(1);
     EXPECT_GT(far.size(), 120u);
     EXPECT_LT(far.size(), nearby.size());

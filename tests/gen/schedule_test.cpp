@@ -122,7 +122,7 @@ TEST_F(ScheduleTest, ValuesOfSiblingsMeetAtTheirParent) {
     EXPECT_EQ(basicBlockOf(shared), thenOf(outer));
 }
 
-// One if may join several values: it runs where all of them are wanted, though some are wanted deeper.
+// One if may join several values: it runs where all of them are needed, though some are needed deeper.
 TEST_F(ScheduleTest, PhisOfAnIfStayTogether) {
     const std::uint32_t inner = graph_.newIf(), outer = graph_.newIf();
     const NodeId deep = times(x(), y()), other = plus(x(), y());
@@ -250,7 +250,7 @@ int commonBasicBlock(const Schedule& s, int a, int b) {
     return a;
 }
 
-// By node: the innermost basic block that holds the places of all who use it.
+// By node: the innermost basic block that contains all of its uses.
 std::vector<int> deepestBasicBlocks(const Graph& graph, const Schedule& s, const std::vector<NodeId>& roots) {
     std::vector<int> deepest(graph.size(), -1);
     const auto use = [&](NodeId id, int basicBlock) {

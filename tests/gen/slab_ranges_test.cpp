@@ -1,4 +1,4 @@
-// What slabs of layers leave out, and that nobody can tell.
+// The layers that slabs skip, and that the blocks stay the same.
 #include "terrane/gen/slab_ranges.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ namespace {
 
 using Way = SlabRun::Way;
 
-// The newest pass runs over heights 50 to 65 that rise along x, with blocks of a pass before it.
+// The last pass runs over heights 50 to 65 that rise along x, with blocks of a pass before it.
 class SlabRangesTest : public testing::Test {
   protected:
     std::vector<SlabRun> run(const std::function<void(Pass&, Field<Int>)>& write) {
@@ -92,7 +92,7 @@ TEST_F(SlabRangesTest, ShortPassesHaveFewerInstructions) {
     EXPECT_EQ(layers(slabs, Way::Whole), 0);
 }
 
-// Layers of the pass before that are one block decide what is asked of them, others do not.
+// Conditions on layers of the pass before are decided where these layers are one block.
 TEST_F(SlabRangesTest, BlocksOfThePassBeforeAreLookedAt) {
     std::fill(before_.begin(), before_.end(), std::uint16_t{2});
     before_[40 * 256 + 255] = 1;
@@ -163,7 +163,7 @@ TEST(ShortPasses, OfRandomGraphsGiveTheBlocksOfTheWholeOnes) {
     EXPECT_GT(shortLayers, 0);
 }
 
-// What `terrane generate --explain` prints.
+// The report that `terrane generate --explain` prints.
 TEST(PassReport, CountsTheLayersOfEvery3DPass) {
     const Generator generator(makeGenerator("overworld", contentBlocks()).value(), kTestSeed);
     std::vector<PassReport> reports;

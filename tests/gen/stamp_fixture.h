@@ -110,7 +110,7 @@ inline void writeStampsAtTheEnds(GeneratorBuilder& g) {
     g.pass3D("stamps", [&](Pass& p) { p.setBlock(p.stamp(number, base)); });
 }
 
-// The block at one voxel, by a look at every shape that stands within reach.
+// The block at one voxel, from a search of every shape within reach.
 class SlowStamps {
   public:
     SlowStamps(const world::BlockRegistry& blocks, world::ChunkPos chunk, const StampLand& land)

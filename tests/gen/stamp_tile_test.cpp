@@ -1,4 +1,4 @@
-// What Pass::stamp gives, through the generator, against a look at every shape around.
+// Pass::stamp, through the generator, against a search of every shape around.
 #include "terrane/gen/stamp_tile.h"
 
 #include <gmock/gmock.h>

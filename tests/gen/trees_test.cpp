@@ -123,8 +123,8 @@ TEST(Trees, CoarsenedKeepTheirCover) {
         for (int level = 1; level <= 2; ++level) {
             int cover = 0, coarse = 0;
             for (const VoxelShape& shape : shapesOf(kind)) {
-                cover += figuresOf(shape).cover;
-                coarse += figuresOf(coarsened(shape, level)).cover << (2 * level);
+                cover += statisticsOf(shape).cover;
+                coarse += statisticsOf(coarsened(shape, level)).cover << (2 * level);
             }
             EXPECT_NEAR(static_cast<double>(coarse) / cover, 1.0, 0.08)
                 << static_cast<int>(kind) << " " << level;

@@ -26,7 +26,19 @@ std::vector<Bits> randomValues(Type type, std::mt19937& random) {
     return values;
 }
 
-// Whatever arguments are taken from what the ranges were made of: the result lies in its range.
+ValueRange rangeOfAll(Type type, const std::vector<Bits>& values) {
+    ValueRange range = rangeOf(type, values.front());
+    for (const Bits value : values) range = unite(type, range, rangeOf(type, value));
+    return range;
+}
+
+bool isIn(const ValueRange& range, Type type, Bits value) {
+    if (type != Type::Float) return asInt(value) >= range.low && asInt(value) <= range.high;
+    const float f = asFloat(value);
+    return std::isnan(f) ? range.mayBeNaN : f >= range.lowF && f <= range.highF;
+}
+
+// The result for any arguments within the ranges lies in the result's range.
 TEST(ValueRange, HoldsTheResultOfEveryOperation) {
     std::mt19937 random(7);
     int certain = 0;
@@ -40,7 +52,7 @@ TEST(ValueRange, HoldsTheResultOfEveryOperation) {
             for (std::size_t a = 0; a < r.argCount; ++a) {
                 const Type argType = isChoice && a > 0 ? type : r.argTypes[a];
                 values.push_back(randomValues(argType, random));
-                ranges.push_back(rangeOf(argType, values.back()));
+                ranges.push_back(rangeOfAll(argType, values.back()));
             }
             const ValueRange range = resultRange(r.op, type, ranges);
             if (type != Type::Float && isCertain(range)) ++certain;
@@ -48,7 +60,7 @@ TEST(ValueRange, HoldsTheResultOfEveryOperation) {
                 std::vector<Bits> args;
                 for (const auto& v : values) args.push_back(v[random() % v.size()]);
                 const Bits result = r.evaluate(args);
-                ASSERT_TRUE(contains(range, type, result)) << r.name << ", round " << round << ": " << result;
+                ASSERT_TRUE(isIn(range, type, result)) << r.name << ", round " << round << ": " << result;
             }
         }
     }

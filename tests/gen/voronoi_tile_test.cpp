@@ -179,7 +179,7 @@ TEST(Voronoi2D, APointIsTheSameForAllWhoSeeIt) {
     EXPECT_LE(seen.size(), 36u);
 }
 
-// The point of the tile: far points are not looked at for every column.
+// The purpose of the tile: far points are not searched for every column.
 TEST(Voronoi2D, OnlyPointsThatMayBeNearAreKept) {
     NoiseTile large(cells(512, 2), kVoronoiSeed), small(cells(10, 1), kVoronoiSeed);
     large.moveTo({5, 5});

@@ -31,11 +31,11 @@ VoxelShape lollipop(int height, int half) {
     return shape;
 }
 
-TEST(VoxelShape, FiguresAreTheAreaFromAboveAndTheHighestVoxel) {
-    const ShapeFigures figures = figuresOf(lollipop(7, 2));
-    EXPECT_EQ(figures.cover, 25);
-    EXPECT_EQ(figures.height, 9);
-    EXPECT_EQ(figuresOf({"pit", {{"stone", 0}}, {voxel(0, 0, -2)}}).height, 0);
+TEST(VoxelShape, StatisticsAreTheAreaFromAboveAndTheHighestVoxel) {
+    const ShapeStatistics statistics = statisticsOf(lollipop(7, 2));
+    EXPECT_EQ(statistics.cover, 25);
+    EXPECT_EQ(statistics.height, 9);
+    EXPECT_EQ(statisticsOf({"pit", {{"stone", 0}}, {voxel(0, 0, -2)}}).height, 0);
 }
 
 TEST(VoxelShape, OfLevel0IsTheShapeItself) {
@@ -55,12 +55,13 @@ TEST(VoxelShape, TheFootStandsBehindTheMiddleOfItsColumn) {
 TEST(VoxelShape, CoarsenedKeepsItsAreaAndItsHeight) {
     for (int half = 2; half <= 8; ++half) {
         const VoxelShape shape = lollipop(12, half);
-        const ShapeFigures figures = figuresOf(shape);
+        const ShapeStatistics statistics = statisticsOf(shape);
         for (int level = 1; level <= 3; ++level) {
             const int area = 1 << (2 * level);
-            const ShapeFigures coarse = figuresOf(coarsened(shape, level));
-            EXPECT_LE(std::abs(coarse.cover * area - figures.cover), area) << half << " at level " << level;
-            EXPECT_EQ(coarse.height, figures.height) << half << " at level " << level;
+            const ShapeStatistics coarse = statisticsOf(coarsened(shape, level));
+            EXPECT_LE(std::abs(coarse.cover * area - statistics.cover), area)
+                << half << " at level " << level;
+            EXPECT_EQ(coarse.height, statistics.height) << half << " at level " << level;
         }
     }
 }

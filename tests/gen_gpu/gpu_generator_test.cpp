@@ -193,8 +193,7 @@ TEST_F(GpuGeneratorTest, OverworldEqualsCpuFarAway) {
     compare("overworld", gen::chunksInSquare({world::kMinChunk, world::kMaxChunk - 4}, 5), 25);
 }
 
-// Around the origin and at corners of the world, ±2^31 blocks away.
-// Land and sea near the origin and afar, and corners of the world.
+// Mountains, canyons, and corners of the world, ±2^31 blocks away.
 TEST_F(GpuGeneratorTest, ContinentsEqualCpu) {
     compare("continents", gen::chunksInSquare({226, -122}, 4), 16);
     compare("continents", gen::chunksInSquare({-158, 160}, 3), 9);

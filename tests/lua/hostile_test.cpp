@@ -1,5 +1,5 @@
-// Scripts that mean harm (tests/lua/hostile) are stopped: within the limits, with one line. The time they
-// take is reported and not tested; the steps that stop them are.
+// Malicious scripts (tests/lua/hostile) are stopped: within the limits, with one line. The time they take is
+// reported and not tested; the steps that stop them are.
 #include <cctype>
 #include <chrono>
 #include <cstdio>

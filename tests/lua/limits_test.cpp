@@ -109,7 +109,7 @@ TEST(Limits, ShapesHaveAFoot) {
         "rest to");
 }
 
-// The builder itself reports numbers of fields that it does not have, whoever passes them.
+// The builder itself reports numbers of fields that it does not have.
 TEST(Limits, FieldsOfOtherGeneratorsAreMistakes) {
     using namespace gen;
     constexpr Field<Int> kInt{7};

@@ -1,4 +1,4 @@
-// What the tests of scripts share: files of scripts, recorded graphs, chunks.
+// Helpers for tests of scripts: files of scripts, recorded graphs, chunks.
 #pragma once
 
 #include <gtest/gtest.h>

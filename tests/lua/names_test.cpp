@@ -1,4 +1,4 @@
-// What editors are told of the language (assets/lua/terrane.lua, docs/lua.md) is what scripts can use.
+// The names given to editors (assets/lua/terrane.lua) and in docs/lua.md are those that scripts can use.
 #include "terrane/lua/names.h"
 
 #include <regex>

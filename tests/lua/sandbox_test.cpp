@@ -1,4 +1,4 @@
-// What scripts have of Lua itself: nothing with an address, a clock or an order of its own.
+// The parts of Lua that scripts can use: no addresses, no clock, no order that varies.
 #include "tests/lua/lua_fixture.h"
 
 namespace terrane::lua {

@@ -86,6 +86,15 @@ TEST(ScriptVersion, IsOneForEachExample) {
     }
 }
 
+TEST(Script, PrintsOnceWhenRecordedAndNotForItsVersion) {
+    const std::string text = "print(\"step\", g.step)\n" + std::string(kStone);
+    testing::internal::CaptureStderr();
+    EXPECT_GT(versionOf(text), 0);
+    EXPECT_TRUE(recorded(text));
+    EXPECT_TRUE(recorded(text, 1));
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "terrane: script: step 1\n");
+}
+
 TEST(Script, IsRecordedTheSameByAllThreads) {
     const Script script = exampleScript("08_forest");
     const auto hash = [&] {

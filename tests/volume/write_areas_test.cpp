@@ -21,7 +21,7 @@ std::unique_ptr<store::ChunkStore> openFile(const std::filesystem::path& file) {
     return store::openWorld(store::worldLocation(file.string()), contentBlocks(), request).value();
 }
 
-// What an array of a whole region says after random edits, against the world.
+// A whole region after random edits, against an array with the same edits.
 TEST(WriteAreas, RandomEditsAreReadBack) {
     base::TempFolder folder;
     const BlockArea all{-60, -60, 0, 100, 100, 256};

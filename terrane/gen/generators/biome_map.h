@@ -17,7 +17,8 @@ class BiomeMap {
     static std::optional<BiomeMap> create(std::string_view generator, const world::BlockRegistry& blocks,
                                           std::uint64_t seed);
 
-    // Of a column, in words: "birch forest". Remembers the last chunk; another takes some milliseconds.
+    // The name of a column's biome: "birch forest". Keeps the biomes of the last chunk; for another chunk it
+    // calls Biomes::of().
     std::string_view at(std::int32_t x, std::int32_t y);
 
   private:

@@ -19,7 +19,7 @@ class Biomes {
     static std::optional<Biomes> create(std::string_view generator, const world::BlockRegistry& blocks,
                                         std::uint64_t seed);
 
-    // In words, by number: "birch forest".
+    // Names of biomes by number: "birch forest".
     static std::span<const std::string_view> names();
 
     // The numbers of the biomes of a chunk's columns, x + 16 y. Takes about 0.1 ms, and the first time of a

@@ -25,7 +25,7 @@ const CatalogueEntry* find(const GeneratorCatalogue& catalogue, std::string_view
 
 }  // namespace
 
-// Versions are one more with every change that changes a block; catalogue_test.cpp tells.
+// Every change of a generated block increments the version; catalogue_test.cpp checks it.
 const GeneratorCatalogue& builtInGenerators() {
     static const GeneratorCatalogue catalogue = {
         builtIn("overworld", 2, writeOverworld), builtIn("continents", 1, writeContinents),

@@ -1,4 +1,4 @@
-// The parts of continents: its passes and what they hand on. The generator itself is in continents.cpp.
+// Passes of the generator continents and the fields they exchange. continents.cpp puts them together.
 #pragma once
 
 #include "terrane/gen/builder.h"
@@ -49,7 +49,7 @@ constexpr bool hasPlants(int step) {
     return step == 1 || step > kMaxShapeStep;
 }
 
-// What the passes hand on, by column.
+// Fields that passes exchange, by column.
 struct Fields {
     explicit Fields(GeneratorBuilder& g)
         : land(g.field<Float>("land")),
@@ -94,7 +94,7 @@ struct Fields {
     Field<Float> rocky;        // 0…1: cliffs of canyon lands, volcanoes, karst: bare whatever their slope
     Field<Float> wet;          // 0…1: in a river or lake, or on its bank
     Field<Float> cold;         // the temperature at the ground's height
-    Field<Float> forest;       // 0…1: how much of what could grow here does
+    Field<Float> forest;       // 0…1: share of the possible vegetation that grows here
     Field<Int> water;          // z of the highest water, where the ground is lower
     Field<Int> surface;        // z of the highest ground block
     Field<Int> biome;
@@ -102,7 +102,7 @@ struct Fields {
     Field<Int> color;              // of grass and leaves, as a tint has it
     Field<Int> caveTop;            // z below which caves may be; at level 0
     Drainage rivers;
-    // What grows; which of these there are depends on the level.
+    // Vegetation. The level decides which of these fields there are.
     trees::TreeKinds kinds;
     Field<Int> tree, small;  // numbers of the shapes that stand in this column, or -1
     Field<Int> treeBase;     // z of their feet
@@ -110,16 +110,16 @@ struct Fields {
     Field<Int> plantHeight;
 };
 
-// The forms of the land where they begin, from the position alone.
+// The large landforms, from the position alone.
 struct Shape {
     Float land, temperature, moisture, mountains, volcanic;
     Float base;
 };
 Shape shape(Pass& p);
-// The part of it that rivers follow: land, ranges and wide hills.
+// The part of the base height that rivers follow: land, ranges and volcanoes.
 Float coarseHeight(Pass& p);
 
-// 0…1: how much of the climate's forms there is.
+// 0…1: weight of the landforms of a climate.
 Float canyonLand(Float temperature, Float moisture);
 Float desert(Float temperature, Float moisture);
 Float karst(Float temperature, Float moisture);
@@ -133,7 +133,7 @@ void colorPass(Pass& p, const Fields& f);
 // 3D: earth, caves and water at this voxel.
 Block ground(Pass& p, const Fields& f);
 
-// What grows: continents_plants.cpp.
+// Vegetation: continents_plants.cpp.
 void plantsPass(Pass& p, const Fields& f);    // 2D: where
 void landPass(Pass& p, const Fields& f);      // 3D: on the ground
 void caveLifePass(Pass& p, const Fields& f);  // 3D: in caves

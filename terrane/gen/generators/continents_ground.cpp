@@ -1,4 +1,4 @@
-// What is under the ground of continents: soil, strata, ore, caves and their lakes.
+// Ground of continents: soil, strata, ore, water, caves and their lakes.
 #include "terrane/gen/generators/continents.h"
 
 namespace terrane::gen::continents {

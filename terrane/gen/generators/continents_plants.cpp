@@ -1,4 +1,4 @@
-// What grows on continents: where trees, bushes, stones and plants stand (2D), and their blocks (3D).
+// Vegetation of continents: positions of trees, bushes, stones and plants (2D), and their blocks (3D).
 #include <algorithm>
 
 #include "terrane/gen/generators/continents_groves.h"
@@ -14,7 +14,7 @@ std::vector<Grove> grovesOf(std::span<const Grove> groves, Biome biome) {
     return result;
 }
 
-// Woods and clearings: 0…1 of what the tables say.
+// 0…1: the share of the densities in the tables that woods and clearings leave.
 Float density(Pass& p, const Fields& f) {
     const Float woods = p.perlin2DWithGrain("woods", 64, {.1f, .2f, .3f, .5f});
     const Float clearings = smoothstep(0.42f, 0.56f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
@@ -98,7 +98,7 @@ Growth plantAt(Pass& p, const Fields& f) {
     return {plant, height};
 }
 
-// Of a biome's trees the mean crown, and how much of the ground crowns cover.
+// Mean crown of a biome's trees, and the share of the ground that crowns cover.
 struct Canopy {
     float cover = 0, height = 0;
     std::string_view leaves;
@@ -121,7 +121,8 @@ Canopy canopyOf(const Fields& f, Biome biome) {
     return canopy;
 }
 
-// As many columns are crowns as crowns cover at level 0, from the ground to where they end there on average.
+// The share of columns with a crown is the share of the ground that crowns cover at level 0. A crown reaches
+// from the ground to about the height where crowns end at level 0.
 Growth crownAt(Pass& p, const Fields& f, Float share) {
     const Float chance = p.random2D("crown", p.x(), p.y()), top = p.random2D("crown top", p.x(), p.y());
     Var<Block> crown = p.var(p.block("air"));

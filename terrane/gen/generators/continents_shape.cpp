@@ -6,7 +6,8 @@
 namespace terrane::gen::continents {
 namespace {
 
-// Raises the land around block 0, 0, where new worlds begin, by kRaise, within kRadius blocks.
+// Raises the land value around block 0, 0, where new worlds begin: by kRaise there, by 0 from kRadius blocks
+// on.
 Float originLand(Pass& p) {
     constexpr int kRadius = 1800;
     constexpr float kRaise = 0.5f;
@@ -34,7 +35,7 @@ Float moistureAt(Pass& p, Float land) {
     return p.simplex2D("moisture", 256, {.06f, .12f, .3f, .6f, 1.0f}) * 1.05f + nearSea * 0.12f;
 }
 
-// Where a slow noise passes 0 runs a line; ranges are the ground on both sides of it.
+// Ranges lie on both sides of the lines where a slow noise is 0.
 Float rangesAt(Pass& p, Float land) {
     const Float line = p.simplex2D("ranges", 768, {.12f, .25f, .5f, 1.0f});
     const Float where = smoothstep(-0.25f, 0.25f, p.simplex2D("range places", 2048, {.5f, 1.0f}));
@@ -58,8 +59,8 @@ Float plainHeight(Float land) {
     return inland + shelf + deep;
 }
 
-// A cone with a crater where the point of a wide cell is one, from the sea floor up where it stands in the
-// sea.
+// A cone with a crater around the point of a wide cell, if it is a volcano. Adds to the ground, also on the
+// sea floor.
 struct Volcano {
     Float rise;   // blocks
     Float share;  // 0…1: from its foot to its middle

@@ -4,7 +4,7 @@
 namespace terrane::gen::continents {
 namespace {
 
-// What decides on a column's biome. Borders are as rough as the ground.
+// Inputs to the choice of a biome. Noise in temperature and moisture roughens borders.
 struct Site {
     Float height, steepness, temperature, moisture;
     Float cold;  // the temperature at the ground's height
@@ -50,7 +50,7 @@ struct Ground {
     Block top, soil, rock;
 };
 
-// By biome on gentle ground. `patches` and `spots` are noise of about 30 and 8 blocks.
+// Top block of a biome on gentle ground. `patches` and `spots`: noise of about 30 and 8 blocks.
 Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
     const auto is = [&](Biome b) { return biome == number(b); };
     const auto block = [&](const char* name) { return p.block(name); };
@@ -83,7 +83,7 @@ Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
 
 Block rockOf(Pass& p, const Fields& f, Int biome, Float patches) {
     const auto is = [&](Biome b) { return biome == number(b); };
-    // As the forms are, not as the biomes: their borders are elsewhere.
+    // Follows the landforms, whose borders differ from those of the biomes.
     const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture);
     return multiSelect(
         {{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
@@ -120,7 +120,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
             rock};
 }
 
-// Roofs keep caves closed but for the mouths: spots where the roof is thinner than nothing.
+// z below which caves may be. The roof has holes, the mouths, in spots where its thickness is negative.
 Int caveTop(Pass& p, const Fields& f, const Site& s) {
     const Float mouths = smoothstep(0.42f, 0.7f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
     const Bool isDry = s.height > kSea + 5.0f && p.read(f.wet) <= 0.0f;

@@ -12,7 +12,7 @@ void writeOverworld(GeneratorBuilder& g) {
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
     if (g.step() > 1) return g.pass3D("far", [&](Pass& p) { farPass(p, f); });
-    // Before the blocks: neighbors need where trees stand, and run no pass after that for each other.
+    // Before the 3D passes: neighbors need the positions of trees, and run no later pass for each other.
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
     g.pass3D("ground", [&](Pass& p) { groundPass(p, f); });
     g.pass3D("vegetation", [&](Pass& p) { vegetationPass(p, f); });

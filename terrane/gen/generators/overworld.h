@@ -1,4 +1,4 @@
-// The parts of the overworld: its passes and what they hand on. The generator itself is in overworld.cpp.
+// Passes of the generator overworld and the fields they exchange. overworld.cpp puts them together.
 #pragma once
 
 #include "terrane/gen/builder.h"
@@ -9,7 +9,7 @@ namespace terrane::gen::overworld {
 constexpr float kSea = kSeaLevel;
 constexpr int kSoilDepth = 3;  // blocks of soil under the highest block
 
-// What the passes hand on, by column. Some are of level 0 alone, one of the others.
+// Fields that passes exchange, by column. Some exist at level 0 only, lostSlope only at other levels.
 struct Fields {
     explicit Fields(GeneratorBuilder& g)
         : ocean(g.field<Float>("ocean")),
@@ -50,7 +50,7 @@ struct Fields {
     Field<Float> lostSlope;  // deviation along an axis of slopes that columns are too wide to show
 };
 
-// 2D, in this order: what only depends on the position; the height; what the ground is made of.
+// 2D, in this order: fields that depend only on the position; the height; the blocks of the ground.
 void climatePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
@@ -74,12 +74,12 @@ Int randomTreeHeight(Pass& p, IVec2 at);  // of the trunk, blocks
 // Whether this voxel is leaf of the crown around (0, 0, top), whose size follows the tree's height.
 Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight);
 
-// What grows in a column beside trees; `block` is air where nothing does.
+// A plant other than a tree in a column; `block` is air if there is none.
 struct Plant {
     Block block;
     Int height;
 };
 Plant plantHere(Pass& p, const Fields& f);
-Plant farPlant(Pass& p, const Fields& f);  // of those the ones that give wide land its color: wheat
+Plant farPlant(Pass& p, const Fields& f);  // only plants that color land from afar: wheat
 
 }  // namespace terrane::gen::overworld

@@ -1,5 +1,5 @@
-// The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and of what grows what is seen from
-// afar. There are no caves and no ore.
+// The overworld where columns are 2, 4, 8 … blocks wide: earth, water, and vegetation as far as it is visible
+// from afar. Without caves and ore.
 #include <algorithm>
 
 #include "terrane/gen/generators/overworld.h"
@@ -13,10 +13,10 @@ constexpr int kMaxTreeStep = 4;
 constexpr int kMaxTrunkStep = 2;
 
 // Blocks. On a slope of 45 degrees the step from one column to the next is as high as the columns are wide.
-// Of higher steps than this, which are seen from very far away, the lower part does not count.
+// The lower part of higher steps needs no cover, as they are only visible from very far away.
 constexpr int kMaxCover = 32;
 
-// What stands on the ground of a column, up to `top`.
+// Vegetation of a column, up to `top`.
 struct Growth {
     Int top;
     std::function<Block(Block open)> block;  // at a voxel above the ground; `open` is air or water
@@ -26,7 +26,7 @@ Bool isGrassAt(Pass& p, const Fields& f, IVec2 offset) {
     return p.readAt(f.top, offset) == p.block("grass") && p.readAt(f.surface, offset) > kSeaLevel;
 }
 
-// Decided by the trunk's own position, so that it is the same tree at each level.
+// Depends on the trunk's own position, so that each level has the same tree.
 Tree nearestTree(Pass& p, const Fields& f) {
     const IVec2 offset = trees(p).offset, trunk = {p.x() + offset.x, p.y() + offset.y};
     const Bool grows = p.random2D("tree grows", trunk.x, trunk.y) < p.readAt(f.forest, offset);
@@ -34,7 +34,8 @@ Tree nearestTree(Pass& p, const Fields& f) {
     return {offset, p.readAt(f.surface, offset), height};
 }
 
-// The crown at the middle of the column, and in the trunk's column something below it: no crown floats.
+// The crown sampled at the middle of the column. Blocks below it fill the trunk's column, so that no crown
+// floats.
 Growth treeAndPlant(Pass& p, const Fields& f) {
     const Tree tree = nearestTree(p, f);
     const Plant plant = p.step() == 2 ? plantHere(p, f) : farPlant(p, f);
@@ -59,7 +60,8 @@ Growth treeAndPlant(Pass& p, const Fields& f) {
             }};
 }
 
-// As many columns are crowns as crowns cover at level 0, from the ground to where they end there on average.
+// The share of columns with a crown is the share of the ground that crowns cover at level 0. A crown reaches
+// from the ground to about the height where crowns end at level 0.
 Growth crownOrPlant(Pass& p, const Fields& f) {
     constexpr float kCrownShare = 0.615f;  // of the ground that a point's tree covers, if it grows
     constexpr int kMinTop = 5, kMaxTop = 12;
@@ -77,13 +79,14 @@ Growth crownOrPlant(Pass& p, const Fields& f) {
 
 void farPass(Pass& p, const Fields& f) {
     const Int z = p.z(), surface = p.read(f.surface);
-    // Columns of one block show a slope's top and its sides, which here lie below each other.
+    // With columns of one block, the top and the side of a slope lie side by side; here they lie below each
+    // other.
     const int cover = std::min(p.step(), kMaxCover);
     const Int stoneTop = surface - std::max(kSoilDepth + 1, cover);
     const Growth growth = p.step() <= kMaxTreeStep ? treeAndPlant(p, f) : crownOrPlant(p, f);
     const Block open = select(z <= kSeaLevel, p.block("water"), p.block("air"));
     Var<Block> block = p.var(p.block("stone"));
-    // Without branches inside: a select costs less than finding out which rows need it.
+    // Without branches inside: a select costs less than finding the rows that need it.
     p.if_(z > stoneTop, [&] {
         const Block earth = select(z > surface - cover, p.read(f.top), p.read(f.soil));
         block = select(z > surface, growth.block(open), earth);

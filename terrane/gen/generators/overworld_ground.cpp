@@ -1,10 +1,10 @@
-// What the overworld's ground is made of: earth, sand, snow and stone, water, caves, ore.
+// Ground of the overworld: earth, sand, snow and stone, water, caves, ore.
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {
 namespace {
 
-// What surrounds a column.
+// Shape of the ground around a column.
 struct Shape {
     Float steepness;  // blocks up a block aside
     Float lowest;     // height of the column itself or of the lowest one beside it
@@ -39,7 +39,7 @@ Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Fl
         soil = p.block("sand");
     });
     p.if_(height < kSea - 9.0f + patches * 4.0f && patches > 0.15f, [&] { top = p.block("dirt"); });
-    // The sides of blocks on a slope are those of the soil: stone there looks like rock that comes through.
+    // The sides of blocks on a slope show the soil: stone there looks like bare rock.
     p.if_(s.steepness > stoneFrom - 0.25f && !isSand, [&] { soil = p.block("stone"); });
     p.if_(s.steepness > stoneFrom, [&] {
         top = p.block("stone");
@@ -49,7 +49,7 @@ Ground groundBlocks(Pass& p, const Fields& f, const Shape& s, Float snowLine, Fl
     return {top, soil};
 }
 
-// Roofs keep caves closed but for the mouths: small spots where the roof is thinner than nothing.
+// z below which caves may be. The roof has holes, the mouths, in small spots where its thickness is negative.
 Int caveTop(Pass& p, const Fields& f, const Shape& s) {
     const Float mouths = smoothstep(0.48f, 0.75f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
     const Bool isDry = p.read(f.height) > kSea + 4.0f && s.lowest > kSea + 3.0f;

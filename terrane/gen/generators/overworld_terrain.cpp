@@ -46,7 +46,8 @@ Float dunes(Pass& p) {
     return share == 1.0f ? crest * crest : lerp(kMean, crest * crest, share);
 }
 
-// Beyond level 0 only in deserts: at their borders, where dunes beyond are read, they are too low to be seen.
+// Beyond level 0 dunes are computed only in deserts. A read across a border of a desert misses only dunes too
+// low to be visible.
 Float dunesOf(Pass& p, Float desert) {
     if (p.step() == 1) return dunes(p);
     Var<Float> result = p.var(Float(0.0f));
@@ -54,11 +55,11 @@ Float dunesOf(Pass& p, Float desert) {
     return result;
 }
 
-// How far straight features are bent, in blocks; reads reach one block farther.
+// Blocks by which straight features are displaced at most. Reads reach one block farther.
 constexpr float kBend = 14.0f;
 static_assert(kBend + 1 < kMaxReadOffset);
 
-// From this step on nothing is bent by as much as a column.
+// From this step on no displacement is as large as a column.
 constexpr int kStraightStep = 16;
 static_assert(kBend < kStraightStep);
 
@@ -124,7 +125,7 @@ Land land(Pass& p, const Fields& f) {
     const Float roughness = p.perlin2D("roughness", 8, roughWeights);
     const Float peaks = (bent(f.crags) + roughness) * mountains;
     const Float dunes = (bent(f.dunes) * 18.0f + p.perlin2D("sand", 64, {2.0f, 6.0f})) * desert;
-    // Slopes without it would be contour lines.
+    // Slopes without bumps would look like contour lines.
     const Float bumpiness = clamp(max(hilliness * 1.5f, mountains) + 0.2f, 0.0f, 1.0f) * (1.0f - desert);
     const Float bumps = p.perlin2D("bumps", 4, bumpWeights) * bumpiness;
     const Float lost =
@@ -134,7 +135,8 @@ Land land(Pass& p, const Fields& f) {
             bumpiness * lostSlope(bumpWeights, 4, p.step())};
 }
 
-// Of the ground: `scale` of the land's height is left near rivers and coasts, and high peaks are flattened.
+// Lost slope of the ground. `scale`: the share of the land's height that is left near rivers and coasts. High
+// peaks are flattened.
 Float lostGroundSlope(const Land& l, Float raised, Float scale) {
     const Float flattened = 40.0f / (max(l.height - 130.0f, 0.0f) + 40.0f);
     const Float ofLand = l.lostSlope * scale * (flattened * flattened);

@@ -1,6 +1,5 @@
-// The overworld's trees and plants. What grows is found from columns alone, so that neighbors, into which
-// crowns reach, need no blocks of each other; that no plant stands where a cave cut the ground is seen to
-// when blocks are there.
+// Trees and plants of the overworld. 2D passes decide where they stand, so that neighbors, into which crowns
+// reach, need no blocks of each other. The 3D pass leaves out plants whose ground a cave cut away.
 #include "terrane/gen/generators/overworld.h"
 
 namespace terrane::gen::overworld {

@@ -1,4 +1,4 @@
-// What generators of land with a sea have in common.
+// Sea level of all generators whose land has a sea.
 #pragma once
 
 namespace terrane::gen {

@@ -30,7 +30,7 @@ void groundPass(Pass& p, Field<Int> height) {
         const Block inside = select(isFloor && cells.ratio < 0.3f, p.block("glowing_ore"), p.block("air"));
         p.if_(isChamber, [&] { block = inside; });
     };
-    // Nobody sees them from afar, and they are most of the cost.
+    // They are not visible from afar and cost most of the time.
     if (p.step() == 1) p.if_(depth > 6 && z > 3, chambers);
     p.setBlock(block);
 }

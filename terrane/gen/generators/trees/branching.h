@@ -30,7 +30,7 @@ struct GrowthRules {
 
 // A straight line of nodes, for trunks. `parent` as in BranchNode.
 void addLine(Branches& branches, int parent, Point from, Point to);
-// Grows from all nodes that are there.
+// Grows from all existing nodes.
 void colonize(Branches& branches, std::vector<Point> points, const GrowthRules& rules, Random& random);
 // Counts tips; the cross-section of a branch is that of all its tips together (Leonardo's rule), scaled so
 // that the root has rootRadius.

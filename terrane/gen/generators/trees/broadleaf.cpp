@@ -1,4 +1,4 @@
-// Oak, birch, willow, what is left of dead trees, bushes: crowns that branches divide among each other.
+// Oak, birch, willow, dead trees, bushes: crowns grown by space colonization (branching.h).
 #include <algorithm>
 
 #include "terrane/gen/generators/trees/branching.h"
@@ -7,7 +7,7 @@
 namespace terrane::gen::trees {
 namespace {
 
-// Trunks go on below their foot, so that they stand on slopes.
+// Trunks continue below their foot, so that they stand on slopes.
 constexpr Point kRootEnd = {0, 0, -2};
 
 struct Foliage {

@@ -23,10 +23,10 @@ bool Canvas::isInside(int x, int y, int z) const {
 }
 
 Canvas::Paint Canvas::paint(std::string_view block, int rank) {
-    const ShapeBlock wanted = {std::string(block), rank};
-    const auto known = std::find(blocks_.begin(), blocks_.end(), wanted);
+    const ShapeBlock entry = {std::string(block), rank};
+    const auto known = std::find(blocks_.begin(), blocks_.end(), entry);
     const auto number = static_cast<Paint>(known - blocks_.begin() + 1);
-    if (known == blocks_.end()) blocks_.push_back(wanted);
+    if (known == blocks_.end()) blocks_.push_back(entry);
     return number;
 }
 

@@ -22,18 +22,18 @@ class Canvas {
 
     bool isInside(int x, int y, int z) const;
     Paint at(int x, int y, int z) const;  // 0 outside
-    // Outside of a shape's bounds nothing is drawn, and leaves never take the place of wood.
+    // Ignores positions outside a shape's bounds. Leaves never replace wood.
     void set(int x, int y, int z, Paint paint);
     bool isWood(Paint paint) const { return paint != 0 && blocks_[paint - 1u].rank >= kWoodRank; }
 
     // A limb whose radius changes from one end to the other; one voxel wide below a radius of 0.75.
     void limb(Point from, Point to, float fromRadius, float toRadius, Paint paint);
-    // An ellipsoid, of whose outer part voxels are left out by chance: `edge` of the outermost stay.
+    // An ellipsoid with random gaps in its outer part: the share `edge` of its outermost voxels stays.
     void clump(Point middle, Point radii, float edge, Paint paint, Random& random);
 
-    // Takes away what does not hang together with (0, 0, 0): leaves by faces, wood by corners too.
+    // Removes voxels that are not connected to (0, 0, 0): by faces, wood to wood also by edges and corners.
     void dropLoose();
-    // What is drawn, by z, y, x.
+    // The drawn voxels, by z, y, x.
     VoxelShape shape(std::string name) const;
 
   private:

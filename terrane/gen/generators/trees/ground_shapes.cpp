@@ -1,4 +1,4 @@
-// What lies and stands low on the ground: boulders, fallen logs, giant mushrooms.
+// Shapes low on the ground: boulders, fallen logs, giant mushrooms.
 #include <algorithm>
 
 #include "terrane/gen/generators/trees/canvas.h"

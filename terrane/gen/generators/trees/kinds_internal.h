@@ -1,4 +1,5 @@
-// One function for each kind: draws variant 0, 1, 2 … Used by trees.cpp.
+// One function for each kind draws a shape of it. The seed of `random` selects the variant. Used by
+// trees.cpp.
 #pragma once
 
 #include "terrane/gen/generators/trees/canvas.h"

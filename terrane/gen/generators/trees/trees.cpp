@@ -48,11 +48,11 @@ const KindEntry& entryOf(Kind kind) {
 
 KindRecord meansOf(const KindEntry& entry) {
     KindRecord kind = {entry.name, 0, entry.variants, 0, 0, entry.wood, entry.leaves};
-    ShapeFigures sum;
+    ShapeStatistics sum;
     for (const VoxelShape& shape : shapesOf(entry.kind)) {
-        const ShapeFigures figures = figuresOf(shape);
-        sum.cover += figures.cover;
-        sum.height += figures.height;
+        const ShapeStatistics statistics = statisticsOf(shape);
+        sum.cover += statistics.cover;
+        sum.height += statistics.height;
     }
     kind.cover = static_cast<float>(sum.cover) / static_cast<float>(entry.variants);
     kind.height = static_cast<float>(sum.height) / static_cast<float>(entry.variants);
