@@ -3,8 +3,8 @@
 // a growth asks for. Not synchronised: one thread at a time.
 //
 // An address is arena × arenaSize + offset, so that 32 bits name a unit in any arena. Only the last arena
-// grows: it doubles, which copies it, up to the limit. Where that finds no room, or the arena is full-sized,
-// another arena comes after it without a copy.
+// grows: it doubles, which copies it, up to the limit. When it cannot grow further, or there is no room for
+// the copy, another arena is added without a copy.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,7 @@ struct ArenaSizes {
     std::uint32_t count = 1;  // most arenas
 };
 
-// The arena gets `capacity` units. Where it had some already its contents must be copied.
+// The arena grows to `capacity` units. If it existed before, its contents must be copied.
 struct ArenaGrowth {
     std::uint32_t arena = 0, capacity = 0;
 };
@@ -31,16 +31,16 @@ class ArenaAllocator {
     // Begins with one arena. Addresses of all arenas must fit 32 bits.
     explicit ArenaAllocator(const ArenaSizes& sizes);
 
-    // In the first arena with a free range that holds `size`; the best fit there. None where no arena has
-    // one.
+    // Allocates from the first arena with a free range of at least `size`, by best fit there. None if no
+    // arena has one.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
-    // A range from allocate, or a part of one.
+    // Frees a range from allocate, or a part of one.
     void free(std::uint32_t address, std::uint32_t size);
 
     // The growth after which `size` units fit, if there is one that adds at most `room` units. While an arena
     // is copied the old buffer exists beside the new one, so all of the new capacity counts as added.
     [[nodiscard]] std::optional<ArenaGrowth> planGrowth(std::uint32_t size, std::uint64_t room) const;
-    // As planned. The new units are free.
+    // Applies a planned growth. The new units are free.
     void grow(const ArenaGrowth& growth);
 
     [[nodiscard]] std::uint32_t arenaSize() const { return sizes_.arena; }

@@ -29,7 +29,7 @@ class Buffer {
         upload(offsetBytes, std::as_bytes(std::span(values)));
     }
 
-    // Waits for the GPU: for tests and read-back outside the frame.
+    // Waits for the GPU; for tests and read-back outside the frame.
     void download(std::size_t offsetBytes, std::span<std::byte> out) const;
 
     void bindStorage(GLuint index) const;

@@ -13,13 +13,13 @@ namespace terrane::gpu {
 class BufferTexture {
   public:
     BufferTexture() = default;
-    // Of the whole buffer, which must outlive the texture.
+    // Views the whole buffer, which must outlive the texture.
     BufferTexture(const Buffer& buffer, GLenum format, std::string_view label);
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     void bind(GLuint unit) const;
 
-    // Elements that any buffer texture can have.
+    // Most elements of a buffer texture.
     [[nodiscard]] static std::size_t maxElements();
 
   private:

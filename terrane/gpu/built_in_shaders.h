@@ -7,7 +7,7 @@
 
 namespace terrane::gpu {
 
-// `shaderRoot`: a source tree whose shaders come before the built-in ones; empty for none.
+// `shaderRoot`: a source tree whose shaders take precedence over the built-in ones; empty for none.
 ShaderLoader builtInShaders(const std::string& shaderRoot);
 
 }  // namespace terrane::gpu

@@ -53,7 +53,7 @@ std::string_view trimmed(const GLchar* message, GLsizei length) {
     return text;
 }
 
-// The signature is OpenGL's.
+// Signature of GLDEBUGPROC.
 void APIENTRY onMessage(GLenum source, GLenum type, GLuint id, GLenum severity, GLsizei length,
                         const GLchar* message, const void* user) {
     if (severity == GL_DEBUG_SEVERITY_NOTIFICATION || source == GL_DEBUG_SOURCE_SHADER_COMPILER) return;

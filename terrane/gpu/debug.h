@@ -23,12 +23,12 @@ class DebugLog {
     bool fatal_ = false;
 };
 
-// Sends the current context's messages to the log returned, which must outlive the context. Counted are
-// errors, undefined behavior and messages of high severity; other messages are only logged, notifications
-// dropped. Messages of the shader compiler are left to Program, which returns them.
+// Sends the current context's messages to the returned log, which must outlive the context. Errors, undefined
+// behavior and messages of high severity are counted; other messages are only logged, notifications dropped.
+// Messages of the shader compiler are left to Program, which returns them.
 [[nodiscard]] std::unique_ptr<DebugLog> enableDebugOutput(bool fatal);
 
-// Names the GL calls made during its life in debuggers and driver messages.
+// Groups the GL calls made during its life under a name in debuggers and driver messages.
 class DebugGroup {
   public:
     explicit DebugGroup(std::string_view name);

@@ -38,7 +38,7 @@ float anisotropyLimit() {
     return value;
 }
 
-// Both extensions count in KiB. What a driver tells of software renderers is the computer's memory.
+// Both extensions count in KiB. Drivers of software renderers report the memory of the computer.
 std::int64_t videoMemory(bool isSoftware) {
     constexpr std::int64_t kKiB = 1024;
     if (isSoftware) return 0;
@@ -65,9 +65,6 @@ DeviceInfo queryDevice() {
     info.maxTextureSize = glInt(GL_MAX_TEXTURE_SIZE);
     info.maxTexture3dSize = glInt(GL_MAX_3D_TEXTURE_SIZE);
     info.maxArrayLayers = glInt(GL_MAX_ARRAY_TEXTURE_LAYERS);
-    info.maxComputeInvocations = glInt(GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS);
-    info.uniformAlignmentBytes = glInt(GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT);
-    info.storageAlignmentBytes = glInt(GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT);
     info.maxAnisotropy = anisotropyLimit();
     info.subpixelBits = std::max(kMinSubpixelBits, glInt(GL_SUBPIXEL_BITS));
     GLint64 blockBytes = 0;

@@ -1,4 +1,5 @@
-// What the driver of the current context is and can do. Asked once after a context is made, on its thread.
+// Properties and limits of the driver of the current context. Queried once after a context is made, on its
+// thread.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +16,10 @@ struct DeviceInfo {
     std::string glsl;
     bool software = false;       // drawn by the CPU: the CPU back ends are faster then
     bool indirectCount = false;  // glMultiDraw*IndirectCount: draw counts written by the GPU
-    int maxSamples = 0;          // of textures that are drawn into, colors and depth
+    int maxSamples = 0;          // of color and depth textures that are drawn into
     int maxTextureSize = 0;
     int maxTexture3dSize = 0;
     int maxArrayLayers = 0;
-    int maxComputeInvocations = 0;  // in one work group
-    int uniformAlignmentBytes = 0;
-    int storageAlignmentBytes = 0;
     float maxAnisotropy = 1.0F;  // 1: not offered
     int subpixelBits = 4;        // a pixel is 2^bits steps of the grid that the rasterizer moves corners to
     std::int64_t maxStorageBlockBytes = 0;

@@ -11,7 +11,7 @@ namespace terrane::gpu {
 class Fence {
   public:
     Fence() = default;
-    // After all commands given so far.
+    // Inserts a fence after all commands given so far.
     [[nodiscard]] static Fence insert();
 
     Fence(Fence&& other) noexcept : sync_(std::exchange(other.sync_, nullptr)) {}

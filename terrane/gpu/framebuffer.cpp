@@ -10,11 +10,6 @@ GLenum colorPoint(int index) {
     return GL_COLOR_ATTACHMENT0 + static_cast<GLenum>(index);
 }
 
-GLenum depthPoint(GLenum format) {
-    const bool stencil = format == GL_DEPTH24_STENCIL8 || format == GL_DEPTH32F_STENCIL8;
-    return stencil ? GL_DEPTH_STENCIL_ATTACHMENT : GL_DEPTH_ATTACHMENT;
-}
-
 void attach(GLuint framebuffer, GLenum point, const Attachment& attachment) {
     assert(attachment.texture != 0 && "an empty texture cannot be drawn into");
     if (attachment.layer < 0) {
@@ -51,14 +46,13 @@ std::string_view statusName(GLenum status) {
 
 }  // namespace
 
-Attachment::Attachment(const Texture2D& source)
-    : texture(source.id()), format(source.format()), size(source.size()) {}
+Attachment::Attachment(const Texture2D& source) : texture(source.id()), size(source.size()) {}
 
 Attachment::Attachment(const Texture2DMultisample& source)
-    : texture(source.id()), format(source.format()), size(source.size()), samples(source.samples()) {}
+    : texture(source.id()), size(source.size()), samples(source.samples()) {}
 
 Attachment::Attachment(const Texture2DArray& source, int layerNumber)
-    : texture(source.id()), format(source.format()), size(source.shape().size), layer(layerNumber) {}
+    : texture(source.id()), size(source.shape().size), layer(layerNumber) {}
 
 base::Result<Framebuffer> Framebuffer::create(const FramebufferOptions& options, std::string_view label) {
     assert((!options.colors.empty() || options.depth.texture != 0) && "a framebuffer has an attachment");
@@ -80,7 +74,7 @@ base::Result<Framebuffer> Framebuffer::create(const FramebufferOptions& options,
     }
     if (result.hasDepth_) {
         assert(options.depth.size == first.size && "all attachments have one size");
-        attach(id, depthPoint(options.depth.format), options.depth);
+        attach(id, GL_DEPTH_ATTACHMENT, options.depth);
     }
     setDrawBuffers(id, result.colorCount_);
     if (result.colorCount_ == 0) glNamedFramebufferReadBuffer(id, GL_NONE);

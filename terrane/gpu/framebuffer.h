@@ -14,7 +14,7 @@
 
 namespace terrane::gpu {
 
-// Level 0 of a texture, or of one layer of an array, for a short while: refers to the texture by its GL name.
+// Level 0 of a texture, or of one layer of an array. Refers to the texture by its GL name, for a short while.
 struct Attachment {
     Attachment() = default;
     Attachment(const Texture2D& texture);
@@ -22,7 +22,6 @@ struct Attachment {
     Attachment(const Texture2DArray& texture, int layer);
 
     GLuint texture = 0;
-    GLenum format = GL_NONE;
     glm::ivec2 size = {0, 0};
     int samples = 0;
     int layer = -1;  // −1: the texture is no array
@@ -30,7 +29,7 @@ struct Attachment {
 
 struct FramebufferOptions {
     std::vector<Attachment> colors;
-    Attachment depth;  // empty for none; may hold a stencil
+    Attachment depth;  // empty for none
 };
 
 class Framebuffer {
@@ -40,7 +39,7 @@ class Framebuffer {
                                                           std::string_view label);
     Framebuffer() = default;
 
-    // Draws go here, over the whole size.
+    // Makes draws go here, over the whole size.
     void bind() const;
     void clearColor(int index, glm::vec4 color) const;
     void clearDepth(float depth) const;
@@ -58,11 +57,12 @@ class Framebuffer {
     int samples_ = 0;  // 0: not multisampled
 };
 
-// One color attachment, scaled to the whole of the window.
+// Copies one color attachment, scaled to the whole window.
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
-void clearWindow(glm::vec3 color);  // as the screen has it
+void clearWindow(glm::vec3 color);  // sRGB, as the screen shows it
 
-// The colors as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled framebuffers.
+// Reads the colors as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled
+// framebuffers.
 [[nodiscard]] base::Image readPixels(const Framebuffer& from, int colorIndex = 0);
 
 }  // namespace terrane::gpu

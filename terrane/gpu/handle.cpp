@@ -59,4 +59,10 @@ void labelObject(ObjectKind kind, GLuint id, std::string_view label) {
     glObjectLabel(labelNamespace(kind), id, static_cast<GLsizei>(length), label.data());
 }
 
+Handle<ObjectKind::Query> createQuery(GLenum target) {
+    GLuint id = 0;
+    glCreateQueries(target, 1, &id);
+    return Handle<ObjectKind::Query>(id);
+}
+
 }  // namespace terrane::gpu

@@ -24,7 +24,7 @@ enum class ObjectKind : std::uint8_t {
 
 void deleteObject(ObjectKind kind, GLuint id);
 
-// The name debuggers and driver messages show. Longer than the driver takes is cut off.
+// Sets the name that debuggers and driver messages show. Names longer than the driver takes are cut off.
 void labelObject(ObjectKind kind, GLuint id, std::string_view label);
 
 template <ObjectKind kKind>
@@ -49,5 +49,8 @@ class Handle {
   private:
     GLuint id_ = 0;
 };
+
+// A query object for a target such as GL_TIMESTAMP.
+[[nodiscard]] Handle<ObjectKind::Query> createQuery(GLenum target);
 
 }  // namespace terrane::gpu

@@ -25,16 +25,16 @@ class MappedRing {
     };
 
     MappedRing() = default;
-    // frameSliceBytes is what one frame may take, rounded up to the alignment that bindings need. Takes three
-    // times that.
+    // frameSliceBytes: what one frame may take, rounded up to the alignment that bindings need. The ring
+    // takes three times that.
     MappedRing(std::size_t frameSliceBytes, std::string_view label);
 
     // Waits only if the GPU still reads what was written kFrameSlices frames ago.
     void beginFrame();
-    // After the last GL command that reads this frame's allocations.
+    // Comes after the last GL command that reads this frame's allocations.
     void endFrame();
 
-    // Memory of this frame, aligned for every binding. None when the frame slice is full.
+    // Allocates memory of this frame, aligned for every binding. None when the frame slice is full.
     [[nodiscard]] std::optional<Allocation> allocate(std::size_t sizeBytes);
     template <class T>
     [[nodiscard]] std::optional<Allocation> write(std::span<const T> values) {

@@ -5,7 +5,7 @@
 namespace terrane::gpu {
 namespace {
 
-// More samples than any driver has, and another value than that of a mask that is off.
+// Bits of more samples than any driver has. Differs from the value of a mask that is off.
 constexpr GLbitfield kAllSamples = 0xffff;
 
 void enable(GLenum capability, bool isOn) {
@@ -27,7 +27,7 @@ GLenum functionOf(DepthTest test) {
     return GL_ALWAYS;
 }
 
-// Of what is there, what stays.
+// Blend factor of the target.
 GLenum shareOfTarget(Blending blending) {
     if (blending == Blending::Over) return GL_ONE_MINUS_SRC_ALPHA;
     return blending == Blending::Through ? GL_SRC1_COLOR : GL_ZERO;

@@ -7,10 +7,10 @@
 
 namespace terrane::gpu {
 
-// Passes where the new depth compares so with that of the target. Off also writes no depth.
+// Comparison of the new depth with that of the target by which fragments pass. Off also writes no depth.
 enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
-// Over: color that is multiplied by its alpha, over what is there.
-// Through: color, over what is there times the second output of the shader, for each channel.
+// Over: premultiplied color over the target.
+// Through: color plus the target times the second output of the shader, for each channel.
 enum class Blending : std::uint8_t { Off, Over, Through };
 
 struct PipelineState {
@@ -29,11 +29,11 @@ struct PipelineState {
     bool operator==(const PipelineState&) const = default;
 };
 
-// Sets the state of its context, and only what differs from the state before. One for each that draws there.
+// Sets the state of its context, and only what differs from the state before. One for each owner of draws.
 class Pipeline {
   public:
     void set(const PipelineState& state);
-    // Others may have changed the state: the next set() sets all of it.
+    // Other code may have changed the state: the next set() sets all of it.
     void forget() { isKnown_ = false; }
 
   private:

@@ -42,7 +42,7 @@ std::string programLog(GLuint id) {
     return trimmedLog(std::move(log));
 }
 
-// A message is one line.
+// Error messages are one line.
 std::string inOneLine(std::string_view log) {
     std::string line;
     for (const char c : log) c == '\n' ? line += " | " : line += c;

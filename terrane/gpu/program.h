@@ -14,8 +14,8 @@ namespace terrane::gpu {
 
 class Program {
   public:
-    // The error is one line: the shader's name, then the compiler's messages with file and line, separated by
-    // " | ".
+    // Errors are one line: the shader or program, then the driver's messages, separated by " | ". Messages of
+    // the compiler have file and line.
     [[nodiscard]] static base::Result<Program> graphics(const ShaderLoader& loader,
                                                         std::string_view vertexName,
                                                         std::string_view fragmentName,
@@ -25,11 +25,11 @@ class Program {
     Program() = default;
 
     void use() const;
-    // Leaves no program current. Some drivers check the textures of the current program at each clear, also
-    // those that are deleted since its last draw.
+    // Leaves no program current. Some drivers check the textures of the current program at each clear,
+    // including those deleted since its last draw.
     static void useNone();
 
-    // By explicit location: layout(location = 0) uniform uint …
+    // Sets a uniform by its explicit location: layout(location = 0) uniform uint …
     void set(GLint location, GLuint value) const;
     void set(GLint location, glm::uvec4 value) const;
 

@@ -14,12 +14,12 @@ class RangeAllocator {
   public:
     explicit RangeAllocator(std::uint32_t capacity);
 
-    // The smallest free range that holds size, and the lowest of those: O(log n). None if there is no such
-    // range.
+    // Allocates from the smallest free range that holds size, the lowest of those: O(log n). None if there is
+    // no such range.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
-    // A range from allocate, or a part of one: what is left of it is freed later. O(log n).
+    // Frees a range from allocate, or a part of one; the rest is freed later. O(log n).
     void free(std::uint32_t offset, std::uint32_t size);
-    // The new room at the end is free.
+    // Adds room at the end, which is free.
     void grow(std::uint32_t newCapacity);
 
     [[nodiscard]] std::uint32_t capacity() const { return capacity_; }

@@ -15,11 +15,11 @@ class ReadbackBuffer {
     ReadbackBuffer() = default;
     ReadbackBuffer(std::size_t sizeBytes, std::string_view label);
 
-    // Queues a copy of the first `sizeBytes` of `from`. Nothing waits; a Fence inserted behind it tells when
-    // data() holds it.
+    // Queues a copy of the first `sizeBytes` of `from`, without waiting. data() holds it once a Fence
+    // inserted afterwards has passed.
     void copyFrom(const Buffer& from, std::size_t sizeBytes);
-    // For shaders that write here themselves: before the fence comes
-    // glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT).
+    // For shaders that write here themselves: they need glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT)
+    // before the fence.
     void bindStorage(GLuint index) const { buffer_.bindStorage(index); }
     [[nodiscard]] std::span<const std::byte> data() const { return {mapped_, buffer_.sizeBytes()}; }
 

@@ -1,4 +1,4 @@
-// How a shader reads a texture: filters, wrapping, comparison. Used on the thread of its context.
+// State by which a shader reads a texture: filters, wrapping, comparison. Used on the thread of its context.
 #pragma once
 
 #include <string_view>

@@ -1,5 +1,5 @@
-// Draws and clears of color and depth reach only a rectangle of the target, as long as this lives. Copies are
-// not bounded. One at a time. Used on the thread of the context.
+// Limits draws and clears of color and depth to a rectangle of the target while it lives. Copies are not
+// limited. One at a time. Used on the thread of the context.
 #pragma once
 
 #include <epoxy/gl.h>

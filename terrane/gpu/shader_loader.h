@@ -19,22 +19,23 @@ namespace terrane::gpu {
 
 class ShaderLoader {
   public:
-    // A file under shaderRoot comes before the embedded one of the same path; an empty root is not looked at.
+    // A file under shaderRoot takes precedence over the embedded one of the same path; an empty root is
+    // ignored.
     explicit ShaderLoader(std::span<const base::EmbeddedFile> embedded,
                           std::filesystem::path shaderRoot = {});
 
-    // More embedded files; they outlive the loader.
+    // Adds embedded files, which must outlive the loader.
     void addFiles(std::span<const base::EmbeddedFile> embedded);
 
-    // The complete text for the compiler, by the path under which it is embedded
+    // Returns the complete text for the compiler, by the path under which it is embedded
     // ("terrane/render/sky.frag.glsl").
     [[nodiscard]] base::Result<ShaderSource> load(std::string_view name, ShaderStage stage,
                                                   const ShaderDefines& defines) const;
 
     [[nodiscard]] std::optional<std::string> find(std::string_view path) const;
 
-    // When the newest .glsl or .h file in the root's folder terrane was written; none without such files.
-    // Looks at every file there, 1 ms or so: for development, once in a while.
+    // Time of the newest write to a .glsl or .h file in the root's folder terrane; none without such files.
+    // Looks at every file there, about 1 ms: for development, once in a while.
     [[nodiscard]] std::optional<std::filesystem::file_time_type> newestWrite() const;
 
   private:

@@ -14,7 +14,7 @@ std::string_view withoutLeadingSpace(std::string_view text) {
     return first == std::string_view::npos ? std::string_view() : text.substr(first);
 }
 
-// The letters at the start of text, which are removed from it.
+// Removes the letters at the start of text and returns them.
 std::string_view takeWord(std::string_view& text) {
     text = withoutLeadingSpace(text);
     const auto end = std::ranges::find_if_not(
@@ -24,7 +24,7 @@ std::string_view takeWord(std::string_view& text) {
     return word;
 }
 
-// Whether text, begun inside a block comment or not, ends inside one.
+// Whether text ends inside a block comment. `inside`: it begins inside one.
 bool endsInComment(std::string_view text, bool inside) {
     while (true) {
         const std::size_t end = inside ? text.find("*/") : text.find("/*");
@@ -35,10 +35,11 @@ bool endsInComment(std::string_view text, bool inside) {
     }
 }
 
-// Which part of which #if a line stands in. Only conditions on __cplusplus are judged; others hold.
+// Tracks which part of which #if a line is in. Only conditions on __cplusplus are evaluated; others count as
+// true.
 class Conditions {
   public:
-    // True if the directive was one of conditions.
+    // True if the directive is a condition.
     bool take(std::string_view word, std::string_view rest) {
         const bool ifdef = word == "ifdef";
         const bool ifndef = word == "ifndef";
@@ -112,7 +113,7 @@ class Expander {
         if (!directive.starts_with('#')) return keep(inCpp ? std::string_view() : line);
         directive.remove_prefix(1);
         const std::string_view word = takeWord(directive);
-        // Conditions within a part for C++ stay too, so that every #endif finds its #if.
+        // Conditions within a part for C++ are kept too, so that every #endif has its #if.
         if (conditions.take(word, directive)) return keep(line);
         if (inCpp) return keep({});
         if (word == "include") return include(withoutLeadingSpace(directive), place);
@@ -136,7 +137,7 @@ class Expander {
     ShaderSource& out_;
 };
 
-// The file that a message at the start of `line` is about: number, then '(' or ':', then a line number.
+// Source number at the start of a message line: number, then '(' or ':', then a line number.
 struct SourceNumber {
     std::size_t begin;
     std::size_t end;
@@ -175,7 +176,7 @@ base::Result<ShaderSource> expandIncludes(std::string_view name, const ShaderLoo
 
 std::string shaderHeader(ShaderStage stage, const ShaderDefines& defines) {
     std::string header = "#version 450 core\n";
-    // Gives gl_DrawIDARB and gl_BaseInstanceARB, of vertex shaders only.
+    // Provides gl_DrawIDARB and gl_BaseInstanceARB, in vertex shaders only.
     if (stage == ShaderStage::Vertex) header += "#extension GL_ARB_shader_draw_parameters : require\n";
     for (const auto& [name, value] : defines) header += fmt::format("#define {} {}\n", name, value);
     return header;

@@ -1,5 +1,5 @@
-// Text work on shaders, without OpenGL: expanding includes, the lines before the first one, and naming the
-// files in a compiler's log. Pure functions, for ShaderLoader and for offline checks.
+// Text processing of shaders, without OpenGL: expanding includes, the lines before the first one, and naming
+// the files in a compiler's log. Pure functions, for ShaderLoader and for offline checks.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ enum class ShaderStage : std::uint8_t { Vertex, Fragment, Compute };
 // Name and value of each #define, in order.
 using ShaderDefines = std::vector<std::pair<std::string, std::string>>;
 
-// The text of a file by the path that #include names, none if there is no such file.
+// Returns the text of a file by the path that #include names; none if there is no such file.
 using ShaderLookup = std::function<std::optional<std::string>(std::string_view path)>;
 
 struct ShaderSource {
@@ -29,12 +29,11 @@ struct ShaderSource {
 };
 
 // Replaces every #include "path" by the file, once per source, and writes #line so that the compiler's
-// messages carry the file's number and line. What stands between #ifdef __cplusplus and #else or #endif is
-// left out. An include under any other condition is expanded whether the condition holds or not. Fails with
-// "file:line: …".
+// messages have the file's number and line. Text between #ifdef __cplusplus and #else or #endif is left out.
+// Includes under any other condition are always expanded. Fails with "file:line: …".
 [[nodiscard]] base::Result<ShaderSource> expandIncludes(std::string_view name, const ShaderLookup& lookup);
 
-// #version, extensions and defines: what comes before the expanded text.
+// #version, extensions and defines, which precede the expanded text.
 [[nodiscard]] std::string shaderHeader(ShaderStage stage, const ShaderDefines& defines);
 
 // Replaces the source numbers in a compiler's log, "0(12)" or "0:12(5)", by the names of the files.

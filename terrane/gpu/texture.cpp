@@ -53,13 +53,13 @@ Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label)
     }
 }
 
-// Zero for formats that the tables above do not know, such as packed ones.
+// Zero for formats unknown to the tables above, such as packed ones.
 [[maybe_unused]] std::size_t imageBytes(glm::ivec2 size, GLenum format, GLenum type) {
     return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels(format) *
            channelBytes(type);
 }
 
-// Of the sized formats that textures here have.
+// Bytes of a texel, for the sized formats used here.
 std::size_t texelBytes(GLenum format) {
     switch (format) {
         case GL_R8:
@@ -169,7 +169,7 @@ Texture3D::Texture3D(glm::ivec3 size, GLenum format, std::string_view label)
     : handle_(createTexture(GL_TEXTURE_3D, label)), size_(size), format_(format) {
     assert(size.x > 0 && size.y > 0 && size.z > 0 && "a texture has a size");
     glTextureStorage3D(id(), 1, format, size.x, size.y, size.z);
-    // Integer formats know no filter.
+    // Integer formats cannot be filtered.
     const GLint filter = format == GL_R32UI ? GL_NEAREST : GL_LINEAR;
     glTextureParameteri(id(), GL_TEXTURE_MIN_FILTER, filter);
     glTextureParameteri(id(), GL_TEXTURE_MAG_FILTER, filter);

@@ -14,7 +14,7 @@
 
 namespace terrane::gpu {
 
-// Levels down to 1 × 1.
+// Number of levels down to 1 × 1.
 [[nodiscard]] int fullLevels(glm::ivec2 size);
 [[nodiscard]] glm::ivec2 levelSize(glm::ivec2 size, int level);
 
@@ -23,14 +23,13 @@ class Texture2D {
     Texture2D() = default;
     Texture2D(glm::ivec2 size, GLenum format, int levels, std::string_view label);
 
-    // The whole of one level.
+    // Uploads the whole of one level.
     void upload(int level, GLenum format, GLenum type, std::span<const std::byte> data);
     void generateMipmaps();
     void bind(GLuint unit) const;
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
-    [[nodiscard]] GLenum format() const { return format_; }
     [[nodiscard]] int levels() const { return levels_; }
     [[nodiscard]] std::size_t sizeBytes() const;
 
@@ -55,15 +54,14 @@ class Texture2DArray {
     struct Part {
         glm::ivec2 corner, size;
     };
-    // A rectangle of texels of level 0 of one layer.
+    // Uploads a rectangle of texels to level 0 of one layer.
     void uploadPart(int layer, const Part& part, GLenum format, GLenum type, std::span<const std::byte> data);
-    // The whole of one level of one layer.
+    // Uploads the whole of one level of one layer.
     void upload(int level, int layer, GLenum format, GLenum type, std::span<const std::byte> data);
     void bind(GLuint unit) const;
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] const Shape& shape() const { return shape_; }
-    [[nodiscard]] GLenum format() const { return format_; }
     [[nodiscard]] std::size_t sizeBytes() const;
 
   private:
@@ -75,10 +73,10 @@ class Texture2DArray {
 class Texture3D {
   public:
     Texture3D() = default;
-    // Undefined until written; one level, linear filtering, clamped.
+    // Content is undefined until written. One level, linear filtering (nearest for integer formats), clamped.
     Texture3D(glm::ivec3 size, GLenum format, std::string_view label);
 
-    // A box of texels. Types may be packed ones: as many bytes as the caller's types have.
+    // Uploads a box of texels. Types may be packed ones; `data` has as many bytes as they need.
     void uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GLenum type,
                     std::span<const std::byte> data);
     void bind(GLuint unit) const;
@@ -94,7 +92,7 @@ class Texture3D {
 };
 
 // A render target with several samples per pixel, at the same places in every pixel. The driver may take more
-// than asked for: samples() tells.
+// samples than asked for: see samples().
 class Texture2DMultisample {
   public:
     Texture2DMultisample() = default;
@@ -104,7 +102,6 @@ class Texture2DMultisample {
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] glm::ivec2 size() const { return size_; }
-    [[nodiscard]] GLenum format() const { return format_; }
     [[nodiscard]] int samples() const { return samples_; }
     [[nodiscard]] std::size_t sizeBytes() const;
 

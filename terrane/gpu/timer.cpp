@@ -5,12 +5,6 @@
 namespace terrane::gpu {
 namespace {
 
-Handle<ObjectKind::Query> createQuery() {
-    GLuint id = 0;
-    glCreateQueries(GL_TIMESTAMP, 1, &id);
-    return Handle<ObjectKind::Query>(id);
-}
-
 GLuint64 timestamp(const Handle<ObjectKind::Query>& query) {
     GLuint64 nanoseconds = 0;
     glGetQueryObjectui64v(query.id(), GL_QUERY_RESULT, &nanoseconds);
@@ -40,7 +34,8 @@ void GpuTimer::nextFrame() {
 void GpuTimer::begin(std::string_view name) {
     if (!recording_) return;
     Frame& frame = frames_[current_];
-    if (frame.usedZones == frame.zones.size()) frame.zones.push_back({{}, createQuery(), createQuery()});
+    if (frame.usedZones == frame.zones.size())
+        frame.zones.push_back({{}, createQuery(GL_TIMESTAMP), createQuery(GL_TIMESTAMP)});
     open_.push_back(frame.usedZones);
     Zone& zone = frame.zones[frame.usedZones++];
     zone.name = name;
@@ -57,7 +52,7 @@ void GpuTimer::end() {
 }
 
 bool GpuTimer::finished(const Frame& frame) {
-    // Timestamps are taken in order: with the last one, all of the frame are there.
+    // Timestamps are taken in order: once the last one is available, all of the frame are.
     GLint available = GL_FALSE;
     glGetQueryObjectiv(frame.zones[frame.lastEnded].end.id(), GL_QUERY_RESULT_AVAILABLE, &available);
     return available != GL_FALSE;

@@ -26,15 +26,15 @@ class GpuTimer {
     GpuTimer& operator=(const GpuTimer&) = delete;
     ~GpuTimer() = default;
 
-    // Ends the frame before, looks which frames the GPU has finished, and starts the next. A frame is not
-    // measured when the GPU is as many frames behind as there are in the ring.
+    // Ends the frame before, reads the results of frames that the GPU has finished, and starts the next. A
+    // frame is not measured when the GPU is as many frames behind as there are in the ring.
     void nextFrame();
 
     // Zones may be nested, and all end within their frame.
     void begin(std::string_view name);
     void end();
 
-    // Of the newest finished frame, in the order of begin(); empty until there is one.
+    // Times of the newest finished frame, in the order of begin(); empty until there is one.
     [[nodiscard]] const std::vector<GpuTiming>& results() const { return results_; }
 
   private:
@@ -48,7 +48,7 @@ class GpuTimer {
     struct Frame {
         std::vector<Zone> zones;  // kept with their queries from use to use
         std::size_t usedZones = 0;
-        std::size_t lastEnded = 0;  // the zone whose end was asked for last
+        std::size_t lastEnded = 0;  // the zone that ended last
         bool pending = false;
     };
 

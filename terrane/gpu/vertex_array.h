@@ -1,5 +1,5 @@
-// A vertex array without attributes of vertices: shaders pull these from buffers. Core OpenGL draws nothing
-// without one. Used on the thread of its context.
+// A vertex array without vertex attributes: shaders pull vertices from buffers. Core OpenGL draws nothing
+// without a vertex array. Used on the thread of its context.
 #pragma once
 
 #include <cassert>
@@ -23,8 +23,8 @@ class VertexArray {
     // Indices for glDrawElements*; the buffer must outlive the vertex array.
     void setElementBuffer(const Buffer& indices) { glVertexArrayElementBuffer(id(), indices.id()); }
 
-    // `count` integers (1…4) for each instance at the start of every `strideBytes` of the buffer, which must
-    // outlive its use; may be called again.
+    // Reads `count` integers (1…4) for each instance from the start of every `strideBytes` of the buffer,
+    // which must outlive its use; may be called again.
     void setInstanceIntegers(GLuint location, const Buffer& buffer, GLint count, std::size_t strideBytes) {
         glVertexArrayVertexBuffer(id(), location, buffer.id(), 0, static_cast<GLsizei>(strideBytes));
         glVertexArrayAttribIFormat(id(), location, count, GL_INT, 0);

@@ -1,5 +1,5 @@
-// Light of areas from scratch, by whichever back end: the CPU here, compute shaders in
-// terrane/light_gpu. They give the same light, to the bit.
+// Solves the light of areas from scratch. Back ends: the CPU here, compute shaders in terrane/light_gpu. They
+// give the same light, to the bit.
 #pragma once
 
 #include <memory>
@@ -14,12 +14,12 @@ class AreaSolver {
   public:
     virtual ~AreaSolver() = default;
 
-    // Light of all chunks, in the order of `area.chunks`.
+    // Returns the light of all chunks, in the order of `area.chunks`.
     virtual std::vector<ChunkLight> solve(const LightArea& area) = 0;
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
 };
 
-// One thread, any. `table` outlives it.
+// Used on one thread, any. `table` outlives it.
 std::unique_ptr<AreaSolver> makeCpuSolver(const LightTable& table);
 
 }  // namespace terrane::light

@@ -28,7 +28,7 @@ class CpuLighter : public BatchLighter {
 
     std::vector<LightResult> take(bool) override {
         if (inFlight_.empty()) return {};
-        // Snapshots never change, so that one address is one chunk.
+        // Snapshots never change, so an address identifies a chunk.
         std::unordered_map<const world::Chunk*, LocalLight> locals;
         std::vector<LightResult> results;
         for (const LightRequest& request : inFlight_.front()) {

@@ -17,7 +17,7 @@ struct Brick {
     alignas(64) std::array<LightValue, world::kBlocksPerSection> values;
 };
 
-// A brick that somebody else keeps. `writable` is null where it must not be changed.
+// View of a brick that is owned elsewhere. `writable` is null if it must not be changed.
 struct BrickView {
     const LightValue* values = nullptr;
     LightValue* writable = nullptr;
@@ -26,23 +26,23 @@ struct BrickView {
     LightValue uniformValue() const { return values[0]; }
 };
 
-// Of uniform bricks the usual values exist once: darkness, full daylight and the sixteen opacities. 136 KiB.
+// Shared uniform bricks of the common values: darkness, full daylight and the sixteen opacities, 136 KiB.
 // Null for other values.
 const Brick* sharedUniformBrick(LightValue value);
 
-// The smallest form of the values.
+// Packs the values into their smallest form.
 LightBrick packBrick(BrickView view);
 
-// Keeps bricks for a computation and hands them out again for the next. One thread at a time.
+// Owns the bricks of a computation and reuses them for the next. One thread at a time.
 class BrickPool {
   public:
-    // 8 KiB with any content, valid until reset() or release().
+    // Returns a brick of 8 KiB with undefined content, valid until reset() or release().
     Brick* acquire();
     BrickView uniform(LightValue value);
     BrickView unpack(const LightBrick& brick);
-    // Everything acquired may be handed out again.
+    // Makes all acquired bricks available again.
     void reset();
-    // Everything acquired so far, for the caller to keep.
+    // Gives ownership of all acquired bricks to the caller.
     std::vector<std::unique_ptr<Brick>> release();
 
   private:

@@ -12,8 +12,8 @@
 
 namespace terrane::light {
 
-// A brick of one value takes nothing beside the object; others have a palette with 1, 2, 4 or 8 bits a block,
-// or are dense (8 KiB). Index in a brick: x + 16 y + 256 z, as in a section of blocks.
+// A brick of one value takes no memory beside the object; others have a palette with 1, 2, 4 or 8 bits a
+// block, or are dense (8 KiB). Index in a brick: x + 16 y + 256 z, as in a section of blocks.
 using LightBrick = world::Section;
 
 class ChunkLight {

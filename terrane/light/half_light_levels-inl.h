@@ -18,7 +18,7 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 // The levels of eight voxels, a byte each, so that maximum and saturated difference of bytes are those of
 // levels: 16 bytes with red and blue in the low four bits (even) and 16 with green and daylight in the high
-// four (odd). Both fit one vector of 32 bytes, or are two of 16.
+// four (odd). Both are in one vector of 32 bytes, or in two of 16.
 #if HWY_MAX_BYTES >= 32
 const hn::FixedTag<std::uint8_t, 32> kBytes;
 using Bytes = hn::Vec<decltype(kBytes)>;

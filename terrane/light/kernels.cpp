@@ -2,8 +2,8 @@
 
 #include <bit>
 
-// The vectors of 16 bytes need SSSE3 at least, which every x86 with OpenGL 4.5 beside it has: Highway's
-// fallback without vectors is left out.
+// Vectors of 16 bytes need SSSE3, which every x86 with a driver for OpenGL 4.5 has. So Highway's fallback
+// without vectors is not compiled.
 #if defined(__x86_64__)
 #define HWY_BASELINE_TARGETS HWY_SSSE3
 #endif
@@ -35,7 +35,7 @@ HWY_INLINE RowPlace placeOf(const FieldBrick* brick, int row) {
             z < 15 ? light(0) + at + 256 : light(LightField::kStepZ) + at - 3840};
 }
 
-// Voxels become as bright as their neighbors make them.
+// Raises voxels to the light that their neighbors give them.
 struct Raise {
     HWY_INLINE LightLevels operator()(const LightLevels& offered, const LightLevels& old,
                                       const FieldBrick& brick, int row) const {
@@ -43,7 +43,7 @@ struct Raise {
     }
 };
 
-// Levels that a removed level gave, and that have no source of their own, are removed, too.
+// Removes levels that came from a removed level and have no source of their own.
 struct Decrease {
     HWY_INLINE LightLevels operator()(const LightLevels& offered, const LightLevels& old,
                                       const FieldBrick& brick, int row) const {
@@ -56,12 +56,12 @@ struct Decrease {
     }
 };
 
-// What changed of a row: any voxel, its first, its last.
+// Changes of a row: any voxel, its first, its last.
 struct RowChange {
     bool any = false, first = false, last = false;
 };
 
-// Applies the rule to a row until nothing changes inside it, and writes it.
+// Applies the rule to a row until nothing changes inside it, and writes the row.
 template <class Rule>
 HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
     const RowPlace at = placeOf(&brick, row);
@@ -95,8 +95,7 @@ void markBeside(LightField& field, int index, int row, const RowChange& change) 
     if (change.last) field.markRow(index + F::kStepX, row);
 }
 
-// Rows are taken upward and downward in turn, so that light that rises and light that falls both go far in
-// one pass.
+// Processes rows downward and upward in turn, so that light travels far in both directions in one pass.
 template <class Rule>
 void settleBrick(LightField& field, int index, Rule rule) {
     FieldBrick& brick = field.brick(index);

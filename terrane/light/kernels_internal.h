@@ -12,17 +12,18 @@ namespace terrane::light {
 // Daylight that reaches each column (x + 16 y) from above, in bits 12–15.
 using DaylightColumns = std::array<LightValue, world::kChunkSize * world::kChunkSize>;
 
-// Takes daylight down through a brick: writes columns | emission to `light` for each voxel, where `emission`
-// is a brick too (it may be `light` itself). `columns` leave as they enter the brick below.
+// Propagates daylight down through a brick: writes columns | emission to `light` for each voxel, where
+// `emission` is a brick too (it may be `light` itself). `columns` return the daylight that enters the brick
+// below.
 void propagateSunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
                        LightValue* light);
 
-// Raises the marked rows, and what follows from them, until every voxel is at least each neighbor less
-// 1 + its opacity.
+// Raises the marked rows, and the rows affected by them, until every voxel is at least each neighbor less 1 +
+// its opacity.
 void raiseLight(LightField& field);
 
-// Runs the decrease queue: `light` holds the levels to remove. A level of `before` that exceeds its source
-// and equals what a removed neighbor gave is removed, too. Starts from the marked rows.
+// Runs the decrease queue: `light` has the levels to remove. A level of `before` that exceeds its source and
+// equals the level that a removed neighbor gave is removed too. Starts from the marked rows.
 void propagateDecreases(LightField& field);
 
 // light = source where `decreased` is not 0, else before: whole bricks.

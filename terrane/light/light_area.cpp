@@ -6,7 +6,7 @@
 namespace terrane::light {
 namespace {
 
-// Results of stage 1 of the rows y − 1, y and y + 1 of chunks.
+// Results of stage 1 for the rows y − 1, y and y + 1 of chunks.
 class LocalRows {
   public:
     LocalRows(const LightArea& area, const LightTable& table, LightScratch& scratch)

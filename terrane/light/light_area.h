@@ -1,4 +1,4 @@
-// Light of a whole area of chunks at once, for tools and tests; the streaming pipeline uses light_chunk.h.
+// Lights a whole area of chunks at once, for tools and tests; the streaming pipeline uses light_chunk.h.
 #pragma once
 
 #include <vector>
@@ -7,7 +7,7 @@
 
 namespace terrane::light {
 
-// Chunks side by side; beyond the area it is dark. Levels are therefore those of the world one chunk inside.
+// A rectangle of chunks; beyond it is dark. So only levels at least one chunk inside are those of the world.
 struct LightArea {
     int chunksX = 0, chunksY = 0;
     std::vector<const world::Chunk*> chunks;  // chunksX × chunksY, x fastest, none null
@@ -17,8 +17,8 @@ struct LightArea {
     }
 };
 
-// Light of all chunks, in the order of `area.chunks`. One thread; keeps three rows of chunks unpacked (about
-// 300 KiB for each chunk of a row).
+// Returns the light of all chunks, in the order of `area.chunks`. One thread; keeps three rows of chunks
+// unpacked (about 300 KiB for each chunk of a row).
 std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table);
 
 }  // namespace terrane::light

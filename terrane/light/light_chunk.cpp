@@ -22,8 +22,8 @@ void addChunk(LightField& field, int chunk, const ChunkBricks& bricks) {
     }
 }
 
-// Rows that may not be settled in a chunk of which only the sources are known. Inside a brick of one value no
-// light flows.
+// Marks the rows that may not be settled in a chunk of which only the sources are known. Inside a brick of
+// one value no light flows.
 void markUnsettled(LightField& field, const ChunkBricks& bricks) {
     for (int number = 0; number < kBricks; ++number) {
         const auto k = static_cast<std::size_t>(number);
@@ -43,8 +43,8 @@ void markUnsettled(LightField& field, const ChunkBricks& bricks) {
     }
 }
 
-// How far each column of a chunk of the field is from the chunk in the middle: light of that level or less
-// cannot get there.
+// Distance of each column of a chunk of the field to the middle chunk: light of that level or less cannot
+// reach it.
 using Reach = std::array<LightValue, world::kChunkSize * world::kChunkSize>;
 
 std::array<Reach, kFieldChunks> makeReaches() {
@@ -66,8 +66,8 @@ const LightValue* reachOf(int chunk) {
     return reaches[static_cast<std::size_t>(chunk)].data();
 }
 
-// Whether light passes from one voxel to its neighbor so that it matters there. Four levels at once: two to
-// a number, in bytes whose highest bit tells that the difference is not negative.
+// Whether light passes from one voxel to its neighbor and can reach the middle chunk. Handles four levels at
+// once: two to a number, in bytes whose highest bit is set if the difference is not negative.
 bool flows(LightValue from, LightValue to, LightValue opacity, LightValue reach) {
     const auto reaches = [&](int shift) {
         const auto part = [&](LightValue v) { return static_cast<unsigned>(v >> shift) & 0x0F0Fu; };
@@ -77,7 +77,8 @@ bool flows(LightValue from, LightValue to, LightValue opacity, LightValue reach)
     return (reaches(0) | reaches(4)) != 0;
 }
 
-// Marks the rows into which light flows across a border along y; `lower` is the brick at its lower x.
+// Marks the rows into which light flows across a border between bricks in x; `lower` is the brick at the
+// lower x.
 void markBorderX(LightField& field, int lower, const LightValue* east, const LightValue* west) {
     if (std::memcmp(east, west, sizeof(LocalLight::Side)) == 0) return;
     const int upper = lower + LightField::kStepX;
@@ -90,7 +91,7 @@ void markBorderX(LightField& field, int lower, const LightValue* east, const Lig
     }
 }
 
-// The same along x. Rows lie side by side there, and are marked where they differ.
+// The same for a border in y. Rows lie along the border there, and are marked where they differ.
 void markBorderY(LightField& field, int lower) {
     const int upper = lower + LightField::kStepY;
     const BrickView a = field.brick(lower).light, b = field.brick(upper).light;

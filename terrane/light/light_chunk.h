@@ -1,9 +1,9 @@
-// Light of chunks from scratch, in two stages that may each run on any thread:
+// Lights chunks from scratch, in two stages that may each run on any thread:
 //
-//   1. solveLocal: what a chunk's own blocks give, as if nothing but darkness lay around it.
-//   2. lightChunk: the light of a chunk, from what stage 1 found for it and its eight neighbors.
+//   1. solveLocal: the light of a chunk's own blocks, as if darkness surrounded it.
+//   2. lightChunk: the light of a chunk, from the results of stage 1 for it and its eight neighbors.
 //
-// Light travels at most 15 blocks, so that nothing farther away matters: the result is that of the whole
+// Light travels at most 15 blocks, so chunks farther away do not matter: the result is that of the whole
 // world. docs/light.md has the model and the proofs.
 #pragma once
 
@@ -33,7 +33,7 @@ struct LocalLight {
     }
 };
 
-// Memory that a worker keeps from chunk to chunk; holds nothing between calls.
+// Memory that a worker reuses from chunk to chunk; it has no state between calls.
 struct LightScratch {
     LightField field;
     LightField decreaseQueue;  // for relight.h
@@ -41,8 +41,8 @@ struct LightScratch {
 
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
 
-// Index x + 3 y, the chunk itself in the middle (4). Null: nothing is known there, and it counts as dark and
-// opaque; the result is then that of a world that ends there.
+// Index x + 3 y, the chunk itself in the middle (4). Null: unknown, counts as dark and opaque; the result is
+// then that of a world that ends there.
 using LocalLightNeighborhood = std::array<const LocalLight*, kFieldChunks>;
 
 ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch);

@@ -1,5 +1,5 @@
-// The working area of the solver: 3×3 chunks of bricks with darkness around them, and the rows that are to be
-// looked at. Part of LightScratch (light_chunk.h); one thread at a time.
+// Working area of the solver: 3×3 chunks of bricks surrounded by darkness, and the rows that are to be
+// processed. Part of LightScratch (light_chunk.h); one thread at a time.
 #pragma once
 
 #include <array>
@@ -15,17 +15,17 @@ constexpr int kCenterChunk = 4;  // index of a chunk: x + 3 y
 constexpr int kFieldChunks = kFieldSide * kFieldSide;
 constexpr int kRowsPerBrick = 256;  // index of a row: y + 16 z
 
-// A brick of the field. Bricks outside are dark and opaque, so that nothing needs to ask where it is.
+// A brick of the field. Bricks outside are dark and opaque, so that no code needs to test for them.
 struct FieldBrick {
     BrickView light;
     const LightValue* opacity = nullptr;
-    // Levels that do not exceed this (16 × 16, the same for all z) are of no interest and may be dropped.
+    // Levels up to this (16 × 16, the same for all z) cannot reach the middle chunk and may be dropped.
     const LightValue* reach = nullptr;
     // In the decrease queue (relight.cpp) `light` holds the levels to remove. These are the light before the
     // change, and the sources of the changed world.
     const LightValue* before = nullptr;
     const LightValue* source = nullptr;
-    std::array<std::uint64_t, kRowsPerBrick / 64> dirty{};  // rows to look at, a bit each
+    std::array<std::uint64_t, kRowsPerBrick / 64> dirty{};  // rows to process, a bit each
     bool isInside = false;
     bool isQueued = false;
 };
@@ -36,7 +36,7 @@ class LightField {
     static constexpr int kStepX = 1, kStepY = kFieldSide + 2, kStepZ = kStepY * kStepY;
 
     LightField() { reset(); }
-    void reset();  // all outside, nothing to look at
+    void reset();  // all bricks outside, no marked rows
 
     // Chunk 0…8, brick 0…15 from below.
     static int indexOf(int chunk, int brick) {
@@ -52,15 +52,15 @@ class LightField {
         enqueue(index);
     }
     void markAll(int index);
-    // The rows of the lowest (z = 0) or highest (z = 15) layer.
+    // Marks the rows of the lowest (z = 0) or highest (z = 15) layer.
     void markLayer(int index, int z);
-    // The rows of a voxel and its six neighbors.
+    // Marks the rows of a voxel and its six neighbors.
     void markAround(int index, int voxel);
 
-    // The brick's values to write to: a copy where somebody else keeps them.
+    // Returns the brick's values for writing; copies them first if they are owned elsewhere.
     LightValue* writable(FieldBrick& brick);
 
-    // The next brick with rows to look at, or -1. Its rows stay marked.
+    // Returns the next brick with marked rows, or -1. Its rows stay marked.
     int takeDirty();
 
     BrickPool& pool() { return pool_; }

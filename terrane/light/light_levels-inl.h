@@ -53,7 +53,7 @@ HWY_INLINE bool isSame(const LightLevels& p, const LightLevels& q) {
     return hn::AllTrue(kBytes, hn::Eq(any, hn::Zero(kBytes)));
 }
 
-// 1 + opacity. An odd one of 15 saturates at 255, which darkens 240 as 256 would.
+// 1 + opacity. In the high four bits 15 saturates at 255, which darkens 240 as 256 would.
 HWY_INLINE LightLevels lossOf(const LightValue* opacity) {
     const LightLevels one = {halfOfOnes(), halfOfOnes()};
     return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);

@@ -13,7 +13,7 @@ std::span<LightValue, world::kBlocksPerSection> valuesOf(Brick& brick) {
     return brick.values;
 }
 
-// The value that a property of blocks has all over the section, and where it has several, a brick of them.
+// A property of all blocks of a section: a uniform brick if it has one value, else a brick of values.
 template <class Property>
 BrickView brickOf(const Section& section, BrickPool& pool, Property property) {
     if (section.isUniform()) return pool.uniform(property(section.uniformValue()));
@@ -37,7 +37,7 @@ bool areAll(const DaylightColumns& columns, LightValue value) {
     return std::all_of(columns.begin(), columns.end(), [&](LightValue v) { return v == value; });
 }
 
-// Emission of the section and the daylight that comes down to it.
+// Emission of the section and the daylight that reaches it straight from above.
 BrickView sourcesOf(BrickView emission, BrickView opacity, DaylightColumns& columns, BrickPool& pool) {
     if (areAll(columns, kDark)) return emission;
     const bool isClear = opacity.isUniform && opacity.uniformValue() == allComponents(0);

@@ -1,5 +1,5 @@
-// What of a chunk's light its own blocks tell without spreading: opacities, emission and the daylight of its
-// columns. Part of LocalLight (light_chunk.h); any thread.
+// Light sources of a chunk from its own blocks, before light spreads: opacities, emission and the daylight of
+// its columns. Part of LocalLight (light_chunk.h); any thread.
 #pragma once
 
 #include <array>
@@ -12,12 +12,12 @@
 
 namespace terrane::light {
 
-// Sixteen bricks of a chunk; who keeps their values is told where one is made.
+// Sixteen bricks of a chunk. The function that fills it states who owns the values.
 struct ChunkBricks {
     std::array<BrickView, world::kSectionsPerChunk> light, opacity;
 };
 
-// Bricks from number `lowest` on; those below stay empty. The pool keeps what is not shared.
+// Fills bricks from number `lowest` on; those below stay empty. The pool owns the bricks that are not shared.
 ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool, int lowest = 0);
 
 }  // namespace terrane::light

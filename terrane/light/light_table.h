@@ -1,4 +1,4 @@
-// What light needs to know of block types, by id. Made once a session, immutable, shared by all threads.
+// Opacity and emission of block types, by id. Made once a session, immutable, shared by all threads.
 #pragma once
 
 #include <vector>

@@ -12,8 +12,7 @@
 namespace terrane::light {
 namespace {
 
-// The bricks that the changes can reach: of all chunks from firstX, firstY to lastX, lastY (0…2) the bricks
-// from lowest to highest.
+// The bricks that the changes can reach: in chunks firstX…lastX, firstY…lastY (0…2), bricks lowest…highest.
 struct Range {
     int firstX = 1, lastX = 1, firstY = 1, lastY = 1, lowest = world::kSectionsPerChunk, highest = -1;
 };
@@ -32,7 +31,7 @@ Range rangeOf(std::span<const SourceChange> changes) {
     return range;
 }
 
-// Calls f(chunk, brick) for what is in range and known.
+// Calls f(chunk, brick) for bricks in range whose chunk and light are known.
 template <class Function>
 void forEachBrick(const LightWindow& window, const Range& range, Function f) {
     for (int cy = range.firstY; cy <= range.lastY; ++cy) {
@@ -45,7 +44,7 @@ void forEachBrick(const LightWindow& window, const Range& range, Function f) {
     }
 }
 
-// `decreaseQueue` gets the old light, the new sources and no decreases yet.
+// Fills `decreaseQueue` with the old light and the new sources, without decreases.
 void load(const LightWindow& window, const Range& range, const LightTable& table, LightField& decreaseQueue) {
     std::array<ChunkBricks, kFieldChunks> sources;
     forEachBrick(window, range, [&](int chunk, int number) {
@@ -60,7 +59,7 @@ void load(const LightWindow& window, const Range& range, const LightTable& table
     });
 }
 
-// Levels that lost their source, or stand where less light passes now.
+// Levels of a changed voxel to remove: those that lost their source, or where the block became more opaque.
 LightValue decreasedLevels(const SourceChange& change, LightValue before) {
     LightValue decreased = 0;
     for (int c = 0; c < kComponentCount; ++c) {
@@ -94,7 +93,7 @@ void markRows(const LightValue* decreased, int index, LightField& field) {
     }
 }
 
-// The light that stays: the old one without the decreased levels, with the new sources.
+// Fills `field` with the light that stays: the old light without the decreased levels, with the new sources.
 void keepCertain(const LightWindow& window, const Range& range, LightField& decreaseQueue,
                  LightField& field) {
     forEachBrick(window, range, [&](int chunk, int number) {
@@ -123,7 +122,7 @@ void raiseSources(std::span<const SourceChange> changes, LightField& field) {
             field.writable(brick)[voxel] = light;
             field.markAround(index, voxel);
         } else if (change.isBlock) {
-            field.markRow(index, voxel >> 4);  // more may come in than before
+            field.markRow(index, voxel >> 4);  // more light may enter than before
         }
     }
     raiseLight(field);

@@ -1,5 +1,5 @@
-// Light after blocks have changed: only what changes is computed again. The result is, to the bit, that of a
-// world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
+// Updates light after blocks have changed: only what changes is computed again. The result is, to the bit,
+// that of a world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
 #pragma once
 
 #include <array>
@@ -14,14 +14,14 @@
 
 namespace terrane::light {
 
-// A block of the chunk in the middle that was another one before. The chunk holds the new one.
+// A changed block of the middle chunk. The chunk has the new block.
 struct BlockChange {
     world::BlockIndex index = 0;
     world::BlockId before = world::kAir;
 };
 
-// 3×3 chunks, index x + 3 y. Where either is null nothing is known: that chunk counts as dark and opaque, and
-// light from or through it is lost.
+// 3×3 chunks, index x + 3 y. A chunk where either is null is unknown: it counts as dark and opaque, and light
+// from or through it is lost.
 struct LightWindow {
     std::array<const world::Chunk*, kFieldChunks> chunks{};  // with the changes
     std::array<ChunkLightPtr, kFieldChunks> lights{};        // without them
@@ -31,11 +31,11 @@ struct LightWindow {
 using ChangedBricks = std::array<std::uint16_t, kFieldChunks>;
 
 // Replaces the lights that change by new ones, which share nothing with the old. A block that changed several
-// times stands in `changes` once, with the id it had at first.
+// times is listed in `changes` once, with its first id.
 ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
                       LightScratch& scratch);
 
-// The same for changes anywhere, in one go.
+// The same for changes in any chunks, at once.
 
 struct LitChunk {
     world::ChunkPtr chunk;
@@ -48,8 +48,8 @@ struct LightChange {
     std::uint16_t bricks = 0;  // a bit each
 };
 
-// `chunks` hold the new blocks of all edits; their lights are brought up to date. Edits in chunks that are
-// not there, or have no light, are left out. Returns each changed chunk once, sorted by position.
+// Brings the lights of `chunks`, which have the new blocks of all edits, up to date. Edits in chunks that are
+// missing or have no light are ignored. Returns each changed chunk once, sorted by position.
 std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits,
                                  const LightTable& table, LightScratch& scratch);
 

@@ -1,4 +1,4 @@
-// How the sources of light in a chunk change with its blocks. Inside the module; any thread.
+// Finds how the light sources of a chunk change with its blocks. Inside the module; any thread.
 #pragma once
 
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace terrane::light {
 
-// A voxel whose opacity or source differs. Daylight of a source is what comes straight down.
+// A voxel whose opacity or source differs. A source includes the daylight that comes straight down.
 struct SourceChange {
     world::BlockIndex index = 0;
     LightValue sourceBefore = 0, sourceAfter = 0;
@@ -17,7 +17,7 @@ struct SourceChange {
     bool isBlock = false;     // its block changed; false: only daylight from above did
 };
 
-// The changed blocks and every voxel below them whose daylight from above differs.
+// Returns the changed blocks and every voxel below them whose daylight from above differs.
 std::vector<SourceChange> findSourceChanges(const world::Chunk& chunk, std::span<const BlockChange> changes,
                                             const LightTable& table);
 

@@ -1,5 +1,5 @@
-// The light tiles of the first round: those that are not even, or that a neighbor's sources could raise. Left out are the open
-// sky, the dark and what lets no light in.
+// Lists the light tiles of the first round: tiles of more than one value, and tiles that the sources of a neighbor
+// could raise. Open sky, darkness and opaque tiles are left out.
 #include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/work_list.glsl"
 

@@ -1,4 +1,4 @@
-// Light of whole areas in compute shaders: GpuBatchLighter behind the interface that both back ends have for
+// Lights whole areas in compute shaders: GpuBatchLighter behind the interface that both back ends have for
 // files, tests and benchmarks. Used on the context's thread.
 #pragma once
 
@@ -13,7 +13,7 @@ class GpuLightSolver : public light::AreaSolver {
     static base::Result<GpuLightSolver> create(const gpu::ShaderLoader& shaders,
                                                const light::LightTable& table);
 
-    // Any size, in parts of 16×16 chunks, one batch each. Waits for the GPU.
+    // Takes areas of any size, in parts of 16×16 chunks, one batch each. Waits for the GPU.
     std::vector<light::ChunkLight> solve(const light::LightArea& area) override;
     std::string_view backend() const override { return "gpu"; }
 

@@ -15,10 +15,10 @@ ChunkPos neighborOf(ChunkPos pos, int n) {
     return world::offsetBy(pos, n % light::kFieldSide - 1, n / light::kFieldSide - 1);
 }
 
-// What the requests of a batch know of the world.
+// The chunks that the requests of a batch name.
 class KnownChunks {
   public:
-    // False where it does not go with the requests before it, or there is no room. Then nothing changes.
+    // False if the request conflicts with those before it, or there is no room. Then nothing changes.
     bool add(const LightRequest& request) {
         if (requested_ == kMaxRequests) return false;
         std::size_t fresh = 0;
@@ -38,7 +38,7 @@ class KnownChunks {
         insert(request);
         return true;
     }
-    const std::vector<ChunkPos>& order() const { return order_; }  // without those that are not there
+    const std::vector<ChunkPos>& order() const { return order_; }  // of the chunks that exist
     bool isRequested(ChunkPos pos) const { return chunks_.at(pos).isRequested; }
     const ChunkPtr& chunk(ChunkPos pos) const { return chunks_.at(pos).chunk; }
 

@@ -1,5 +1,5 @@
-// Which chunks are solved together, each once, and which of them lie beside each other. Pure bookkeeping
-// without OpenGL. Used by gpu_batch_lighter.cpp.
+// Lists the chunks that are solved together, each once, and their neighbors. Pure bookkeeping without OpenGL.
+// Used by gpu_batch_lighter.cpp.
 #pragma once
 
 #include <span>
@@ -16,12 +16,12 @@ constexpr std::size_t kMaxSolved = 18 * 18;
 
 struct LightBatch {
     std::vector<world::ChunkPos> requested;
-    std::vector<world::ChunkPtr> chunks;  // those that are requested, in their order, then their neighbors
-    std::vector<shared::uvec4> beside;    // by chunk: the numbers of those at −x, +x, −y, +y, or kNoChunk
+    std::vector<world::ChunkPtr> chunks;  // the requested ones, in order, then their neighbors
+    std::vector<shared::uvec4> beside;  // by chunk: numbers of its neighbors at −x, +x, −y, +y, or kNoChunk
 };
 
-// As many requests from the front as fit, at least one. A batch has one snapshot of a chunk, so it ends
-// before a request that knows another one than the requests before it, or that asks for the same chunk again.
+// Takes as many requests from the front as fit, at least one. A batch has one snapshot of a chunk, so it ends
+// before a request that has another one, or that asks for the same chunk again.
 LightBatch gatherBatch(std::span<const light::LightRequest> requests);
 
 }  // namespace terrane::light_gpu

@@ -1,4 +1,4 @@
-// The chunks that are solved: their blocks and their levels in light tiles of 8³.
+// The solved chunks: their blocks, and their light levels in light tiles of 8³.
 #include "terrane/shared/light_solver.h"
 #include "terrane/shared/packed_light_levels.h"
 #include "terrane/shared/packed_section.glsl"
@@ -18,7 +18,7 @@ uint tileIndex(uint chunk, uvec3 place) {
     return chunk * kLightTilesPerChunk + place.x + 2u * place.y + 4u * place.z;
 }
 
-// Of its chunk, in blocks.
+// Corner of a light tile in its chunk, in blocks.
 uvec3 cellCorner(uint tile) {
     return kLightTileSize * uvec3(tile & 1u, tile >> 1 & 1u, tile >> 2 & (kLightTilesHigh - 1u));
 }
@@ -27,7 +27,7 @@ uint wordIndex(uint tile, uvec3 word) {
     return tile * kLightTileWords + word.x + kLightTileWordsX * (word.y + kLightTileSize * word.z);
 }
 
-// Opacity and emission of a block; x and y in the chunk, which has sixteen sections..
+// Opacity and emission of a block; x and y in the chunk, which has sixteen sections.
 uint propertyAt(uint chunk, uvec3 block) {
     PackedSection section = sections[chunk * kSectionsPerChunk + block.z / kSectionSize];
     return packedValue(section, block.x + kChunkSize * block.y + kBlocksPerLayer * (block.z % kSectionSize));

@@ -31,11 +31,11 @@ struct SolverState {
     shared::uint brickCount;
 };
 
-// Before the first of the rounds that are given at once.
-std::vector<SolverState> stateWith(shared::uint cellsListed) {
+// State before the rounds that are submitted at once.
+std::vector<SolverState> stateWith(shared::uint tilesListed) {
     SolverState state{};
     for (shared::SolverRound& round : state.rounds) round = {0, 1, 1, 0};
-    state.rounds[0].groupsX = cellsListed;
+    state.rounds[0].groupsX = tilesListed;
     return {state};
 }
 
@@ -66,7 +66,7 @@ void LightWorkspace::makeRoom() {
     const std::size_t chunks = roundedUp(chunkCount_), tiles = chunks * shared::kLightTilesPerChunk;
     if (levels_.sizeBytes() < chunks * kLightLevelBytes) {
         levels_ = gpu::Buffer(chunks * kLightLevelBytes, 0, "light levels");
-        cells_ = gpu::Buffer(tiles * kWordBytes, 0, "light tiles");
+        tiles_ = gpu::Buffer(tiles * kWordBytes, 0, "light tiles");
         lists_ = gpu::Buffer(3 * tiles * kWordBytes, 0, "light work lists");
     }
     const auto results = static_cast<shared::uint>(roundedUp(requested_.size()));
@@ -81,7 +81,7 @@ void LightWorkspace::bind() const {
     sections_.bindStorage(shared::kPackedSectionsBinding);
     data_.bindStorage(shared::kPackedDataBinding);
     levels_.bindStorage(shared::kSolverLightLevelsBinding);
-    cells_.bindStorage(shared::kSolverTilesBinding);
+    tiles_.bindStorage(shared::kSolverTilesBinding);
     lists_.bindStorage(shared::kSolverListsBinding);
     state_.bindStorage(shared::kSolverStateBinding);
     neighbors_.bindStorage(shared::kSolverNeighborsBinding);
@@ -89,7 +89,7 @@ void LightWorkspace::bind() const {
     glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, state_.id());
 }
 
-// Emission, daylight down the columns, and which light tiles the first round looks at.
+// Sets emission and the daylight of columns, and lists the light tiles of the first round.
 void LightWorkspace::setSources(const LightPrograms& programs) {
     const auto chunks = static_cast<GLuint>(chunkCount_);
     programs.sources.use();
@@ -102,7 +102,7 @@ void LightWorkspace::setSources(const LightPrograms& programs) {
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
 }
 
-// Rounds whose list is empty cost a command each, and packing where they were not enough costs little more.
+// A round with an empty list costs one command. Packing is cheap if more rounds are needed.
 void LightWorkspace::spreadAndPack(const LightPrograms& programs) {
     const auto chunks = static_cast<GLuint>(chunkCount_);
     programs.spread.use();
@@ -139,11 +139,11 @@ bool LightWorkspace::isFinished(const LightPrograms& programs, bool wait) {
     for (;;) {
         if (wait) fence_.wait();
         if (!fence_.passed()) return false;
-        const shared::uint cellsLeft = resultWord(0);
-        if (cellsLeft == 0) return true;
+        const shared::uint tilesLeft = resultWord(0);
+        if (tilesLeft == 0) return true;
         const gpu::DebugGroup group("light again");
         bind();
-        state_.uploadVector(0, stateWith(cellsLeft));
+        state_.uploadVector(0, stateWith(tilesLeft));
         spreadAndPack(programs);
     }
 }

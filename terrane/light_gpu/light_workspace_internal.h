@@ -1,4 +1,4 @@
-// The memory of one batch on the GPU, and the commands that light it. docs/light.md tells how. Used by
+// GPU memory of one batch, and the commands that light it. docs/light.md has the algorithm. Used by
 // gpu_batch_lighter.cpp on the context's thread.
 #pragma once
 
@@ -24,12 +24,12 @@ struct LightPrograms {
 class LightWorkspace {
   public:
     bool isFree() const { return requested_.empty(); }
-    // Gives the GPU all that most batches need; nothing waits. The chunks are uploaded.
+    // Uploads the chunks and submits as many rounds as most batches need, without waiting.
     void start(const LightPrograms& programs, const LightBatch& batch, const light::LightTable& table);
-    // Whether the result is there (with `wait`: once it is). Where light still spreads the GPU gets more
-    // rounds.
+    // Whether the result is available (with `wait`: once it is). Submits more rounds while light still
+    // spreads.
     bool isFinished(const LightPrograms& programs, bool wait);
-    // The result in the order of the batch's requests; the workspace is free again.
+    // Returns the results in the order of the batch's requests; the workspace is free again.
     std::vector<light::LightResult> takeResult();
 
   private:
@@ -42,11 +42,11 @@ class LightWorkspace {
     light::LightBrick brickAt(std::size_t entry) const;
 
     std::vector<world::ChunkPos> requested_;  // empty: no batch
-    std::size_t chunkCount_ = 0;              // that are solved
+    std::size_t chunkCount_ = 0;              // solved
     shared::uint roundsDone_ = 0;
     world::PackedSections input_;
     gpu::Buffer sections_, data_, neighbors_;  // of the batch
-    gpu::Buffer levels_, cells_, lists_;       // grow to the largest batch
+    gpu::Buffer levels_, tiles_, lists_;       // grow to the largest batch
     gpu::Buffer state_;
     gpu::ReadbackBuffer result_;  // grows too
     gpu::Fence fence_;

@@ -1,12 +1,13 @@
-// The result: bricks of 16³ in the order of a section's blocks, without those of one value. A work group is a brick of one
-// of the first chunks. Nothing is written but their number while light tiles are left that could change.
+// Packs the result: bricks of 16³ in the order of a section's blocks; bricks of one value have an entry only. A work
+// group packs one brick of one of the first chunks. While light tiles are left that could change, only their number is
+// written.
 #include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/solver_state.glsl"
 
 layout(local_size_x = 256) in;
 
 layout(std430, binding = kSolverResultBinding) writeonly buffer Result {
-    uint result[];  // as resultEntry and resultWords say
+    uint result[];  // layout: resultEntry(), resultWords()
 };
 
 shared uint allLight, anyLight, brick;

@@ -12,7 +12,7 @@ shared::uint propertyOf(world::BlockId id, const light::LightTable& table) {
            static_cast<shared::uint>(light::levelOf(table.opacity(id), light::kRed));
 }
 
-// 16 bits a block hold a property too.
+// Converts a dense section; 16 bits a block hold a property too.
 world::Section densePropertiesOf(const world::Section& section, const light::LightTable& table) {
     constexpr int kValuesPerWord = 4;
     std::vector<std::uint64_t> words(world::kBlocksPerSection / kValuesPerWord);

@@ -8,7 +8,7 @@
 
 namespace terrane::light_gpu {
 
-// Sixteen sections, the lowest first.
+// Appends the sixteen sections of a chunk, the lowest first.
 void appendChunk(world::PackedSections& packed, const world::Chunk& chunk, const light::LightTable& table);
 
 }  // namespace terrane::light_gpu

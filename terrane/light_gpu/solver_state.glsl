@@ -1,5 +1,5 @@
-// How far the rounds are: the host's SolverState (light_workspace.cpp).
+// Progress of the rounds: SolverState in light_workspace.cpp.
 layout(std430, binding = kSolverStateBinding) buffer State {
-    SolverRound rounds[kSolverRounds + 1u];  // the last is the first one of the rounds that are given next
+    SolverRound rounds[kSolverRounds + 1u];  // the last one is the first of the next submission
     uint brickCount;                         // in the result
 };

@@ -1,14 +1,14 @@
-// First levels: emission, and daylight that comes down each column. A work group is a chunk, an invocation the two
-// columns of a word.
+// Sets the first levels: emission, and daylight that comes down each column. A work group has a chunk, an invocation
+// the two columns of a word.
 #include "terrane/light_gpu/light_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = kChunkSize) in;
 
 layout(std430, binding = kSolverTilesBinding) writeonly buffer Tiles {
-    uint tiles[];  // what kTileIs… says
+    uint tiles[];  // summaries: see kTileIsUniform
 };
 
-// Of the four light tiles of a layer of light tiles, for two layers in turn.
+// Summaries of the four light tiles of a layer, for two layers in turn.
 shared uint allLight[2][4], anyLight[2][4], allOpacity[2][4];
 
 uint daylight[2];  // of the invocation's columns
@@ -56,7 +56,7 @@ void main() {
         atomicOr(anyLight[turn][quarter], any);
         atomicAnd(allOpacity[turn][quarter], opacities);
         barrier();
-        // The other layers' results are used until the next barrier: there is time to take and reset these.
+        // The results of the other layers are used until the next barrier, so these can be read and reset.
         if (local < 4u) {
             tiles[tileIndex(chunk, uvec3(local & 1u, local >> 1, layer))] = summary(turn, local);
             resetTile(turn, local);

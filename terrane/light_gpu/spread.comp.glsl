@@ -1,12 +1,13 @@
-// A round: each light tile of the list is raised, with the levels around it as they are, until it is stable. Neighbors that it
-// could raise then go to the next round's list. Levels only grow and each is some neighbor's less the loss, so that neither
-// the order of work groups nor neighbors read before or after they changed matter: who changed late puts its neighbor down.
+// One round: raises each light tile of the list, with the levels around it as they are, until it is stable. Neighbors
+// that it could raise are added to the next round's list. Levels only grow, and each is that of a neighbor less the
+// loss. So neither the order of work groups nor reading a neighbor before or after its change matters: a tile that
+// changes late lists its neighbors.
 #include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/work_list.glsl"
 
 layout(local_size_x = 256) in;
 
-layout(location = 1) uniform uint thisRound;  // counted on over all that the host gives at once
+layout(location = 1) uniform uint thisRound;  // counted over all submissions
 
 // The tile with a halo of one word: x fastest, 6 × 10 × 10 words.
 const uint kHaloRow = 6u, kHaloLayer = 60u, kHaloWords = 600u;
@@ -18,7 +19,7 @@ shared uint raisedSides;
 uint wordAround(uint tile, uint place) {
     ivec3 word = ivec3(place % kHaloRow, place / kHaloRow % 10u, place / kHaloLayer) - 1;
     ivec3 away = ivec3(word.x >> 2, word.y >> 3, word.z >> 3), axes = abs(away);
-    if (axes.x + axes.y + axes.z > 1) return 0u;  // nobody looks at edges and corners
+    if (axes.x + axes.y + axes.z > 1) return 0u;  // edges and corners are not read
     uint from = tile;
     if (axes != ivec3(0)) {
         uint side = uint(2 * axes.y + 4 * axes.z) + (away.x + away.y + away.z > 0 ? 1u : 0u);
@@ -43,7 +44,7 @@ uint raised(uint now, uint at, uint loss) {
     return maxLevels(now, lessLevels(brightest, loss));
 }
 
-// Bit k: side k of the light tile has this word, and it could raise the one beyond.
+// Bit k: the word is on side k of the light tile, and could raise the word beyond.
 uint sidesRaised(uint now, uint at, uvec3 word) {
     uint sides = 0u;
     if (word.x == 0u && couldRaise(now & 0xFFFFu, tileWithHalo[at - 1u] >> 16)) sides |= 1u;
@@ -85,8 +86,7 @@ void main() {
         if (changed[turn] == 0u) break;
     }
 
-    // In the first round sources count as changes, which nobody has put neighbors down for yet; those that they could
-    // raise are in the list already.
+    // In the first round the neighbors that sources could raise are listed already.
     if (now != first) {
         levels[wordIndex(tile, word)] = now;
         atomicOr(raisedSides, sidesRaised(now, at, word));

@@ -1,20 +1,20 @@
-// Light tiles that may change in a round, and which light tiles lie beside each other. Two lists take turns; a round's dispatch
-// has a work group for each entry.
+// Work lists of light tiles that may change in a round, and the neighbors of light tiles. Two lists take turns; the
+// dispatch of a round has a work group for each entry.
 #include "terrane/light_gpu/solver_state.glsl"
 
 layout(std430, binding = kSolverTilesBinding) readonly buffer Tiles {
-    uint tiles[];  // what kTileIs… says
+    uint tiles[];  // summaries: see kTileIsUniform
 };
 layout(std430, binding = kSolverListsBinding) buffer Lists {
-    uint lists[];  // two lists of light tiles, then for each light tile the last round that it was put down for
+    uint lists[];  // two lists of light tiles, then the last round that each light tile was listed for
 };
 layout(std430, binding = kSolverNeighborsBinding) readonly buffer Neighbors {
-    uvec4 neighbors[];  // by chunk: those at −x, +x, −y, +y, or kNoChunk
+    uvec4 neighbors[];  // by chunk: neighbors at −x, +x, −y, +y, or kNoChunk
 };
 
 const uint kNoCell = 0xFFFFFFFFu;
 
-// The light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoCell where nothing is known.
+// Light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoCell if unknown.
 uint cellBeside(uint tile, uint side) {
     bool isUp = (side & 1u) != 0u;
     if (side >= 4u) {
@@ -36,7 +36,7 @@ void addToList(uint list, uint tile) {
     lists[(list & 1u) * tileCount() + atomicAdd(rounds[list].groupsX, 1u)] = tile;
 }
 
-// Whether light of `from` could raise that of `to`, a block of the least opacity beside it.
+// Whether the light `from` could raise the light `to` of an adjacent block with opacity 0.
 bool couldRaise(uint from, uint to) {
     return maxLevels(lessLevels(from, 0x01010101u), to) != to;
 }

@@ -1,5 +1,5 @@
-// Meshes of many chunks, by whichever back end: the CPU here, compute shaders in terrane/mesh_gpu. They
-// give the same quads and ranges; the order of quads within a range is each back end's own.
+// Meshes many chunks. Back ends: the CPU here, compute shaders in terrane/mesh_gpu. They give the same quads
+// and ranges; the order of quads within a range differs between back ends.
 #pragma once
 
 #include <memory>
@@ -15,12 +15,12 @@ class BatchMesher {
   public:
     virtual ~BatchMesher() = default;
 
-    // In the order of `chunks`, which have the same registry and options.
+    // Returns meshes in the order of `chunks`, which have the same registry and options.
     virtual std::vector<ChunkMesh> mesh(std::span<const MeshInput> chunks) = 0;
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
 };
 
-// One thread, any.
+// Used on one thread, any.
 std::unique_ptr<BatchMesher> makeCpuMesher();
 
 }  // namespace terrane::mesh

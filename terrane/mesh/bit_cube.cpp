@@ -21,8 +21,8 @@ Word swapBits(Word w, int shift, Word mask) {
     return w ^ t ^ (t << shift);
 }
 
-// Halving: blocks of 8×8 bits change places across the diagonal, then 4×4, 2×2, 1×1. Rows 8 and 4 apart are
-// in different words, rows 2 and 1 apart are 32 and 16 bits apart in the same word.
+// Transposes by halving: blocks of 8×8 bits are swapped across the diagonal, then 4×4, 2×2, 1×1. Rows 8 and 4
+// apart are in different words, rows 2 and 1 apart are 32 and 16 bits apart in the same word.
 void transposeLayer(const Word* in, Word* out) {
     Word w0 = in[0], w1 = in[1], w2 = in[2], w3 = in[3];
     swapColumns(w0, w2, 8, 0x00FF00FF00FF00FF);

@@ -1,4 +1,4 @@
-// Sets of blocks of a section as bits, so that one machine instruction decides about 64 blocks. Used by the
+// Sets of blocks of a section as bits, so that one machine instruction handles 64 blocks. Used by the
 // mesher's stages; pure functions, any thread.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace terrane::mesh {
 
 // 16³ bits in 16 layers of 16 rows of 16: row r of layer l is bits 16·(r mod 4)…+15 of word 4·l + r/4. Layers
 // run along z. Rows along x: row is y, bit is x, as blocks lie in a section. Rows along y: row is x, bit is
-// y; what concerns the sides -x and +x is done in this order, because then the same code serves x and y.
+// y; used for the sides -x and +x, so that the same code serves x and y.
 using BitCube = std::array<std::uint64_t, 64>;
 
 // A layer of 16×16 blocks, as 16 rows. Across x: row is z, bit is y. Across y: row is z, bit is x. Across z:
@@ -44,7 +44,7 @@ inline std::uint16_t cubeRow(const BitCube& cube, std::size_t layer, std::size_t
     return static_cast<std::uint16_t>(cube[4 * layer + row / 4] >> (16 * (row % 4)));
 }
 
-// The layers inside `range` from the first to the last that has bits in both.
+// The layers of `range` from the first to the last that has bits in both.
 LayerRange commonLayers(const BitCube& a, const BitCube& b, LayerRange range);
 
 inline BitCube both(const BitCube& a, const BitCube& b, LayerRange range) {
@@ -59,7 +59,7 @@ inline BitCube without(const BitCube& a, const BitCube& b, LayerRange range) {
     return out;
 }
 
-// Of the blocks in `layers` those of which `is` says so, by their index in the section.
+// The blocks in `layers` for which `is` returns true, called with their index in the section.
 template <class Is>
 BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
     BitCube out;
@@ -76,9 +76,9 @@ BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
 // Exchanges bits and rows of each layer: from rows along x to rows along y and back.
 BitCube transposed(const BitCube& cube, LayerRange range = {});
 
-// For each block the bit of its neighbor on a side. For the sides of x the cube has rows along y, else rows
-// along x. `border` is the layer of blocks beyond that side of the section. Across z also the layers next to
-// the range are read.
+// Returns for each block the bit of its neighbor on a side. The cube has rows along y for the sides of x,
+// else rows along x. `border` is the layer of blocks beyond that side of the section. For sides of z the
+// layers next to the range are read too.
 BitCube neighborBits(const BitCube& cube, world::Face side, const BitSlice& border, LayerRange range = {});
 
 }  // namespace terrane::mesh

@@ -4,8 +4,8 @@
 #include <cassert>
 #include <utility>
 
-// The vectors of 16 bytes need SSSE3 at least, which every x86 with OpenGL 4.5 beside it has: Highway's
-// fallback without vectors is left out.
+// Vectors of 16 bytes need SSSE3, which every x86 with a driver for OpenGL 4.5 has. So Highway's fallback
+// without vectors is not compiled.
 #if defined(__x86_64__)
 #define HWY_BASELINE_TARGETS HWY_SSSE3
 #endif
@@ -21,8 +21,8 @@ namespace terrane::mesh {
 
 using Word = std::uint64_t;
 
-// A step of sorting bits into planes: the bits whose number in the word has bit `high` clear and bit `low`
-// set change places with those that have `high` set and `low` clear.
+// A step of sorting bits into planes: swaps the bits whose number in the word has bit `high` clear and bit
+// `low` set with those that have `high` set and `low` clear.
 struct Exchange {
     int shift;
     Word mask;  // the first kind
@@ -59,7 +59,7 @@ constexpr Rotation rotation(int log2) {
     return result;
 }
 
-// Bits of a word whose number has a digit clear.
+// Bits of a word whose number has this digit clear.
 constexpr Word clearDigit(int digit) {
     Word mask = 0;
     for (int i = 0; i < 64; ++i) mask |= ((i >> digit) & 1) == 0 ? Word{1} << i : 0;

@@ -1,5 +1,5 @@
-// Work on many words of bits at once, in SIMD through Highway, for the best instruction set of the machine.
-// Used by the mesher's stages; pure functions, any thread.
+// Kernels on many words of bits, in SIMD through Highway, for the best instruction set of the machine. Used
+// by the mesher's stages; pure functions, any thread.
 #pragma once
 
 #include <cstddef>
@@ -19,10 +19,10 @@ struct BitPlanes {
 // packed: groups · bits words as in world::Section, bits is 0, 1, 2, 4, 8 or 16. planes: as many words.
 void sortIntoPlanes(const std::uint64_t* packed, std::size_t bits, std::size_t groups, std::uint64_t* planes);
 
-// Which blocks have an index: one word a group.
+// Finds the blocks that have an index: one word a group.
 void blocksOfIndex(const BitPlanes& planes, std::size_t index, std::uint64_t* out);
 
-// For each layer of the range which of its rows have bits.
+// Finds the rows that have bits, for each layer of the range.
 void usedRows(const BitCube& cube, LayerRange range, BitSlice& used);
 
 }  // namespace terrane::mesh

@@ -1,4 +1,4 @@
-// What the mesher makes of a chunk: its quads, sorted for drawing. A plain value; handed to the renderer.
+// The mesh of a chunk: its quads, sorted for drawing. A plain value; passed from the mesher to the renderer.
 #pragma once
 
 #include <array>

@@ -15,22 +15,22 @@ namespace terrane::mesh {
 
 struct MeshInput {
     const world::Chunk* center = nullptr;
-    // -x, +x, -y, +y. Null: unknown, the border is open. Faces of opaque cubes on it are drawn, down to the
-    // bottom of the world, so that no gap shows beside land of another height; faces that meet their own kind
-    // (water) are not.
+    // -x, +x, -y, +y. Null: unknown, the border is open. Faces of opaque cubes on an open border are drawn,
+    // down to the bottom of the world, so that no gap shows beside land of another height; faces that a block
+    // of the same type would hide (water) are not.
     std::array<const world::Chunk*, 4> neighbors{};
     const world::BlockRegistry* blocks = nullptr;
     MeshOptions options;
 };
 
-// The chunks that one is meshed from: its own, then those at -x, +x, -y, +y. Null beyond the world's edge,
+// The chunks that a mesh depends on: its own, then those at -x, +x, -y, +y. Null beyond the world's edge,
 // which counts as air.
 using MeshBlocks = std::array<world::ChunkPtr, 5>;
 
 // Points into `chunks`.
 MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks, const MeshOptions& options);
 
-// Memory that is kept from chunk to chunk; holds nothing between calls.
+// Memory reused from chunk to chunk; it has no state between calls.
 struct MeshScratch {
     QuadCollector buckets;
     std::vector<shared::Quad> quads;
@@ -39,13 +39,14 @@ struct MeshScratch {
 // Quads stay inside one section and mesh section, so they are at most 16 blocks wide and high.
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
-// Of a chunk with air all around.
+// Meshes a chunk surrounded by air.
 ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& blocks);
-// Of a chunk of which all four borders are open.
+// Meshes a chunk with four open borders.
 ChunkMesh meshTile(const world::Chunk& chunk, const world::BlockRegistry& blocks, const MeshOptions& options,
                    MeshScratch& scratch);
 
-// One mesh section of it, the lowest is 0: appends its quads to `quads`, in which its ranges count.
+// Meshes one mesh section of a chunk, 0 is the lowest, and appends its quads to `quads`. Its ranges are
+// indices into `quads`.
 MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
                              std::vector<shared::Quad>& quads);
 

@@ -1,5 +1,5 @@
-// How faces are sorted for drawing: by draw bucket (what a draw call needs) and by face direction. The mesher
-// sorts by it, the renderer draws by it. Pure functions; any thread.
+// Sorting of faces for drawing: by draw bucket (the needs of a draw call) and by face direction. Used by the
+// mesher and the renderer. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace terrane::mesh {
 
-// What the alpha channel demands of a draw call, then whether back faces are culled: two draw buckets an
-// alpha class.
+// Needs of the alpha channel in a draw call. Each alpha class has two draw buckets: with back faces culled,
+// and without.
 enum class AlphaClass : std::uint8_t { Opaque, Tested, Blended };
 
 constexpr int kDrawBucketCount = 6;
-// Directions 0–5: one-sided quads that look along an axis, in the order of world::Face. From behind none can
-// be seen.
+// Directions 0–5: one-sided quads that face along an axis, in the order of world::Face. They are invisible
+// from behind.
 constexpr int kAnyDirection = 6;  // two-sided or oblique quads: drawn wherever the camera is
 constexpr int kFaceDirectionCount = 7;
 

@@ -14,7 +14,7 @@ using shared::packQuad;
 using shared::Quad;
 using shared::uint;
 
-// Where coordinates lie in a quad's first word (shared/quad.h).
+// Shifts of the coordinates in a quad's first word (shared/quad.h).
 constexpr unsigned kShiftX = 0, kShiftY = 4, kShiftZ = 8;
 
 static_assert(std::endian::native == std::endian::little, "rows are read as parts of words in memory order");

@@ -1,4 +1,4 @@
-// Turns sets of visible faces of one section into merged quads in the right buckets. Used by
+// Turns sets of visible faces of one section into merged quads in their draw buckets. Used by
 // section_faces.cpp on the meshing worker's thread.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace terrane::mesh {
 
-// What the faces of one set have in common.
+// Properties shared by the faces of a set.
 struct FaceKind {
     shared::uint shapeFace;  // index into shapeFaces()
     std::uint16_t material;  // index into the materials
@@ -22,10 +22,10 @@ struct FaceKind {
     world::Face plane;
 };
 
-// Which faces of a section are written, and how.
+// The faces of a section to write, and how.
 struct FaceTarget {
     int baseZ = 0;      // height of the section's lowest layer
-    LayerRange layers;  // of the section; faces in other layers are passed over
+    LayerRange layers;  // of the section; faces in other layers are skipped
     MergeMethod method = MergeMethod::Greedy;
 };
 
@@ -34,8 +34,8 @@ class FaceWriter {
     FaceWriter(std::span<const world::Material> materials, const FaceTarget& target, QuadCollector& out)
         : materials_(materials), target_(target), merge_(mergeFunction(target.method)), out_(out) {}
 
-    // The faces in `layers`, which lie in the target's. `faces` has rows along y where kind.plane is -x or
-    // +x, else rows along x.
+    // Writes the faces in `layers`, which are within those of the target. `faces` has rows along y if
+    // kind.plane is -x or +x, else rows along x.
     void write(const BitCube& faces, const FaceKind& kind, LayerRange layers);
 
   private:
@@ -49,7 +49,7 @@ class FaceWriter {
     FaceTarget target_;
     MergeFunction merge_;
     QuadCollector& out_;
-    // Of the faces being written:
+    // State of the faces being written:
     QuadArray* bucket_ = nullptr;
     std::array<std::uint16_t, 256> rows_;  // row r of layer l is 16·l + r
     BitSlice used_;                        // rows of each layer that have bits

@@ -70,8 +70,8 @@ class FlowFaces {
             .isSameLiquid = true, .form = form, .isStillFull = form == 0 && isFull(*blocks, isInside, index)};
     }
 
-    // Of a still block in the section or beside it: whether its top is no surface. Where that lies in a chunk
-    // beside the one above it is not known: then it counts as surface.
+    // Whether the top of a still block, in the section or beside it, is not a surface. The block above is
+    // unknown at the top of a section in a neighboring chunk: the top counts as a surface then.
     bool isFull(const world::Section& blocks, bool isInside, std::size_t index) const {
         const bool isTop = index >= 256 * 15;
         if (isTop && !isInside) return false;
@@ -81,7 +81,7 @@ class FlowFaces {
         return above == liquid_.type.id || liquid_.view.blocks->type(above).opaqueCube;
     }
 
-    // By the numbers of shape_face.h.
+    // Heights as in shared/shape_face.h.
     uint heightOf(uint form, bool isStillFull) const {
         if (form == 0) return isStillFull ? kHeightOfFull : kHeightOfStill;
         return (form & world::kLiquidFalling) != 0 ? kHeightOfFull : kHeightOfStill - form;

@@ -20,19 +20,19 @@ Quad quadAt(const QuadPattern& pattern, uint bit, uint row, uint bits, uint rows
             pattern.first.word1};
 }
 
-// Of a value that is not 0; std::countr_zero asks whether it is.
+// Index of the lowest set bit; `value` is not 0. std::countr_zero would test for 0.
 uint lowestOne(uint value) {
     return static_cast<uint>(__builtin_ctz(value));
 }
 
 constexpr uint kNoBit = 1u << 17;  // no row of 16 bits has it
 
-// kStep is the plane's: known to the compiler it costs no multiplications (15 % of meshing a landscape). The
-// word of a quad is added up as its rectangle grows.
+// kStep is that of the plane: a compile-time constant saves multiplications (15 % of meshing a landscape).
+// The word of a quad is summed up as its rectangle grows.
 template <std::size_t kStep>
 std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Quad* out) {
     const Quad* begin = out;
-    // Extents are less one; where the end of a run is given, a higher first bit makes it shorter.
+    // Extents are stored less one; since the end of a run is added, a higher first bit makes the run shorter.
     const uint oneBit = (1u << pattern.bitShift) - (1u << kShiftU);
     const uint origin = pattern.first.word0 - (1u << kShiftU);
     for (uint used = plane.used; used != 0; used &= used - 1) {
@@ -40,11 +40,12 @@ std::size_t mergeGreedily(const PlaneRows& plane, const QuadPattern& pattern, Qu
         std::uint16_t* const rows = plane.rows + row * kStep;
         uint left = *rows;
         do {
-            // Adding the lowest one carries through the ones above it: what the carry clears is the run.
+            // Adding the lowest bit carries through the set bits above it: the bits that the carry clears are
+            // the run.
             const uint lowest = left & (0u - left), carried = left + lowest, run = left & ~carried;
             left ^= run;
             uint word0 = rowOrigin + (lowestOne(carried) << kShiftU) + lowestOne(lowest) * oneBit;
-            // A row whose run sticks out on both sides would be cut in three: better it begins a new
+            // A row whose bits go on beyond both ends of the run would be cut in three, so it begins a new
             // rectangle.
             const uint before = lowest > 1 ? lowest >> 1 : kNoBit, sides = before | (run + lowest);
             std::uint16_t* next = rows + kStep;
@@ -77,14 +78,13 @@ std::size_t mergeNothing(const PlaneRows& plane, const QuadPattern& pattern, Qua
     return static_cast<std::size_t>(out - begin);
 }
 
-// The methods of the thesis start from one rectangle a bit and merge neighbors, pass by pass.
+// The methods of the thesis start with one rectangle a bit and merge neighbors pass by pass.
 
 // Sizes of the rectangles along one axis by the cell of their lowest corner, bit + 16 row; 0 where none
 // begins.
 using Sizes = std::array<std::uint8_t, 256>;
 
-// kStride: between cells that are neighbors along the axis of the pass. Known to the compiler it costs no
-// divisions.
+// kStride: distance of neighboring cells along the axis of the pass; a compile-time constant saves divisions.
 template <unsigned kStride>
 void join(Sizes& along, Sizes& across, uint pass) {
     const uint lines = shared::mergeLines(pass), length = shared::mergeLength(pass);

@@ -17,8 +17,8 @@ struct PlaneRows {
     std::uint32_t used;  // bit r: row r has bits; other rows are not read
 };
 
-// How rectangles of a plane become quads: `first` is the quad of bit 0 of row 0. The shifts say where bit and
-// row belong in its first word.
+// Conversion of rectangles of a plane to quads: `first` is the quad of bit 0 of row 0. The shifts are the
+// places of bit and row in its first word.
 struct QuadPattern {
     shared::Quad first;
     unsigned bitShift, rowShift;
@@ -27,7 +27,7 @@ struct QuadPattern {
 constexpr std::size_t kMaxQuadsPerPlane = 256;  // one a bit: there can be no more
 
 // Covers each set bit once: bits are the quads' u, rows their v. Writes at most kMaxQuadsPerPlane quads,
-// ordered by row, then bit, and returns how many. What the plane holds afterwards is not defined.
+// ordered by row, then bit, and returns their number. The plane's content is undefined afterwards.
 using MergeFunction = std::size_t (*)(const PlaneRows& plane, const QuadPattern& pattern, shared::Quad* out);
 
 MergeFunction mergeFunction(MergeMethod method);

@@ -1,4 +1,4 @@
-// What a user chooses about meshing. Plain values; the same options give the same mesh.
+// User options of meshing. Plain values; the same options give the same mesh.
 #pragma once
 
 #include <array>
@@ -10,18 +10,18 @@
 
 namespace terrane::mesh {
 
-// How equal faces that touch in one plane become one quad. All but Greedy are the methods of D. Čejchan's
-// thesis (2019), whose work groups limit quads to cells of 8×8 blocks.
+// Method that merges equal adjacent faces of a plane into quads. All but Greedy are the methods of D.
+// Čejchan's thesis (2019), whose work groups limit quads to cells of 8×8 blocks.
 enum class MergeMethod : std::uint8_t {
     None,        // one quad a face
     Lines,       // along rows as far as possible, then equal lengths of successive rows
     Squares,     // halves of the cells of a grid that doubles each time, alternately in both directions
-    SquaresExt,  // Squares, then as Lines what does not lie on the grid
-    Greedy,      // runs of a row, then as many rows as have them all; up to 16×16
+    SquaresExt,  // Squares, then Lines for rectangles off the grid
+    Greedy,      // runs of a row, then as many rows as contain the run; up to 16×16
     Count,
 };
 
-// As users write them, in the order of the values.
+// Names in options, in the order of the values.
 constexpr std::array<std::string_view, static_cast<std::size_t>(MergeMethod::Count)> kMergeMethodNames = {
     "none", "lines", "squares", "squares-ext", "greedy"};
 

@@ -1,4 +1,4 @@
-// Where the quads of a mesh section lie: its ranges follow each other from the first on. Pure functions; any
+// Places of the quads of a mesh section: its ranges follow each other from the first on. Pure functions; any
 // thread.
 #pragma once
 
@@ -22,13 +22,14 @@ inline std::uint32_t quadCount(const MeshSection& meshSection) {
     return count;
 }
 
-// In the order of a record for the GPU: two-sided buckets have faces of the last direction only.
+// Ranges in the order of a GPU record: two-sided buckets have faces of the last direction only.
 inline std::array<QuadRange, shared::kRangesPerMeshSection> rangesOf(const MeshSection& meshSection) {
     std::array<QuadRange, shared::kRangesPerMeshSection> ranges;
     std::size_t next = 0;
     for (int bucket = 0; bucket < kDrawBucketCount; ++bucket) {
-        for (int g = bucketTwoSided(bucket) ? kAnyDirection : 0; g < kFaceDirectionCount; ++g) {
-            ranges[next++] = meshSection.ranges[bucket][g];
+        const int first = bucketTwoSided(bucket) ? kAnyDirection : 0;
+        for (int direction = first; direction < kFaceDirectionCount; ++direction) {
+            ranges[next++] = meshSection.ranges[bucket][direction];
         }
     }
     return ranges;

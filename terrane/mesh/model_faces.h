@@ -19,12 +19,13 @@ struct ModelBlocks {
     LayerRange layers;
 };
 
-// Of a block by its index in the section: its bit in a cube that has rows along y for -x and +x.
+// The bit of a block, given by its index in the section, in a cube that has rows along y for -x and +x.
 bool hasBit(const BitCube& cube, world::Face side, std::size_t block);
 void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::ModelFace& face,
                  QuadCollector& out);
 
-// `uncovered`: blocks whose neighbor on a side is no opaque cube, with rows along y for -x and +x.
+// Adds the faces of models. `uncovered`: blocks whose neighbor on a side is not an opaque cube, with rows
+// along y for -x and +x.
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,
                    QuadCollector& out);
 

@@ -11,15 +11,16 @@
 
 namespace terrane::mesh {
 
-// A growing array of quads that is written from outside: appending to a vector would clear the room first.
+// A growing array of quads whose free room is written directly: appending to a vector would initialize the
+// room first.
 class QuadArray {
   public:
-    // Room for `count` quads behind the present ones.
+    // Returns room for `count` quads after the present ones.
     shared::Quad* reserve(std::size_t count) {
         if (capacity_ - size_ < count) grow(size_ + count);
         return quads_.get() + size_;
     }
-    // The first `count` of the room reserved last are written.
+    // Adds the first `count` quads of the room reserved last.
     void add(std::size_t count) { size_ += count; }
     void clear() { size_ = 0; }
     std::span<const shared::Quad> quads() const { return {quads_.get(), size_}; }
@@ -33,11 +34,11 @@ class QuadArray {
 
 class QuadCollector {
   public:
-    // Quads for one draw bucket and face direction. Valid until finishMeshSection().
+    // Array of one draw bucket and face direction. Valid until finishMeshSection().
     QuadArray& quadsOf(int bucket, int direction);
     // Widens the mesh section's bounds by blocks minZ … maxZ − 1.
     void coverHeight(int minZ, int maxZ);
-    // Appends all arrays to `quads`, says where each went, and empties them.
+    // Appends all arrays to `quads`, returns their ranges, and empties them.
     MeshSection finishMeshSection(std::vector<shared::Quad>& quads);
 
   private:

@@ -1,5 +1,5 @@
-// What an edit costs: which mesh sections' meshes change with a block, and the mesh of only these. Called by
-// whoever owns the world; pure functions, any thread.
+// Remeshing after an edit: the mesh sections that may change with a block, and the mesh of only these. Pure
+// functions, any thread.
 #pragma once
 
 #include <cstdint>
@@ -26,15 +26,15 @@ struct TouchedChunk {
     bool operator==(const TouchedChunk&) const = default;
 };
 
-// The mesh sections in which a face may change when the block at `pos` (z 0…255) does: its own, and those of
-// the six blocks beside it. At most three chunks, the block's own first; none outside the world.
+// Returns the mesh sections in which a face may change with the block at `pos` (z 0…255): its own, and those
+// of its six neighbors. At most three chunks, the block's own first; none outside the world.
 std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSectionHeight);
 
-// What meshChunk makes of these mesh sections; the others have no quads. Bits beyond the highest mesh section
-// are passed over.
+// Builds these mesh sections as meshChunk() does; the others have no quads. Bits beyond the highest mesh
+// section are ignored.
 ChunkMesh buildMeshSections(const MeshInput& input, MeshSectionSet meshSections, MeshScratch& scratch);
 
-// `old` with `meshSections` as `newer` has them: both were made with the same options.
+// Returns `old` with these mesh sections replaced by those of `newer`, which was made with the same options.
 ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, MeshSectionSet meshSections);
 
 }  // namespace terrane::mesh

@@ -1,6 +1,6 @@
-// The blocks of one section as sets of bits, one set for each distinct id. Read straight from the packed
-// form: the bits of all indices are sorted into planes once, then the blocks of an id are a few ANDs away.
-// Used by section_faces.cpp for one section at a time; any thread.
+// Blocks of one section as sets of bits, one set for each distinct id. Read from the packed form: the bits of
+// all indices are sorted into planes once, then the blocks of an id take a few ANDs. Used by
+// section_faces.cpp for one section at a time; any thread.
 #pragma once
 
 #include <array>
@@ -20,7 +20,7 @@ class SectionBits {
 
     // Distinct ids; some may have no block.
     std::span<const world::BlockId> ids() const { return ids_; }
-    // Where the blocks of ids()[number] are, in rows along x.
+    // Blocks of ids()[number], in rows along x.
     BitCube blocks(std::size_t number) const;
 
   private:

@@ -34,7 +34,7 @@ bool isHidden(const SectionView& view) {
 
 using Borders = std::array<BitSlice, world::kFaceCount>;
 
-// What lies around a section.
+// The neighbors of a section.
 struct Surroundings {
     explicit Surroundings(const SectionView& view);
     bool isEnclosed() const {
@@ -44,7 +44,7 @@ struct Surroundings {
 
     std::array<std::optional<SectionSide>, world::kFaceCount>
         sides;  // none beyond the world or an open border
-    // Opaque cubes beyond each side. What lies below the world counts as opaque: its bottom is never seen.
+    // Opaque cubes beyond each side. Below the world all blocks count as opaque: its bottom is never seen.
     Borders opaque{};
 };
 
@@ -60,7 +60,7 @@ Surroundings::Surroundings(const SectionView& view) {
 struct TypeBlocks {
     const BlockType& type;
     world::BlockId id;
-    LayerRange layers;  // where faces may be seen; the cube along y holds only these
+    LayerRange layers;  // may have visible faces; alongY has only these
     BitCube alongX;     // rows along x
     BitCube alongY;     // the same with rows along y
 
@@ -130,8 +130,8 @@ void SectionFaces::findUncovered() {
     }
 }
 
-// Planes inside the cell, and low surfaces of liquids, are drawn also where all neighbors are opaque; of
-// other shapes nothing is seen then.
+// Shapes with planes inside the cell, and low surfaces of liquids, are visible even if all neighbors are
+// opaque; other shapes are not.
 LayerRange SectionFaces::visibleLayers(const BlockType& type, const BitCube& blocks) const {
     const bool hasPlanes = type.shape != Shape::Cube && (type.shape != Shape::Liquid || hasFlow_);
     return commonLayers(blocks, hasPlanes ? blocks : uncoveredAnywhere_, view_.target.layers);
@@ -170,7 +170,7 @@ void SectionFaces::add(const TypeBlocks& blocks) {
     }
 }
 
-// Beyond an open border everything counts as of the own kind.
+// Beyond an open border every block counts as the same type.
 BitSlice SectionFaces::ownKindBeyond(world::BlockId id, Face side) const {
     const auto& next = around_.sides[side];
     if (next) return next->blocks(id);
@@ -243,7 +243,7 @@ void SectionFaces::addPlanes(const TypeBlocks& blocks, uint firstFace, uint coun
     }
 }
 
-// The blocks of each stage by themselves; block state that stands for none counts as the youngest.
+// Adds the blocks of each stage by themselves; block state without a stage counts as the youngest.
 void SectionFaces::addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, uint count) {
     const std::vector<std::uint16_t>& growth = blocks.type.growth;
     for (std::size_t left = 0; left <= growth.size(); ++left) {

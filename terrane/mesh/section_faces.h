@@ -11,11 +11,11 @@
 
 namespace terrane::mesh {
 
-// A section and what surrounds it.
+// A section and its neighbors.
 struct SectionView {
     const world::Section* center = nullptr;
-    // By side; null above the world, where there is air, below it, from where nothing is seen, and beyond an
-    // open border (MeshInput).
+    // By side. Null above the world, where there is air; below it, which is never seen; and beyond an open
+    // border (MeshInput).
     std::array<const world::Section*, world::kFaceCount> neighbors{};
     const world::Section* blockState = nullptr;             // of the section's blocks
     std::array<const world::Section*, 4> neighborStates{};  // null where `neighbors` are

@@ -16,7 +16,7 @@ using world::Section;
 
 static_assert(std::endian::native == std::endian::little, "packed words are read in memory order");
 
-// Which blocks of a section make the rows of a layer: indices first + row·rowStep + bit·bitStep.
+// Indices of the blocks in a layer: first + row·rowStep + bit·bitStep.
 struct LayerIndices {
     std::size_t first, rowStep, bitStep;
 };
@@ -30,7 +30,7 @@ constexpr std::array<LayerIndices, world::kFaceCount> kLayers{{
     {15 * 256, 16, 1},  // +z
 }};
 
-// Rows whose blocks follow each other in the section: 16 blocks are 2·bits bytes.
+// Copies rows whose blocks are contiguous in the section: 16 blocks are 2·bits bytes.
 template <std::size_t kBits>
 void copyRows(const std::byte* section, const LayerIndices& layer, std::byte* out) {
     for (std::size_t row = 0; row < 16; ++row) {
@@ -39,7 +39,7 @@ void copyRows(const std::byte* section, const LayerIndices& layer, std::byte* ou
     }
 }
 
-// Rows of blocks that lie 16 apart: the first or the last of each 16.
+// Collects rows of blocks that lie 16 apart: the first or the last of each 16.
 template <std::size_t kBits, bool kLast>
 void collectRows(const std::byte* section, std::uint64_t* out) {
     using Unit = std::conditional_t<kBits == 16, std::uint16_t, std::uint8_t>;  // has the block's bits
@@ -119,7 +119,7 @@ BitSlice SectionSide::opaqueCubes(const world::BlockRegistry& blocks) const {
     return slice;
 }
 
-// Of thousands of ids each would be looked for alone: here the blocks are asked one by one.
+// A dense section may have thousands of ids, so its blocks are tested one by one.
 BitSlice SectionSide::denseOpaqueCubes(const world::BlockRegistry& blocks) const {
     const LayerIndices layer = kLayers[side_];
     BitSlice slice{};

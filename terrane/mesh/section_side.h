@@ -1,5 +1,5 @@
-// The outermost layer of a section as bits: what the section next to it needs to know. Used by
-// section_faces.cpp for the six neighbors of a section; any thread.
+// The outermost layer of a section as bits, for the adjacent section. Used by section_faces.cpp for the six
+// neighbors of a section; any thread.
 #pragma once
 
 #include <array>
@@ -29,7 +29,7 @@ class SectionSide {
     std::array<std::uint64_t, kGroups * 16> planes_;  // as in bit_kernels.h; 16 bits at most
 };
 
-// True where no block of the section lets one see through; may be false for some such sections.
+// True if all blocks of the section are opaque cubes; may be false for some such sections.
 bool isAllOpaque(const world::Section& section, const world::BlockRegistry& blocks);
 
 }  // namespace terrane::mesh

@@ -46,7 +46,7 @@ constexpr ShapeFace crossFace(float signX) {
     return {{kDiagonalStart, kDiagonalStart, 0, 0}, u, kPosZ, normal};
 }
 
-// Of the surface's height, or 0 for the bottom and the top of the cell.
+// Share of the surface's height; 0 for the bottom and the top of the cell.
 constexpr float flowShare(uint height) {
     return height < shared::kFlowHeights ? static_cast<float>(height) / (shared::kFlowHeights - 1) : 0;
 }

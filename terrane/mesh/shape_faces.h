@@ -1,5 +1,5 @@
-// The table of all shape faces: where each face of each block shape lies in its cell. The mesher writes
-// indices into it, the renderer uploads it once. Constant; any thread.
+// Table of all shape faces: the place of each face of each block shape in its cell. The mesher writes indices
+// into it, the renderer uploads it once. Constant; any thread.
 #pragma once
 
 #include <span>
@@ -15,10 +15,10 @@ std::span<const shared::ShapeFace> shapeFaces();
 // These and the faces of the blocks' models.
 std::vector<shared::ShapeFace> shapeFaces(const world::BlockRegistry& blocks);
 
-// The side a face that is none of a model looks to, or kFaceCount where its normal is not along an axis.
+// The side that a face faces, or kFaceCount if its normal is not along an axis. Not for faces of models.
 world::Face shapeFaceSide(shared::uint shapeFace);
 
-// The side that looks at `side`.
+// The side opposite to `side`.
 constexpr world::Face oppositeSide(world::Face side) {
     return static_cast<world::Face>(side ^ 1);
 }

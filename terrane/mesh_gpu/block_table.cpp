@@ -41,7 +41,7 @@ uint faceOf(const world::ModelFace& face) {
            (face.isOnBorder ? shared::kMeshFaceOnBorderBit : 0);
 }
 
-// The index of the first form. Faces of all forms follow the forms.
+// Adds the forms of a model and returns the index of the first. Faces of all forms follow the forms.
 uint addModel(std::vector<uint>& forms, const world::BlockModel& model) {
     const std::size_t first = forms.size();
     forms.resize(first + model.forms.size());
@@ -60,7 +60,7 @@ uint addModel(std::vector<uint>& forms, const world::BlockModel& model) {
 }  // namespace
 
 BlockTable::BlockTable(const world::BlockRegistry& blocks) {
-    std::map<const world::BlockModel*, uint> models;  // the same for all blocks of a shape
+    std::map<const world::BlockModel*, uint> models;  // shared by all blocks of a shape
     const auto formsOf = [&](const BlockType& type) {
         if (!type.model) return static_cast<uint>(forms.size()) | static_cast<uint>(type.growth.size()) << 16;
         const auto [known, isNew] = models.try_emplace(type.model.get());

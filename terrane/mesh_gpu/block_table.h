@@ -1,5 +1,5 @@
-// Block types as the meshing shaders read them: rules of visibility and merging as bits, materials with their
-// draw buckets. Pure bookkeeping without OpenGL.
+// Block types in the form that the meshing shaders read: rules of visibility and merging as bits, materials
+// with their draw buckets. Pure bookkeeping without OpenGL.
 #pragma once
 
 #include <vector>

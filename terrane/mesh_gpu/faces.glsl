@@ -1,5 +1,5 @@
-// Which faces of a unit are seen: rows of bits, as the mesher on the CPU has them. An invocation has the row of
-// blocks y, z = its index; planes are filled from rows.
+// Finds the visible faces of a unit: rows of bits, as in the CPU mesher. An invocation has the row of blocks y, z = its
+// index; planes are filled from rows.
 #include "terrane/mesh_gpu/sections.glsl"
 
 const uint kLast = kSectionSize - 1u;
@@ -7,13 +7,13 @@ const uint kPaddedSize = kSectionSize + 2u;  // with one block around
 
 shared uint ids[kBlocksPerSection / 2u];            // of the section's blocks, two a word
 shared uint opaqueRows[kPaddedSize * kPaddedSize];  // by y + 1 + 18·(z + 1), bit x + 1: opaque cubes
-shared uint faces[6u * kBlocksPerLayer];  // seen, by side, then row·16 + plane: bits along u (y on the sides of x, else x)
-shared uint surface[kBlocksPerLayer];     // by y + 16 z, bits along x: liquid blocks whose top is seen
+shared uint faces[6u * kBlocksPerLayer];  // visible, by side, then row·16 + plane: bits along u (y or x)
+shared uint surface[kBlocksPerLayer];     // by y + 16 z, bits along x: liquid blocks whose top is visible
 
-// Of an invocation's row.
+// Bits of an invocation's row of blocks.
 struct Row {
     uint opaque, sides, inset, planes, liquid;
-    uint flowing;  // of those of liquids
+    uint flowing;  // liquid blocks that flow
 };
 
 uint idAt(uvec3 cell) {
@@ -55,7 +55,7 @@ bool isOpaqueBeyond(MeshUnit unit, uint side, uvec3 cell) {
     return (blockBeyond(unit.neighbors[side], cell) & kMeshOpaqueBit << 16) != 0u;
 }
 
-// The rows with what lies around the section. Those outside it are zero before.
+// Writes the rows with the blocks around the section to shared memory. Rows outside the section are zero before.
 void shareOpaque(MeshUnit unit, Row row, uint local) {
     uint a = local % kSectionSize, b = local / kSectionSize;
     uint bits = row.opaque << 1;
@@ -79,7 +79,7 @@ uint idBeside(MeshUnit unit, uvec3 cell, uint side) {
     return blockBeyond(unit.neighbors[side], inside) & 0xFFFFu;
 }
 
-// Faces of a row toward a block that is no opaque cube, nor of their own type where that hides them.
+// Finds the faces of a row toward blocks that are not opaque cubes, nor of the same type where that hides them.
 void findSeen(MeshUnit unit, Row row, uint local, out uint seen[6]) {
     uint at = local % kSectionSize + 1u + kPaddedSize * (local / kSectionSize + 1u), own = opaqueRows[at];
     uint beyond[6] = uint[](own, own >> 2, opaqueRows[at - 1u] >> 1, opaqueRows[at + 1u] >> 1,
@@ -99,12 +99,13 @@ void findSeen(MeshUnit unit, Row row, uint local, out uint seen[6]) {
     }
 }
 
-// Its faces are found by liquids.glsl.
+// Faces of flowing blocks are added by liquids.glsl.
 void leaveOutFlowing(Row row, inout uint seen[6]) {
     for (uint side = 0u; side < 6u; ++side) seen[side] &= ~row.flowing;
 }
 
-// Into planes. The bits of a row along x are one of 16 rows along y: as few as are seen, set one by one.
+// Writes the visible faces to the planes. On sides of x the bits of a row along x belong to 16 rows along y: they are
+// few, and set one by one.
 void shareSeen(uint seen[6], uint local) {
     uint y = local % kSectionSize, z = local / kSectionSize;
     for (uint side = 0u; side < 2u; ++side) {

@@ -1,5 +1,5 @@
 // GpuMesher behind the interface that both back ends have: the quads are read back. For files, tests and
-// benchmarks; what is drawn stays on the GPU. Used on the context's thread.
+// benchmarks; drawing uses quads that stay on the GPU. Used on the context's thread.
 #pragma once
 
 #include "terrane/mesh/batch_mesher.h"
@@ -11,7 +11,7 @@ class GpuBatchMesher : public mesh::BatchMesher {
   public:
     explicit GpuBatchMesher(GpuMesher mesher) : mesher_(std::move(mesher)) {}
 
-    // Any number of chunks, in parts. Waits for the GPU.
+    // Takes any number of chunks, in parts. Waits for the GPU.
     std::vector<mesh::ChunkMesh> mesh(std::span<const mesh::MeshInput> chunks) override;
     std::string_view backend() const override { return "gpu"; }
 

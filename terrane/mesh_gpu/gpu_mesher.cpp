@@ -36,12 +36,6 @@ gpu::Buffer bufferOf(std::span<const T> values, std::string_view label) {
     return gpu::Buffer(std::as_bytes(values), 0, label);
 }
 
-gpu::Handle<gpu::ObjectKind::Query> timestampQuery() {
-    GLuint id = 0;
-    glCreateQueries(GL_TIMESTAMP, 1, &id);
-    return gpu::Handle<gpu::ObjectKind::Query>(id);
-}
-
 // Counts are in the order of mesh::rangesOf().
 mesh::MeshSection meshSectionOf(const shared::MeshSectionCounts& counts) {
     mesh::MeshSection meshSection;
@@ -79,7 +73,7 @@ struct GpuMesher::Impl {
     void run(const gpu::Program& program) const;
 
     BlockTable table;
-    MeshUpload upload;  // of the batch at hand, as are these
+    MeshUpload upload;  // of the current batch, as are these
     std::size_t unitCount = 0, meshSectionCount = 0;
     mesh::MergeMethod method = mesh::MergeMethod::Greedy;
     gpu::Buffer sections, data, units, unitCounts;
@@ -89,7 +83,8 @@ struct GpuMesher::Impl {
     gpu::Buffer counts, places;  // by mesh section
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
-    std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {timestampQuery(), timestampQuery()};
+    std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {gpu::createQuery(GL_TIMESTAMP),
+                                                                     gpu::createQuery(GL_TIMESTAMP)};
 };
 
 void GpuMesher::Impl::bind() const {
@@ -174,7 +169,7 @@ double GpuMesher::countMilliseconds() const {
 
 std::size_t GpuMesher::gpuBytes() const {
     const Impl& m = *impl_;
-    std::size_t bytes = m.counts.sizeBytes();  // as much again to read them back
+    std::size_t bytes = m.counts.sizeBytes();  // the readback buffer has the same size
     for (const gpu::Buffer* buffer :
          {&m.sections, &m.data, &m.units, &m.unitCounts, &m.types, &m.forms, &m.counts, &m.places})
         bytes += buffer->sizeBytes();

@@ -1,4 +1,4 @@
-// Faces of liquids that flow, one quad a face: the rules of mesh/liquid_faces.cpp. Needs quads.glsl.
+// Faces of flowing liquids, one quad a face: the rules of mesh/liquid_faces.cpp. Needs quads.glsl.
 
 const uint kStillHeight = kFlowHeights - 1u;
 
@@ -8,8 +8,8 @@ struct LiquidBeside {
     bool isStillFull;
 };
 
-// Of a still block: whether its top is no surface. Where that lies in a chunk beside the one above it is not known: then it
-// counts as surface.
+// Whether the top of a still block is not a surface. The block above is unknown at the top of a section in a
+// neighboring chunk: the top counts as a surface then.
 bool isStillFull(MeshUnit unit, uint section, uvec3 inside, uint id) {
     bool isTop = inside.z == kLast;
     if (isTop && section != unit.section) return false;
@@ -53,7 +53,7 @@ void addFlowLevel(MeshUnit unit, uvec3 cell, uint side) {
     if (!isHidden) addFlowFace(unit, cell, side, kShapeFaceCube + side);
 }
 
-// Of the cells of a row.
+// Adds the faces of the liquid cells of a row.
 void addFlow(MeshUnit unit, Row row, uint local) {
     uvec4 around = uvec4(unit.neighborStates[0], unit.neighborStates[1], unit.neighborStates[2], unit.neighborStates[3]);
     if (unit.blockState == kNoSection && all(equal(around, uvec4(kNoSection)))) return;

@@ -1,16 +1,17 @@
-// Merges the faces of 96 planes, 16 of each side, into rectangles. Which faces may become one with their neighbor is found
-// out before, for all planes at once: from there on bits decide.
+// Merges the faces of 96 planes, 16 of each side, into rectangles. The pairs of neighboring faces that may merge are
+// found before, for all planes at once; merging then uses bits only.
 #include "terrane/mesh_gpu/quads.glsl"
 #include "terrane/shared/merge_passes.h"
 
 layout(location = 0) uniform uint method;  // kMerge…
 
-// By side, then row·16 + plane: faces of the kind of the one before them in their row, << 16: in the row before.
+// By side, then row·16 + plane: faces of the same kind as the one before them in their row; << 16: as the one in the
+// row before.
 shared uint sameKind[6u * kBlocksPerLayer];
-// The same for faces that are in one rectangle already, while rectangles are merged.
+// The same for faces that belong to one rectangle already, while rectangles are merged.
 shared uint merged[6u * kBlocksPerLayer];
 
-// Faces of one kind have the same block type, and of a liquid lie both under its surface or in it.
+// Faces of one kind have the same block type; those of a liquid are all at its surface or all below it.
 uint kindOf(uint side, uvec3 cell) {
     uint isSurface = side < 4u ? surface[cell.y + kSectionSize * cell.z] >> cell.x & 1u : 0u;
     return idAt(cell) | isSurface << 16;
@@ -34,8 +35,9 @@ void compareKinds(uint side, uint local) {
     sameKind[at] = same;
 }
 
-// Greedy. How many rows have a run of faces, all of the kind of its row: `first` is its place. A row in which that kind
-// goes on beside both ends of the run is left out, since it would be cut in three. Rows behind the first lose the run.
+// Greedy merging. Returns the number of rows that contain the run of faces, all of the same kind; `first` is the place
+// of its row. A row where that kind continues beyond both ends of the run is not taken, since it would be cut in three.
+// Rows after the first lose the run.
 uint takeRows(uint first, uint row, uint run) {
     uint rows = 1u, lowest = run & (0u - run), after = run + lowest;
     for (uint at = first + kSectionSize; row + rows < kSectionSize; at += kSectionSize, ++rows) {
@@ -53,7 +55,7 @@ void mergeGreedily(MeshUnit unit, uint side, uint plane) {
         uint at = kBlocksPerLayer * side + kSectionSize * row + plane, left = faces[at], same = sameKind[at] & 0xFFFFu;
         while (left != 0u) {
             uint lowest = left & (0u - left), bit = uint(findLSB(left));
-            // Adding the lowest face to those that go on from one to the next carries through the run.
+            // Adding the lowest face to the faces that continue a run carries through the run.
             uint goesOn = left & same & ~lowest | lowest;
             uint run = goesOn & ~(goesOn + lowest);
             left ^= run;
@@ -63,7 +65,7 @@ void mergeGreedily(MeshUnit unit, uint side, uint plane) {
     }
 }
 
-// The other methods. `at` is the place of a row, as of `merged`; a rectangle has the name of its lowest face.
+// The other methods. `at`: index of a row in `merged`. A rectangle is named by its lowest face.
 uint lowestFaces(uint at) {
     return faces[at] & ~(merged[at] | merged[at] >> 16);
 }
@@ -82,7 +84,7 @@ bool mayMerge(uint pass, uint end, uint length) {
     return isAtLine && (mergeLength(pass) == 0u || length == mergeLength(pass));
 }
 
-// Rectangles that begin in one row, in the order of their bits: no other invocation touches them.
+// Merges rectangles that begin in one row, in the order of their bits: no other invocation changes them.
 void mergeAlongRow(uint pass, uint at) {
     for (uint left = lowestFaces(at); left != 0u; left &= left - 1u) {
         uint bit = uint(findLSB(left)), bits = bitsOf(at, bit), rows = rowsOf(at, bit);
@@ -97,7 +99,7 @@ void mergeAlongRow(uint pass, uint at) {
     }
 }
 
-// The same of one column: `first` is the place of the plane's first row.
+// The same for one column: `first` is the index of the plane's first row.
 void mergeAcrossRows(uint pass, uint first, uint bit) {
     for (uint row = 0u; row < kSectionSize;) {
         uint at = first + kSectionSize * row;
@@ -118,7 +120,7 @@ void mergeAcrossRows(uint pass, uint first, uint bit) {
     }
 }
 
-// By the whole work group; each row and each column of each plane is an invocation's own.
+// Run by the whole work group; each row and each column of each plane has its own invocation.
 void mergeInPasses(MeshUnit unit, uint local) {
     for (uint side = 0u; side < 6u; ++side) merged[kBlocksPerLayer * side + local] = 0u;
     barrier();

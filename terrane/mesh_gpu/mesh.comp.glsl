@@ -1,12 +1,12 @@
-// Meshes a unit: a section, or as much of it as lies in one mesh section. A work group is a unit. Rows of blocks, an invocation
-// each, find the faces that are seen; then 96 planes of them are merged, by reading and changing bits only.
+// Meshes a unit, one a work group: a section, or the part of it in one mesh section. Invocations find the visible
+// faces, one row of blocks each; then 96 planes of them are merged with bit operations.
 #include "terrane/mesh_gpu/merge.glsl"
 #include "terrane/mesh_gpu/liquids.glsl"
 
 layout(local_size_x = 256) in;
 
-// Finds what is seen of the invocation's row, and gives it to the planes; returns the row without what another mesh section
-// has of the section.
+// Finds the visible faces of the invocation's row and writes them to the planes; returns the row, empty if it belongs
+// to another mesh section.
 Row shareRow(MeshUnit unit, uint local) {
     Row row = readRow(unit, local);
     shareOpaque(unit, row, local);

@@ -8,13 +8,13 @@
 namespace terrane::mesh_gpu {
 namespace {
 
-constexpr std::size_t kFirstBatch = 8;  // chunks; from there on by how long they took
+constexpr std::size_t kFirstBatch = 8;  // chunks; later batches depend on the time taken
 
 double millisecondsSince(std::chrono::steady_clock::time_point start) {
     return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Of the addresses those in one arena, as offsets in it; kNoPlace for the others. Whether there are any.
+// Returns the addresses in one arena as offsets in it, kNoPlace for the others, and whether there are any.
 std::pair<std::vector<std::uint32_t>, bool> offsetsIn(std::span<const std::uint32_t> addresses,
                                                       std::uint32_t arena, std::uint32_t arenaSize) {
     std::vector<std::uint32_t> offsets(addresses.size(), kNoPlace);
@@ -92,14 +92,14 @@ void MeshQueue::write(std::span<const FirstQuads> places, const gpu::ArenaBuffer
             offsetsIn(addresses, static_cast<std::uint32_t>(arena), quads.arenaSize);
         if (isAny) mesher_.write(offsets, *quads.buffers[arena]);
     }
-    // Writing does on the GPU what counting does.
+    // Writing takes as long on the GPU as counting.
     const double onGpu = 2 * mesher_.countMilliseconds();
     adaptBatch(counting_.size(), std::max(onGpu, countMilliseconds_ + millisecondsSince(start_)));
     counting_.clear();
     isRemoved_.clear();
 }
 
-// At most twice as many as the time before: a few chunks of air tell nothing of the next ones.
+// Grows by at most a factor of two: a few chunks of air tell nothing about the next ones.
 void MeshQueue::adaptBatch(std::size_t chunks, double milliseconds) {
     if (budgetMilliseconds_ <= 0) return;
     const double wanted = static_cast<double>(chunks) * budgetMilliseconds_ / std::max(milliseconds, 1e-3);

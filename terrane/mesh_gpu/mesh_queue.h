@@ -1,6 +1,6 @@
 // Meshes chunks on the GPU between frames, as many at a time as a budget allows, without waiting: a batch is
-// counted in one frame, and its quads are written in the next one that finds the counts there. Until then
-// the old quads are drawn. Used on the context's thread.
+// counted in one frame, and its quads are written in the next frame in which the counts are available. Until
+// then the old quads are drawn. Used on the context's thread.
 #pragma once
 
 #include <chrono>
@@ -14,13 +14,13 @@
 
 namespace terrane::mesh_gpu {
 
-// A chunk whose quads are counted. The mesh sections stay until the batch is written.
+// A chunk whose quads are counted. The mesh sections are valid until the batch is written.
 struct CountedChunk {
     world::ChunkPos pos;
     std::span<const mesh::MeshSection> meshSections;
 };
 
-// Addresses of the first quad of each mesh section of a chunk; empty where there is no room for them.
+// Addresses of the first quad of each mesh section of a chunk; empty if there is no room for them.
 using FirstQuads = std::vector<std::uint32_t>;
 
 // A frame calls, in this order:
@@ -29,28 +29,31 @@ using FirstQuads = std::vector<std::uint32_t>;
 //   if (chunks = queue.takeWaiting(); !chunks.empty()) queue.count(inputs of these chunks);
 class MeshQueue {
   public:
-    // Time of a batch, on the CPU or the GPU, whichever takes longer: 0 for as large ones as can be.
+    // Time budget of a batch, on the CPU or the GPU, whichever takes longer; 0: batches are as large as
+    // possible.
     MeshQueue(GpuMesher mesher, double budgetMilliseconds);
 
-    // The chunk is to be meshed: once more where a batch with it is on the way.
+    // Queues the chunk for meshing, again if a batch with it is in flight.
     void add(world::ChunkPos pos);
-    // It is not to be shown any more.
+    // Removes the chunk from the queue and from a batch in flight.
     void remove(world::ChunkPos pos);
-    // It will be meshed from what it is when its turn comes, or later.
+    // Whether the chunk is queued or in flight.
     bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isOnTheWay(pos); }
     std::size_t size() const { return isWaiting_.size() + counting_.size(); }
     std::size_t gpuBytes() const { return mesher_.gpuBytes(); }
 
-    // A batch is on the way and its counts are back.
+    // Whether a batch is in flight and its counts are available.
     bool isCounted() const { return !counting_.empty() && mesher_.isCounted(); }
-    // The chunks of that batch, without those removed since it was counted. write() comes next.
+    // Returns the chunks of that batch without those removed since it was counted. write() comes next.
     std::vector<CountedChunk> takeCounted();
     // Writes the quads of the chunks that takeCounted() returned, in the same order. Ends the batch.
     void write(std::span<const FirstQuads> places, const gpu::ArenaBuffers& quads);
 
-    // The chunks of the next batch; none while one is on the way. count() comes next, for exactly these.
+    // Returns the chunks of the next batch; none while one is in flight. count() comes next, for exactly
+    // these.
     std::vector<world::ChunkPos> takeWaiting();
-    // `chunks`: in the order of takeWaiting(), with the same options. Not needed any more afterwards.
+    // Starts to count them. `chunks`: in the order of takeWaiting(), with the same options. Not needed
+    // afterwards.
     void count(std::span<const mesh::MeshInput> chunks);
 
   private:
@@ -64,7 +67,7 @@ class MeshQueue {
     std::size_t batchSize_;
     std::deque<world::ChunkPos> waiting_;  // in order; some were removed again
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isWaiting_;
-    // The batch on the way, those of it that were removed, and once it is counted the mesh sections of all.
+    // The batch in flight, its removed chunks, and once it is counted the mesh sections of all.
     std::vector<world::ChunkPos> counting_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isRemoved_;
     std::vector<mesh::MeshSection> meshSections_;

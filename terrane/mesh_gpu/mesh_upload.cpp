@@ -41,8 +41,8 @@ uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
     return world::appendSection(packed_, section, entryOf);
 }
 
-// Not where there is only air, nor where nothing but opaque cubes is within and around: of 16 sections of a
-// landscape chunk 4 or 5 are left.
+// Whether faces of a section may be visible: not for air only, nor for opaque cubes only, within and around.
+// 4 or 5 of 16 sections of a landscape chunk are left.
 bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
     const Section& section = chunk.center->section(number);
     const auto isInvisible = [&](std::uint16_t id) {
@@ -61,7 +61,7 @@ bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
     return false;
 }
 
-// One, or two where a mesh section is half as high as a section.
+// Adds one unit, or two if a mesh section is half as high as a section.
 void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
     shared::MeshUnit unit{};
     unit.section = slotOf(chunk.center->section(number), true);

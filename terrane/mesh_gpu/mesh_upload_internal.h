@@ -1,5 +1,5 @@
-// Chunks as the meshing shaders read them: sections in their packed form, and a list of those in which
-// something may be seen. Pure bookkeeping without OpenGL.
+// Chunks in the form that the meshing shaders read: sections in their packed form, and a list of those with
+// faces that may be visible. Pure bookkeeping without OpenGL.
 #pragma once
 
 #include <span>
@@ -18,8 +18,8 @@ class MeshUpload {
     explicit MeshUpload(const BlockTable& types) : types_(types) {}  // outlives it
 
     void clear();
-    // The next chunk. Chunks of a batch have the same options, and stay where they are until clear(): of
-    // sections that several chunks look at there is one copy.
+    // Adds a chunk. Chunks of a batch have the same options and stay at their address until clear(): sections
+    // shared by several chunks are stored once.
     void add(const mesh::MeshInput& chunk);
 
     std::span<const shared::MeshUnit> units() const { return units_; }

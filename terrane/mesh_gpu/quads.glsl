@@ -1,5 +1,5 @@
-// What becomes of a quad. First quads are counted, by mesh section and range; then, when the host has made room, they are
-// written to their places in the buffer that is drawn from. WRITES_QUADS tells which of both.
+// Output of quads. A first run counts them by mesh section and range; after the host has made room, a second run writes
+// them into the buffer that is drawn from. WRITES_QUADS: 0 counts, 1 writes.
 #include "terrane/mesh_gpu/faces.glsl"
 #include "terrane/shared/shape_face.h"
 
@@ -27,7 +27,7 @@ void coverLayer(uint z) {
 }
 #endif
 
-// face: material and draw bucket. direction: as in mesh/draw_bucket.h, of a one-sided face.
+// face: material and draw bucket. direction: of a one-sided face, as in mesh/draw_bucket.h.
 void addQuad(uint word0, uint shapeFace, uint face, uint direction) {
     uint bucket = face >> 16;
     uint range = firstRange(bucket) + ((bucket & 1u) != 0u ? 0u : direction);
@@ -46,7 +46,7 @@ bool isCovered(uvec3 cell, uint side) {
     return (opaqueRows[at.y + int(kPaddedSize) * at.z] >> at.x & 1u) != 0u;
 }
 
-// The faces of the form that the block's state chooses, but those that opaque cubes hide.
+// Adds the faces of the form that the block state selects, without those hidden by opaque cubes.
 void addModel(MeshUnit unit, uvec3 cell, MeshType type) {
     uint state = blockStateAt(unit.blockState, blockIndex(cell)) & type.forms >> 16;
     uint form = forms[(type.forms & 0xFFFFu) + state];
@@ -57,7 +57,7 @@ void addModel(MeshUnit unit, uvec3 cell, MeshType type) {
     }
 }
 
-// One a block and plane. Their direction is the side they look to; none for those of a cross.
+// Adds one quad for each block and plane. Planes have the direction of their side; those of a cross have none.
 void addPlanes(MeshUnit unit, uint planes, uint local) {
     for (uint left = planes; left != 0u; left &= left - 1u) {
         uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
@@ -78,7 +78,7 @@ void addPlanes(MeshUnit unit, uint planes, uint local) {
     }
 }
 
-// bits × rows faces from this one on.
+// Adds a quad of bits × rows faces, from this cell on.
 void addFaces(MeshUnit unit, uint side, uvec3 cell, uvec2 extent) {
     MeshType type = types[typeOf(idAt(cell))];
     uint shapeFace = kShapeFaceCube + side;

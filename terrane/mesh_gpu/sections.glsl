@@ -20,7 +20,7 @@ uint blockIndex(uvec3 cell) {
     return cell.x + kSectionSize * cell.y + kBlocksPerLayer * cell.z;
 }
 
-// Id and, from bit 16 on, flags.
+// Id and, from bit 16 on, flags of a block.
 uint blockAt(PackedSection section, uint block) {
     uint value = packedValue(section, block);
     return section.bits == kDenseBits ? value | types[typeOf(value)].flags << 16 : value;

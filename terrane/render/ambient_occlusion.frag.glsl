@@ -1,6 +1,6 @@
-// Ambient visibility of a surface from the depth on the screen: 1 open, 0 occluded. Two to eight points on a
-// spiral in the hemisphere over the surface, fewer with distance, turned differently in each of 4 × 4 pixels.
-// MSAA_SAMPLES: of the G-buffer, of which the first is taken. NEAREST_LAYER: 1 for the nearest blended surface, pixels
+// Ambient visibility of a surface from screen-space depth: 1 open, 0 occluded. Two to eight points on a spiral in the
+// hemisphere over the surface, fewer with distance, rotated differently in each of 4 × 4 pixels.
+// MSAA_SAMPLES: of the G-buffer, whose first sample is used. NEAREST_LAYER: 1 for the nearest blended surface; pixels
 // without one stay as they are.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
@@ -20,7 +20,7 @@ float occlusionAt(vec3 position, float bias) {
     if (screen != clamp(screen, 0.0, 1.0)) return 0.0;
     float seen = blocksOfDepth(nearestDepthAt(ivec2(screen * frame.viewportSize)));
     float inFront = clip.w - seen;
-    // What stands far before the point does not occlude it.
+    // Surfaces far in front of the point do not occlude it.
     return inFront > bias ? clamp(1.0 - (inFront - kRadius) / kRadius, 0.0, 1.0) : 0.0;
 }
 

@@ -1,4 +1,4 @@
-// Ambient occlusion in screen space: of the opaque surfaces, then of the nearest blended ones. Used by the
+// Screen-space ambient occlusion of the opaque surfaces, then of the nearest blended ones. Used by the
 // renderer on the context's thread.
 #pragma once
 
@@ -14,14 +14,13 @@ class AmbientOcclusion {
 
     // `hasLayers`: drawNearestLayer() is used too.
     base::Result<void> configure(const FrameTargets& targets, bool isOn, bool hasLayers);
-    // Of the opaque surfaces.
+    // Draws the occlusion of the opaque surfaces.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
-    // Of the nearest blended layer, whose textures are bound: replaces the result where it has faces.
+    // Draws the occlusion of the nearest blended layer, whose textures are bound: replaces the result where
+    // the layer has faces.
     void drawNearestLayer(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     bool isOn() const { return size_.x > 0; }
-    const gpu::Texture2D& result() const {
-        return visibility_.texture;
-    }  // 1 where nothing shuts a surface in
+    const gpu::Texture2D& result() const { return visibility_.texture; }  // visibility: 1 is open
     std::size_t gpuBytes() const { return visibility_.texture.sizeBytes() + between_.texture.sizeBytes(); }
 
   private:

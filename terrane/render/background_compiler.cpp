@@ -19,17 +19,17 @@
 namespace terrane::render {
 namespace {
 
-// Then the context goes, with what it takes of memory.
+// Idle time after which the context and its memory are freed.
 constexpr std::chrono::seconds kIdle{10};
 
 constexpr int kSmallShadowMap = 256;  // texels a side: programs do not depend on it
 
-// Drivers may compile apart for textures whose sides are powers of two.
+// Drivers may have other programs for textures whose sides are powers of two.
 int smallSide(int pixels) {
     return std::has_single_bit(static_cast<unsigned>(pixels)) ? 64 : 96;
 }
 
-// Ground, and on it every kind of block side by side: each shader has something to draw.
+// Ground with every block type on it side by side: each shader has something to draw.
 world::Chunk sampleChunk(const world::BlockRegistry& blocks) {
     constexpr int kGround = 64;
     world::Chunk chunk;
@@ -67,11 +67,11 @@ struct BackgroundCompiler::State {
     const world::BlockRegistry& blocks;
     TextureSource textures;
 
-    std::mutex mutex;  // of what follows
+    std::mutex mutex;  // guards the members below
     std::condition_variable changed;
     std::optional<Wanted> next, current;
     std::vector<Wanted> ready;
-    bool isUseless = false;  // there is no context: everything counts as ready
+    bool isUseless = false;  // no context: everything counts as ready
     bool isEnding = false;
     std::thread thread;
 
@@ -91,7 +91,7 @@ bool BackgroundCompiler::State::waitForNext() {
     return !isEnding;
 }
 
-// None when nothing has been wanted for a while, or the thread is to end.
+// None if nothing was requested for a while, or the thread is to end.
 std::optional<BackgroundCompiler::State::Wanted> BackgroundCompiler::State::takeNext() {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, kIdle, [&] { return next || isEnding; });
@@ -118,11 +118,11 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
             return renderer->configure(wanted->size, options);
         };
         if (configure()) {
-            // The second frame draws what was hidden in the first, by other passes.
+            // The second frame has a late pass with other shaders, for surfaces that the first frame hid.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();
         }
-        // Options that the driver cannot do are the renderer's to tell of.
+        // The renderer reports options that the driver does not support.
         const std::lock_guard lock(mutex);
         ready.push_back(*wanted);
         current.reset();

@@ -1,7 +1,7 @@
-// Has the shaders of other options compiled while frames go on. A small image is drawn with them on a
-// thread and in an OpenGL context of its own; drivers keep what they compiled (Mesa and NVIDIA do, on disk)
-// and give it to the renderer when it asks for the same. Where a driver keeps nothing, or EGL cannot draw
-// without a window, the renderer compiles itself, and its frame waits.
+// Compiles the shaders of other options while frames go on. It draws a small image with them on a thread with
+// its own OpenGL context; drivers keep compiled shaders (Mesa and NVIDIA do, on disk) and give them to the
+// renderer when it compiles the same. If a driver keeps nothing, or EGL cannot draw without a window, the
+// renderer compiles itself, and its frame waits.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -13,7 +13,7 @@
 
 namespace terrane::render {
 
-// What a renderer was told to draw, as far as its shaders depend on it.
+// Properties of the world that select shaders.
 struct WorldFeatures {
     bool hasTint = false, hasLand = false;  // Renderer::useTint(), useLand()
 
@@ -25,12 +25,13 @@ class BackgroundCompiler {
     // Loader and registry outlive this; `textures` is called on the other thread.
     BackgroundCompiler(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                        TextureSource textures);
-    ~BackgroundCompiler();  // waits until the thread ends the image it is at
+    ~BackgroundCompiler();  // waits until the thread has finished its current image
     BackgroundCompiler(const BackgroundCompiler&) = delete;
     BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
 
     // Whether a renderer of such a world and this size (pixels) can take these options without compiling. If
-    // not, they come next, in place of others that wait: ask again before each frame until it is so.
+    // not, they are compiled next, replacing other waiting ones: call again before each frame until it is
+    // true.
     [[nodiscard]] bool isReady(glm::ivec2 size, const RenderOptions& options, const WorldFeatures& features);
 
   private:

@@ -20,8 +20,9 @@ bool isLiquid(uint face) {
     return (face >> 18 & 1u) != 0u;
 }
 
-// Where filters may read, in texels: textures repeat inside a quad, but filters must not reach around its edge to the
-// opposite one, where a plant has its stem and a grass block its soil: `margin` texels stay between. Faces may wrap otherwise.
+// Clamps texture coordinates, in texels, so that filters stay inside the quad: textures repeat inside it, but filters
+// must not reach around its edge to the opposite one, where a plant has its stem and a grass block its soil. `margin`
+// texels stay between. Faces may wrap otherwise.
 vec2 keptInside(uint face, vec2 at, vec2 inTextures, vec2 size, vec2 margin) {
     if (optionsWrap(inSampling) == kWrapRepeat) return at;
     vec2 low = vec2(0.0), high = extentOf(face) * size;
@@ -32,8 +33,8 @@ vec2 keptInside(uint face, vec2 at, vec2 inTextures, vec2 size, vec2 margin) {
     return clamp(at, low + margin, high - margin);
 }
 
-// Magnified textures are constant inside a texel and blend linearly over one pixel at its edges: neither blocks that
-// shimmer nor blur. Half a texel of the mipmap stays between filters and the border that they keep to.
+// Magnified textures are constant inside a texel and blend linearly over one pixel at its edges: they neither shimmer
+// nor blur. Half a texel of the mipmap stays between filters and the border.
 vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, vec2 dy) {
     uint doublings = optionsDoublings(inSampling);
     vec2 size = vec2(textureSize(textures, 0).xy >> int(doublings));
@@ -44,7 +45,7 @@ vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, 
     vec2 at = largest < 1.0 ? sharp : texel;
     vec2 margin = min(vec2(0.5 * max(largest, 1.0)), 0.5 * size);
     at = keptInside(face, at, inTextures, size, margin);
-    // Of a texture that was enlarged no level above its own is read: its texels are smaller there, and so are their edges.
+    // An enlarged texture is not read above its own level: texels are smaller there, and so are their edges.
     if (doublings > 0u && max(length(dx * size), length(dy * size)) < 1.0) {
         dx = vec2(1.0 / size.x, 0.0);
         dy = vec2(0.0, 1.0 / size.y);
@@ -52,11 +53,11 @@ vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, 
     return textureGrad(textures, vec3(at / size, textureOf(face)), dx, dy);
 }
 
-// SMOOTH 1: sharp filtering; 0 takes the nearest texel and costs a third. dx, dy: of the coordinates, before the margin
-// bends them.
+// SMOOTH 1: sharp filtering; 0 takes the nearest texel and costs a third. dx, dy: derivatives of the coordinates before
+// clamping.
 vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #if SMOOTH == 0 && MSAA_SAMPLES <= 1
-    // Cheaper, and the same where no pixel beside has ended and the coordinates are those of the face.
+    // Cheaper, and the same result if no neighboring pixel was discarded and the coordinates are those of the face.
     vec4 nearest = texture(blockTextures, vec3(inTextures, textureOf(face)));
 #endif
 #if FACE_SAMPLING == 1
@@ -73,8 +74,8 @@ vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 #endif
 }
 
-// The mipmap whose texels are nearest to a pixel's size, along its shorter side: planes seen edge on do not close. None
-// above the texture's own size.
+// Level of the mipmap whose texels are nearest to a pixel's size along its shorter side, so that planes seen edge-on
+// stay open. Not above the texture's own size.
 int nearestLevel(vec2 dx, vec2 dy) {
     int doublings = int(optionsDoublings(inSampling));
     vec2 size = vec2(textureSize(blockTextures, 0).xy >> doublings);

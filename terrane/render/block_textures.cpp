@@ -11,7 +11,7 @@
 namespace terrane::render {
 namespace {
 
-// Each pixel becomes a square of them.
+// Enlarges an image: each pixel becomes a square of pixels.
 base::Image enlarged(const base::Image& image, int side) {
     const int factor = side / image.width;
     base::Image large{

@@ -1,5 +1,5 @@
-// The tint of a fragment: the color that the generator gives its place changes the texture of a tinted face.
-// TINT: 1 where there is one (tint_textures.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
+// The tint of a fragment: the color of its place from the generator changes the texture of a tinted face.
+// TINT: 1 if the world has a tint (tint_textures.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 #if TINT == 1
 #include "terrane/shared/tint.h"
 
@@ -11,7 +11,7 @@ layout(location = 3) in vec2 inPlace;
 
 const vec3 kNeutralTint = vec3(kNeutralTintRed, kNeutralTintGreen, kNeutralTintBlue) / 255.0;
 
-// Of the finest level that reaches the place; over its outer quarter it goes over into the next one.
+// Tint of the finest level that reaches the place; over its outer quarter it blends into the next level.
 vec3 tintAt(vec2 place) {
     vec2 away = abs(place - frame.cameraPosition.xy);
     float distance = max(away.x, away.y), left = 1.0;
@@ -27,7 +27,7 @@ vec3 tintAt(vec2 place) {
 }
 #endif
 
-// By a power for each channel (world/tint.h): neutral becomes the tint, black and white stay.
+// Tints by a power for each channel (world/tint.h): neutral becomes the tint, black and white stay.
 vec3 tintedColor(uint face, vec4 texel) {
 #if TINT == 1
     if (isTinted(face)) {

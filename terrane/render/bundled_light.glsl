@@ -1,8 +1,8 @@
-// Light that waves bundle under water. Needs frame_uniforms.glsl; the noise of SkyNoise bound.
+// Caustics: light that waves focus under water. Needs frame_uniforms.glsl; the texture of SkyNoise is bound.
 layout(binding = kSkyNoiseUnit) uniform sampler2D bundleNoise;
 
-// Bright lines where two moving patterns are equal, 0…1, in the mean kMeanBundle. `at`: of the water's surface, repeats after 64
-// blocks.
+// Bright lines where two moving patterns are equal, 0…1, with mean kMeanBundle. `at`: place on the water's surface;
+// repeats after 64 blocks.
 const float kMeanBundle = 0.2;
 float bundledLight(vec2 at) {
     float seconds = (frame.switches & kSwitchAnimation) != 0 ? frame.timeSeconds : 0.0;
@@ -12,14 +12,14 @@ float bundledLight(vec2 at) {
     return line * line;
 }
 
-// Where light that reaches a point, `position` from the corner of the camera's chunk, came through a surface so many blocks above.
-// Water bends it toward the vertical.
+// Place on the surface, `above` blocks higher, where light that reaches `position` enters the water. `position` is in
+// blocks from the corner of the camera's chunk. Refraction makes the light steeper.
 vec2 bundlePlace(vec3 position, float above) {
     vec2 lean = 0.7 * frame.lightDirection.xy / max(frame.lightDirection.z, 0.35);
     return position.xy + vec2((frame.cameraChunk & 3) * int(kChunkSize)) + lean * above;
 }
 
-// How strong bundles and shafts are: by day, when the sun is up.
+// Strength of caustics and shafts: by day, when the sun is up.
 float sunInWater() {
     return frame.isMoon != 0u ? 0.0 : smoothstep(0.05, 0.3, frame.lightDirection.z);
 }

@@ -35,12 +35,13 @@ glm::vec3 rightDirection(const Camera& camera) {
     return world::rightDirection(camera.yaw);
 }
 
+glm::dvec3 cornerOfChunk(world::ChunkPos chunk) {
+    return {double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y, 0};
+}
+
 ViewMatrices viewMatrices(const Camera& camera, float aspect) {
-    const world::ChunkPos chunk = cameraChunk(camera);
-    const glm::dvec3 corner(static_cast<double>(chunk.x) * world::kChunkSize,
-                            static_cast<double>(chunk.y) * world::kChunkSize, 0.0);
     ViewMatrices v;
-    v.cameraPosition = glm::vec3(camera.position - corner);
+    v.cameraPosition = glm::vec3(camera.position - cornerOfChunk(cameraChunk(camera)));
     const float fieldOfView = glm::radians(camera.fieldOfView), half = std::tan(fieldOfView * 0.5f);
     v.ahead = lookDirection(camera);
     v.across = half * aspect * rightDirection(camera);

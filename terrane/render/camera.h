@@ -22,6 +22,9 @@ world::ChunkPos cameraChunk(const Camera& camera);
 glm::vec3 lookDirection(const Camera& camera);
 glm::vec3 rightDirection(const Camera& camera);
 
+// Lowest corner of a chunk of level 0, in blocks in the world.
+glm::dvec3 cornerOfChunk(world::ChunkPos chunk);
+
 constexpr float kNearPlane = 0.05f;  // blocks
 
 // In blocks from the corner of the camera's chunk at z = 0.
@@ -29,16 +32,16 @@ struct ViewMatrices {
     glm::vec3 cameraPosition;
     glm::mat4 viewProjection;  // reversed depth without far plane: 1 at the near plane, 0 at infinity
     // From the camera to the middle of the image one block ahead, and from there to its right and upper
-    // edge.
+    // edges.
     glm::vec3 ahead, across, up;
 };
 
 ViewMatrices viewMatrices(const Camera& camera, float aspect);
 
-// Half spaces a·p + w ≥ 0 that hold what the camera sees: left, right, bottom, top, near.
+// Half spaces a·p + w ≥ 0 that contain the view: left, right, bottom, top, near.
 using Frustum = std::array<glm::vec4, 5>;
 Frustum frustumOf(const glm::mat4& viewProjection);
-// False only where no point of the box can be seen.
+// False only if no point of the box can be visible.
 bool mayBeVisible(std::span<const glm::vec4> planes, glm::vec3 min, glm::vec3 max);
 
 }  // namespace terrane::render

@@ -18,12 +18,6 @@ void forEachTile(world::ChunkPos middle, const F& f) {
         for (int dx = -kHalfTiles; dx < kHalfTiles; ++dx) f(world::offsetBy(middle, dx, dy));
 }
 
-// How far a point is from a tile along one axis, blocks.
-double distanceTo(double at, std::int32_t tile, double blocks) {
-    const double low = tile * blocks;
-    return std::max({0.0, low - at, at - (low + blocks)});
-}
-
 }  // namespace
 
 double ClipmapShape::tileBlocks(int level) const {
@@ -97,14 +91,14 @@ std::vector<world::ChunkPos> Clipmap::missing(world::ChunkPos camera, double rea
     return tiles;
 }
 
-// Filters read half a texel beyond a place: a whole one stays between.
+// Filters read half a texel beyond a place, so a whole texel is left as a margin.
 double Clipmap::completeReach(int level, const Camera& camera) const {
     const double blocks = shape_.tileBlocks(level);
     double reach = kMaxReachTiles * blocks;
     forEachTile(middleTile(level, cameraChunk(camera)), [&](world::ChunkPos tile) {
         if (contains(tile)) return;
-        const double away = std::max(distanceTo(camera.position.x, tile.x, blocks),
-                                     distanceTo(camera.position.y, tile.y, blocks));
+        const double away = std::max(distanceToTile(camera.position.x, tile.x, blocks),
+                                     distanceToTile(camera.position.y, tile.y, blocks));
         reach = std::min(reach, away - shape_.texelBlocks(level));
     });
     return std::max(reach, 0.0);
@@ -123,6 +117,11 @@ shared::TintFrame tintFrame(const Clipmap& clipmap, const Camera& camera) {
                                static_cast<float>(clipmap.completeReach(level, camera))};
     }
     return frame;
+}
+
+double distanceToTile(double at, std::int32_t tile, double blocks) {
+    const double low = tile * blocks;
+    return std::max({0.0, low - at, at - (low + blocks)});
 }
 
 }  // namespace terrane::render

@@ -1,4 +1,4 @@
-// Clouds on a plane high above the world. Needs frame_uniforms.glsl; the noise of SkyNoise bound.
+// Clouds on a plane high above the world. Needs frame_uniforms.glsl; the texture of SkyNoise is bound.
 #include "terrane/render/wind.glsl"
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D cloudNoise;
@@ -13,8 +13,8 @@ float cloudThickness(vec2 at) {
     return smoothstep(0.50, 0.80, shape);
 }
 
-// Color and coverage before a sky of a color. Toward the sun a cloud is thinner or thicker than here: its lit and its
-// shaded side. A low sun shines on it from below.
+// Color and coverage in front of a sky color. The lit and the shaded side of a cloud depend on whether it is thinner or
+// thicker toward the sun. A low sun lights it from below.
 vec4 clouds(vec3 direction, vec3 sky) {
     float up = max(direction.z, 0.02);
     vec3 position = frame.cameraPosition.xyz;

@@ -1,6 +1,6 @@
-// Writes the draw commands of each list and arena, a work group each, in the order of the mesh sections. Each thread takes as many
-// neighboring mesh sections as there are for it: counts their commands, learns from the sum over the threads before where its
-// own begin, and writes them.
+// Writes the draw commands of each list and arena, a work group each, in the order of the mesh sections. Each thread
+// handles an equal number of consecutive mesh sections: it counts their commands, gets its first place from a prefix
+// sum over the threads, and writes them.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
@@ -23,7 +23,7 @@ layout(std430, binding = kCommandsBinding) writeonly buffer Commands {
     DrawCommand commands[];
 };
 layout(std430, binding = kCountsBinding) writeonly buffer Counts {
-    DrawCounts counts[];  // of each arena two: of the early and the late pass
+    DrawCounts counts[];  // two for each arena: of the early and the late pass
 };
 
 shared uint sums[kThreads];
@@ -33,7 +33,7 @@ uint commandsFor(uint quads) {
     return (quads + kMaxQuadsPerCommand - 1u) / kMaxQuadsPerCommand;
 }
 
-// Of the mesh section with a place in the order, those in the work group's arena.
+// Face directions of the mesh section at a place in the order, if it is in the work group's arena.
 uint directionsOf(uint place, uint shift) {
     uint word = visible[place];
     return word >> kArenaBits == gl_WorkGroupID.y ? word >> shift & 127u : 0u;
@@ -49,8 +49,8 @@ uint writeCommands(uvec2 quads, uint slot, uint at) {
     return at;
 }
 
-// Commands for the face directions of a mesh section, neighboring ones together; written from `at` on where `isWriting`.
-// Returns the place behind them. Adds the quads to `quads`.
+// Commands for the face directions of a mesh section, adjacent ranges together; written from `at` on if `isWriting`.
+// Returns the place after them. Adds the quads to `quads`.
 uint visit(uint slot, uint bucket, uint directions, uint at, bool isWriting, inout uint quads) {
     uint isTwoSided = bucket & 1u;
     uvec2 pending = uvec2(0u);
@@ -70,7 +70,7 @@ uint visit(uint slot, uint bucket, uint directions, uint at, bool isWriting, ino
     return isWriting ? writeCommands(pending, slot, at) : at + commandsFor(pending.y);
 }
 
-// Sums of all threads up to this one, it included.
+// Inclusive prefix sum over the threads.
 uint scan(uint thread, uint value) {
     sums[thread] = value;
     barrier();

@@ -1,10 +1,10 @@
-// Which face directions of each mesh section the camera may see.
+// Finds the face directions of each mesh section that the camera may see.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
 layout(local_size_x = kCullThreads) in;
 
-const int kMaxHiZTexels = 64;  // that are read for a box
+const int kMaxHiZTexels = 64;  // read for a box
 
 layout(binding = kHiZUnit) uniform sampler2D hiZ;  // the farthest depths of squares of pixels
 
@@ -33,7 +33,7 @@ bool isOutside(vec4 plane, vec3 low, vec3 high) {
     return dot(plane.xyz, farthest) + plane.w < 0.0;
 }
 
-// Whether what was drawn so far hides the box, with what waves: it lies behind the farthest depth of all pixels that it
+// Whether the depth drawn so far hides the box, waves included: it lies behind the farthest depth of all pixels that it
 // covers.
 bool isHidden(vec3 low, vec3 high) {
     vec2 screenMin = vec2(1.0), screenMax = vec2(-1.0);
@@ -47,10 +47,10 @@ bool isHidden(vec3 low, vec3 high) {
         screenMax = max(screenMax, screen);
         nearest = max(nearest, cull.nearPlane / clip.w);
     }
-    // A pixel more on each side: quads grow a little.
+    // One more pixel on each side, since quads grow a little.
     vec2 from = clamp((0.5 + 0.5 * screenMin) * cull.viewportSize - 1.0, vec2(0.0), cull.viewportSize - 1.0);
     vec2 to = clamp((0.5 + 0.5 * screenMax) * cull.viewportSize + 1.0, vec2(0.0), cull.viewportSize - 1.0);
-    // The finest level where few texels cover the box: far land is wide and flat.
+    // The finest level at which few texels cover the box: far land is wide and flat.
     ivec2 first = ivec2(from) / int(kHiZTexelPixels), last = ivec2(to) / int(kHiZTexelPixels), size = last - first + 1;
     int level = 0;
     while (size.x * size.y > kMaxHiZTexels && level + 1 < cull.hiZLevels) {
@@ -66,7 +66,7 @@ bool isHidden(vec3 low, vec3 high) {
     return nearest < farthest;
 }
 
-// The last direction is that of faces which may look anywhere.
+// The last direction is that of oblique and two-sided faces.
 uint bitsOf(bvec3 negative, bvec3 positive) {
     return uint(negative.x) | uint(positive.x) << 1 | uint(negative.y) << 2 | uint(positive.y) << 3 |
            uint(negative.z) << 4 | uint(positive.z) << 5 | 1u << 6;
@@ -87,7 +87,7 @@ void main() {
     for (int k = 0; k < 5; ++k) {
         if (isOutside(cull.cameraPlanes[k], wavingLow, wavingHigh)) isInView = false;
     }
-    // Every face that looks to -x is seen from behind where the camera is beyond the last of them, and so on.
+    // All faces toward -x are seen from behind if the camera is beyond the last of them, and so on.
     vec3 camera = cull.cameraPosition.xyz;
     uint directions = isInView ? bitsOf(lessThan(camera, high), greaterThan(camera, low)) : 0u;
     uint word = (meshSections[slot].ranges[0].x / cull.arenaQuads) << kArenaBits;
@@ -99,7 +99,7 @@ void main() {
         uint drawnEarly = directions & visibleLastFrame[slot];
         visibleLastFrame[slot] = 0u;
         if (directions != 0u && !isHidden(wavingLow, wavingHigh)) {
-            // The test of its quads adds the directions that it finds some in.
+            // The test of its quads adds the directions of visible quads.
             word |= directions << kBlendedDirectionBits | drawnEarly << kDrawnEarlyBits;
             testedNumbers[atomicAdd(tested.count, 1u)] = number;
         }

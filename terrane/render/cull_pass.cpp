@@ -46,7 +46,7 @@ void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
     sum.meshSections += counts.meshSections;
 }
 
-// Room for all faces of each list's draw bucket, so that none can overflow.
+// Room for all faces of each list's draw bucket, so that no list can overflow.
 std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
     std::size_t sum = 0;
     for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
@@ -110,7 +110,7 @@ std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
            countBuffer_.sizeBytes() + quadCull_.gpuBytes() + quadList_.gpuBytes();
 }
 
-// Mesh sections that were never tested count as hidden: the late pass draws them.
+// Mesh sections not tested before count as hidden: the late pass draws them.
 void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring) {
     shared::CullFrame frame = frameOf(phase_, input, meshSections.count());
     for (std::uint32_t number = 0; number < lists_.size() * shared::kDrawLists; ++number) {
@@ -193,7 +193,7 @@ void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& st
     }
 }
 
-// Not where the GPU is as many frames behind as there are buffers.
+// Skipped if the GPU is as many frames behind as there are buffers.
 void CullPass::queueCounts() {
     counts();
     Readback& readback = readbacks_[nextReadback_];

@@ -1,5 +1,5 @@
-// Decides on the GPU what is drawn: mesh sections in the view of the camera, without the face directions that
-// look away, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
+// Selects on the GPU what is drawn: mesh sections in view, without face directions that face away from the
+// camera, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
 // quads (quad_list.h). Used by the renderer on the context's thread.
 #pragma once
 
@@ -20,45 +20,46 @@ namespace terrane::render {
 
 struct CullInput {
     world::ChunkPos cameraChunk;
-    glm::vec3 cameraPosition;  // from its corner
+    glm::vec3 cameraPosition;  // from the corner of its chunk
     Frustum camera;
     glm::mat4 viewProjection{1};
     glm::vec2 size{1};         // of the image in pixels
     const HiZ* hiZ = nullptr;  // for the late pass
-    // With Hi-Z the late pass tests quads, and both passes list those that are drawn.
+    // With Hi-Z the late pass tests quads, and both passes list those to draw.
     const QuadStore* quads = nullptr;
     const QuadResources* resources = nullptr;
     float edgeExpansion = 0;  // pixels that edges of quads move
-    float blockPixels = 0;    // that a block takes, one block ahead
-    int samples = 1;          // of a pixel
+    float blockPixels = 0;    // pixels of a block, one block ahead
+    int samples = 1;          // a pixel
 };
 
-// All in view at once, or in two passes: early, what was visible in the frame before, then late, what its
-// depth does not hide. Mesh sections first, then their quads: quad_cull.h.
+// All: everything in view. Early: what was visible in the frame before. Late: what the depth of the early
+// pass does not hide. Mesh sections first, then their quads: quad_cull.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
-    // `meshSections` is up to date.
-    // The early and the late pass of a frame follow each other, drawing between them.
+    // Runs a pass. `meshSections` is up to date. The early and the late pass of a frame follow each other,
+    // with drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
              gpu::MappedRing& ring);
-    // Draws the quads that the last pass chose, one draw call for each draw bucket and arena of `quads`. The
-    // shader and what it reads but the quads are bound. Culls the back faces of one-sided quads.
+    // Draws the quads that the last pass selected, one draw call for each draw bucket and arena of `quads`.
+    // The shader and its other inputs are bound. Culls the back faces of one-sided quads.
     void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
                      mesh::AlphaClass alphaClass) const;
 
-    // Of the newest frame that the GPU has finished, all runs together; does not wait. Ends the frame.
+    // Ends the frame: queues a read-back of its counts.
     void queueCounts();
+    // Counts of the newest finished frame, summed over its passes; does not wait.
     const shared::DrawCounts& counts();
 
-    // Of the last run, for tests: waits for the GPU.
+    // Commands of the last run, for tests: waits for the GPU.
     std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
 
-    // On the GPU as of the next run. Buffers that it replaces count too; those of QuadCull and QuadList count
-    // as they are.
+    // GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList count with
+    // their present size.
     std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
 
   private:
@@ -73,7 +74,7 @@ class CullPass {
         bool isPending = false;
         std::size_t arenas = 0;
     };
-    // Where the commands of a list begin in the buffer, and the most that there can be.
+    // First command of a list in the buffer, and the most commands.
     struct ListCommands {
         std::uint32_t first = 0, max = 0;
     };

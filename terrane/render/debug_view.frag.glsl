@@ -1,4 +1,4 @@
-// What the G-buffer holds, instead of the image. MSAA_SAMPLES: of the G-buffer.
+// Shows the content of the G-buffer. MSAA_SAMPLES: of the G-buffer.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/gbuffer_read.glsl"

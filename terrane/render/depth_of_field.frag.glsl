@@ -1,5 +1,5 @@
-// The image for what is far away, blurred, at half its size: Gaussian of 9 taps, σ = 2, along one axis. What is nearer
-// than the middle counts little, so that near things keep their edges. The distance goes along in alpha.
+// Blurs the image for distant pixels, at half its size: Gaussian of 9 taps, σ = 2, along one axis. Taps nearer than the
+// center have little weight, so that near things keep their edges. Alpha has the distance.
 // AXIS: 0 from the scene, along x; 1 from the result of that, along y. MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #if AXIS == 0

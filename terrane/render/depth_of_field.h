@@ -1,4 +1,4 @@
-// Depth of field: what is far away blurs. Used by the renderer on the context's thread.
+// Depth of field: blurs distant objects. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/gpu/sampler.h"
@@ -12,9 +12,9 @@ class DepthOfField {
     DepthOfField() = default;
     explicit DepthOfField(const gpu::ShaderLoader& shaders);
 
-    // Makes room for the blurred image at half the size, or none.
+    // Allocates the blurred image at half the size, or frees it.
     base::Result<void> configure(const FrameTargets& targets, bool isOn);
-    // From the scene. `depth`: of what is nearest, with the samples of the targets.
+    // Blurs the scene. `depth`: of the nearest surfaces, with the samples of the targets.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const MsaaTexture& depth) const;
     bool isOn() const { return size_.x > 0; }
     void bindResult() const;

@@ -1,4 +1,4 @@
-// A layer of blended faces: the nearest of those that lie behind the layer before. NEXT: 0 for the first layer, 1 for the
+// A layer of blended faces: the nearest of those behind the previous layer. NEXT: 0 for the first layer, 1 for the
 // others. MSAA_SAMPLES: of the layers; above 1 the layers behind the first are drawn sample by sample. TINT: see
 // block_tint.glsl.
 #include "terrane/render/frame_uniforms.glsl"
@@ -18,8 +18,8 @@ layout(binding = kTransparencyDepthUnit) uniform sampler2D before;
 #endif
 #endif
 
-// A face behind the layer must be farther by 2^-19, 0.0002 blocks at 100 blocks: depths that are computed twice differ in the
-// last bits.
+// A face behind the layer must be farther by 2^-19, 0.0002 blocks at 100 blocks: depths that are computed twice differ
+// in the last bits.
 const float kNotBehind = 1.0 - 1.0 / 524288.0;
 
 layout(location = 0) in vec2 inTexel;
@@ -27,8 +27,8 @@ layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outLayer;
 
 #if MSAA_SAMPLES > 1 && NEXT == 1
-// Of the sample that is drawn. OpenGL does not say where in the pixel gl_FragCoord is: in its center on NVIDIA, in the sample
-// on Mesa. A face is plane, and so is its depth on the screen.
+// Depth at the sample that is drawn. OpenGL does not define the place of gl_FragCoord in the pixel: its center on
+// NVIDIA, the sample on Mesa. A face is plane, and so is its depth on the screen.
 float depthOfSample() {
     vec2 toSample = gl_SamplePosition - fract(gl_FragCoord.xy);
     return gl_FragCoord.z + dot(vec2(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z)), toSample);
@@ -36,7 +36,7 @@ float depthOfSample() {
 #endif
 
 void main() {
-    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);  // before a pixel beside may have ended
+    vec2 dx = dFdx(inTexel), dy = dFdy(inTexel);  // before neighboring pixels may be discarded
 #if NEXT == 1
 #if MSAA_SAMPLES > 1
     float depth = depthOfSample(), last = texelFetch(before, ivec2(gl_FragCoord.xy), gl_SampleID).r;
@@ -46,7 +46,7 @@ void main() {
     if (depth >= last * kNotBehind) discard;
 #endif
     vec4 texel = blockTexture(inFace.x, inTexel, dx, dy);
-    // Of a liquid the color counts, its pattern little.
+    // A liquid shows mostly its mean color, little of its pattern.
     if (isLiquid(inFace.x)) texel = mix(texel, textureLod(blockTextures, vec3(0.5, 0.5, textureOf(inFace.x)), 10.0), 0.7);
     uint direction = directionOfFace(inFace.x);
     if (!gl_FrontFacing && direction < kDirectionPlant) direction ^= 1u;

@@ -1,4 +1,4 @@
-// How distance changes colors. Needs frame_uniforms.glsl and sky_color.glsl. UNDER_WATER: 1 where the camera is.
+// Changes of colors with distance. Needs frame_uniforms.glsl and sky_color.glsl. UNDER_WATER: 1 if the camera is.
 
 #include "terrane/render/bundled_light.glsl"
 #if UNDER_WATER == 1
@@ -14,9 +14,9 @@ vec3 throughAirToSky(vec3 color, vec3 toPoint, float daylight) {
 #else
 const float kLog2E = 1.442695;
 
-// Powers of ½ that the air leaves of each color of what lies behind it (world/air.h). Molecules take half as many of red as
-// of green and a fifth as many as of blue. Haze takes all colors alike: its mean density on the way is the closed form of
-// world::hazeLength. `share2`: square of the share of the view's distance.
+// Optical depth of the air for each color, in powers of ½ (world/air.h). Molecules have half as much for red as for
+// green and a fifth as much as for blue. Haze is equal for all colors: its mean density on the way is the closed form
+// of world::hazeLength. `share2`: square of the share of the view's distance.
 vec3 airDepth(vec3 toPoint, float blocks, float share2) {
     float rise = max(toPoint.z * air.depth.z, -80.0);
     rise = abs(rise) < 1e-3 ? 1e-3 : rise;
@@ -30,11 +30,11 @@ vec3 airDepth(vec3 toPoint, float blocks, float share2) {
 struct Seen {
     vec3 color;   // through the air
     vec3 behind;  // the sky there
-    float left;   // 1 … 0 where chunks come and go unseen
+    float left;   // coverage: 0 where chunks appear and vanish
 };
 
-// Toward the color of the sky behind, from 5/6 of the view on toward nothing. Where no daylight comes (0…1) there is no
-// haze: caves stay dark.
+// Blends toward the color of the sky behind, and from 5/6 of the view on toward nothing. Without daylight (0…1) there
+// is no haze: caves stay dark.
 Seen seenThroughAir(vec3 color, vec3 toPoint, float daylight) {
     float blocks2 = dot(toPoint, toPoint), inverse = inversesqrt(blocks2), blocks = blocks2 * inverse;
     float share2 = dot(toPoint.xy, toPoint.xy) / (frame.fogDistance * frame.fogDistance);
@@ -47,13 +47,13 @@ Seen seenThroughAir(vec3 color, vec3 toPoint, float daylight) {
     return Seen(isClear ? color : mix(sky, color, exp2(-depth)), sky, isClear ? 1.0 : 1.0 - fading);
 }
 
-// Color times what is left of it, and what is left.
+// Premultiplied color, and coverage.
 vec4 throughAir(vec3 color, vec3 toPoint, float daylight) {
     Seen seen = seenThroughAir(color, toPoint, daylight);
     return vec4(seen.color * seen.left, seen.left);
 }
 
-// The same over the sky without clouds, whose color is looked up once for both.
+// The same blended over the sky without clouds, whose color is looked up once for both.
 vec3 throughAirToSky(vec3 color, vec3 toPoint, float daylight) {
     Seen seen = seenThroughAir(color, toPoint, daylight);
     return mix(seen.behind, seen.color, seen.left);

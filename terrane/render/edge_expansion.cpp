@@ -6,7 +6,7 @@
 namespace terrane::render {
 namespace {
 
-// What OpenGL 4.5 lets an edge be off (docs/rendering.md, Cracks):
+// Largest error of an edge that OpenGL 4.5 allows (docs/rendering.md, Cracks):
 // - by the grid: corners are placed with SUBPIXEL_BITS bits (Implementation Dependent Values), so that each
 //   coordinate is off by up to half a step and an edge by up to √½ steps;
 // - by arithmetic: results are accurate to about one part in 10^5 (Floating-Point Computation); with

@@ -1,14 +1,12 @@
-// Conservative edge expansion: covers the cracks between quads. Where a corner of one quad lies on the edge
-// of another, the rasterizer moves the corner to its grid of sub-pixels but not the edge with it, and a
-// sample between the two sees what is behind. Every edge moves outward by as much as the OpenGL
-// specification lets it be off (edge_expansion.cpp), far less than a pixel, so that neighbors overlap and
-// silhouettes stay where they are.
+// Conservative edge expansion covers the cracks between quads. If a corner of one quad lies on the edge of another, the
+// rasterizer moves the corner to its grid of sub-pixels but not the edge with it, and a sample between the two shows
+// the background. So every edge moves outward by the largest error that OpenGL allows (edge_expansion.cpp), far less
+// than a pixel: neighbors overlap, and silhouettes stay where they are.
 
 // Corners of nearly folded quads move no farther along them than this many times the growth.
 const float kLongestMiter = 64.0;
 
-// On the screen, from a point toward another, which may lie behind the camera: the derivative of the
-// projection.
+// Screen direction from a point toward another, which may lie behind the camera: the derivative of the projection.
 vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {
     vec2 toward = (to.xy * from.w - from.xy * to.w) * halfViewport;
     float size = length(toward);
@@ -17,7 +15,7 @@ vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {
 
 // A corner in clip space moved so that the edges toward the neighboring corners move outward by `growth`
 // pixels; the edge toward neighborU stays if `growsV` is 0. Depth stays. Corners behind the camera stay too:
-// the clipped edge grows by what its other end does, and more.
+// the clipped edge grows at least as much as its other end.
 vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, float growth, float growsV) {
     if (corner.w <= 0.0) return corner;
     vec2 halfViewport = 0.5 * viewport;

@@ -1,4 +1,4 @@
-// How far the edges of opaque quads move outward, so that no sample falls between two of them
+// Distance by which the edges of opaque quads move outward, so that no sample falls between two of them
 // (edge_expansion.glsl). Used by the renderer.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace terrane::render {
 
-// Pixels, on a rasterizer whose grid has 2^subpixelBits steps a pixel.
+// In pixels, for a rasterizer whose grid has 2^subpixelBits steps a pixel.
 float edgeExpansion(int subpixelBits, glm::ivec2 imageSize);
 
 }  // namespace terrane::render

@@ -13,7 +13,7 @@ const float kChin = 1.37;   // height
 
 const uint kAhead = 1u, kBack = 0u, kBelow = 4u, kAbove = 5u;  // sides of a box
 
-// sRGB, as are all colors here. Shirts that follow each other differ most.
+// sRGB, as are all colors here. Consecutive shirts differ most.
 const uint kShirts = 12u;
 const vec3 kShirtColors[kShirts] = vec3[](
     vec3(0.78, 0.24, 0.22), vec3(0.20, 0.47, 0.74), vec3(0.93, 0.74, 0.25), vec3(0.29, 0.58, 0.32), vec3(0.56, 0.34, 0.66),
@@ -49,7 +49,7 @@ vec3 trousersOf(uint look) {
     return kTrouserColors[choiceOf(look, 5u, kTrousers)];
 }
 
-// From the chin up 0 … 7, from the right -4 … 3.
+// Texel of the head: 0 … 7 upward from the chin, -4 … 3 from the right.
 ivec2 squareOfHead(float across, float height) {
     return ivec2(floor(vec2(across, height - kChin) / kTexel));
 }

@@ -1,5 +1,5 @@
-// Figures of players, each an instance: boxes that turn about joints, x ahead, y to the left, z up, at rest with the feet at
-// z = 0. Of a box the three faces are drawn that look to the camera, or to the light; a face has six vertices.
+// Figures of players, each an instance: boxes that turn about joints; x ahead, y to the left, z up, at rest with the
+// feet at z = 0. Only the three faces of a box that face the camera or the light are drawn; a face has six vertices.
 // PASS: 0 G-buffer, 2 shadow map.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/figure_look.glsl"
@@ -13,7 +13,7 @@ layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
 };
 #endif
 
-// Not a storage buffer: OpenGL 4.5 lets a driver have none in vertex shaders.
+// Not a storage buffer: OpenGL 4.5 does not guarantee any in vertex shaders.
 layout(std140, binding = kFiguresBinding) uniform FigureBlock {
     FigureRecord figures[kMostFigures];
 };
@@ -36,7 +36,7 @@ struct Box {
     uint part;
 };
 
-// All lie within the 0.6 × 0.6 × 1.8 blocks that a player takes up.
+// All boxes lie within the 0.6 × 0.6 × 1.8 blocks that a player takes up.
 const Box kBoxes[kFigureBoxes - 1u] = Box[](
     Box(vec3(-0.075, 0.005, 0.02), vec3(0.075, 0.14, 0.76), kLeftLeg, kPartLeg),
     Box(vec3(-0.075, -0.14, 0.02), vec3(0.075, -0.005, 0.76), kRightLeg, kPartLeg),
@@ -70,13 +70,14 @@ mat3 turnedAside(float angle) {
     return mat3(c, s, 0.0, -s, c, 0.0, 0.0, 0.0, 1.0);
 }
 
-// What looks ahead looks up; what hangs down swings ahead.
+// Turns the forward axis upward; a hanging limb swings ahead.
 mat3 turnedUp(float angle) {
     float c = cos(angle), s = sin(angle);
     return mat3(c, 0.0, s, 0.0, 1.0, 0.0, -s, 0.0, c);
 }
 
-// Of the left leg; that of the right one is the opposite. A foot goes evenly over the ground, but for the turn at its ends.
+// Angle of the left leg; that of the right one is the opposite. A foot moves evenly over the ground, except where it
+// turns.
 float legAngle(float phase, float size) {
     const float kEven = 0.96;
     return asin(sin(kFigureMostSwing * size) * asin(kEven * sin(phase)) / asin(kEven));
@@ -87,7 +88,7 @@ struct Joint {
     float rise;  // blocks over its place at rest
 };
 
-// The rear leg stands on its toe; the one that goes ahead is lifted.
+// The rear leg stands on its toe; the one that moves ahead is lifted.
 Joint jointOf(int joint, FigureRecord figure) {
     float size = figure.pose.w, phase = figure.pose.z, leg = legAngle(phase, size);
     float rise = kFigureLeg * (cos(leg) - 1.0) + kToe * abs(sin(leg)), lift = 0.07 * size * cos(phase);

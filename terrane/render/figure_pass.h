@@ -15,18 +15,18 @@ namespace terrane::render {
 
 class FigurePass {
   public:
-    // What bind() takes, whatever the number of figures.
+    // Bytes that bind() takes of the ring, for any number of figures.
     static constexpr std::size_t kRingBytes = shared::kMostFigures * sizeof(shared::FigureRecord);
 
     FigurePass() = default;
     explicit FigurePass(const gpu::ShaderLoader& shaders);
 
     base::Result<void> select(bool castsShadows);
-    // For what is drawn next: one to kMostFigures figures. Takes kRingBytes of the ring.
+    // Binds one to kMostFigures figures for the next draws. Takes kRingBytes of the ring.
     void bind(std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const;
-    // Adds `count` figures that are bound to the G-buffer, with the frame's uniforms bound.
+    // Draws `count` bound figures into the G-buffer, with the frame's uniforms bound.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, std::size_t count) const;
-    // To the depth that is bound, with the uniforms of a shadow map's rectangle bound too.
+    // Draws into the bound depth, with the uniforms of a shadow map's rectangle bound too.
     void drawShadows(std::size_t count) const;
 
   private:

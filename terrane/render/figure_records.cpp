@@ -10,10 +10,7 @@
 namespace terrane::render {
 namespace {
 
-// Around the feet: legs and arms reach so far out, and hair over the box of the player.
-constexpr glm::vec3 kLowest{-1, -1, -0.2f}, kHighest{1, 1, 2.2f};
-
-// Players may stand in one place, as where the world begins: from within one would see the back of a face.
+// Players may stand at one place, as at the spawn: from within one would see back faces.
 bool isWithin(const world::Figure& figure, const glm::dvec3& camera) {
     constexpr double kAside = 0.4, kUnder = world::kEyeHeight + 0.1, kOver = 0.3;  // of the eyes
     const glm::dvec3 from = camera - figure.eyes;
@@ -33,9 +30,7 @@ shared::FigureRecord recordOf(const world::Figure& figure, glm::vec3 feet) {
 
 std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> figures, const Camera& camera,
                                                 std::span<const glm::vec4> planes, double farBlocks) {
-    const world::ChunkPos chunk = cameraChunk(camera);
-    const glm::dvec3 corner(double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y,
-                            world::kEyeHeight);
+    const glm::dvec3 corner = cornerOfChunk(cameraChunk(camera)) + glm::dvec3(0, 0, world::kEyeHeight);
     struct Seen {
         double distance;
         shared::FigureRecord record;
@@ -45,7 +40,7 @@ std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> f
         const double distance = glm::distance(figure.eyes, camera.position);
         const glm::vec3 feet(figure.eyes - corner);
         if (isWithin(figure, camera.position)) continue;
-        if (distance < farBlocks && mayBeVisible(planes, feet + kLowest, feet + kHighest))
+        if (distance < farBlocks && mayBeVisible(planes, feet + kFigureLow, feet + kFigureHigh))
             seen.push_back({distance, recordOf(figure, feet)});
     }
     std::ranges::stable_sort(seen, {}, &Seen::distance);

@@ -1,4 +1,4 @@
-// The figures of a frame as shaders read them. A pure function; any thread.
+// Records of the figures of a frame for shaders. A pure function; any thread.
 #pragma once
 
 #include <span>
@@ -10,8 +10,12 @@
 
 namespace terrane::render {
 
-// Those that the planes (in the frame's positions) leave in, that are nearer than `farBlocks` and not where
-// the camera is; the nearest kMostFigures of them.
+// Box of a figure around its feet, in blocks: legs and arms swing out of the box of the player, hair is above
+// it.
+constexpr glm::vec3 kFigureLow{-1, -1, -0.2f}, kFigureHigh{1, 1, 2.2f};
+
+// Returns the figures inside the planes (in positions of the frame) that are nearer than `farBlocks` and not
+// around the camera; the nearest kMostFigures of them.
 std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> figures, const Camera& camera,
                                                 std::span<const glm::vec4> planes, double farBlocks);
 

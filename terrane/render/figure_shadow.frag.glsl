@@ -1,2 +1,2 @@
-// Depth is all that is kept of figures in a shadow map.
+// Shadow maps of figures have depth only.
 void main() {}

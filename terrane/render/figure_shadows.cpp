@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "terrane/render/figure_records.h"
+
 namespace terrane::render {
 namespace {
 
 constexpr int kRowSlots = static_cast<int>(shared::kShadowTiles);
-// Around the feet, with legs and arms that swing.
-constexpr glm::dvec3 kLowestPoint{-1, -1, -0.2}, kHighestPoint{1, 1, 2.2};
 
 std::size_t numberOf(glm::ivec2 slot) {
     return static_cast<std::size_t>(slot.x + kRowSlots * slot.y);
@@ -25,7 +25,8 @@ TouchedTiles touchedBy(const NearestShadowMap& map, std::span<const glm::dvec3> 
     TouchedTiles touched;
     const double blocks = shadowTileBlocks(0);
     for (const glm::dvec3& place : feet) {
-        const PlaneBox box = onPlane(map.plane, place + kLowestPoint, place + kHighestPoint);
+        const PlaneBox box =
+            onPlane(map.plane, place + glm::dvec3(kFigureLow), place + glm::dvec3(kFigureHigh));
         const glm::ivec2 low(glm::floor(box.min / blocks)), high(glm::floor(box.max / blocks));
         for (int y = low.y; y <= high.y; ++y) {
             for (int x = low.x; x <= high.x; ++x) {
@@ -40,7 +41,7 @@ TouchedTiles touchedBy(const NearestShadowMap& map, std::span<const glm::dvec3> 
     return touched;
 }
 
-// The tiles from `min` to `max` in rectangles that follow each other in the map, at most four.
+// Splits the tiles from `min` to `max` into rectangles that are contiguous in the map, at most four.
 std::vector<ShadowTiles> rectanglesOf(const NearestShadowMap& map, glm::ivec2 min, glm::ivec2 max) {
     const auto endOf = [](int from, int last) { return std::min(last, from | (kRowSlots - 1)); };
     std::vector<ShadowTiles> rectangles;

@@ -1,6 +1,7 @@
-// Which tiles of the nearest shadow map the shadows of figures fall on. Figures move in each frame, the map's
-// tiles stay (shadow_clipmap.h): so figures are drawn into a copy of the map, of which only tiles with
-// figures, and those that the map drew anew, are copied again. Plain bookkeeping without OpenGL; one thread.
+// Tracks the tiles of the nearest shadow map that the shadows of figures fall on. Figures move in each frame,
+// the map's tiles are kept (shadow_clipmap.h). So figures are drawn into a copy of the map, of which only
+// tiles with figures, and tiles that the map drew again, are copied again. Plain bookkeeping without OpenGL;
+// one thread.
 #pragma once
 
 #include <array>
@@ -11,7 +12,7 @@
 
 namespace terrane::render {
 
-// From the camera. The nearest map reaches some 50 blocks; what is left is for arms and legs.
+// Blocks from the camera. The nearest map reaches some 50 blocks; the difference is for arms and legs.
 constexpr double kFigureShadowReach = 46;
 
 struct FigureShadowPlan {
@@ -21,10 +22,11 @@ struct FigureShadowPlan {
 
 class FigureShadows {
   public:
-    // For figures whose feet are at these places, within kFigureShadowReach. Nothing is to be done, and the
-    // map itself to be used, where no tile has a figure. Otherwise the copy is up to date afterward.
+    // Plans a frame for figures whose feet are at these places, within kFigureShadowReach. An empty plan
+    // means that no tile has a figure, and the map itself is used. Otherwise the copy is up to date
+    // afterward.
     FigureShadowPlan plan(const NearestShadowMap& map, std::span<const glm::dvec3> feet);
-    // The copy holds nothing.
+    // Marks the copy as empty.
     void forget() { copied_ = {}; }
 
   private:

@@ -1,4 +1,4 @@
-// From light to the screen: blur of what is far, rays of the sun, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them.
+// From the scene to the screen: depth of field, god rays, then tone.glsl. DEPTH_OF_FIELD, GOD_RAYS: 1 adds them.
 // RAW_OCCLUSION: 1 shows the ambient occlusion instead. MSAA_SAMPLES: of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/tone.glsl"

@@ -1,4 +1,4 @@
-// What changes from frame to frame. A plain value.
+// Input that changes from frame to frame. A plain value.
 #pragma once
 
 #include <optional>
@@ -16,16 +16,16 @@ enum class View : std::uint8_t { Color, Normal, Depth, Merging, Light };
 struct FrameInput {
     Camera camera;
     world::Environment environment;
-    float fogDistance = 256;  // blocks: from here on everything is sky
+    float fogDistance = 256;  // blocks: the fog is complete
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
-    // Most shadow tiles to draw: others follow in later frames. Images that stand alone have all.
+    // Most shadow tiles to draw; others follow in later frames. Single images draw all.
     std::size_t maxShadowTiles = ShadowClipmap::kAllTiles;
-    // Draws only what this camera would see, whatever is hidden from it: to look at culling from outside. It
+    // Draws only what this camera would see, even if it is hidden from it, to show culling from outside. It
     // is in the same chunk as `camera`.
     std::optional<Camera> culledFor = std::nullopt;
-    // Other players; what is out of view may be among them.
+    // Other players; may include figures out of view.
     std::span<const world::Figure> figures = {};
 };
 

@@ -63,7 +63,8 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
                                          {"GOD_RAYS", options.godRays ? 1 : 0},
                                          {"RAW_OCCLUSION", options.occlusion == Occlusion::Raw ? 1 : 0}}));
     }
-    // The last one, since it keeps no programs of other options: after a failure before it it is as it was.
+    // hiZ comes last, since it keeps no programs of other options: if a pass before it fails, it is
+    // unchanged.
     if (done) done = hiZ.configure(targets, options.occlusionCulling);
     return done;
 }

@@ -1,5 +1,5 @@
-// The passes of a frame that have shaders. They are made together, so that they can all be rebuilt when
-// shader files were written. Used by the renderer on the context's thread.
+// The passes of a frame that have shaders. They are made together, so that all can be rebuilt when shader
+// files change. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/ambient_occlusion.h"
@@ -23,11 +23,11 @@ struct FramePasses {
     static base::Result<FramePasses> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
     // Selects the variants of the shaders and makes the passes' own targets. After a failure some passes are
-    // as before: configured as it was before, all are. That compiles nothing.
+    // unchanged; configuring with the old values restores all and compiles nothing.
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options,
                                  const QuadFeatures& features = {});
 
-    // Of the passes' own targets.
+    // Size of the passes' own targets.
     std::size_t targetBytes() const;
 
     CullPass cull;

@@ -1,4 +1,4 @@
-// What a frame drew, for people to read. A plain value.
+// Statistics of a frame. A plain value.
 #pragma once
 
 #include <array>
@@ -15,7 +15,8 @@ constexpr std::array<std::string_view, 16> kPassNames = {
     "fill holes",   "figures",    "ambient occlusion", "sky",           "shade",      "peel",
     "shade layers", "god rays",   "depth of field",    "final"};
 
-// What is drawn, without quads that quad_list.h leaves out. A draw command counts even if its list is empty.
+// Sums over the early and the late pass: mesh sections drawn by both count twice. Quads left out by
+// quad_list.h do not count. A draw command counts even if its list is empty.
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque

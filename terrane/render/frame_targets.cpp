@@ -6,7 +6,7 @@
 
 namespace terrane::render {
 
-// Not a multisampled texture of one sample: drivers may take the next number they have, Mesa's software
+// One sample is not a multisampled texture: drivers may take the next number they have, Mesa's software
 // renderer four.
 MsaaTexture::MsaaTexture(glm::ivec2 size, GLenum format, int samples, std::string_view label) {
     if (samples == 1) {
@@ -55,8 +55,8 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
         if (!direct) return tl::unexpected(direct.error());
         t.direct = std::move(*direct);
     }
-    // No sky is drawn behind what is near; there the scene is blended with a share of 0 of what was before,
-    // which must be a number.
+    // No sky is drawn behind near surfaces. The scene is blended there with 0 of its previous color, which
+    // must be a number.
     scene->clearColor(0, glm::vec4(0));
     t.gbuffer = std::move(*gbuffer);
     t.scene = std::move(*scene);

@@ -8,7 +8,7 @@
 
 namespace terrane::render {
 
-// One or several samples a pixel: one of the two textures exists.
+// A texture of one or several samples a pixel: one of the two textures exists.
 class MsaaTexture {
   public:
     MsaaTexture() = default;
@@ -28,7 +28,7 @@ class MsaaTexture {
     gpu::Texture2DMultisample sampled_;
 };
 
-// A texture with one sample a pixel that a full-screen pass draws into and the next one reads.
+// A texture with one sample a pixel that a full-screen pass writes and the next one reads.
 struct ColorTarget {
     static base::Result<ColorTarget> create(glm::ivec2 size, GLenum format, std::string_view label);
 
@@ -39,12 +39,12 @@ struct ColorTarget {
 struct FrameTargets {
     static base::Result<FrameTargets> create(glm::ivec2 size, int samples);
 
-    // The G-buffer, for shaders that read it.
+    // Binds the G-buffer for shaders that read it.
     void bindGBuffer() const;
     std::size_t gpuBytes() const;
 
     glm::ivec2 size{0};
-    int requestedMsaaSamples = 0, msaaSamples = 0;  // a pixel; what the driver gives
+    int requestedMsaaSamples = 0, msaaSamples = 0;  // a pixel; the driver may give more
     MsaaTexture gbufferColor, depth;                // see packed_gbuffer.glsl; reversed depth
     gpu::Texture2D sceneColor, ldrColor, maskDepth;
     gpu::Framebuffer gbuffer;  // the G-buffer

@@ -22,7 +22,6 @@ void setEnvironment(shared::Frame& frame, const world::Environment& e) {
     frame.lightDirection = glm::vec4(e.lightDirection, 0);
     frame.lightColor = glm::vec4(e.lightColor, 0);
     frame.ambientColor = glm::vec4(e.ambientColor, 0);
-    frame.zenithColor = glm::vec4(e.zenithColor, 0);
     frame.horizonColor = glm::vec4(e.horizonColor, 0);
     frame.glowColor = glm::vec4(e.glowColor, 0);
     frame.discColor = glm::vec4(e.discColor, 0);
@@ -42,7 +41,7 @@ void setView(shared::Frame& frame, const ViewMatrices& view) {
     frame.nearPlane = kNearPlane;
 }
 
-// Behind the camera or far outside the image nothing of the light's rays is seen.
+// Rays of a light behind the camera or far outside the image are not visible.
 void setLightOnScreen(shared::Frame& frame, const ViewMatrices& view, glm::vec3 direction) {
     const glm::vec4 p = view.viewProjection * glm::vec4(direction, 0);
     if (p.w <= 0.01f) return;

@@ -1,4 +1,4 @@
-// The uniforms of a frame from what the program wants to see. Pure; any thread.
+// Uniforms of a frame from its input and options. Pure; any thread.
 #pragma once
 
 #include "terrane/render/frame_input.h"
@@ -13,7 +13,7 @@ struct FrameSetup {
     float edgeExpansion = 0;  // pixels
 };
 
-// All but the place in the light grid.
+// Sets all members but the place in the light grid.
 shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& options, const FrameSetup& setup);
 
 }  // namespace terrane::render

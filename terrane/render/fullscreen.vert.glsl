@@ -2,7 +2,7 @@
 #include "terrane/render/frame_uniforms.glsl"
 
 layout(location = 0) out vec2 outScreen;  // -1…1
-layout(location = 1) out vec3 outRay;     // from the camera to what lies one block before it
+layout(location = 1) out vec3 outRay;     // from the camera to the point one block ahead
 
 void main() {
     outScreen = vec2(gl_VertexID == 1 ? 3.0 : -1.0, gl_VertexID == 2 ? 3.0 : -1.0);

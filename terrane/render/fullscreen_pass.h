@@ -13,11 +13,11 @@ namespace terrane::render {
 class FullscreenPass {
   public:
     FullscreenPass() = default;
-    // The loader outlives the pass. `name`: of terrane/render/NAME.frag.glsl.
+    // The loader outlives the pass. The shader is terrane/render/NAME.frag.glsl.
     FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name);
 
     base::Result<void> select(const gpu::ShaderDefines& defines) { return variants_.select(defines); }
-    // Into the bound framebuffer, at depth 0 (farthest), with what the shader reads bound.
+    // Draws into the bound framebuffer, at depth 0 (farthest), with the inputs of the shader bound.
     void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state) const;
 
   private:

@@ -13,13 +13,14 @@ layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outSurface;
 
 #if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
-// Without a gl_SampleMask all samples that the triangle covers would be drawn. Of a sample only the side of the edge counts
-// that it lies on: one texel tells, where a filter would read eight.
+// Without gl_SampleMask all samples that the triangle covers would be drawn. A sample is a hole by the nearest texel: a
+// filter would read eight.
 bool isHole(vec2 texel, int level) {
     return nearestTexel(inFace.x, texel, level).a < minAlpha(inFace.x);
 }
 
-// `seen`: where the color is to be taken, the middle of the pixel unless it lies in a hole, which has no color of its own.
+// `seen`: the place to take the color from, the center of the pixel unless it is in a hole, which has no color of its
+// own.
 int samplesWithoutHole(int level, out vec2 seen) {
     int mask = 0;
     seen = inTexel;
@@ -34,7 +35,7 @@ int samplesWithoutHole(int level, out vec2 seen) {
 }
 #endif
 
-// The texture stays visible and sides differ, so that one sees where one is.
+// The texture stays visible and sides differ, to keep orientation.
 vec3 mergingColor(vec3 color, vec3 normal) {
     uint number = mixBits(inFace.y);
     vec3 own = 0.25 + 0.75 * vec3(number & 255u, number >> 8 & 255u, number >> 16 & 255u) / 255.0;

@@ -12,12 +12,12 @@ class GBufferPass {
     GBufferPass() = default;
     explicit GBufferPass(const gpu::ShaderLoader& shaders);
 
-    // alphaSamples: at how many places of a pixel holes are tested; 1: in its middle.
+    // alphaSamples: number of places in a pixel where holes are tested; 1: its center.
     // isSmooth: textures are filtered.
     base::Result<void> select(int alphaSamples, bool isSmooth, const QuadFeatures& features);
     // Empties the G-buffer.
     void clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
-    // Adds to the G-buffer, with the frame's uniforms bound.
+    // Draws into the G-buffer, with the frame's uniforms bound.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const;
 
   private:

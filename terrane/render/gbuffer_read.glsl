@@ -1,4 +1,4 @@
-// The G-buffer as shaders read it. MSAA_SAMPLES: a pixel's samples; with more than one the textures are multisampled.
+// Access to the G-buffer. MSAA_SAMPLES: a pixel's samples; with more than one the textures are multisampled.
 #include "terrane/render/packed_gbuffer.glsl"
 
 #if MSAA_SAMPLES > 1
@@ -16,7 +16,7 @@ float depthAt(ivec2 pixel, int k) {
     return texelFetch(depths, pixel, k).r;
 }
 
-// Of a point from the camera, along the view; 0 is the sky's depth.
+// Distance of a depth from the camera along the view direction, blocks; 0 is the sky's depth.
 float blocksOfDepth(float depth) {
     return frame.nearPlane / max(depth, 1e-9);
 }

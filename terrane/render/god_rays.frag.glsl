@@ -1,6 +1,6 @@
-// Rays of the sun or moon on the screen, at a third of its size: how much of its disc is open on the way from a pixel to it (K.
-// Mitchell, Volumetric Light Scattering as a Post-Process, 2007). Only the disc and the glow around it shine, so that what
-// stands before them cuts the light into shafts.
+// Rays of the sun or moon in screen space, at a third of the size: the share of its disc that is visible along the way
+// from a pixel to it (K. Mitchell, Volumetric Light Scattering as a Post-Process, 2007). Only the disc and the glow
+// around it shine, so that objects in front of them cut the light into shafts.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
 
@@ -13,7 +13,7 @@ const int kSamples = 24;
 const float kReach = 5.0;    // radii of the disc within which the sky shines
 const float kSource = 0.25;  // radii of the part of the disc that light comes from: the smaller, the sharper the shafts
 
-// How bright the sky is as a source of rays; 0 behind what stands there and outside the image.
+// Brightness of the sky as a source of rays; 0 behind surfaces and outside the image.
 float emission(vec2 at, vec2 aspect, float disc) {
     vec2 inside = step(abs(at), vec2(1.0));
     float glow = exp(-0.5 * max(length((at - frame.lightOnScreen) * aspect) / disc - 1.0, 0.0));
@@ -33,13 +33,13 @@ void main() {
     float turn = 6.2831853 * random(9u), offset = random(10u);
     float sum = 0.0;
     for (int k = 0; k < kSamples; ++k) {
-        // Over the disc on a spiral, along the way in another order.
+        // Samples of the disc lie on a spiral; those along the way are in another order.
         float angle = 2.3999632 * float(k) + turn, radius = kSource * disc * sqrt((float(k) + 0.5) / float(kSamples));
         vec2 source = frame.lightOnScreen + radius * vec2(cos(angle), sin(angle)) / aspect;
         float onWay = share * (float(7 * k % kSamples) + offset) / float(kSamples);
         sum += emission(mix(source, inScreen, onWay), aspect, disc);
     }
-    // Squared: half-open ways are nearer to shade than to light, so that shafts stand out.
+    // Squared, so that half-open ways are darker and shafts stand out.
     float open = sum / float(kSamples);
     outRays = vec4(open * open * exp(-1.6 * away) * frame.lightRayShare);
 }

@@ -1,4 +1,4 @@
-// Rays of the sun or moon between what stands before it, in screen space. Used by the renderer on the
+// Rays of the sun or moon between objects in front of it, in screen space. Used by the renderer on the
 // context's thread.
 #pragma once
 
@@ -13,9 +13,9 @@ class GodRays {
     GodRays() = default;
     explicit GodRays(const gpu::ShaderLoader& shaders);
 
-    // Makes room for rays at a third of the size, or none.
+    // Allocates the rays at a third of the size, or frees them.
     base::Result<void> configure(glm::ivec2 size, bool isOn);
-    // From the scene's coverage.
+    // Draws the rays from the scene's coverage.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
     bool isOn() const { return size_.x > 0; }
     void bindResult() const;

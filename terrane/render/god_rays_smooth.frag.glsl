@@ -1,5 +1,5 @@
-// Smooths rays along their way, on which they hardly change: what is left of the noise of single samples goes, the edges
-// between rays stay.
+// Smooths rays along their direction, in which they hardly change: removes the noise of single samples and keeps the
+// edges between rays.
 #include "terrane/render/frame_uniforms.glsl"
 
 layout(binding = kSceneUnit) uniform sampler2D rays;

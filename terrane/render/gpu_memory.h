@@ -1,4 +1,4 @@
-// Bytes that a renderer takes on the GPU, by what they are for. A plain value.
+// GPU memory of a renderer by use, in bytes. A plain value.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 namespace terrane::render {
 
 struct GpuMemory {
-    std::size_t quads = 0, light = 0;  // buffers and textures, with what is free in them
+    std::size_t quads = 0, light = 0;  // buffers and textures, including free room
     std::size_t meshSections = 0;      // records, their order, draw commands
     std::size_t textures = 0;          // of blocks and sky
     std::size_t targets = 0;           // G-buffer, shadow map, layers and so on

@@ -27,7 +27,7 @@ GraphicsRow switchRow(std::string_view name, std::string_view description,
     return {name, description, {"off", "on"}, get, set};
 }
 
-// A row for a member that a value's index can be cast to.
+// Rows for members that a value's index can be cast to.
 template <auto kMember>
 int getMember(const GraphicsSettings& s) {
     return static_cast<int>(s.render.*kMember);
@@ -158,7 +158,7 @@ std::string valueNamesOf(const GraphicsRow& row) {
 }
 
 std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name) {
-    // The row once named the size of a map that reached so far.
+    // Accepts map sizes, which older settings files have for this row.
     if (row.name == "shadows" && (name == "1024" || name == "2048" || name == "4096")) name = "near";
     const auto found = std::ranges::find(row.valueNames, name);
     if (found == row.valueNames.end()) return std::nullopt;

@@ -1,5 +1,5 @@
-// Every graphics option as one row of a table: its name, its values, where it is kept. The command line,
-// settings and menus are made from it.
+// Every graphics option as one row of a table: its name, its values, and access to its member. The command
+// line, settings and menus are generated from it.
 #pragma once
 
 #include <optional>
@@ -27,7 +27,7 @@ std::vector<std::string> namesOfPreset();          // of the rows that a preset 
 std::string valueNamesOf(const GraphicsRow& row);  // "off, on"
 std::optional<int> choiceOf(const GraphicsRow& row, std::string_view name);
 
-// What a user asked for: a preset, then single rows.
+// Choices of a user: a preset, then single rows.
 struct GraphicsChoices {
     std::string preset;
     std::vector<std::pair<std::size_t, int>> changed = {};  // row, value

@@ -1,5 +1,6 @@
-// A mip level of Hi-Z: of each square of pixels the farthest, which is the smallest. Places beyond the image
-// count as near. LEVEL_0: 1 makes the finest from the depth, 0 another from the one before. MSAA_SAMPLES: of the depth.
+// A mip level of Hi-Z: the farthest depth of each square of pixels, which is the smallest. Pixels beyond the image
+// count as near. LEVEL_0: 1 makes the finest level from the depth, 0 another one from the level before. MSAA_SAMPLES:
+// of the depth.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/mesh_section.h"
 
@@ -29,7 +30,7 @@ layout(binding = kHiZFromImage, r32f) readonly uniform image2D from;
 
 float farthestIn(ivec2 texel) {
     float farthest = 1.0;
-    ivec2 last = imageSize(from) - 1;  // where a level has one row, the next has it too
+    ivec2 last = imageSize(from) - 1;  // if a level has one row, so has the next
     for (int k = 0; k < 4; ++k) {
         farthest = min(farthest, imageLoad(from, min(2 * texel + ivec2(k & 1, k >> 1), last)).r);
     }

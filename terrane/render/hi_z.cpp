@@ -8,7 +8,7 @@
 namespace terrane::render {
 namespace {
 
-// A power of two, so that texel n of a level always lies over 2 n and 2 n + 1 of the finer one.
+// Sizes are powers of two, so that texel n of a level covers texels 2 n and 2 n + 1 of the finer one.
 glm::ivec2 finestSize(glm::ivec2 pixels) {
     const auto side = [](int n) {
         const auto texels =
@@ -18,7 +18,7 @@ glm::ivec2 finestSize(glm::ivec2 pixels) {
     return {side(pixels.x), side(pixels.y)};
 }
 
-// Texels of the finest level that lie over the image. The others stay as near as they were made.
+// Texels of the finest level that cover the image. The others keep their near depth.
 glm::ivec2 used(glm::ivec2 pixels) {
     constexpr int kPixels = shared::kHiZTexelPixels;
     return (pixels + kPixels - 1) / kPixels;
@@ -50,7 +50,7 @@ base::Result<void> HiZ::configure(const FrameTargets& targets, bool isOn) {
         samples_ = targets.msaaSamples;
     }
     const glm::ivec2 size = finestSize(targets.size);
-    // What lay over an image of another size is not near any more.
+    // Texels of an image of another size must be cleared to the near depth.
     if (texture_.id() == 0 || imageSize_ != targets.size) {
         imageSize_ = targets.size;
         texture_ = gpu::Texture2D(size, GL_R32F, gpu::fullLevels(size), "Hi-Z");

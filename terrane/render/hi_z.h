@@ -1,5 +1,5 @@
-// Hi-Z: the farthest depths of squares of pixels, coarser and coarser, by which culling sees what is hidden.
-// Used by the renderer on the context's thread.
+// Hi-Z: the farthest depths of squares of pixels in a mip chain, for occlusion culling. Used by the renderer
+// on the context's thread.
 #pragma once
 
 #include "terrane/gpu/program.h"

@@ -1,11 +1,11 @@
-// A sample of the G-buffer that lies farther away than all four beside it is a hole between quads: it becomes
-// the farthest of these, which reaches over the least. MSAA_SAMPLES: of the G-buffer; each fills its own holes.
+// A sample of the G-buffer that is farther away than all four neighbors is a hole between quads: it gets the farthest
+// neighbor, which overlaps least. MSAA_SAMPLES: of the G-buffer; each sample fills its own holes.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 
 layout(location = 0) out vec4 outSurface;
 
-// By more than surfaces fall away within a pixel where they meet in a corner.
+// Larger than the depth differences within a pixel where surfaces meet in a corner.
 const float kFarther = 0.99;
 
 const ivec2 kBeside[4] = ivec2[](ivec2(-1, 0), ivec2(1, 0), ivec2(0, -1), ivec2(0, 1));

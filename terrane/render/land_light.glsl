@@ -1,5 +1,5 @@
-// Light that the land around the camera leaves, as far as the horizon (shared/land.h). LAND: 1 where there
-// are its textures (land_textures.h), 0 for none. Needs frame_uniforms.glsl.
+// Light that the land around the camera leaves, up to the horizon (shared/land.h). LAND: 1 if its textures exist
+// (land_textures.h), 0 otherwise. Needs frame_uniforms.glsl.
 struct Land {
     vec4 ground;  // red, green, blue: its color, linear; alpha: the share of the sky that is seen from it
     float share;  // of the sun's or moon's disc that land does not hide
@@ -16,8 +16,8 @@ layout(std140, binding = kLandBinding) uniform LandBlock {
 layout(binding = kLandShadowUnit) uniform sampler2DArray landShadows;
 layout(binding = kLandGroundUnit) uniform sampler2DArray landGrounds;
 
-// Texture coordinates and layer of the finest level that has the place; layer -1 for none. One level is
-// enough: where it ends it has the values of the next one.
+// Texture coordinates and layer of the finest level that has the place; layer -1 for none. One level is enough: at its
+// border it has the values of the next one.
 vec3 landPlace(vec2 place) {
     vec3 found = vec3(0.5, 0.5, -1.0);
     for (int k = int(kLandLevels) - 1; k >= 0; --k) {
@@ -28,7 +28,7 @@ vec3 landPlace(vec2 place) {
     return found;
 }
 
-// For a point of the surface.
+// Land light at a point of the surface.
 Land landAt(vec3 position) {
     vec3 at = landPlace(position.xy);
     vec4 ground = textureLod(landGrounds, at, 0.0);

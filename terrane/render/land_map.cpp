@@ -6,27 +6,25 @@
 #include <glm/geometric.hpp>
 #include <unordered_map>
 
+#include "terrane/render/srgb.h"
+
 namespace terrane::render {
 namespace {
 
 constexpr int kSide = Clipmap::kTexels;
-// The sun passes it in 0.3 s of a day of 20 minutes; 1/50 of its own width.
+// The sun moves this far in 0.3 s of a day of 20 minutes; 1/50 of its diameter.
 constexpr float kLightStep = 0.0018f;  // radians
 constexpr float kMinForm = 16;         // blocks: smaller ones have light and occlusion of their own
 constexpr float kBlockError = 0.75f;   // blocks: heights are whole ones
-constexpr float kBlendBegins = 0.75f;  // share of half a side from which a level goes over into the next one
+constexpr float kBlendBegins = 0.75f;  // share of half a side from which a level blends into the next one
 constexpr float kBlendEnds = 0.92f;    // before kLandUsed: filters read beside
 
-float linearOf(float srgb) {
-    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
-}
-
-// Where a texel of a level lies in the next one, in its texels from the middle of the first one.
+// Place of a texel of a level in the next one, in its texels from the middle of the first one.
 glm::vec2 inCoarser(const LandLevel& fine, const LandLevel& coarse, glm::vec2 texel) {
     return (glm::vec2(fine.corner - 2 * coarse.corner) + texel + 0.5f) / 2.0f - 0.5f;
 }
 
-// Calls f(index, weight) for the four texels around a place; beside the level those of its border.
+// Calls f(index, weight) for the four texels around a place; places outside the level use its border.
 template <class F>
 void forFourAround(glm::vec2 place, const F& f) {
     const glm::vec2 at = glm::clamp(place, glm::vec2(0), glm::vec2(kSide - 1.001f));
@@ -50,7 +48,7 @@ LandShadow shadowAt(const LandLevel& level, glm::vec2 place) {
     return sum;
 }
 
-// Half of how much land rises or falls within a texel, at most: as far as heights there may be off.
+// A quarter of the height range of the 3 × 3 texels: the largest error of the height within a texel.
 float roughnessAt(std::span<const float> heights, int x, int y) {
     float low = 1e9f, high = -1e9f;
     for (int v = std::max(y - 1, 0); v <= std::min(y + 1, kSide - 1); ++v) {
@@ -63,7 +61,7 @@ float roughnessAt(std::span<const float> heights, int x, int y) {
     return (high - low) / 4;
 }
 
-// Calls f(x, y, share) for texels that go over into the next level, so that no ring is seen.
+// Calls f(x, y, share) for texels that blend into the next level, so that no ring is visible.
 template <class F>
 void forBorder(const F& f) {
     for (int y = 0; y < kSide; ++y) {
@@ -75,8 +73,8 @@ void forBorder(const F& f) {
     }
 }
 
-// Half of the disc is seen at the height of the shadow. Heights may be off: what lies as much below is lit
-// too.
+// Half of the disc is visible at the height of the shadow. Heights may be off by `error`: surfaces that much
+// lower are lit too.
 LandEdge edgeOf(const LandShadow& shadow, float roughness, float discRadius) {
     const float error = roughness + kBlockError;
     const float half = std::min(std::tan(discRadius) * shadow.distance, (shared::kLandMaxEdge - error) / 2);
@@ -94,9 +92,9 @@ void LandMap::setReach(double blocks) {
     if (used == used_) return;
     for (std::size_t level = static_cast<std::size_t>(used); level < levels_.size(); ++level) {
         levels_[level] = {};
-        hasNewTiles_[level] = true;  // those that the clipmap still has
+        hasNewTiles_[level] = true;  // tiles that the clipmap still has
     }
-    // The border of what was the coarsest level has the next one beyond it now.
+    // The former coarsest level now has a coarser one at its border.
     if (used > used_ && used_ > 0) hasNewTiles_[static_cast<std::size_t>(used_ - 1)] = true;
     used_ = used;
     needsSweep_.fill(true);
@@ -111,7 +109,7 @@ void LandMap::set(world::ChunkPos tile, const world::LandTile& land) {
         const world::TopColor& top = colors_[id];
         const glm::vec3 srgb = top.tinted ? world::tinted(top.mean / 255.0f, land.tint) : top.mean / 255.0f;
         for (std::size_t c = 0; c < 3; ++c)
-            found->second[c] = static_cast<std::uint8_t>(255 * linearOf(srgb[static_cast<int>(c)]) + 0.5f);
+            found->second[c] = static_cast<std::uint8_t>(255 * decodeSrgb(srgb[static_cast<int>(c)]) + 0.5f);
         return found->second;
     };
     const std::size_t first = kTexels * static_cast<std::size_t>(place.level);
@@ -137,7 +135,7 @@ glm::ivec2 LandMap::cornerAt(int level, world::ChunkPos camera) const {
     return world::kChunkSize * (glm::ivec2(middle.x, middle.y) - Clipmap::kTiles / 2);
 }
 
-// Where the camera has moved to other tiles, some of them are new.
+// After the camera has moved to other tiles, some of them are new.
 bool LandMap::canTakeColumns(int number, world::ChunkPos camera) const {
     return hasNewTiles_[static_cast<std::size_t>(number)] && isComplete(number, camera);
 }
@@ -186,7 +184,7 @@ const LandLevel* LandMap::coarserThan(int number) const {
     return number + 1 < used_ ? &levels_[static_cast<std::size_t>(number) + 1] : nullptr;
 }
 
-// Beyond the last level is open land.
+// Beyond the last level there is open land.
 void LandMap::blendEdges(int number) {
     LandLevel& level = levels_[static_cast<std::size_t>(number)];
     const LandLevel* coarser = coarserThan(number);

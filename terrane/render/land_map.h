@@ -1,10 +1,10 @@
-// The land around the camera on the CPU: a clipmap of heights and colors (world/land_tile.h), and what is
+// The land around the camera on the CPU: a clipmap of heights and colors (world/land_tile.h), and the data
 // computed from it for shaders: shadows to the horizon, sky visibility, the color of the ground. Without
 // OpenGL; used by LandTextures on one thread.
 //
-// A level is computed anew when all its tiles are there, the coarsest first, since it gives finer ones what
-// comes from beside them. Until then it stays where it was: around a camera that moved on it covers a little
-// less. 1 ms a level where the light moved, 5 ms where the land is new.
+// A level is computed when all its tiles exist, the coarsest first, since finer ones need it at their border.
+// Until then the level keeps its place and covers a little less around a moved camera. 1 ms a level if the
+// light moved, 5 ms if the land is new.
 #pragma once
 
 #include <array>
@@ -28,16 +28,16 @@ struct LandLight {
     float discRadius = 0;          // radians
 };
 
-// Light begins at the height `begin` and is whole `edge` blocks above.
+// Light begins at the height `begin` and is full `edge` blocks above.
 struct LandEdge {
     float begin = shared::kLandLowest, edge = 1;
 };
 
-// 256 × 256 texels row after row, in no wrapped order. Empty where the level is not there.
+// 256 × 256 texels row by row, not wrapped. Empty if the level does not exist.
 struct LandLevel {
-    glm::ivec2 corner{0};             // of the world, in texels of the level
-    std::vector<float> heights, sky;  // blocks; share that is seen
-    std::vector<float> roughness;     // blocks that heights may be off
+    glm::ivec2 corner{0};             // in the world, in texels of the level
+    std::vector<float> heights, sky;  // blocks; visible share
+    std::vector<float> roughness;     // largest error of heights, blocks
     std::vector<glm::vec3> ground;    // linear
     std::vector<LandShadow> shadows;
     std::vector<LandEdge> edges;  // of shadows, at the border those of the next level
@@ -46,7 +46,7 @@ struct LandLevel {
 
 struct LandChange {
     int level = 0;
-    bool hasNewGround = false;  // its place and its ground too, not the shadows alone
+    bool hasNewGround = false;  // its place and ground changed too, not only shadows
     bool operator==(const LandChange&) const = default;
 };
 
@@ -56,12 +56,12 @@ class LandMap {
     const Clipmap& clipmap() const { return clipmap_; }
     const LandLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
-    // Levels for so far a view, blocks; coarser ones go.
+    // Sets the levels for a view of so many blocks; coarser ones are removed.
     void setReach(double blocks);
     double reach() const { return reach_; }
     void set(world::ChunkPos tile, const world::LandTile& land);
-    // Computes up to `limit` levels anew that the camera's place, new tiles or another light ask for. Which
-    // ones, the coarsest first.
+    // Computes up to `limit` levels that changed with the camera's place, new tiles or the light, and returns
+    // them, the coarsest first.
     std::vector<LandChange> update(world::ChunkPos camera, const LandLight& light, int limit);
     // Whether update() has nothing to compute; levels whose tiles are missing do not count.
     bool isUpToDate(world::ChunkPos camera) const;

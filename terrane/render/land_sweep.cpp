@@ -9,11 +9,11 @@
 namespace terrane::render {
 namespace {
 
-// A light at the horizon would throw shadows without an end.
+// Shadows of a light at the horizon would be endless.
 constexpr float kMinSlope = 0.01f;
 constexpr float kOverhead = 1e-3f;  // a light straight above throws none
 
-// How a sweep walks over the square: line after line away from the light.
+// Order of a sweep over the square: line by line away from the light.
 struct Walk {
     bool isAlongX;    // a line is a column
     int first, step;  // lines
@@ -31,7 +31,8 @@ Walk walkFrom(glm::vec3 direction, int side) {
     return walk;
 }
 
-// Higher of a texel's land and its shadow, with a texel at both ends: texel k of the line is at k + 1.
+// The higher of a texel's land and its shadow, with one more texel at both ends: texel k of the line is at k
+// + 1.
 struct Line {
     std::vector<float> top, distance;
 };
@@ -90,7 +91,7 @@ void sweepShadows(const LandHeights& land, glm::vec3 direction,
 
 namespace {
 
-// Raises the tangents of the horizon to that of the land (x, y) texels away.
+// Raises the tangents of the horizon to that of the land `away` (texels).
 void raiseHorizon(const LandHeights& land, glm::ivec2 away, std::span<float> tangents) {
     const float scale =
         1.0f / (land.texelBlocks * std::hypot(static_cast<float>(away.x), static_cast<float>(away.y)));

@@ -1,5 +1,5 @@
-// Shadows that land throws on land, for a light far away: one pass over a square of heights from the light's
-// side on, each texel from the two nearest of the line before it. Pure functions; any thread.
+// Shadows of land on land, for a distant light: one pass over a square of heights from the light's side on,
+// each texel from the two nearest of the previous line. Pure functions; any thread.
 #pragma once
 
 #include <functional>
@@ -9,8 +9,8 @@
 
 namespace terrane::render {
 
-// Of a texel: points below `height` (blocks) are hidden from the light by land `distance` blocks away toward
-// it.
+// Shadow of a texel: points below `height` (blocks) are hidden from the light by land `distance` blocks away
+// toward it.
 struct LandShadow {
     float height, distance;
 };
@@ -22,15 +22,15 @@ struct LandHeights {
     std::span<const float> blocks;  // row after row
 };
 
-// `direction`: to the light, unit length. `outside`: the shadow at a place beside the square, in texels, 0, 0
-// the middle of the first one. S(p) = max(H(q), S(q)) − |q − p| · tan(elevation), q the place on the line
-// before, toward the light: the horizon as in Max, "Horizon mapping: shadows for bump-mapped surfaces", 1988,
-// for one direction, in O(1) a texel.
+// `direction`: to the light, unit length. `outside`: the shadow at a place beside the square, in texels; 0, 0
+// is the middle of the first one. S(p) = max(H(q), S(q)) − |q − p| · tan(elevation), where q is the place on
+// the previous line toward the light: the horizon as in Max, "Horizon mapping: shadows for bump-mapped
+// surfaces", 1988, for one direction, in O(1) a texel.
 void sweepShadows(const LandHeights& land, glm::vec3 direction,
                   const std::function<LandShadow(glm::vec2)>& outside, std::span<LandShadow> shadows);
 
-// The share of the sky that forms of at least `minBlocks` leave, 0…1, row after row: 1 − the mean of sin² of
-// the horizon's angle in eight directions.
+// Computes the share of the sky that terrain forms of at least `minBlocks` leave visible, 0…1, row by row: 1
+// − the mean of sin² of the horizon's angle in eight directions.
 void skyVisibility(const LandHeights& land, float minBlocks, std::span<float> visibility);
 
 }  // namespace terrane::render

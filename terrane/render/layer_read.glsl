@@ -1,5 +1,5 @@
-// The layers of blended faces as shaders read them. MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: how many there are.
-// Needs gbuffer_read.glsl.
+// Access to the layers of blended faces. MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: their number. Needs
+// gbuffer_read.glsl.
 #include "terrane/render/packed_layer.glsl"
 
 #if MSAA_SAMPLES > 1
@@ -10,7 +10,7 @@ layout(binding = kTransparencyColorUnit) uniform sampler2D layerColors[LAYERS];
 layout(binding = kTransparencyDepthUnit) uniform sampler2D layerDepths[LAYERS];
 #endif
 
-// Of one of the layers. Which one may differ from pixel to pixel: such an index of textures would be undefined.
+// Packed surface of layer n, which may differ between pixels: a non-uniform index into textures would be undefined.
 vec4 packedLayerAt(ivec2 pixel, int k, int n) {
     vec4 packedLayer = texelFetch(layerColors[0], pixel, k);
     for (int m = 1; m < LAYERS; ++m) packedLayer = m == n ? texelFetch(layerColors[m], pixel, k) : packedLayer;
@@ -23,7 +23,7 @@ float layerDepthAt(ivec2 pixel, int k, int n) {
     return depth;
 }
 
-// A layer that has no face there has the depth of what is opaque, and behind it there are none.
+// A layer without a face has the depth of the opaque surface, and no layers are behind it.
 bool isThere(ivec2 pixel, int k, int n) {
     return layerDepthAt(pixel, k, n) > depthAt(pixel, k);
 }

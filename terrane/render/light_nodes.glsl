@@ -1,4 +1,4 @@
-// Single nodes of the light that LightStore keeps.
+// Single nodes of the light in LightStore.
 #include "terrane/shared/light_grid.h"
 
 layout(binding = kLightGridUnit) uniform usampler3D lightGrid;
@@ -8,7 +8,7 @@ vec4 unpackLight(uint value) {
     return vec4(uvec4(value, value >> 4, value >> 8, value >> 12) & 15u) / 15.0;
 }
 
-// The light tile of a block counted from the corner of the camera's chunk, or its one value.
+// Light tile of a block counted from the corner of the camera's chunk, or its one value.
 uint lightEntry(ivec3 block) {
     ivec2 tile = (block.xy >> 3) + frame.firstLightTile;
     int mask = frame.lightGridTiles - 1;
@@ -20,7 +20,7 @@ ivec3 poolCorner(uint tile) {
                  tile / (kLightPoolTiles * kLightPoolTiles)) * 8;
 }
 
-// Red, green, blue, daylight of one block, 0…1, whose entry is known.
+// Red, green, blue, daylight of a block with a known entry, 0…1.
 vec4 lightOfEntry(uint entry, ivec3 block) {
     // Above the world is the open sky.
     if (block.z > 255) return vec4(0.0, 0.0, 0.0, 1.0);
@@ -28,7 +28,7 @@ vec4 lightOfEntry(uint entry, ivec3 block) {
     return texelFetch(lightPool, poolCorner(entry) + ivec3(block.xy & 7, max(block.z, 0) & 7), 0);
 }
 
-// Between a node and the next ones of its light tile: `f` on the way, 0…1 along each axis.
+// Light between a node and the next ones of its light tile: `f` is the place between them, 0…1 along each axis.
 vec4 lightBetween(ivec3 block, vec3 f) {
     uint entry = lightEntry(block);
     bool isUniform = (entry & kLightUniformBit) != 0u;

@@ -1,19 +1,18 @@
-// Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH chooses between
-// two ways of sampling, which docs/light.md compares: 0 classic, 1 smooth, 2 smooth at a distance where nobody sees how round
-// a pool of light is.
+// Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH selects
+// the way of sampling, see docs/light.md: 0 classic, 1 smooth, 2 smooth for distant surfaces, without the wide filter.
 #include "terrane/render/light_nodes.glsl"
 #if LIGHT_SMOOTH
 #include "terrane/render/light_smooth.glsl"
 #endif
 
-// Nodes lie in the middles of blocks. Half a block along the normal from the surface the sample lies in the layer of nodes in
-// front of it: solid blocks, which are dark, then do not count, but where they stand on that layer, which darkens inner
-// corners. The eight nodes lie in one light tile, or along each axis in two: a light tile's part is one entry and one filtered
-// fetch. The loop goes through the subsets of the axes on which a second light tile begins; for most samples that is the empty
-// one.
+// Nodes lie in the middles of blocks. Half a block along the normal from the surface the sample is in the layer of
+// nodes in front of it. So the dark solid blocks behind the surface do not count; solid blocks that stand on that layer
+// do, and darken inner corners. The eight nodes are in one light tile, or in two along each axis: the part in a light
+// tile takes one entry and one filtered fetch. The loop goes through the subsets of the axes on which a second light
+// tile begins; for most samples that is the empty one.
 vec4 sampleClassic(vec3 at) {
-    const float kOnNode = 1.0 / 64.0;  // so near a node the next one does not count
-    const float kSteps = 256.0;        // exact sums wherever a light tile lies in its pool: its place must not be seen
+    const float kOnNode = 1.0 / 64.0;  // this near a node the next one does not count
+    const float kSteps = 256.0;        // makes sums exact, so that the place of a light tile in the pool is not visible
     at.z = max(at.z, 0.0);
     ivec3 block = ivec3(floor(at));
     vec3 f = floor(kSteps * (at - vec3(block)) + 0.5) / kSteps;
@@ -31,7 +30,7 @@ vec4 sampleClassic(vec3 at) {
     return sum;
 }
 
-// Red, green, blue, daylight, 0…1. A normal of zero: inside a block, of plants.
+// Red, green, blue, daylight, 0…1. A normal of zero samples inside a block, for plants.
 vec4 sampleLight(vec3 position, vec3 normal) {
     vec3 at = position + 0.5 * normal - 0.5;
 #if LIGHT_SMOOTH

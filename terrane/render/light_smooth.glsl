@@ -1,10 +1,11 @@
-// Light without leaks at corners, and with rounder, softer pools of light than the steps of the solver give: the nodes next
-// to the sample say how open it is there, nodes up to four blocks away how bright.
+// Light without leaks at corners, with rounder and softer pools of light than the levels of the solver have: the nodes
+// next to the sample give its visibility, nodes up to four blocks away its brightness.
 
-const float kColorExponent = 2.1;  // beside that of the shading
-const float kColorGain = 1.5;      // so that it is as bright in the middle of its reach
+const float kColorExponent = 2.1;  // in addition to that of the shading
+const float kColorGain = 1.5;      // keeps the brightness in the middle of the reach
 
-// The layer of nodes in front of the surface: two steps, the lowest node, and the entries of the four light tiles by u, then v.
+// Layer of nodes in front of the surface: two steps, the lowest node, and the entries of the four light tiles by u,
+// then v.
 struct NodeLayer {
     ivec3 lowest, stepU, stepV;
     uvec4 entries;
@@ -22,28 +23,28 @@ vec4 lightAt(NodeLayer layer, ivec2 node) {
     return lightOfEntry(beyond * layer.stepU == ivec3(0) ? row.x : row.y, block);
 }
 
-// Opaque blocks are those without any light. Air in the dark has none to give either.
+// A node without any light counts as opaque. Dark air adds no light either.
 float visibility(vec4 light) {
     return light == vec4(0.0) ? 0.0 : 1.0;
 }
 
-// 1 where one may see the other: in the air light loses a level a step. Falls to 0 over one level, so that nothing appears at
-// once where the sample moves.
+// 1 if light may pass between two nodes: in air it loses a level a step. Falls to 0 over one level, so that nothing
+// jumps when the sample moves.
 float link(vec4 a, vec4 b, float steps) {
     vec4 d = abs(a - b);
     return clamp(steps + 1.5 - 15.0 * max(max(d.r, d.g), max(d.b, d.a)), 0.0, 1.0);
 }
 
-// The last levels of a lamp fade into the dark: a straight line would end in an edge, and in the one color that
+// Fades the last levels of a lamp into the dark: a linear fade would end in a visible edge, in the one color that
 // reaches farthest.
 vec4 toned(vec4 light) {
     return vec4(kColorGain * pow(light.rgb, vec3(kColorExponent)), light.a);
 }
 
-// The four nodes around the sample. A node across the corner counts only if light gets round it: not between two opaque
-// blocks.
+// The four nodes around the sample. The diagonal node counts only if light gets around the corner to it: not between
+// two opaque blocks.
 struct Close {
-    vec4 light;  // of those that are open
+    vec4 light;  // of the open ones
     float visibility;  // their share, by weight
 };
 
@@ -62,9 +63,9 @@ Close closeNodes(NodeLayer layer, vec2 at) {
     return c;
 }
 
-// The mean of four points two blocks aside, diagonally, each from the nodes with even coordinates around it: where levels
-// fall by |x| + |y| that is max(|x|, 2) + max(|y|, 2) at these nodes, without a crease and with blunt corners. Nodes that
-// cannot be seen from here do not count, `close` stands for them.
+// The mean of four points two blocks away diagonally, each interpolated from the nodes with even coordinates around it:
+// where levels fall by |x| + |y| that is max(|x|, 2) + max(|y|, 2) at these nodes, without a crease and with blunt
+// corners. Hidden nodes are replaced by `close`.
 vec4 farNodes(NodeLayer layer, vec2 at, Close close) {
     vec2 t = 0.5 * at - 1.0;
     vec4 weightsU = 0.5 * vec4(1.0 - t.x, t.x, 1.0 - t.x, t.x), weightsV = 0.5 * vec4(1.0 - t.y, t.y, 1.0 - t.y, t.y);
@@ -81,7 +82,7 @@ vec4 farNodes(NodeLayer layer, vec2 at, Close close) {
     return sum + (1.0 - weights) * close.light;
 }
 
-// `at`: in nodes.
+// `at`: position in nodes.
 vec4 sampleSmooth(vec3 at, vec3 normal) {
     vec3 size = abs(normal);
     NodeLayer layer;

@@ -18,7 +18,8 @@ constexpr int kPoolTiles = static_cast<int>(shared::kLightPoolTiles);
 constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
 constexpr std::size_t kSlabBytes = std::size_t{kTilesPerSlab} * 1024;
 constexpr int kMaxSlabs = static_cast<int>((std::size_t{1} << 30) / kSlabBytes);  // 256: 1 GiB
-// What a landscape needs: copying a pool that is too small takes a tenth of a second in software.
+// Light tiles of a chunk in a landscape; growing a pool that is too small takes a tenth of a second on
+// software renderers.
 constexpr int kTilesAChunk = 28;
 constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
 
@@ -26,8 +27,8 @@ constexpr std::size_t kMiddle = kTile / 2 * (1 + kTile + kTile * kTile);
 
 using TileValues = std::array<std::uint16_t, kTileBlocks>;
 
-// Red and blue change places on the way in and when sampled: drivers keep four bits a component with blue
-// lowest, light::LightValue has red there, and a driver that reorders texels takes four times as long for an
+// Red and blue are swapped on upload and when sampled: drivers keep four bits a component with blue lowest,
+// where light::LightValue has red. A driver that has to reorder texels takes four times as long for an
 // upload.
 gpu::Texture3D makePool(int slabs) {
     gpu::Texture3D pool({kPoolTiles * kTile, kPoolTiles * kTile, slabs * kTile}, GL_RGBA4, "light pool");
@@ -58,7 +59,7 @@ TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& bri
     return tile;
 }
 
-// Of a whole chunk. Light tiles lie by x, y, z: a brick's eight are neighbors.
+// Entries of a whole chunk. Light tiles are ordered by brick: the eight of a brick are consecutive.
 constexpr auto filled(std::uint32_t entry) {
     std::array<std::uint32_t, shared::kLightTilesPerChunk> entries{};
     entries.fill(entry);
@@ -78,7 +79,7 @@ LightStore::LightStore(int viewDistance, int maxSlabs, std::size_t maxBytes)
     pool_ = makePool(std::min({slabsFor(viewDistance), maxSlabs_, std::max(1, slabsWithin(maxBytes_))}));
 }
 
-// Slabs for which there is room beside the textures that exist.
+// Slabs that fit beside the existing textures.
 int LightStore::slabsWithin(std::size_t bytes) const {
     const std::size_t room = bytes - std::min(bytes, textureBytes());
     return static_cast<int>(std::min<std::size_t>(room / kSlabBytes, kMaxSlabs));
@@ -99,7 +100,7 @@ std::optional<std::uint32_t> LightStore::allocateTile() {
     return static_cast<std::uint32_t>(tileCount_++);
 }
 
-// The GPU copies; draws on the way keep the old texture alive.
+// The GPU copies; pending draws keep the old texture alive.
 bool LightStore::growPool() {
     const int grown = std::min({2 * slabs(), maxSlabs_, slabsWithin(maxBytes_)});
     if (grown <= slabs()) return false;
@@ -183,7 +184,7 @@ void LightStore::remove(world::ChunkPos pos) {
     if (found == chunks_.end()) return;
     release(found->second);
     chunks_.erase(found);
-    // A chunk that came to its place meanwhile stays.
+    // Keeps the entries of a chunk that took the place meanwhile.
     std::optional<world::ChunkPos>& shown = shown_[placeOf(pos)];
     if (shown != pos) return;
     shown.reset();

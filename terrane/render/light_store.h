@@ -1,10 +1,10 @@
 // The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread
 // of the current OpenGL context.
 //
-// Light is kept in light tiles of 8³ blocks; light tiles of one value take an entry of the grid and nothing
-// else. Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera.
-// Pool: a 3D texture with four bits a component that grows by doubling, up to 1 GiB. No growth takes grid and
-// pool past `maxBytes`, with the copy that it needs for a moment.
+// Light is stored in light tiles of 8³ blocks; a light tile of one value takes only its entry in the grid.
+// Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera. Pool: a
+// 3D texture with four bits a component that grows by doubling, up to 1 GiB. No growth takes grid and pool
+// beyond `maxBytes`, including the temporary copy.
 #pragma once
 
 #include <algorithm>
@@ -26,14 +26,14 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles each (4
-    // MiB), as many as the driver allows where it is 0.
+    // Has room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles (4
+    // MiB) each; 0: as many as the driver allows.
     explicit LightStore(int viewDistance, int maxSlabs = 0, std::size_t maxBytes = SIZE_MAX);
-    // From now on. What grid and pool take already stays.
+    // Limits further growth; grid and pool keep their present size.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
-    // `bricks`: which of the sixteen may differ from what was set before, a bit each; of a new chunk all
-    // count. False where there was no room for some light tiles: they have the light of their middle.
+    // Sets the light of a chunk. `bricks`: bits of the bricks that may differ from the last call; a new chunk
+    // sets all. False if some light tiles had no room: they get the light of their middle.
     bool set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void remove(world::ChunkPos pos);
     void bind() const;
@@ -42,7 +42,7 @@ class LightStore {
     int gridChunks() const { return gridChunks_; }
     std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + grid_.sizeBytes(); }
     std::size_t textureBytes() const { return grid_.sizeBytes() + pool_.sizeBytes(); }
-    // The most that the textures took at once since the last call, with copies.
+    // Most bytes that the textures took at once since the last call, including copies.
     std::size_t takePeakBytes() { return std::max(std::exchange(peakBytes_, 0), textureBytes()); }
     std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t uploadedTiles() const { return uploadedTiles_; }  // so far

@@ -1,13 +1,13 @@
 // The light of a surface: lamps, sky, sun or moon. Needs frame_uniforms.glsl, packed_gbuffer.glsl, light_sample.glsl.
-// FAR: 1 where all surfaces belong to far tiles.
+// FAR: 1 if all surfaces belong to far tiles.
 #include "terrane/render/land_light.glsl"
 
-const vec3 kMinLight = vec3(0.006);  // of the darkest cave: shapes can just be seen
+const vec3 kMinLight = vec3(0.006);  // in the darkest cave: shapes are just visible
 
-// Levels of light as sampled before the surface. Plants stand inside their block and take its light. The position comes
-// from the depth and is off by less than kOff within some hundred blocks: moved by that along the normal it is on the
-// near side of the plane between two layers of nodes, everywhere on a face. Figures take the light of the block that they
-// stand in too, by the layer of nodes that a face lies in. Far tiles lie under the open sky.
+// Light levels in front of the surface. Plants stand inside their block and take its light. The position is computed
+// from the depth, with an error below kOff within some hundred blocks: moved by kOff along the normal it is on the near
+// side of the plane between two layers of nodes, everywhere on a face. Figures take the light of the block that they
+// stand in too, from the layer of nodes that a face is in. Far tiles are under the open sky.
 vec4 levelsAt(vec3 position, Surface s) {
 #if FAR == 1
     return vec4(0.0, 0.0, 0.0, 1.0);
@@ -19,12 +19,13 @@ vec4 levelsAt(vec3 position, Surface s) {
 #endif
 }
 
-// A level's brightness, near level^0.85: half of all levels are of use.
+// Brightness of a level, near level^0.85.
 vec4 brightnessOf(vec4 levels) {
     return mix(levels, sqrt(levels), 0.23);
 }
 
-// From the sky, and from the ground that sun and sky light: on a face that looks down or aside all or half of it.
+// Light from the sky and from the ground, which sun and sky light: a face that looks down gets only that of the ground,
+// one that looks aside half of each.
 vec3 lightAround(Land land, vec3 normal) {
     float up = 0.5 + 0.5 * normal.z;
 #if LAND == 1
@@ -36,7 +37,7 @@ vec3 lightAround(Land land, vec3 normal) {
 #endif
 }
 
-// What sun or moon find.
+// Surface as lit by the sun or moon.
 struct Lit {
     vec3 albedo;  // times the cosine to the light
     vec3 normal;
@@ -46,8 +47,8 @@ Lit litOf(Surface s) {
     return Lit(s.albedo * max(dot(s.normal, frame.lightDirection.xyz), 0.0), s.normal);
 }
 
-// Lamps, hidden by day where daylight reaches; sky and ground from all around; the sun or moon where the sky is seen.
-// `shadow` is the share of direct light, `visibility` that of light from all around.
+// Sums lamps, hidden by day where daylight reaches; sky and ground; and the sun or moon where the sky is visible.
+// `shadow` is the share of direct light, `visibility` that of ambient light.
 vec3 shade(Surface s, Lit lit, Land land, vec4 levels, float shadow, float visibility) {
     vec4 light = brightnessOf(levels);
     vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);

@@ -6,7 +6,8 @@
 namespace terrane::render {
 namespace {
 
-// Along one axis, from a chunk of level 0 to the nearest one of those that a chunk of the level covers.
+// Distance along one axis from a chunk of level 0 to the nearest chunk of level 0 that a chunk of the level
+// covers.
 std::int64_t chunksBetween(std::int32_t from, std::int32_t to, std::uint8_t level) {
     const std::int64_t first = std::int64_t{to} << level, last = first + world::columnWidth(level) - 1;
     return std::clamp<std::int64_t>(from, first, last) - from;
@@ -36,8 +37,8 @@ void MeshSectionOrder::measure(std::vector<Entry>& entries) const {
     }
 }
 
-// While chunks stream in, each frame changes a few mesh sections of thousands: these are sorted and merged
-// in. All are sorted where the camera has entered another chunk.
+// While chunks stream in, a frame changes few of thousands of mesh sections: these are sorted and merged in.
+// All are sorted when the camera has entered another chunk.
 bool MeshSectionOrder::update(world::ChunkPos center) {
     const bool hasMoved = center != center_;
     if (!hasMoved && !hasGone_ && added_.empty()) return false;

@@ -1,5 +1,5 @@
-// The mesh sections that have quads from the camera outward. MeshSectionTable keeps it; no OpenGL, one
-// thread.
+// Order of the mesh sections that have quads, from the camera outward. Owned by MeshSectionTable; no OpenGL,
+// one thread.
 #pragma once
 
 #include <compare>
@@ -12,14 +12,14 @@ namespace terrane::render {
 
 class MeshSectionOrder {
   public:
-    // A mesh section in a slot that has none. `heights`: see shared::MeshSectionRecord; of the mesh sections
-    // of a chunk any that tell which lies above which.
+    // Adds a mesh section in a free slot. `heights`: see shared::MeshSectionRecord; any values that order the
+    // mesh sections of a chunk by height.
     void add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights);
     void remove(std::uint32_t slot);
 
-    // Slots by their mesh section's distance from the chunk, which is of level 0, nearest first. Where
-    // distances are equal the place in the world decides: slots depend on the order in which chunks came.
-    // False where all is as before.
+    // Sorts slots by the distance of their mesh section from the chunk `center` of level 0, nearest first.
+    // Equal distances are ordered by place in the world, since slots depend on the order in which chunks
+    // arrived. False if nothing changed.
     bool update(world::ChunkPos center);
     const std::vector<std::uint32_t>& slots() const { return slots_; }  // as update() left them
 
@@ -36,7 +36,7 @@ class MeshSectionOrder {
     bool isGone(const Entry& entry) const { return numbers_[entry.slot] != entry.number; }
     void measure(std::vector<Entry>& entries) const;
 
-    // Sorted ones, and those that came since; some of both are gone.
+    // Sorted entries, and those added since; both may have removed ones.
     std::vector<Entry> sorted_, added_;
     std::vector<std::uint32_t> numbers_;  // of the entry that a slot has, 0 for none
     std::uint32_t lastNumber_ = 0;

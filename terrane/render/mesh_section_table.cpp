@@ -7,6 +7,7 @@
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/camera.h"
 #include "terrane/render/growing_buffer.h"
+#include "terrane/render/shadow_casters.h"
 
 namespace terrane::render {
 namespace {
@@ -58,7 +59,7 @@ std::uint32_t MeshSectionTable::allocateSlot() {
     return slots() - 1;
 }
 
-// Neighboring directions share a command: of seven directions at most four commands, or as many as there are
+// Adjacent directions share a command: seven directions take at most four commands, or as many as there are
 // directions.
 void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std::int32_t sign) {
     const std::size_t arena = record.ranges[0].x / arenaQuads_;
@@ -76,11 +77,6 @@ void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std:
     }
 }
 
-void MeshSectionTable::noteChange(const shared::MeshSectionRecord& record) {
-    changes_.push_back(
-        {posOf(record), static_cast<int>(record.heights & 0xFFFFu), static_cast<int>(record.heights >> 16)});
-}
-
 void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
                            mesh::MeshSectionSet changed) {
     if (chunks_[pos].size() != meshSections.size()) {
@@ -95,11 +91,10 @@ void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSectio
     if (meshSections.empty()) chunks_.erase(pos);
 }
 
-// Where the mesh section keeps its slot the order stays: mesh sections of a chunk lie one above the other
-// whatever their quads are.
+// If the mesh section keeps its slot, the order stays: it depends on the place only, not on the quads.
 void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record) {
     if (slot != kNoSlot) {
-        noteChange(cpuRecords_[slot]);
+        changes_.push_back(casterBoxOf(cpuRecords_[slot]));
         addCommands(cpuRecords_[slot], -1);
         if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
     }
@@ -117,7 +112,7 @@ void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSec
         ++count_;
     }
     if (!needsSlot) return;
-    noteChange(record);
+    changes_.push_back(casterBoxOf(record));
     cpuRecords_[slot] = record;
     changed_.push_back(slot);
     if (hasBlendedQuads(record)) blended_.push_back(slot);

@@ -1,5 +1,5 @@
-// What the GPU must know to cull and draw the mesh sections of the chunks: a record each, and their order
-// from the camera outward. Used by the renderer on the context's thread, beside QuadStore.
+// Records of the chunks' mesh sections for culling and drawing on the GPU, and their order from the camera
+// outward. Used by the renderer on the context's thread, beside QuadStore.
 #pragma once
 
 #include <array>
@@ -25,39 +25,39 @@ class MeshSectionTable {
     // `arenaQuads`: addresses of an arena, as QuadStore has them.
     explicit MeshSectionTable(std::uint32_t arenaQuads = UINT32_MAX);
 
-    // Of `meshSections`, which are all that the chunk has in the QuadStore (none: it is removed), those in
-    // `changed` are others than before.
+    // Sets the mesh sections of a chunk. `meshSections`: all that it has in the QuadStore (none removes it).
+    // `changed`: those that differ from before.
     void set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
              mesh::MeshSectionSet changed = mesh::kAllMeshSections);
     void remove(world::ChunkPos pos);
 
-    // Sends what changed to the GPU and sorts the mesh sections by their distance from the chunk, nearest
-    // first. Does nothing where neither the mesh sections nor the chunk are others than at the last call.
+    // Uploads changed records and sorts the mesh sections by their distance from the chunk, nearest first.
+    // Does nothing if neither the mesh sections nor the chunk have changed since the last call.
     void update(world::ChunkPos center);
 
     void bindRecords() const { records_.bindStorage(shared::kMeshSectionsBinding); }
     const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
     void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
 
-    // By slot; heights are 0 where the slot is free.
+    // Records by slot; heights are 0 if the slot is free.
     std::span<const shared::MeshSectionRecord> slotRecords() const { return cpuRecords_; }
-    // The mesh sections that were replaced, removed or added since the last call, as they were and as they
-    // are.
+    // Returns the boxes of mesh sections that were replaced, removed or added since the last call, before and
+    // after the change.
     std::vector<CasterBox> takeChanges() { return std::exchange(changes_, {}); }
 
-    // Mesh sections that have quads; the order has as many entries.
+    // Number of mesh sections that have quads, and of entries in the order.
     std::uint32_t count() const { return count_; }
-    // Slots of records, free ones included.
+    // Number of slots, free ones included.
     std::uint32_t slots() const { return static_cast<std::uint32_t>(cpuRecords_.size()); }
-    // By arena: most commands that drawing all faces of a draw bucket can take. There is one arena at least.
+    // Most commands that drawing all faces of a draw bucket can take, by arena. There is at least one arena.
     using BucketCommands = std::array<std::uint32_t, shared::kDrawBuckets>;
     const std::vector<BucketCommands>& maxCommands() const { return maxCommands_; }
     std::uint32_t arenaQuads() const { return arenaQuads_; }
-    // On the GPU as of the next update(). A buffer that update() replaces counts too.
+    // GPU memory as of the next update(), including buffers that it replaces.
     std::size_t gpuBytes() const;
-    // Rectangles without overlap that hold all pixels of an image of `size` that blended faces may cover,
-    // waves included; none where no mesh section in view has any. `viewProjection`: from blocks from the
-    // corner of the chunk `center`.
+    // Rectangles without overlap that contain all pixels of an image of `size` that blended faces may cover,
+    // waves included; none if no mesh section in view has any. `viewProjection`: from blocks from the corner
+    // of the chunk `center`.
     std::vector<ScreenRect> blendedRects(world::ChunkPos center, const glm::mat4& viewProjection,
                                          glm::ivec2 size) const;
 
@@ -66,7 +66,6 @@ class MeshSectionTable {
 
     std::uint32_t allocateSlot();
     void setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record);
-    void noteChange(const shared::MeshSectionRecord& record);
     void addCommands(const shared::MeshSectionRecord& record, std::int32_t sign);
     void uploadRecords();
     void uploadOrder();

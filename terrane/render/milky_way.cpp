@@ -20,7 +20,7 @@ float gauss(float v) {
 }
 
 // `along`: 0…1 around the sky, 0.5 the brightest part; `across`: -1…1. Clouds of stars fade outward, wider
-// and warmer in the middle; dark lanes of dust wind along, in front of the brightest.
+// and warmer in the middle; dark lanes of dust run along the band, in front of the brightest part.
 glm::vec3 bandColor(float along, float across) {
     const float y = 0.5f + 0.25f * across;  // stretched along: a cell is twice as long as wide
     const float bend = 0.16f * (octaves(along, 0.3f, 4, 3, 70) - 0.5f);
@@ -33,7 +33,7 @@ glm::vec3 bandColor(float along, float across) {
     const float dust = gauss((from - winding) / (0.09f + 0.05f * bulge)) * (0.25f + 0.75f * torn);
     const glm::vec3 warm(1.0f, 0.88f, 0.78f), cold(0.6f, 0.76f, 1.0f);
     const glm::vec3 color = glm::mix(cold, warm, bulge);
-    // Dust takes blue first.
+    // Dust absorbs blue first.
     return color * stars * glm::mix(glm::vec3(1), glm::vec3(0.32f, 0.24f, 0.2f), dust) *
            glm::smoothstep(1.0f, 0.7f, std::abs(across));
 }

@@ -1,4 +1,4 @@
-// The band of the Milky Way as a texture, painted by noise at the start. Used by the renderer on the
+// The band of the Milky Way as a texture, generated from noise at the start. Used by the renderer on the
 // context's thread.
 #pragma once
 

@@ -8,6 +8,8 @@
 #include <glm/vec4.hpp>
 #include <utility>
 
+#include "terrane/render/srgb.h"
+
 namespace terrane::render {
 namespace {
 
@@ -17,13 +19,6 @@ struct LinearImage {
     world::Wrap wrap = world::Wrap::Quad;
     std::vector<glm::vec4> texels;
 };
-
-float decodeSrgb(float v) {
-    return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
-}
-float encodeSrgb(float v) {
-    return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
-}
 
 std::uint8_t byte(float v) {
     return static_cast<std::uint8_t>(std::clamp(v, 0.0f, 1.0f) * 255.0f + 0.5f);
@@ -76,12 +71,12 @@ float threshold(world::AlphaMode alpha) {
     return alpha == world::AlphaMode::TestGlow ? 0.25f : 0.5f;
 }
 
-// The texel that stands for one beyond the border; sizes are powers of two.
+// Texel used for one beyond the border; sizes are powers of two.
 int insideOf(int texel, int size, world::Wrap wrap) {
     return wrap == world::Wrap::Clamp ? std::clamp(texel, 0, size - 1) : texel & (size - 1);
 }
 
-// Alpha as stored, between texels; x and y in texels from the middle of the first.
+// Alpha as stored, filtered between texels; x and y in texels from the middle of the first.
 float filteredAlpha(const LinearImage& image, float x, float y, float scale) {
     const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
     const auto alpha = [&](int tx, int ty) {
@@ -94,7 +89,7 @@ float filteredAlpha(const LinearImage& image, float x, float y, float scale) {
                     glm::mix(alpha(x0, y0 + 1), alpha(x0 + 1, y0 + 1), fx), fy);
 }
 
-// The share of the surface that passes the test with alpha scaled and filtered, as it is drawn.
+// Share of the surface that passes the alpha test with alpha scaled and filtered, as it is drawn.
 float coverage(const LinearImage& image, float limit, float scale) {
     constexpr int kSamplesPerTexel = 4;  // along each side
     const int side = kSamplesPerTexel * image.size;
@@ -108,7 +103,7 @@ float coverage(const LinearImage& image, float limit, float scale) {
     return static_cast<float>(passed) / static_cast<float>(side * side);
 }
 
-// The factor on alpha that comes nearest to the wanted coverage; 1 where none is better.
+// Factor on alpha whose coverage is nearest to `wanted`; 1 if none is better.
 float coverageScale(const LinearImage& image, float limit, float wanted) {
     const float unscaled = coverage(image, limit, 1.0f);
     float low = unscaled < wanted ? 1.0f : 0.0f, high = unscaled < wanted ? 16.0f : 1.0f;
@@ -122,7 +117,7 @@ float coverageScale(const LinearImage& image, float limit, float wanted) {
     return takesAbove ? high : low;
 }
 
-// The texels around one, and itself; some of them twice where the texture does not repeat.
+// A texel and its neighbors; some occur twice if the texture does not repeat.
 std::array<std::size_t, 9> texelsAround(const base::Image& image, world::Wrap wrap, std::size_t at) {
     const int size = image.width, x = static_cast<int>(at) % size, y = static_cast<int>(at) / size;
     std::array<std::size_t, 9> texels{};
@@ -133,7 +128,7 @@ std::array<std::size_t, 9> texelsAround(const base::Image& image, world::Wrap wr
     return texels;
 }
 
-// Gives a texel the mean of the known colors around it, alpha 0. There is one at least.
+// Sets a texel to the mean of the known colors around it, with alpha 0. At least one is known.
 void takeColorAround(base::Image& image, world::Wrap wrap, const std::vector<bool>& known, std::size_t at) {
     std::array<int, 3> sum{};
     int count = 0;
@@ -146,7 +141,7 @@ void takeColorAround(base::Image& image, world::Wrap wrap, const std::vector<boo
     image.rgba[4 * at + 3] = 0;
 }
 
-// Hidden texels take the color of what is next to them, ring by ring: filters mix it into the edges.
+// Gives hidden texels the color of their neighbors, ring by ring, since filters mix them into the edges.
 void colorHiddenTexels(base::Image& image, world::Wrap wrap) {
     std::vector<bool> known;
     for (std::size_t k = 3; k < image.rgba.size(); k += 4) known.push_back(image.rgba[k] > 0);

@@ -1,5 +1,5 @@
-// The depth of the surfaces whose ambient occlusion is found: the opaque ones or, with NEAREST_LAYER, those of the nearest
-// blended layer. Needs gbuffer_read.glsl.
+// Depth of the surfaces whose ambient occlusion is computed: the opaque ones or, with NEAREST_LAYER, those of the
+// nearest blended layer. Needs gbuffer_read.glsl.
 #if NEAREST_LAYER == 1
 #if MSAA_SAMPLES > 1
 layout(binding = kTransparencyColorUnit) uniform sampler2DMS nearestLayer;
@@ -9,7 +9,7 @@ layout(binding = kTransparencyColorUnit) uniform sampler2D nearestLayer;
 layout(binding = kTransparencyDepthUnit) uniform sampler2D nearestLayerDepth;
 #endif
 
-// Where the layer has no face it has the depth of the opaque surface.
+// A layer without a face has the depth of the opaque surface.
 float nearestDepthAt(ivec2 pixel) {
     return texelFetch(nearestLayerDepth, pixel, 0).r;
 }

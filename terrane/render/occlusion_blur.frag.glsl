@@ -1,4 +1,4 @@
-// Smooths the ambient occlusion along one axis: Gaussian of 9 taps, σ = 3, over what lies at a like distance.
+// Blurs the ambient occlusion along one axis: Gaussian of 9 taps, σ = 3, over pixels at a similar distance.
 // AXIS: 0 x, 1 y. MSAA_SAMPLES: of the depth. NEAREST_LAYER: as in ambient_occlusion.frag.glsl.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
@@ -16,7 +16,7 @@ void main() {
     if (!isDrawn) discard;
     float middle = blocksOfDepth(nearestDepthAt(pixel));
     float sum = 0.0, weights = 0.0;
-    // Beyond it all is open. Software renderers go on after a discard.
+    // Beyond kOcclusionReach all is open. Software renderers continue after a discard.
     int reach = isDrawn && middle <= kOcclusionReach ? 4 : 0;
     for (int k = -reach; k <= reach; ++k) {
         ivec2 at = clamp(pixel + k * step, ivec2(0), last);

@@ -1,6 +1,6 @@
-// What a fragment must know of its quad, packed into 32 bits: bits 0–11 texture, 12–14 alpha mode, 15–17 direction, 18 whether
-// it is the surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level, 31 whether
-// it is tinted. Needs quad.h, shape_face.h, frame.h.
+// Data of a quad for its fragments, packed into 32 bits: bits 0–11 texture, 12–14 alpha mode, 15–17 direction, 18
+// surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level, 31 tinted. Needs quad.h, shape_face.h,
+// frame.h.
 #include "terrane/shared/material.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/render/packed_gbuffer.glsl"
@@ -11,7 +11,7 @@ uint directionOfAxis(vec3 axis) {
     return 2u * uint(along.y + 2.0 * along.z + 0.5) + (axis.x + axis.y + axis.z > 0.0 ? 1u : 0u);
 }
 
-// Of a face that is none of a model or of a liquid that flows.
+// Direction of a face that is neither of a model nor of a flowing liquid.
 uint directionOf(uint shapeFace) {
     if (shapeFace < kShapeFaceCross) return shapeFace;
     if (shapeFace < kShapeFaceInset) return kDirectionPlant;
@@ -38,7 +38,7 @@ bool isFarFace(uint face) {
     return (face >> 27 & 15u) != 0u;
 }
 
-// In blocks, which a texture covers one of at every level. Heights of columns are those of blocks.
+// Extents in blocks: a texture covers one block at every level. Heights of columns are those of blocks.
 vec2 extentOf(uint face) {
     vec2 columns = vec2((face >> 19 & 15u) + 1u, (face >> 23 & 15u) + 1u);
     float width = columnBlocks(face >> 27 & 15u);

@@ -1,8 +1,8 @@
-// The packed G-buffer: a surface in four channels of eight bits: color (sRGB), and in alpha the direction (3 bits) with the
-// glow of the texel (5 bits). Direction 7 is an escape: the upper bits are the direction of a face of a far tile (3 bits) with
-// its glow (2 bits). Nothing drawn is 7 there too: a cleared target, all ones.
+// The packed G-buffer: a surface in four channels of eight bits: color (sRGB), and in alpha the direction (3 bits) and
+// the glow of the texel (5 bits). Direction 7 is an escape: the upper bits are the direction of a face of a far tile (3
+// bits) and its glow (2 bits). If that direction is 7 too, nothing was drawn: a cleared target has all ones.
 
-const uint kDirectionPlant = 6u;  // planes that stand oblique: they are lit like the ground they stand on
+const uint kDirectionPlant = 6u;  // oblique planes, lit like the ground below them
 const uint kDirectionNone = 7u;
 
 struct Surface {
@@ -10,7 +10,7 @@ struct Surface {
     vec3 normal;
     float glow;
     uint direction;
-    bool isFar;  // of a tile of level 1 or more, which has no light of its own
+    bool isFar;  // of a tile of level 1 or more, which has no light levels
     bool isFigure;  // `direction`: the one next to the normal
 };
 

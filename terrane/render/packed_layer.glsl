@@ -1,5 +1,5 @@
-// A packed layer: a blended surface in four channels of sixteen bits: color (sRGB), and in alpha eight bits of coverage above
-// the direction, whether it is of a far tile and whether it is a liquid.
+// A packed layer: a blended surface in four channels of sixteen bits: color (sRGB), and in alpha eight bits of coverage
+// above the direction, a bit for far tiles and a bit for liquids.
 #include "terrane/render/packed_gbuffer.glsl"
 
 struct Layer {

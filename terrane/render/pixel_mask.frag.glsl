@@ -1,5 +1,6 @@
-// Leaves out pixels of which no sample has what OF asks for: 0 a surface, 1 the sky or a surface that may fade into it,
-// 2 a layer of blended faces. MSAA_SAMPLES: more than one. Of surfaces the depth tells distant ones and those of far tiles.
+// Discards pixels in which no sample has what OF selects: 0 a surface, 1 the sky or a surface that may fade into it, 2
+// a layer of blended faces. MSAA_SAMPLES: more than one. For surfaces the depth tells distant ones and those of far
+// tiles apart.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/gbuffer_read.glsl"
 

@@ -1,5 +1,5 @@
-// Where a pixel has several samples: which pixels a full-screen pass is to draw. The others are left out by
-// the depth test, before its shader runs; a branch in it would be run by all pixels beside, too. Used by
+// Selects the pixels that a full-screen pass draws, for targets with several samples a pixel. The depth test
+// rejects the others before the shader runs; all neighboring pixels would run a branch in the shader. Used by
 // passes on the context's thread.
 #pragma once
 
@@ -10,16 +10,16 @@ namespace terrane::render {
 
 class PixelMask {
   public:
-    // Pixels of which any sample has a surface; what the sky may show through, or behind; a layer.
+    // Pixels in which any sample has a surface; shows the sky or may fade into it; has a layer.
     enum class Of { Surfaces, Sky, Layers };
 
     PixelMask() = default;
     PixelMask(const gpu::ShaderLoader& shaders, Of of) : pass_(shaders, "pixel_mask"), of_(of) {}
 
     base::Result<void> select(int samples);
-    // With the textures of layers bound, where it is of these. Then the scene has depth 1 in these pixels and
-    // 0 in others; shared::kFarSurfacesDepth and kDistantSurfacesDepth where all surfaces of a pixel are
-    // such.
+    // Draws the mask into the depth of the scene, with the textures of layers bound for Of::Layers: 1 in
+    // these pixels and 0 in others; shared::kFarSurfacesDepth and kDistantSurfacesDepth if all surfaces of a
+    // pixel are such.
     void draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const;
 
   private:

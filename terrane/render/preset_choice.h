@@ -1,4 +1,4 @@
-// Picks the preset that a machine can draw, from a measurement of the cheapest one. Any thread.
+// Selects the best preset for a machine from a measurement of the cheapest one. Any thread.
 #pragma once
 
 #include "terrane/render/render_options.h"
@@ -14,8 +14,8 @@ struct PresetChoice {
     double framesPerSecond = 0;  // expected
 };
 
-// The dearest preset whose frame is expected to take kTargetMilliseconds at most; low where none does.
-// `lowMilliseconds`: GPU time of a frame with low, above 0.
+// Returns the most expensive preset whose frame is expected to take at most kTargetMilliseconds; low if none
+// does. `lowMilliseconds`: GPU time of a frame with low, above 0.
 PresetChoice choosePreset(double lowMilliseconds);
 
 }  // namespace terrane::render

@@ -1,7 +1,7 @@
 // PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended. FACE_SAMPLING: see
 // block_texture.glsl. TINT: see block_tint.glsl.
-// Pulls a quad's corner from the quad buffer. Four vertices a quad; the base vertex of a draw is four times its first
-// quad, its base instance the number of its mesh section.
+// Pulls a quad's corner from the quad buffer. A quad has four vertices; the base vertex of a draw is four times its
+// first quad, its base instance the number of its mesh section.
 #include "terrane/render/edge_expansion.glsl"
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/waves.glsl"
@@ -16,8 +16,8 @@ layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
     ShadowDraw shadowDraw;
 };
 
-// Shadows of what waves stand still: what casts them lies so many blocks farther from the light than at rest, so that it never
-// shades itself.
+// Shadows of waving leaves and plants do not move: their casters are this many blocks farther from the light than at
+// rest, so that a plant never shades itself.
 const float kWaveSink = 0.14;
 #endif
 
@@ -34,11 +34,11 @@ layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
 // Layers are peeled by comparing depths of two programs.
 invariant gl_Position;
 
-// A liquid's faces lie so many blocks inside of it: those against glass would share a plane with the glass's, and which
-// of the two is nearer would change from pixel to pixel.
+// Faces of a liquid are this many blocks inside of it: those against glass would share a plane with the glass, and
+// which of the two is nearer would change from pixel to pixel.
 const float kLiquidInset = 1.0 / 1024.0;
 
-// How far the sides of tiles lie behind their place, for the depth test: columns. Behind them is solid ground.
+// Depth offset of the sides of tiles for the depth test, in columns. Behind them is solid ground.
 const float kTileSideDepth = 0.25;
 
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
@@ -51,7 +51,7 @@ layout(location = 3) out vec2 outPlace;  // blocks from the corner of the camera
 #endif
 #include "terrane/render/packed_face.glsl"
 
-// By its number in the arena, or from a list of those to be drawn.
+// Quad by its number in the arena, or from a list of those to draw.
 Quad quadOf(int vertex) {
     int number = vertex >> 2;
 #if PASS == 0
@@ -62,7 +62,7 @@ Quad quadOf(int vertex) {
     return Quad(words.x, words.y);
 }
 
-// Without the normal. The surface of a liquid lies as high as its material says, and lower where it flows.
+// Shape face without its normal. The surface of a liquid is as high as its material says, and lower where it flows.
 ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
     uint number = quadShapeFace(quad);
     int first = 4 * int(number);
@@ -78,7 +78,7 @@ ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
     return face;
 }
 
-// How high a corner lies on the surface of a liquid, as a share of the surface's height; 0 where it does not.
+// Height of a corner on the surface of a liquid, as a share of the surface's height; 0 if it is not on it.
 float surfaceShare(ShapeFace face, vec2 corner) {
     return corner.y == 1.0 ? face.axisV.w : face.base.w;
 }
@@ -87,7 +87,8 @@ vec3 normalOfFace(Quad quad) {
     return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
 }
 
-// In the quad, 0 to 1. A face of a model or of a liquid that flows shows the part of the texture in front of which it lies.
+// Texture coordinates in the quad, 0 to 1. A face of a model or of a flowing liquid shows the part of the texture at
+// its place in the cell.
 vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
     if (quadShapeFace(quad) < kShapeFaceFlowTop) return vec2(corner.x, 1.0 - corner.y);
     vec3 inCell = shapeFaceCorner(face, vec4(0.0), corner, vec2(1.0)).xyz;
@@ -134,12 +135,13 @@ void main() {
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #endif
 #if PASS == 0
-    // Blended quads would show their overlap.
+    // Not for blended quads, whose overlap would be visible.
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
     vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
-    // A tile has sides under all of its border. Where the land beside is as high, dots of them would show: so they do not
-    // grow beyond the top, whose own growth covers the edge, and lie behind what is at the same place.
+    // A tile has sides under all of its border. Where the adjacent land is as high, dots of the sides would show. So
+    // they do not grow beyond the top, whose own growth covers the edge, and have a larger depth than faces at the same
+    // place.
     bool isTileSide = level > 0u && face.axisV.z > 0.0;
     float growsV = isTileSide && corner.y > 0.0 ? 0.0 : 1.0;
     gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,

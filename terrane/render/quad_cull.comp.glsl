@@ -1,5 +1,5 @@
-// Which quads of a mesh section can be seen, tested against Hi-Z: a work group for a mesh section, a thread for a quad.
-// Writes two bits of each quad (quad_cull.h), and of the mesh section the directions that have quads with them.
+// Tests the quads of a mesh section for visibility against Hi-Z: a work group for a mesh section, a thread for a quad.
+// Writes two bits of each quad (quad_cull.h), and the directions of the mesh section that have quads with them.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/material.h"
 #include "terrane/shared/mesh_section.h"
@@ -41,11 +41,11 @@ const uint kTestedRanges = 2u * kRangesOfTwoBuckets;  // of opaque and tested fa
 const float kRounding = 1.0 / 64.0;                   // pixels
 const float kLongestMiter = 64.0;                     // as edge_expansion.glsl has it
 
-// On the screen, in pixels, and the depth of the nearest corner.
+// Bounds of a quad on the screen, in pixels, and the depth of its nearest corner.
 struct Footprint {
     vec2 low, high;
     float nearest;
-    bool isBefore;  // all corners are before the camera
+    bool isBefore;  // all corners are in front of the camera
 };
 
 vec2 directionTo(vec2 v) {
@@ -67,7 +67,7 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     clip[1] = clip[0] + alongU;
     clip[2] = clip[0] + alongV;
     clip[3] = clip[1] + alongV;
-    // What waves may leave its place, in every direction. Materials are read by the vertex shader, too.
+    // Waving faces may move in every direction. The vertex shader reads the same materials.
     bool isWaving = texelFetch(materials, int(quadMaterial(quad))).b != kAnimationNone;
     float waving = isWaving ? kWaving : 0.0;
     float least = min(min(clip[0].w, clip[1].w), min(clip[2].w, clip[3].w)) - waving;
@@ -75,7 +75,7 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     print.isBefore = least > 2.0 * cull.nearPlane;
     vec2 at[4];
     for (int k = 0; k < 4; ++k) at[k] = (0.5 + 0.5 * clip[k].xy / clip[k].w) * cull.viewportSize;
-    // Edges move outward, farther at sharp corners (edge_expansion.glsl); twice that, since corners differ.
+    // Edges move outward, farther at sharp corners (edge_expansion.glsl). Twice that is used, since corners differ.
     vec2 u = directionTo(at[1] - at[0]), v = directionTo(at[2] - at[0]);
     float sine = abs(u.x * v.y - u.y * v.x);
     float margin = kRounding + 4.0 * cull.edgeExpansion * min(1.0 / max(sine, 1e-6), kLongestMiter) +
@@ -86,12 +86,12 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     return print;
 }
 
-// What is hidden by so little of its distance, or lies so little beside the image, may come into sight with the next frames:
-// then it is among what the early pass draws, and the late pass has less to draw.
+// Quads hidden by less than this share of their distance, or this little outside the image, may become visible in the
+// next frames: the early pass draws them, so that the late pass has less to draw.
 const float kSoon = 0.99;
 const float kSoonPixels = 32.0;
 
-// A pixel of one sample is drawn where its middle is covered.
+// With one sample a pixel is drawn if its center is covered.
 bool hasSample(Footprint print) {
     if (cull.samples > 1u) return true;
     return all(lessThanEqual(ceil(print.low - 0.5), floor(print.high - 0.5)));
@@ -101,12 +101,12 @@ bool isInView(Footprint print, float margin) {
     return all(greaterThanEqual(print.high, vec2(-margin))) && all(lessThanEqual(print.low, cull.viewportSize + margin));
 }
 
-// Whether what was drawn hides it now, and whether it still does in the next frames.
+// Whether the drawn depth hides the quad now, and whether it probably still does in the next frames.
 bvec2 isBehind(Footprint print) {
     ivec2 first = ivec2(clamp(print.low, vec2(0.0), cull.viewportSize - 1.0)) / int(kHiZTexelPixels);
     ivec2 last = ivec2(clamp(print.high, vec2(0.0), cull.viewportSize - 1.0)) / int(kHiZTexelPixels);
     ivec2 size = last - first;
-    // Two or three texels a side, or one.
+    // Two or three texels along a side, or one.
     int level = clamp(findMSB(max(max(size.x, size.y), 1)), 0, cull.hiZLevels - 1);
     first >>= level;
     last >>= level;

@@ -37,7 +37,7 @@ void QuadCull::run(const QuadStore& quads, const QuadResources& resources) const
         glUniform1ui(shared::kArenaLocation, static_cast<GLuint>(arena));
         glDispatchComputeIndirect(0);
     }
-    // The vertex shader reads them as texels; uploads and copies may follow.
+    // The vertex shader reads the quads as texels; uploads and copies may follow.
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
                     GL_BUFFER_UPDATE_BARRIER_BIT);
 }

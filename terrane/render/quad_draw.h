@@ -1,5 +1,5 @@
-// What a pass that draws quads takes: those that culling chose, and what shaders read of them. Used by the
-// renderer on the context's thread.
+// Input of a pass that draws quads: the quads that culling selected, and the data that shaders read of them.
+// Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/cull_pass.h"
@@ -7,22 +7,22 @@
 
 namespace terrane::render {
 
-// What the faces of the world ask of the shaders of quads; without them these are shorter.
+// Features that the world's faces need in the shaders of quads; without them the shaders are shorter.
 struct QuadFeatures {
     bool hasFaceSampling = false;  // see needsFaceSampling()
     bool hasTint = false;          // see TintTextures
-    bool hasLand = false;          // light knows the land to the horizon: see LandTextures
+    bool hasLand = false;          // land to the horizon affects light: see LandTextures
 };
 
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;
     const MeshSectionTable& meshSections;
-    const CullPass& culled;  // draws what its last run chose
+    const CullPass& culled;  // draws the selection of its last run
     bool isSmooth = false;   // textures are filtered
 
     void bind() const { resources.bind(meshSections, isSmooth); }
-    // With a shader and what bind() binds.
+    // Draws with the shader and the bindings of bind().
     void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, mesh::AlphaClass alphaClass) const {
         culled.drawBuckets(pipeline, state, quads, alphaClass);
     }

@@ -1,6 +1,6 @@
-// Lists the quads with a bit, command by command, and has the command draw those (quad_list.h). Each thread takes as many
-// neighboring quads as there are for it, so that they stay in their order: where two lie at the same depth the first is seen, in
-// every frame.
+// Lists the quads with a bit, command by command, and makes the command draw these (quad_list.h). Each thread handles
+// an equal number of consecutive quads, so that their order is kept: of two quads at the same depth the first is
+// visible in every frame.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/quad.h"

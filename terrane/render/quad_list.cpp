@@ -10,9 +10,9 @@
 namespace terrane::render {
 namespace {
 
-// Of all quads at most one in so many is listed: of a landscape one in fifteen is in the image.
+// The list has room for one in this many of all quads: in a landscape one in fifteen is in the image.
 constexpr std::size_t kQuadsForOneListed = 4;
-constexpr GLuint kGroups = 16;  // they take turns with the commands of a list
+constexpr GLuint kGroups = 16;  // a list's commands are distributed over them
 
 }  // namespace
 

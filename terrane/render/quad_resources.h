@@ -1,4 +1,4 @@
-// What every pass that draws the chunks' quads binds beside the quads: index pattern, shapes, materials,
+// Resources that every pass over the chunks' quads binds besides the quads: index pattern, shapes, materials,
 // textures. Used by the renderer on the context's thread.
 #pragma once
 
@@ -18,13 +18,13 @@ class QuadResources {
     // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
     QuadResources(const world::BlockRegistry& blocks, BlockTextures textures, float anisotropy);
 
-    // Other textures for the same blocks.
+    // Replaces the textures, for the same blocks.
     void setTextures(const world::BlockRegistry& blocks, BlockTextures textures);
     bool hasFaceSampling() const { return hasFaceSampling_; }
 
     // isSmooth: textures are filtered.
     void bind(const MeshSectionTable& meshSections, bool isSmooth);
-    // Shapes and materials alone.
+    // Binds only shapes and materials.
     void bindTables() const;
     std::size_t gpuBytes() const;
 
@@ -37,8 +37,8 @@ class QuadResources {
     bool hasFaceSampling_ = false;
 };
 
-// Whether some face samples its texture in its own way, or a texture is smaller than the array: the shaders
-// of quads need FACE_SAMPLING then (block_texture.glsl). Without it they are shorter.
+// Whether some face samples its texture in its own way, or a texture is smaller than the array. Then the
+// shaders of quads need FACE_SAMPLING (block_texture.glsl); without it they are shorter.
 bool needsFaceSampling(const world::BlockRegistry& blocks, const BlockTextures& textures);
 
 }  // namespace terrane::render

@@ -8,7 +8,7 @@
 namespace terrane::render {
 namespace {
 
-// Growing copies no more than half of that, and at most that much lies unused.
+// Largest arena. Growing copies at most half of it, and at most this much is unused.
 constexpr std::int64_t kArenaBytes = std::int64_t{1} << 28;
 static_assert(kArenaBytes <= std::int64_t{1} << 30, "no buffer is larger than 1 GiB");
 static_assert(kArenaBytes / shared::kQuadBytes * shared::kMaxArenas <= std::int64_t{1} << 32);
@@ -109,7 +109,7 @@ std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {
     return grow(count) ? ranges_.allocate(count) : std::nullopt;
 }
 
-// Doubling copies each quad once or twice in all. The GPU frees the old buffer when it has drawn with it.
+// Doubling copies each quad once or twice in all. The GPU frees the old buffer after drawing with it.
 bool QuadStore::grow(std::uint32_t count) {
     const std::size_t bytes = bufferBytes(), room = maxBytes_ - std::min(maxBytes_, bytes);
     const auto growth = ranges_.planGrowth(count, room / shared::kQuadBytes);

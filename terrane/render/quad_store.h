@@ -1,14 +1,14 @@
 // The quads of all visible chunks in a few GPU buffers (arenas): one binding and one draw call for each arena
-// and draw bucket, however many chunks there are. Used by the renderer on the context's thread.
+// and draw bucket, whatever the number of chunks. Used by the renderer on the context's thread.
 //
-// The first arena begins with 8 MiB (less in a small budget) and doubles up to 256 MiB, or to what a shader
-// can reach where that is less (128 MiB in Mesa's software renderer: a landscape at view distance 55).
-// Further arenas come after it without a copy. The quads of a mesh section lie in one arena. No growth takes
-// the buffers past setMaxBytes(), with the copy that a doubling needs for a moment.
+// The first arena begins with 8 MiB (less in a small budget) and doubles up to 256 MiB, or to the limit that
+// a shader can reach if that is less (128 MiB in Mesa's software renderer: a landscape at view distance 55).
+// Further arenas are added without a copy. The quads of a mesh section are in one arena. No growth takes the
+// buffers beyond setMaxBytes(), including the temporary copy of a doubling.
 //
-// Everything is written and copied by commands in the stream of the context, so a frame sees a mesh section's
-// quads as they were or as they are, never a mixture, and nothing waits for the GPU. A chunk's mesh sections
-// lie together until an edit gives one of them another place.
+// All writes and copies are commands in the stream of the context, so a frame sees a mesh section's quads
+// before or after a change, never a mixture, and nothing waits for the GPU. A chunk's mesh sections are
+// contiguous until an edit moves one of them.
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@
 
 namespace terrane::render {
 
-// Of a chunk the mesh sections, lowest first. Their ranges are addresses: see gpu::ArenaAllocator.
+// The mesh sections of a chunk, lowest first. Their ranges are addresses: see gpu::ArenaAllocator.
 using ChunkMeshSections = std::vector<mesh::MeshSection>;
 
 struct QuadStoreSizes {
@@ -43,15 +43,14 @@ class QuadStore {
   public:
     explicit QuadStore(const QuadStoreSizes& sizes = {});
 
-    // The most that all buffers may take from now on. What they take already stays.
+    // Limits the size of all buffers from now on; they keep their present size.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
-    // Replaces the quads of these mesh sections; of others `mesh` has none. Grows when the arenas are full.
-    // False where they may not grow any more: the mesh sections then have no quads, since the old ones are
-    // wrong.
+    // Replaces the quads of these mesh sections; `mesh` has none of others. Grows when the arenas are full.
+    // False if they cannot grow further: the mesh sections then have no quads, since the old ones are wrong.
     bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
              mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
-    // The same, but for the quads: a shader writes them to where meshSectionsOf() says, before the next
+    // The same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
     // frame.
     bool reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
                  mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
@@ -69,7 +68,7 @@ class QuadStore {
     }  // a quad each
     std::size_t usedBytes() const;
     std::size_t bufferBytes() const;  // of all arenas
-    // The most that the buffers took at once since the last call, with copies.
+    // Most bytes that the buffers took at once since the last call, including copies.
     std::size_t takePeakBytes() { return std::max(std::exchange(peakBytes_, 0), bufferBytes()); }
     std::uint64_t uploadedBytes() const { return uploadedBytes_; }  // by set(), since the beginning
     const gpu::ArenaAllocator& ranges() const { return ranges_; }

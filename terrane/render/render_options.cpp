@@ -6,7 +6,7 @@
 namespace terrane::render {
 namespace {
 
-// Next to nothing besides the image: for drawing without a graphics card.
+// Few effects: for drawing without a graphics card.
 constexpr RenderOptions low() {
     RenderOptions o;
     o.msaaSamples = 1;
@@ -47,8 +47,8 @@ constexpr RenderOptions ultra() {
     return o;
 }
 
-// With what the thesis measured, in its own words: samples 2, shadows 2048, three layers, squares ext in mesh
-// sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
+// Options of the thesis's measurements, in its terms: samples 2, shadows 2048, three layers, squares ext in
+// mesh sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
 constexpr Preset thesis() {
     Preset preset{.name = "thesis", .options = {}};
     preset.options.water = Water::Plain;

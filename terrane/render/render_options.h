@@ -1,5 +1,4 @@
-// How a frame is drawn: every choice that a user has, as one plain value, and named sets of them. Any
-// thread.
+// Options of drawing: every user option as one plain value, and presets. Any thread.
 #pragma once
 
 #include <array>
@@ -17,22 +16,22 @@ enum class Shading : std::uint8_t {
     Pixel,   // once a pixel: the nearest depth, the mean of colors and normals
 };
 
-// How light is sampled between blocks: docs/light.md.
+// Sampling of light between blocks: docs/light.md.
 enum class LightSampling : std::uint8_t { Classic, Smooth };
 
 enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the image
 
-// Full adds what is mirrored of the shore, a swell, foam and light that waves bundle on the ground.
+// Full adds reflections of the shore, swell, foam and caustics.
 enum class Water : std::uint8_t { Plain, Full };
 
-// What is done about the cracks between quads of different sizes.
+// Treatment of the cracks between quads of different sizes.
 enum class TJunctions : std::uint8_t {
     Open,     // nothing
-    Filled,   // holes of one sample take on what is beside them: hole_fill.h
-    Covered,  // quads overlap by a little, so that there are none: edge_expansion.glsl
+    Filled,   // holes of one sample take the value of a neighbor: hole_fill.h
+    Covered,  // quads overlap by a little, so that there are no cracks: edge_expansion.glsl
 };
 
-// How far from the camera the sun and moon cast shadows.
+// Distance from the camera up to which sun and moon cast shadows.
 enum class ShadowReach : std::uint8_t {
     Off,
     Near,     // 50 blocks
@@ -46,7 +45,7 @@ struct RenderOptions {
     LightSampling light = LightSampling::Classic;
     ShadowReach shadows = ShadowReach::Near;
     int shadowSize = 2048;     // texels a side of each shadow map: 1024, 2048, 4096
-    bool softShadows = false;  // edges widen with the distance of what casts them
+    bool softShadows = false;  // edges widen with the distance to the caster
     Occlusion occlusion = Occlusion::Off;
     bool depthOfField = true;
     bool distanceFog = true;
@@ -66,12 +65,12 @@ struct RenderOptions {
 
 constexpr int kDefaultDetail = 12;
 
-// All that a user sets about what is on screen: how it is drawn, out of which meshes, and how far.
+// All settings of the image: how it is drawn, from which meshes, and how far.
 struct GraphicsSettings {
     RenderOptions render;
     mesh::MeshOptions mesh;
     int viewDistance = 16;        // chunks
-    int horizon = 1024;           // how far land goes on beyond them, chunks; 0: not at all
+    int horizon = 1024;           // distance of land beyond them, chunks; 0: none
     int detail = kDefaultDetail;  // tiles a ring of a level of detail: see stream::TileView
 
     bool operator==(const GraphicsSettings&) const = default;
@@ -83,15 +82,15 @@ struct Preset {
     mesh::MeshOptions mesh = {};
     int detail = kDefaultDetail;
     std::optional<int> viewDistance = {}, horizon = {};  // none: as they are
-    // GPU time of a frame, low's is 1: docs/rendering.md. None: no measurement picks it.
+    // GPU time of a frame relative to low: docs/rendering.md. None: preset_choice.h never selects it.
     std::optional<double> relativeCost = {};
 };
 
 // low, medium, high, ultra, thesis.
 const std::array<Preset, 5>& presets();
-// Null where there is none of the name. "auto" is high on a graphics card and low without one.
+// Null if no preset has the name. "auto" is high on a graphics card and low without one.
 const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
-// There is a preset of the name.
+// A preset of the name must exist.
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer);
 
 }  // namespace terrane::render

@@ -19,13 +19,13 @@
 namespace terrane::render {
 namespace {
 
-// Uniforms of a frame (camera, tint, air, land, shadows), twice those of culling, and those of the rectangles
-// of shadow maps that figures are drawn into, aligned; figures that are seen, and that cast shadows.
+// Uniforms of a frame (camera, tint, air, land, shadows), those of culling twice, and those of the shadow map
+// rectangles that figures are drawn into, aligned; then the figures in view, and those that cast shadows.
 constexpr std::size_t kRingBytes = 8192 + ShadowMap::kFigureRingBytes + 2 * FigurePass::kRingBytes;
 constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
 constexpr float kMaxAnisotropy = 8.0f;
 
-// Between sun and moon it is dark: light that cannot be seen casts no shadows. Linear.
+// Least light that casts shadows, linear: between sun and moon the light is too dark to see.
 constexpr float kMinShadowedLight = 0.002f;
 
 float aspectOf(glm::ivec2 size) {
@@ -46,7 +46,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 
     Renderer renderer;
     renderer.topColors_ = std::move(*topColors);
-    // A software renderer pays for each of the samples.
+    // Software renderers take time for each sample.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
     renderer.passes_ = std::move(*passes);
@@ -76,7 +76,7 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     return {};
 }
 
-// Where it fails the passes are as they were.
+// If it fails, the passes are as before.
 base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const RenderOptions& options,
                                              const QuadFeatures& features) {
     auto done = passes_.configure(targets, options, features);
@@ -209,7 +209,7 @@ void Renderer::drawSurfaces() {
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
-// What was hidden in the frame before and is not now.
+// Draws surfaces that were hidden in the frame before and are visible now.
 void Renderer::drawLate(const CullInput& cullInput) {
     {
         const TimerZone zone(timer_, "depth pyramid");
@@ -220,7 +220,7 @@ void Renderer::drawLate(const CullInput& cullInput) {
     passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
 }
 
-// After holes are filled, which would take thin arms in the distance for holes of what is behind.
+// Comes after holes are filled, which would take thin distant arms for holes.
 void Renderer::drawFigures(const FrameInput& input, const CullInput& cullInput) {
     if (input.figures.empty()) return;
     const auto records =
@@ -241,7 +241,7 @@ void Renderer::shadeSurfaces(const FrameInput& input) {
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);
 }
 
-// Costs nothing where no mesh section in view has blended faces; false then.
+// Costs nothing if no mesh section in view has blended faces, and returns false.
 bool Renderer::drawTransparency(const FrameInput& input) {
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
     if (options_.transparencyLayers == 0) return false;
@@ -258,7 +258,7 @@ bool Renderer::drawTransparency(const FrameInput& input) {
     return true;
 }
 
-// `depth`: of what is nearest.
+// `depth`: of the nearest surfaces.
 void Renderer::drawFinal(const MsaaTexture& depth) {
     const TimerZone zone(timer_, "final");
     depth.bind(shared::kDepthUnit);
@@ -276,7 +276,7 @@ void Renderer::drawImage(const FrameInput& input) {
         passes_.occlusion.draw(pipeline_, targets_);
     }
     shadeSurfaces(input);
-    // Water is as far away as its surface, not as its ground.
+    // The depth of water is that of its surface, not of its ground.
     const bool hasLayers = drawTransparency(input);
     if (isDirectImage(options_, targets_.msaaSamples)) return;
     const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;
@@ -320,7 +320,7 @@ void Renderer::draw(const FrameInput& input) {
     }
     drawFigures(input, culling);
     input.view == View::Color ? drawImage(input) : drawDebugView();
-    pipeline_.set({});  // others clear depths
+    pipeline_.set({});  // code outside may clear depths
     gpu::Program::useNone();
     passes_.cull.queueCounts();
     ring_.endFrame();

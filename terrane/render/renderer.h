@@ -1,6 +1,5 @@
-// Draws the world as the camera sees it. Owns the quads and the light of the visible chunks, the passes of a
-// frame and the targets they draw into, and runs the passes in order. Used on the thread of the current
-// OpenGL context.
+// Draws the view of the camera. Owns the quads and the light of the visible chunks, the passes of a frame and
+// their targets, and runs the passes in order. Used on the thread of the current OpenGL context.
 #pragma once
 
 #include <algorithm>
@@ -30,64 +29,65 @@ class Renderer {
                                          const TextureSource& textures, const gpu::DeviceInfo& device,
                                          const QuadStoreSizes& quads = {});
 
-    // Other textures for the same blocks, from the next frame on. Where one is wrong those before stay.
+    // Replaces the textures, for the same blocks, from the next frame on. On failure the old ones stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
 
-    // Size of the image in pixels and how it is drawn. Comes before the first frame and whenever something
-    // changes. Fails where the driver cannot; what was before then stays.
+    // Sets the size of the image in pixels and the options. Comes before the first frame and after every
+    // change. Fails if the driver does not support them; the old configuration stays then.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return options_; }
-    // Shaders as the loader gives them now, from the next frame on. Where one is wrong those before stay.
+    // Loads all shaders again, for the next frame. On failure the old ones stay.
     base::Result<void> reloadShaders();
 
-    // The most bytes that all of this may take on the GPU: quads and light grow no further. Comes before
-    // configure(), which takes what it needs, and setViewDistance(); chunks are forgotten.
+    // Sets the most bytes that the renderer may take on the GPU: quads and light do not grow beyond it. Comes
+    // before configure() and setViewDistance(), which take what they need; removes all chunks.
     void setMemoryBudget(std::size_t bytes);
     std::size_t memoryBudget() const { return budgetBytes_; }
     GpuMemory memory() const;  // as of the next frame
-    // The most at once since setMemoryBudget(), with copies while something grows.
+    // Largest memory since setMemoryBudget(), including copies during growth.
     std::size_t peakMemory() const { return peakBytes_; }
-    // Memory of others that the budget counts.
+    // Sets memory used outside the renderer that the budget includes.
     void setStagingBytes(std::size_t bytes) { stagingBytes_ = bytes; }
 
-    // The next frame shows these mesh sections of the chunk so; of others `mesh` has no quads. False where
-    // there is no room within the budget: the mesh sections are not shown then.
+    // Sets the quads of these mesh sections for the next frame; `mesh` has none of others. False if there is
+    // no room within the budget: the mesh sections are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                   mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
-    // The same of the whole chunk, but for the quads: before the next frame a shader writes them into
-    // quadBuffers(), to where meshSectionsOf() says.
+    // The same for the whole chunk, without the quads: before the next frame a shader writes them into
+    // quadBuffers(), to the ranges of meshSectionsOf().
     bool reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes);
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const {
         return quads_.meshSectionsOf(pos);
     }
     gpu::ArenaBuffers quadBuffers() const { return quads_.buffers(); }  // until the next change
-    // Of chunks of level 0. Chunks without light are drawn as under the open sky. `viewDistance` of
-    // setViewDistance is the farthest that light is kept for. `bricks` and result: see LightStore.
+    // Sets the light of a chunk of level 0, within `viewDistance` of setViewDistance(). Chunks without light
+    // are drawn as under the open sky. `bricks` and result: see LightStore.
     bool setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void removeChunk(world::ChunkPos pos);
-    // Whether tinted faces take a tint from now on; it is neutral where no tile is set, and all tiles are
-    // forgotten. Fails where the shaders cannot be compiled; then it is as before.
+    // Sets whether tinted faces take a tint. All tiles are removed; the tint is neutral where no tile is set.
+    // If the shaders cannot be compiled it fails and changes nothing.
     base::Result<void> useTint(bool isUsed);
     bool hasTint() const { return tints_.isUsed(); }
-    // The tint of a tile that tintClipmap().isTile(), after useTint(true).
+    // Sets the tint of a tile for which tintClipmap().isTile(), after useTint(true).
     void setTint(world::ChunkPos tile, const world::TintTile& colors) { tints_.set(tile, colors); }
     const Clipmap& tintClipmap() const { return tints_.clipmap(); }
-    // Whether light knows the land as far as the horizon from now on (land_map.h); all of its tiles are
-    // forgotten. Fails as useTint().
+    // Sets whether the land up to the horizon affects light (land_map.h). All its tiles are removed. Fails
+    // like useTint().
     base::Result<void> useLand(bool isUsed);
     bool hasLand() const { return land_.isUsed(); }
-    // After useLand(true): the surface of a tile that the clipmap has; how far one sees, blocks.
+    // After useLand(true): sets the surface of a tile of the clipmap, and the view distance in blocks.
     void setLand(world::ChunkPos tile, const world::LandTile& land) { land_.map().set(tile, land); }
     void setLandReach(double blocks) { land_.map().setReach(blocks); }
     const Clipmap& landClipmap() const { return land_.map().clipmap(); }
-    // The next frame takes in all that was set, whatever it takes; others compute a level at most.
+    // Makes the next frame compute all levels that changed, whatever the time; other frames compute at most
+    // one.
     void completeLand() { completesLand_ = true; }
-    // A chunk that is not shown keeps its quads and its light. Chunks are shown unless told otherwise, which
-    // may come before they are set; removeChunk() ends it.
+    // Shows or hides a chunk. A hidden chunk keeps its quads and its light. Chunks are shown by default. May
+    // come before the chunk is set; removeChunk() resets it.
     void setShown(world::ChunkPos pos, bool isShown);
-    // Makes room for light; what was set is forgotten.
+    // Allocates light for a view distance; light set before is removed.
     void setViewDistance(int chunks);
-    // Forgets all chunks. Their memory is given back but for the least that there is at first.
+    // Removes all chunks and frees their memory except for the initial buffers.
     void clearChunks();
 
     // Draws into the renderer's own image.
@@ -96,12 +96,12 @@ class Renderer {
     base::Image readImage() const { return gpu::readPixels(targets_.ldr); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
 
-    // Of the newest frame that the GPU has finished.
+    // Statistics of the newest frame that the GPU has finished.
     FrameStatistics statistics() {
         return statisticsOf(passes_.cull.counts(), passes_.shadowMap.drawnTriangles());
     }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
-    // What a shadow map for this frame would draw.
+    // Triangles that one shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning

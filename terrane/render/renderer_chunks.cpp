@@ -1,4 +1,4 @@
-// The renderer's chunks, and the memory that they may take.
+// Chunks of the renderer and their memory budget.
 #include <algorithm>
 
 #include "terrane/render/renderer.h"
@@ -6,14 +6,15 @@
 namespace terrane::render {
 namespace {
 
-// A share of the budget for records of mesh sections and draw commands, which grow with what is drawn: quads
-// and light leave it free. They take about a twelfth of what quads and light take.
+// Share of the budget for records of mesh sections and draw commands, which grow with the world: quads and
+// light leave it free. They take about a twelfth of the size of quads and light.
 constexpr std::size_t kRecordsShare = 8;
 
-// A share for the first buffer of quads, which is seldom full.
+// Share for the first buffer of quads, which is seldom full.
 constexpr std::size_t kFirstQuadsShare = 16;
 
-// Of what quads and light take: a chunk of a landscape has 28 KB of light and 8 KB of quads.
+// Light's share of the memory of quads and light: a chunk of a landscape has 28 KB of light and 8 KB of
+// quads.
 std::size_t lightShare(std::size_t bytes) {
     return bytes / 4 * 3;
 }
@@ -39,7 +40,7 @@ void Renderer::setMemoryBudget(std::size_t bytes) {
     clearChunks();
 }
 
-// Before quads or light may grow: both get what the others leave.
+// Comes before quads or light may grow: both get the remaining memory.
 void Renderer::shareBudget() {
     if (budgetBytes_ == SIZE_MAX) return;
     const GpuMemory used = memory();

@@ -36,7 +36,8 @@ std::array<glm::vec4, 8> cornersOf(glm::vec3 min, glm::vec3 max, const glm::mat4
     return corners;
 }
 
-// Corners before the near plane, and where edges go through it: the part that can be seen is their hull.
+// Bounds of the corners in front of the near plane and of the points where edges cross it: the visible part
+// is their hull.
 Bounds boundsOf(const std::array<glm::vec4, 8>& corners) {
     Bounds bounds;
     for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -66,7 +67,7 @@ ScreenRect screenRectOf(glm::vec3 min, glm::vec3 max, const glm::mat4& viewProje
     const Bounds bounds = boundsOf(cornersOf(min, max, viewProjection));
     if (bounds.min.x > bounds.max.x) return {};
     const glm::vec2 pixels(size);
-    // Clamped before they become whole numbers, which points near the camera's plane would exceed.
+    // Clamped before conversion to integers, which points near the camera's plane would exceed.
     const glm::vec2 low = glm::clamp(0.5f + 0.5f * bounds.min, -1.0f, 2.0f) * pixels;
     const glm::vec2 high = glm::clamp(0.5f + 0.5f * bounds.max, -1.0f, 2.0f) * pixels;
     const ScreenRect rect{glm::max(glm::ivec2(glm::floor(low)) - 1, glm::ivec2(0)),
@@ -79,7 +80,7 @@ namespace {
 constexpr std::uint32_t kAllColumns = UINT32_MAX;
 static_assert(ScreenGrid::kColumns == 32);
 
-// Bits from the first to before the end.
+// Bits first…end − 1.
 std::uint32_t columnsBetween(int first, int end) {
     return (end == 32 ? kAllColumns : (1u << end) - 1) & ~((1u << first) - 1);
 }
@@ -105,7 +106,7 @@ bool ScreenGrid::isFull() const {
     return std::ranges::all_of(rows_, [](std::uint32_t row) { return row == kAllColumns; });
 }
 
-// Runs of columns, each as high as it goes on.
+// Splits the cells into runs of columns, each as high as all its columns are covered.
 std::vector<ScreenRect> ScreenGrid::rects() const {
     std::vector<ScreenRect> rects;
     std::array<std::uint32_t, kRows> left = rows_;

@@ -21,15 +21,15 @@ struct ScreenRect {
     bool operator==(const ScreenRect&) const = default;
 };
 
-// The smallest that holds all of them; there is one at least.
+// Smallest rectangle that contains all of them; at least one.
 ScreenRect boundsOf(std::span<const ScreenRect> rects);
 
-// Holds each pixel of an image of `size` that a point of the box may cover, with one more on each side.
-// `viewProjection`: of ViewMatrices; the box is in the space that it starts from.
+// Rectangle of all pixels of an image of `size` that a point of the box may cover, with one more pixel on
+// each side. `viewProjection`: of ViewMatrices; the box is in the space that it starts from.
 ScreenRect screenRectOf(glm::vec3 min, glm::vec3 max, const glm::mat4& viewProjection, glm::ivec2 size);
 
-// Which parts of an image are covered: a grid of 32 × 18 cells, 40 pixels wide at 1280 × 720. Finer cells
-// follow what is drawn more closely and take more draws.
+// Tracks the covered parts of an image: a grid of 32 × 18 cells, 40 pixels wide at 1280 × 720. Finer cells
+// would fit more closely but take more draws.
 class ScreenGrid {
   public:
     static constexpr int kColumns = 32, kRows = 18;
@@ -37,7 +37,7 @@ class ScreenGrid {
     explicit ScreenGrid(glm::ivec2 size) : size_(size) {}
     void cover(const ScreenRect& rect);
     bool isFull() const;
-    // Without overlap, all covered cells and no others.
+    // Rectangles of exactly the covered cells, without overlap.
     std::vector<ScreenRect> rects() const;
 
   private:

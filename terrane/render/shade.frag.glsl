@@ -1,8 +1,9 @@
-// From the G-buffer to the light that reaches the camera: color times coverage, and coverage, over the sky.
+// Shades the G-buffer: light toward the camera as premultiplied color and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 where there is ambient occlusion. LAND, FAR:
-// see land_light.glsl, lighting.glsl. OVER_SKY: 1 blends what fades with the sky that was drawn behind it, 0 does so here: without
-// clouds the sky's color is known, and nothing behind need be drawn or read. DIRECT: 1 writes what the screen shows (direct_image.h).
+// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 with ambient occlusion. LAND, FAR: see
+// land_light.glsl, lighting.glsl. OVER_SKY: 1 blends fading surfaces with the sky that was drawn behind them, 0
+// computes the sky here: without clouds its color is known, and no sky needs to be drawn or read. DIRECT: 1 writes
+// display colors (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
 #include "terrane/render/sky_color.glsl"
@@ -20,9 +21,9 @@ layout(location = 0) out vec4 outColor;
 #include "terrane/render/surface_shade.glsl"
 
 #if MSAA_SAMPLES > 1 && PER_SAMPLE == 1
-const float kSameDepth = 1.0 / 64.0;  // of the distance: surfaces so near each other share shadow, light and air
+const float kSameDepth = 1.0 / 64.0;  // of the distance: surfaces this close share shadow, light and air
 
-// Neighboring faces at an edge are one surface with their mean color, normal and light: what reaches a surface is linear in
+// Neighboring faces at an edge are one surface with their mean color, normal and light: the incoming light is linear in
 // them. Then most pixels have one surface, and others two.
 struct Samples {
     Surface mean;  // direction: of the first

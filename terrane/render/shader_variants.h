@@ -1,5 +1,5 @@
-// One shader pair in the variants that options ask for, each compiled when it is first selected. Used by the
-// passes on the context's thread.
+// The variants of one shader pair for options, each compiled when it is first selected. Used by the passes on
+// the context's thread.
 #pragma once
 
 #include <initializer_list>
@@ -20,7 +20,7 @@ class ShaderVariants {
     ShaderVariants(const gpu::ShaderLoader& shaders, std::string vertexName, std::string fragmentName,
                    std::string label);
 
-    // From now on use() means this variant. On failure the one before stays.
+    // Makes use() use this variant. On failure the previous one stays.
     base::Result<void> select(const gpu::ShaderDefines& defines);
     void use() const { variants_[selected_].second.use(); }
 
@@ -33,7 +33,7 @@ class ShaderVariants {
     std::size_t selected_ = 0;
 };
 
-// Of a pass over quads. `name`: of terrane/render/NAME.frag.glsl.
+// Variants of a pass over quads. The fragment shader is terrane/render/NAME.frag.glsl.
 ShaderVariants quadShaders(const gpu::ShaderLoader& shaders, std::string_view name, std::string label);
 
 }  // namespace terrane::render

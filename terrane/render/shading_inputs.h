@@ -1,5 +1,5 @@
-// What shaders that light surfaces and layers read besides the G-buffer and the frame's uniforms. Used by the
-// renderer on the context's thread.
+// Inputs of shaders that light surfaces and layers, besides the G-buffer and the frame's uniforms. Used by
+// the renderer on the context's thread.
 #pragma once
 
 #include "terrane/render/light_store.h"
@@ -8,7 +8,7 @@
 
 namespace terrane::render {
 
-// Which light their shaders know: values of defines.
+// Defines of these shaders for light.
 struct LightVariant {
     int shadowVariant = 0;   // SHADOW of shadow_sample.glsl; 0: none
     bool knowsLand = false;  // LAND of land_light.glsl
@@ -18,7 +18,7 @@ struct ShadingInputs {
     const LightStore& light;
     const ShadowMap& shadowMap;
     const SkyNoise& noise;
-    bool isUnderWater = false;  // where the camera is: shaders have variants for it
+    bool isUnderWater = false;  // of the camera: shaders have variants for it
 
     void bind() const {
         light.bind();

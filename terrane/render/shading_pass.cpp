@@ -55,7 +55,8 @@ base::Result<void> ShadingPass::select(const RenderOptions& options, int samples
     return selected;
 }
 
-// By the depth test: of the mask, or of surfaces, where the triangle lies where they begin to fade.
+// Pixels are selected by the depth test: against the mask, or against the surfaces, with the triangle at the
+// depth where they begin to fade.
 void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                           const Sky& sky) const {
     gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
@@ -69,13 +70,13 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     }
     inputs.bind();
     (isDirect_ ? targets.direct : targets.scene).bind();
-    // By day the shader without stars: software renderers run what a branch leaves out.
+    // The shader without stars by day: software renderers run all branches.
     (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
 }
 
-// By the depth test. With one sample a pixel the triangle lies at the far end, and all surfaces are nearer.
-// With more the mask is tested: it tells distant surfaces and far tiles apart, which in air have shaders of
-// their own that read less light or none.
+// Pixels are selected by the depth test. With one sample a pixel the triangle is at the far end, and all
+// surfaces are nearer. With more the mask is tested. It separates distant surfaces and far tiles, which in
+// air have shaders of their own that read less light or none.
 void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
     const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;

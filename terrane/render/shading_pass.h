@@ -1,4 +1,4 @@
-// From the G-buffer to the light that reaches the camera, over the sky; or to what the screen shows: see
+// Shades the G-buffer over the sky, into the scene or directly into the image of the screen: see
 // direct_image.h. Used by the renderer on the context's thread.
 #pragma once
 
@@ -24,10 +24,10 @@ class ShadingPass {
         float fogDistance;  // blocks
         bool hasStars;
     };
-    // The part of the sky that can be seen, or that surfaces fade into.
+    // Draws the part of the sky that is visible, or that surfaces fade into.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                  const Sky& sky) const;
-    // After the sky. `occlusion` is read where select() was told so.
+    // Draws the surfaces, after the sky. `occlusion` is read if select() enabled it.
     void drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
                       const AmbientOcclusion& occlusion) const;
 

@@ -1,4 +1,4 @@
-// ALPHA_CLASS: 0 opaque, 1 tested. Depth is all that is kept.
+// ALPHA_CLASS: 0 opaque, 1 tested. The target has depth only.
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"

@@ -5,18 +5,12 @@
 namespace terrane::render {
 namespace {
 
-CasterBox casterBoxOf(const shared::MeshSectionRecord& record) {
-    return {{record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)},
-            static_cast<int>(record.heights & 0xFFFFu),
-            static_cast<int>(record.heights >> 16)};
-}
-
 class CasterWriter {
   public:
     CasterWriter(std::vector<CasterList>& lists, std::uint32_t arenaQuads)
         : lists_(lists), arenaQuads_(arenaQuads) {}
 
-    // Ranges that follow each other share a command.
+    // Contiguous ranges share a command.
     void add(std::uint32_t slot, std::uint32_t bucket, glm::uvec2 range) {
         if (range.y == 0) return;
         if (pending_.y > 0 && pending_.x + pending_.y == range.x && bucket == bucket_ && slot == slot_) {
@@ -64,6 +58,12 @@ void addCasters(CasterWriter& writer, std::uint32_t slot, const shared::MeshSect
 }
 
 }  // namespace
+
+CasterBox casterBoxOf(const shared::MeshSectionRecord& record) {
+    return {{record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)},
+            static_cast<int>(record.heights & 0xFFFFu),
+            static_cast<int>(record.heights >> 16)};
+}
 
 bool facesLight(int direction, glm::vec3 light) {
     if (direction == mesh::kAnyDirection) return true;

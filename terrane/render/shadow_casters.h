@@ -1,4 +1,4 @@
-// The draw commands of what casts shadows into a rectangle of shadow tiles. Pure functions; any thread.
+// Draw commands of the casters of a rectangle of shadow tiles. Pure functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +11,13 @@
 
 namespace terrane::render {
 
+// Box of a mesh section.
+CasterBox casterBoxOf(const shared::MeshSectionRecord& record);
+
 // Opaque and tested quads, one-sided and two-sided.
 constexpr int kCasterBuckets = 4;
 
-// Whether faces that look so may be lit. `direction`: see mesh::kAnyDirection.
+// Whether faces of a direction may be lit. `direction`: see mesh::kAnyDirection.
 bool facesLight(int direction, glm::vec3 light);
 
 // Commands of a draw bucket whose quads lie in one arena.
@@ -23,9 +26,9 @@ struct CasterList {
     std::size_t quads = 0;
 };
 
-// By arena × kCasterBuckets + draw bucket, as many arenas as there are quads in: everything in the column
-// along the light over the tiles, without face directions that look away from it. `records` by slot, those of
-// free slots with heights 0; `arenaQuads`: addresses of an arena.
+// Lists by arena × kCasterBuckets + draw bucket, for all arenas with quads: everything in the column along
+// the light over the tiles, without face directions that face away from it. `records`: by slot, with heights
+// 0 for free slots; `arenaQuads`: addresses of an arena.
 std::vector<CasterList> castersOf(const ShadowTiles& tiles,
                                   std::span<const shared::MeshSectionRecord> records,
                                   std::uint32_t arenaQuads);

@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "terrane/render/clipmap.h"
+#include "terrane/render/light_axes.h"
 #include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
@@ -17,31 +19,21 @@ constexpr int kHalfShadowTiles = kShadowTiles / 2;
 constexpr int kAnchorChunks = 64;
 constexpr double kLightStep = 1.0 / 128;  // radians, about
 constexpr double kFirstTileBlocks = 14.5;
-// The middle of the tiles is up to half a tile beside the camera.
+// Reach of a cascade in tiles: the middle of the tiles is up to half a tile beside the camera.
 constexpr double kReachTiles = kHalfShadowTiles - 0.5;
-// A soft edge is at most so wide to each side. Filters read so many texels beyond a place, the shift along
-// the normal included.
+// Largest width of a soft edge to each side, and the texels that filters read beyond a place, including the
+// shift along the normal.
 constexpr float kMostEdgeTexels = 5;
 constexpr double kFilterTexels = 8;
-// How long a changed tile of each cascade waits for further changes before it is drawn again, frames: chunks
-// come one after the other.
+// Frames that a changed tile of each cascade waits for further changes before it is drawn again, since chunks
+// arrive one after the other.
 constexpr std::array<std::uint64_t, shared::kShadowCascades> kPatience = {0, 8, 24};
 
-// Steps along the sides of a cube: a direction has one place there, wherever it was before.
+// Rounds a direction to steps on the sides of a cube, independently of the direction before.
 glm::dvec3 inSteps(glm::dvec3 direction) {
     const glm::dvec3 size = glm::abs(direction);
     const glm::dvec3 onCube = direction / std::max({size.x, size.y, size.z});
     return glm::normalize(glm::round(onCube / kLightStep) * kLightStep);
-}
-
-glm::dvec3 anchorBlocks(const ShadowPlane& plane) {
-    return {double{world::kChunkSize} * plane.anchor.x, double{world::kChunkSize} * plane.anchor.y, 0};
-}
-
-// How far a point is from a tile along one axis, blocks.
-double distanceToTile(double at, int tile, double blocks) {
-    const double low = tile * blocks;
-    return std::max({0.0, low - at, at - (low + blocks)});
 }
 
 template <class F>
@@ -53,15 +45,12 @@ void forEachPlace(glm::ivec2 middle, const F& f) {
 }  // namespace
 
 ShadowPlane shadowPlane(world::ChunkPos cameraChunk, glm::vec3 lightDirection) {
-    const glm::dvec3 toward = inSteps(glm::dvec3(lightDirection));
-    const glm::dvec3 other = std::abs(toward.z) < 0.9 ? glm::dvec3(0, 0, 1) : glm::dvec3(1, 0, 0);
-    const glm::dvec3 across = glm::normalize(glm::cross(other, toward));
-    return {glm::transpose(glm::dmat3(across, glm::cross(toward, across), toward)),
+    return {lightAxes(inSteps(glm::dvec3(lightDirection))),
             {cameraChunk.x & ~(kAnchorChunks - 1), cameraChunk.y & ~(kAnchorChunks - 1)}};
 }
 
 glm::dvec3 onPlane(const ShadowPlane& plane, glm::dvec3 point) {
-    return plane.toLight * (point - anchorBlocks(plane));
+    return plane.toLight * (point - cornerOfChunk(plane.anchor));
 }
 
 double shadowTileBlocks(int cascade) {
@@ -99,8 +88,8 @@ glm::ivec2 ShadowClipmap::middleOf(const Layer& layer, int cascade, const Camera
     return glm::ivec2(glm::floor(at / shadowTileBlocks(cascade) + 0.5));
 }
 
-// Blocks from the camera that are drawn, along each axis of the plane. Filters read farther: frame() takes
-// that off.
+// Distance in blocks from the camera, along each axis of the plane, within which all tiles are drawn. Filters
+// read farther: frame() subtracts that.
 double ShadowClipmap::drawnReach(const Layer& layer, int cascade, const Camera& camera) {
     if (!layer.plane) return 0;
     const double blocks = shadowTileBlocks(cascade);
@@ -119,7 +108,7 @@ void ShadowClipmap::markChanged(const CasterBox& box) {
         for (const std::size_t index : {inUse_[static_cast<std::size_t>(cascade)], spare_}) {
             Layer& layer = layers_[index];
             if (!layer.plane || (index == spare_ && next_ != cascade)) continue;
-            // A texel's middle tells for half a texel around it.
+            // A texel has the depth at its center for half a texel around it.
             const double blocks = shadowTileBlocks(cascade), margin = 1.0 / 64;
             const PlaneBox covered = onPlane(*layer.plane, box);
             const glm::dvec2 low = glm::floor(covered.min / blocks - margin);
@@ -134,8 +123,8 @@ void ShadowClipmap::markChanged(const CasterBox& box) {
     }
 }
 
-// A map that is of no use, or need not be, begins anew with the plane; one other at a time gets a new map
-// beside it. A direction that changes faster than maps are drawn is skipped.
+// A map that is unusable, or may be incomplete, restarts with the plane; one other map at a time gets a new
+// map beside it. A direction that changes faster than maps are drawn is skipped.
 void ShadowClipmap::followLight(const Camera& camera, const ShadowPlane& plane, bool isAtOnce) {
     if (isAtOnce) next_ = -1;
     for (int cascade = 0; cascade < cascades_; ++cascade) {
@@ -176,7 +165,7 @@ void ShadowClipmap::addStale(std::vector<Wanted>& wanted, int cascade, const Cam
     });
 }
 
-// Every other frame a new map comes before what changed in the old ones, so that both go on.
+// Every other frame a new map takes precedence over changes in the old ones, so that both progress.
 std::vector<ShadowClipmap::Wanted> ShadowClipmap::wantedTiles(const Camera& camera, bool isAtOnce) const {
     std::vector<Wanted> wanted;
     for (int cascade = 0; cascade < cascades_; ++cascade)
@@ -190,7 +179,7 @@ std::vector<ShadowClipmap::Wanted> ShadowClipmap::wantedTiles(const Camera& came
     return wanted;
 }
 
-// What changed after it was drawn is stale in use.
+// Puts the finished new map into use. Tiles that changed after they were drawn are marked stale in it.
 void ShadowClipmap::finishNext(const Camera& camera) {
     if (next_ < 0) return;
     std::vector<Wanted> missing;
@@ -206,7 +195,7 @@ bool follows(const ShadowTiles& a, const ShadowTiles& b, glm::ivec2 step) {
     return a.layer == b.layer && a.place + step * a.size == b.place && a.slot() + step * a.size == b.slot();
 }
 
-// Rows of tiles, then rows of equal width.
+// Joins tiles into rows, then rows of equal width.
 std::vector<ShadowTiles> joined(std::vector<ShadowTiles> tiles) {
     const auto key = [](const ShadowTiles& t) { return std::array{t.layer, t.slot().y, t.slot().x}; };
     std::ranges::sort(tiles, {}, key);
@@ -260,8 +249,7 @@ NearestShadowMap ShadowClipmap::nearest() const {
 
 shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const {
     shared::ShadowFrame frame{};
-    const world::ChunkPos chunk = cameraChunk(camera);
-    const glm::dvec3 corner(double{world::kChunkSize} * chunk.x, double{world::kChunkSize} * chunk.y, 0);
+    const glm::dvec3 corner = cornerOfChunk(cameraChunk(camera));
     for (int cascade = 0; cascade < cascades_; ++cascade) {
         const Layer& layer = used(cascade);
         assert(layer.plane && "update() comes first");
@@ -280,7 +268,7 @@ shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const
         frame.texels[cascade] = static_cast<float>(texel);
     }
     for (int cascade = cascades_; cascade < static_cast<int>(kMaxCascades); ++cascade)
-        frame.reach[cascade] = 1e9f;  // it holds nothing
+        frame.reach[cascade] = 1e9f;  // no such cascade
     frame.texels[3] = kMostEdgeTexels;
     frame.mapTexels = static_cast<float>(texels);
     return frame;

@@ -1,9 +1,9 @@
-// Which parts of the shadow maps are drawn, and which must be drawn again. Cascades of 50, 200 and 800 blocks
-// around the camera are squares in the plane across the light, 8 × 8 tiles each.
+// Tracks the parts of the shadow maps that are drawn, and those to draw again. Cascades of 50, 200 and 800
+// blocks around the camera are squares in the plane across the light, 8 × 8 tiles each.
 //
-// A tile has a place in the plane and lies in its map at that place modulo 8: a camera that moves on replaces
-// only the tiles that it left behind, one that turns none. The plane counts from an anchor that the camera
-// seldom leaves, and the light's direction moves in steps. Where either changes, a cascade's new map is drawn
+// A tile has a place in the plane and is stored in its map at that place modulo 8: a moving camera replaces
+// only the tiles that it leaves behind, a turning one none. The plane counts from an anchor that the camera
+// seldom leaves, and the light's direction moves in steps. If either changes, a cascade's new map is drawn
 // into a spare layer while the old one stays in use, so that no map mixes two directions.
 //
 // Plain bookkeeping without OpenGL; one thread.
@@ -21,7 +21,7 @@
 
 namespace terrane::render {
 
-// The axes across the light and along it, and where their zero lies.
+// Axes across the light and along it, and their origin.
 struct ShadowPlane {
     glm::dmat3 toLight{1};  // × (point − anchor): x and y across the light, z toward it
     world::ChunkPos anchor;
@@ -29,13 +29,13 @@ struct ShadowPlane {
     bool operator==(const ShadowPlane&) const = default;
 };
 
-// Of a light in steps of 1/128 rad: a caster's shadow moves by a texel of its cascade at a time where it is
-// 7, 29 and 116 blocks away.
+// Plane of a light whose direction is rounded to steps of 1/128 rad: in one step a shadow moves by one texel
+// of its cascade if the caster is 7, 29 or 116 blocks away.
 ShadowPlane shadowPlane(world::ChunkPos cameraChunk, glm::vec3 lightDirection);
-// Of a point in blocks.
+// Coordinates of a point (blocks) in the plane.
 glm::dvec3 onPlane(const ShadowPlane& plane, glm::dvec3 point);
 
-// Width of a tile in blocks. From the middle of its tiles a cascade reaches 3.5 of them at least.
+// Width of a tile in blocks. A cascade reaches at least 3.5 tiles from the camera.
 double shadowTileBlocks(int cascade);
 
 // A mesh section that casts shadows or did.
@@ -44,14 +44,14 @@ struct CasterBox {
     int minZ = 0, maxZ = 0;
 };
 
-// What a box covers of the plane, blocks; with what waves.
+// Bounds of a box in the plane, blocks; waves included for mesh sections.
 struct PlaneBox {
     glm::dvec2 min, max;
 };
 PlaneBox onPlane(const ShadowPlane& plane, const CasterBox& box);
 PlaneBox onPlane(const ShadowPlane& plane, glm::dvec3 low, glm::dvec3 high);  // of a box in blocks
 
-// A rectangle of tiles that follow each other in the map, to be drawn together.
+// A rectangle of tiles that are contiguous in the map, to be drawn together.
 struct ShadowTiles {
     ShadowPlane plane;
     int cascade = 0, layer = 0;
@@ -75,7 +75,8 @@ struct NearestShadowMap {
 
 class ShadowClipmap {
   public:
-    // Of a frame in a window: a light that moves asks for 3 × 64 tiles about once a second, a walk for few.
+    // Most tiles of a frame in a window: a moving light requests 3 × 64 tiles about once a second, a walk
+    // few.
     static constexpr std::size_t kTilesAFrame = 4, kAllTiles = SIZE_MAX;
 
     explicit ShadowClipmap(int cascades = 0)
@@ -84,13 +85,13 @@ class ShadowClipmap {
     // One more than there are cascades.
     int layers() const { return cascades_ + 1; }
 
-    // The shadows of what was or is there are others than before.
+    // Marks the tiles as stale that the shadow of the box falls on.
     void markChanged(const CasterBox& box);
-    // Chooses up to `limit` tiles around the camera, those that are missing and near first; they count as
-    // drawn from now on. With kAllTiles nothing is missing or stale afterward.
+    // Selects up to `limit` tiles around the camera, missing and near ones first; they count as drawn from
+    // now on. With kAllTiles nothing is missing or stale afterwards.
     std::vector<ShadowTiles> update(const Camera& camera, glm::vec3 lightDirection, std::size_t limit);
 
-    // What shaders need of it as it is now. `texels`: along a side of a map.
+    // Uniforms of the maps in their present state. `texels`: along a side of a map.
     shared::ShadowFrame frame(const Camera& camera, int texels) const;
     NearestShadowMap nearest() const;  // after update()
 
@@ -100,8 +101,8 @@ class ShadowClipmap {
 
     struct Tile {
         std::optional<glm::ivec2> place;  // none: nothing is drawn
-        std::uint64_t staleSince = 0;     // frame; 0: as it should be
-        std::uint64_t drawn = 0;          // frame
+        std::uint64_t staleSince = 0;     // number of the update after the change; 0: up to date
+        std::uint64_t drawn = 0;          // number of the update that drew it
     };
     struct Layer {
         std::optional<ShadowPlane> plane;

@@ -14,7 +14,7 @@ constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greate
 
 constexpr int kMapTiles = static_cast<int>(shared::kShadowTiles);
 
-// OpenGL asks uniforms to begin at multiples of at most so much.
+// 256 is the largest alignment that OpenGL allows drivers to require for uniforms.
 struct alignas(256) AlignedDraw {
     shared::ShadowDraw draw;
 };
@@ -50,8 +50,8 @@ base::Result<std::vector<gpu::Framebuffer>> layersOf(const gpu::Texture2DArray& 
     return layers;
 }
 
-// One by one: of an indirect draw of many commands Mesa 22.3.6 (llvmpipe) loses some, and tiles are drawn
-// seldom.
+// One draw call for each command: Mesa 22.3.6 (llvmpipe) loses some commands of long indirect draws, and
+// tiles are drawn seldom.
 void drawQuads(const shared::DrawCommand& command) {
     glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(command.indexCount),
                                                   GL_UNSIGNED_SHORT, nullptr, 1, command.baseVertex,
@@ -115,22 +115,21 @@ std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles
     return drawings;
 }
 
-// Draws go into the tiles alone until the scissor test is switched off.
-void ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) const {
+// Draws go only into the tiles while the result lives.
+gpu::Scissor ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) const {
     const int texels = shape_.texels / kMapTiles;
     const glm::ivec2 corner = texels * tiles.slot(), size = texels * tiles.size;
     layers_[layer].bind();
     glViewport(corner.x, corner.y, size.x, size.y);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(corner.x, corner.y, size.x, size.y);
+    return gpu::Scissor(corner, size);
 }
 
-// Depth grows toward the light. What lies beyond the range casts too: its depth is clamped. The scissor test
-// stays on: no triangle leaves its tiles, whatever the driver clips to.
+// Depth grows toward the light. Casters beyond the range are drawn too: their depth is clamped. The scissor
+// test stays on, so that no triangle leaves its tiles, whatever the driver clips to.
 void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
     pipeline.set(kNearestToLight);
     const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
-    bindTiles(drawing.tiles, layer);
+    const gpu::Scissor scissor = bindTiles(drawing.tiles, layer);
     layers_[layer].clearDepth(0.0f);
     for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
         if (drawing.lists[k].commands.empty()) continue;
@@ -142,7 +141,6 @@ void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const Quad
         quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
         for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
     }
-    glDisable(GL_SCISSOR_TEST);
 }
 
 void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
@@ -160,7 +158,7 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Ca
     }
 }
 
-// What is drawn stays.
+// Adds a layer for figures; the maps are kept.
 bool ShadowMap::addFigureLayer() {
     if (layers_.size() > figureLayer()) return true;
     auto depths = mapsOf(shape_.texels, clipmap_.layers() + 1);
@@ -186,8 +184,7 @@ void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, con
     hasFigures_ = false;
     if (figures.records.empty() || !addFigureLayer()) return;
     std::vector<glm::dvec3> feet;
-    const glm::dvec3 corner(double{world::kChunkSize} * figures.chunk.x,
-                            double{world::kChunkSize} * figures.chunk.y, 0);
+    const glm::dvec3 corner = cornerOfChunk(figures.chunk);
     for (const shared::FigureRecord& record : figures.records)
         feet.push_back(corner + glm::dvec3(glm::vec3(record.feet)));
     const NearestShadowMap map = clipmap_.nearest();
@@ -203,10 +200,9 @@ void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, con
         const auto slice = ring.write(std::span<const shared::ShadowDraw>(&draw, 1));
         assert(slice && "the ring has room for the rectangles of figures");
         ring.bindUniform(shared::kShadowDrawBinding, *slice);
-        bindTiles(tiles, figureLayer());
+        const gpu::Scissor scissor = bindTiles(tiles, figureLayer());
         pass.drawShadows(figures.records.size());
     }
-    glDisable(GL_SCISSOR_TEST);
 }
 
 void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {

@@ -1,12 +1,13 @@
-// The depth of the world around the camera as the sun or moon sees it, in cascades (shadow_clipmap.h) that
-// are kept from frame to frame: only tiles that came into reach, or whose casters changed, are drawn. Used by
-// the renderer on the context's thread.
+// Shadow maps of the sun or moon around the camera, in cascades (shadow_clipmap.h) that are kept from frame
+// to frame: only tiles that came into reach, or whose casters changed, are drawn. Used by the renderer on the
+// context's thread.
 #pragma once
 
 #include "terrane/gpu/framebuffer.h"
 #include "terrane/gpu/mapped_ring.h"
 #include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/sampler.h"
+#include "terrane/gpu/scissor.h"
 #include "terrane/render/figure_pass.h"
 #include "terrane/render/figure_shadows.h"
 #include "terrane/render/quad_resources.h"
@@ -29,9 +30,9 @@ class ShadowMap {
     base::Result<void> configure(const Shape& shape, bool hasFaceSampling);
     bool isOn() const { return shape_.cascades > 0; }
 
-    // The casters there are others than before.
+    // Marks the tiles of changed casters.
     void markChanged(std::span<const CasterBox> boxes);
-    // All must be drawn again: what casts looks different.
+    // Marks all tiles to be drawn again, after casters have changed their look.
     void forget() {
         clipmap_ = ShadowClipmap(shape_.cascades);
         figureShadows_.forget();
@@ -42,7 +43,7 @@ class ShadowMap {
         const QuadStore& quads;
         const MeshSectionTable& meshSections;  // up to date
     };
-    // Draws up to `maxTiles` tiles of what is missing or changed.
+    // Draws up to `maxTiles` missing or changed tiles.
     void update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
                 glm::vec3 lightDirection, std::size_t maxTiles);
 
@@ -51,13 +52,13 @@ class ShadowMap {
         world::ChunkPos chunk;                          // of the camera
     };
     static constexpr std::size_t kFigureRingBytes = 1024;  // of the ring, for four rectangles
-    // After each update(): adds the shadows of figures to the nearest cascade, with the frame's uniforms
-    // bound. The first figure makes the maps a layer larger.
+    // Comes after each update(): adds the shadows of figures to the nearest cascade, with the frame's
+    // uniforms bound. The first figure adds a layer to the maps.
     void drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
                      gpu::MappedRing& ring);
 
-    // After update(), for a frame from the camera. Without light that casts shadows `isLit` is false, and
-    // update() need not have come before.
+    // Comes after update(), for a frame from the camera. `isLit` is false without light that casts shadows;
+    // then update() is not needed.
     void bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const;
     void bind() const;
 
@@ -73,7 +74,7 @@ class ShadowMap {
     void draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const;
     bool addFigureLayer();
     void copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const;
-    void bindTiles(const ShadowTiles& tiles, std::size_t layer) const;
+    [[nodiscard]] gpu::Scissor bindTiles(const ShadowTiles& tiles, std::size_t layer) const;
     std::size_t figureLayer() const { return static_cast<std::size_t>(clipmap_.layers()); }
 
     ShaderVariants opaque_, tested_;

@@ -1,5 +1,5 @@
-// The share of the sun's or moon's light that no block stops. Needs frame_uniforms.glsl.
-// SHADOW: 1 hard edges, 2 edges that widen with the distance of what casts them.
+// Share of the sun's or moon's light that no block stops. Needs frame_uniforms.glsl.
+// SHADOW: 1 hard edges, 2 edges that widen with the distance to the caster.
 #include "terrane/shared/shadow.h"
 
 layout(binding = kShadowUnit) uniform sampler2DArrayShadow shadowMaps;
@@ -10,10 +10,10 @@ layout(std140, binding = kShadowBinding) uniform ShadowBlock {
     ShadowFrame shadows;
 };
 
-// Of a cascade's reach: from there on more and more pixels take the next one.
+// Share of a cascade's reach from which pixels begin to use the next cascade.
 const float kChangeFrom = 0.9;
 
-// Of values of the cascades. Software renderers look up an array number by number.
+// Selects a value by cascade. Software renderers index arrays one pixel at a time.
 float ofCascade(int cascade, vec3 values) {
     return cascade == 0 ? values.x : cascade == 1 ? values.y : values.z;
 }
@@ -25,15 +25,14 @@ float alongRow(int cascade, uint row, vec4 position) {
 }
 
 #if SHADOW == 2
-// Half the width of the sun, seen from the ground, as a tangent: twice the true one, so that soft edges are seen at the
-// height of a tree.
+// Half the angular width of the sun as a tangent: twice the real one, so that edges are soft at the height of a tree.
 const float kSunSize = 0.01;
 const float kMostEdge = 0.4;  // blocks
 const int kTaps = 5;
 const vec2 kTapPlaces[kTaps] = vec2[](vec2(0.0), vec2(0.85, 0.35), vec2(-0.35, 0.85), vec2(-0.85, -0.35), vec2(0.35, -0.85));
 
-// Edges as wide as the sun makes them at the mean distance of what stops the light (Fernando, Percentage-Closer Soft Shadows,
-// 2005), at most `texels.w` and kMostEdge to each side: wider ones would look past walls.
+// Soft edges as wide as the sun makes them at the mean distance of the casters (Fernando, Percentage-Closer Soft
+// Shadows, 2005), at most `texels.w` and kMostEdge to each side: wider filters would look past walls.
 float softShare(vec4 at, float texel) {
     float toUv = 1.0 / shadows.mapTexels, most = min(shadows.texels.w, kMostEdge / texel);
     float depthSum = 0.0, count = 0.0;
@@ -51,8 +50,8 @@ float softShare(vec4 at, float texel) {
 }
 #endif
 
-// Each map is asked at a point moved off its surface along the normal, by as much as the texels that a filter reads reach
-// through a surface so inclined: the surface does not shade itself.
+// Samples a map at a point moved off its surface along the normal, by the depth that the filter's texels span on a
+// surface of this slope, so that the surface does not shade itself.
 float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
     float texel = ofCascade(cascade, shadows.texels.xyz);
 #if SHADOW == 2
@@ -76,14 +75,14 @@ float pixelNoise() {
     return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }
 
-// By the finest cascade that reaches so far from the camera, beyond all by the land. Faces that look away from the light need
-// not ask.
+// Uses the finest cascade that reaches this distance, and the land beyond all. Faces that face away from the light are
+// not sampled.
 float lightShare(vec3 position, vec3 normal, float distance, float landShare) {
     float facing = dot(normal, frame.lightDirection.xyz), slope = sqrt(max(1.0 - facing * facing, 0.0));
     vec3 reach = distance * shadows.reach.xyz + (1.0 - kChangeFrom) * pixelNoise();
     int cascade = reach.x < 1.0 ? 0 : reach.y < 1.0 ? 1 : reach.z < 1.0 ? 2 : 3;
     float share = cascade == 3 ? landShare : 1.0;
-    // Without light there are no maps: what is read then may be no number.
+    // Without light there are no maps: the values read may be NaN.
     bool isLit = shadows.strength > 0.0;
     if (isLit && facing > 0.0 && cascade < 3) share = cascadeShare(cascade, position, normal, slope);
     return isLit ? mix(1.0, share, shadows.strength) : 1.0;

@@ -1,6 +1,5 @@
 #include "terrane/render/shadow_volume.h"
 
-#include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -9,17 +8,12 @@
 #include <limits>
 
 #include "terrane/mesh/draw_bucket.h"
+#include "terrane/render/light_axes.h"
 #include "terrane/render/shadow_casters.h"
 #include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
 namespace {
-
-glm::mat3 lightAxes(glm::vec3 toward) {
-    const glm::vec3 other = std::abs(toward.z) < 0.9f ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
-    const glm::vec3 across = glm::normalize(glm::cross(other, toward));
-    return glm::transpose(glm::mat3(across, glm::cross(toward, across), toward));
-}
 
 std::size_t castingQuads(const mesh::MeshSection& meshSection, glm::vec3 light) {
     std::size_t count = 0;
@@ -45,7 +39,8 @@ ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, fl
         volume.farthest = std::min(volume.farthest, p.z);
     };
     cover(view.cameraPosition);
-    // A pyramid that ends `reach` blocks ahead, not around the camera: it holds the cap between its edges.
+    // A pyramid that ends `reach` blocks ahead, not at that distance around the camera: it contains the cap
+    // between its edges.
     for (const glm::vec2 corner : {glm::vec2(-1, -1), {1, -1}, {-1, 1}, {1, 1}}) {
         cover(view.cameraPosition + reach * (view.ahead + corner.x * view.across + corner.y * view.up));
     }
@@ -53,7 +48,7 @@ ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, fl
 }
 
 bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax) {
-    // The box in the light's axes: its middle, and how far it reaches along each.
+    // The box in the light's axes: its middle, and its half extent along each.
     const glm::vec3 middle = volume.toLight * (0.5f * (boxMin + boxMax)), half = 0.5f * (boxMax - boxMin);
     const glm::mat3& m = volume.toLight;
     const glm::vec3 reach = glm::abs(m[0]) * half.x + glm::abs(m[1]) * half.y + glm::abs(m[2]) * half.z;

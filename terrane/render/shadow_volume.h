@@ -1,6 +1,6 @@
-// What can throw a shadow onto the part of the world near the camera: everything toward the light from there.
-// For statistics and the debug top view; what is drawn is chosen by shadow_casters.h. Pure functions; any
-// thread.
+// Volume of possible shadow casters for the part of the world near the camera: everything toward the light
+// from there. For statistics and the debug top view; shadow_casters.h selects what is drawn. Pure functions;
+// any thread.
 #pragma once
 
 #include <array>
@@ -14,23 +14,23 @@
 
 namespace terrane::render {
 
-// Blocks from the camera: as far as the nearest cascade reaches, and as the thesis's shadow map.
+// Blocks from the camera: the reach of the nearest cascade, and of the thesis's shadow map.
 constexpr float kShadowReach = 50;
 
-// Beside each other as the light sees them, a rectangle; along its direction, from `farthest` on toward it.
+// A rectangle across the light, and along its direction everything from `farthest` on toward it.
 struct ShadowVolume {
     glm::mat3 toLight;  // x and y across the light, z toward it
     glm::vec2 min, max;
     float farthest;
 };
 
-// Of what the camera sees within `reach` blocks. `lightDirection` points to the light.
+// Volume of the view within `reach` blocks. `lightDirection` points to the light.
 ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, float reach);
-// False only where no point of the box is in the volume. Coordinates as in ViewMatrices.
+// False only if no point of the box is in the volume. Coordinates as in ViewMatrices.
 bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax);
 
-// What the nearest cascade may cover, in the world, as far along the light as across. Bits of a corner's
-// number: 1 for the map's x, 2 for y, 4 for toward the light.
+// Corners of the space that the nearest cascade may cover, in the world, as far along the light as across.
+// Bits of a corner's number: 1 for the map's x, 2 for y, 4 for toward the light.
 std::array<glm::dvec3, 8> nearShadowBox(const Camera& camera, glm::vec3 lightDirection);
 
 // Triangles that one shadow map of the nearest kShadowReach blocks would draw of these chunks: mesh sections

@@ -1,5 +1,5 @@
-// The sky where it can be seen, behind surfaces that fade too. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars. DIRECT: 1 writes
-// what the screen shows (direct_image.h).
+// The visible sky, also behind surfaces that fade. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars. DIRECT: 1 writes
+// display colors (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
@@ -11,20 +11,20 @@
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
-// Plains of the moon, brighter and darker.
+// Bright and dark plains of the moon.
 float moonFace(vec2 at, float rim) {
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
     return (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim);
 }
 
-// Where a direction before the camera meets the plane of the image, one block ahead.
+// Point where a direction in front of the camera meets the image plane, one block ahead.
 vec2 onImagePlane(vec3 direction) {
     vec3 at = direction / max(dot(direction, frame.rayAhead.xyz), 0.01) - frame.rayAhead.xyz;
     return vec2(dot(at, normalize(frame.rayAcross.xyz)), dot(at, normalize(frame.rayUp.xyz)));
 }
 
-// Round everywhere in the image: a perspective view stretches a disc toward the edges, which nobody sees as a sun. The sun is
-// darker and redder toward its rim (D. Hestroffer, C. Magnan, Wavelength dependency of the solar limb darkening, 1998); its
+// The disc is round everywhere in the image: a perspective view would stretch it toward the edges. The sun is darker
+// and redder toward its rim (D. Hestroffer, C. Magnan, Wavelength dependency of the solar limb darkening, 1998); its
 // edge is soft, and the horizon cuts it off.
 vec4 disc(vec3 direction) {
     vec3 light = frame.lightDirection.xyz;

@@ -1,5 +1,5 @@
-// The color of the sky in a direction (unit length), without the disc of the sun or moon, clouds and stars. Also what
-// distance fades to and what water mirrors. Needs frame_uniforms.glsl. The table: SkyTexture.
+// The color of the sky in a direction (unit length), without the disc of the sun or moon, clouds and stars. Also the
+// color of distant fog and of reflections in water. Needs frame_uniforms.glsl. The table: SkyTexture.
 #include "terrane/shared/air.h"
 
 layout(std140, binding = kAirBinding) uniform AirBlock {
@@ -16,13 +16,14 @@ vec3 skyColor(vec3 direction) {
     return color * air.lightAzimuth.z + air.aureole.rgb / (away * away);
 }
 
-// What one sees in water where there is nothing: bluer and darker the more of it is above.
+// Color of empty water: bluer and darker with the blocks of water above.
 vec3 murk() {
     vec3 fromAbove = exp(-vec3(0.10, 0.055, 0.035) * float(max(int(frame.isUnderWater) - 1, 0)));
     return vec3(0.02, 0.13, 0.19) * fromAbove * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
 }
 
-// From within water the sky is seen through a round window above, beyond which the surface mirrors what is below.
+// From within water the sky is visible through a round window above (Snell's window); outside of it the surface
+// reflects the water.
 vec3 throughWindow(vec3 sky, vec3 direction) {
     return mix(murk(), sky, 0.8 * smoothstep(0.5, 0.8, direction.z));
 }

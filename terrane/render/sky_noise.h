@@ -1,4 +1,4 @@
-// Tiling noise that the shaders of clouds and waves look up. Used by the renderer on the context's thread.
+// Tiling noise for the shaders of clouds and waves. Used by the renderer on the context's thread.
 #pragma once
 
 #include "terrane/gpu/sampler.h"

@@ -43,8 +43,8 @@ SkyTexture SkyTexture::create() {
     return sky;
 }
 
-// The table's brightness is relative to the ambient light of its step, and that of a frame multiplies it:
-// between steps only the shape of the sky stands still, not its brightness.
+// The table is scaled by 1 / the ambient light of its step, and the frame multiplies it by its own: between
+// steps only the shape of the sky is constant, not its brightness.
 void SkyTexture::bind(const world::Environment& e, float altitudeZ, gpu::MappedRing& ring) {
     const int step = static_cast<int>(std::lround(e.lightDirection.z * kSteps));
     if (step != step_ || e.isMoon != isMoon_) {

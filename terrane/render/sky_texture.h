@@ -1,6 +1,6 @@
-// The sky and the air as shaders see them: a small texture of the sky, computed anew whenever sun or moon
-// have moved by a step that can just be seen, the Milky Way, and the uniforms of a frame. Used by the
-// renderer on the context's thread.
+// Sky and air for shaders: a small texture of the sky, computed again when the sun or moon has moved by a
+// just visible step, the Milky Way, and the uniforms of a frame. Used by the renderer on the context's
+// thread.
 #pragma once
 
 #include "terrane/gpu/mapped_ring.h"
@@ -20,8 +20,8 @@ class SkyTexture {
     SkyTexture() = default;
     static SkyTexture create();  // 64 × 32 × 8 bytes = 16 KiB, and the Milky Way
 
-    // For a frame. Takes some 2 ms where the light has moved by 1/2,500, a step of its sine: every half
-    // second of a day of 20 minutes.
+    // Binds everything for a frame. Takes some 2 ms if the sine of the light's elevation has moved by a step
+    // of 1/2,500: every half second of a day of 20 minutes.
     void bind(const world::Environment& environment, float altitudeZ, gpu::MappedRing& ring);
     std::size_t gpuBytes() const { return texture_.sizeBytes() + milkyWay_.gpuBytes(); }
 

@@ -1,4 +1,4 @@
-// Stars and the Milky Way. Needs frame_uniforms.glsl; the texture of MilkyWay bound.
+// Stars and the Milky Way. Needs frame_uniforms.glsl; the texture of MilkyWay is bound.
 #include "terrane/shared/hash.h"
 
 layout(binding = kMilkyWayUnit) uniform sampler2D milkyWay;
@@ -9,8 +9,8 @@ vec3 starDirection(vec3 direction) {
     return vec3(c * direction.x + s * direction.z, direction.y, c * direction.z - s * direction.x);
 }
 
-// At most one star in each cell of a grid on the faces of a cube, here and there, of different brightness and color.
-// `share`: of cells with one, in quarters.
+// At most one star in each cell of a grid on the faces of a cube, of random place, brightness and color.
+// `share`: of cells with a star, in quarters.
 vec3 stars(vec3 direction, float pixel, uint share) {
     vec3 size = abs(direction);
     float longest = max(size.x, max(size.y, size.z));

@@ -1,4 +1,4 @@
-// The light of an opaque surface that reaches the camera: color times coverage, and coverage. SHADOW, OVER_SKY: see
+// Light of an opaque surface that reaches the camera: premultiplied color, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
 // Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
 #if SHADOW > 0

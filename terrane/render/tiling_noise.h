@@ -1,4 +1,4 @@
-// Smooth random numbers that repeat, for textures painted at the start. Pure functions, any thread.
+// Smooth random numbers that repeat, for textures generated at the start. Pure functions, any thread.
 #pragma once
 
 #include <cmath>
@@ -7,8 +7,8 @@
 
 namespace terrane::render {
 
-// Random numbers on a lattice of `cells` × `cells` in the unit square, a power of two, smoothly joined; 0…1.
-// Repeats.
+// Value noise: random numbers on a lattice of `cells` × `cells` (a power of two) in the unit square, smoothly
+// interpolated; 0…1. Repeats.
 inline float valueNoise(float x, float y, int cells, std::uint32_t seed) {
     const auto at = [&](int cx, int cy) {
         const auto wrap = [&](int c) { return static_cast<std::uint32_t>(c & (cells - 1)); };
@@ -22,7 +22,7 @@ inline float valueNoise(float x, float y, int cells, std::uint32_t seed) {
                      std::lerp(at(ix, iy + 1), at(ix + 1, iy + 1), u), v);
 }
 
-// The sum of `count` of them, each half as large and twice as fine; 0…1.
+// Sum of `count` octaves of value noise, each with half the weight and twice the frequency; 0…1.
 inline float octaves(float x, float y, int firstCells, int count, std::uint32_t seed) {
     float sum = 0, weight = 0.5f;
     for (int k = 0; k < count; ++k, weight *= 0.5f) {

@@ -1,4 +1,4 @@
-// Measures a part of a frame. Used by the renderer on the context's thread.
+// Timer zone of a part of a frame. Used by the renderer on the context's thread.
 #pragma once
 
 #include <string_view>
@@ -7,7 +7,7 @@
 
 namespace terrane::render {
 
-// The time of what is drawn during its life.
+// Measures the GPU time of commands during its life.
 class TimerZone {
   public:
     TimerZone(gpu::GpuTimer& timer, std::string_view name) : timer_(timer) { timer_.begin(name); }

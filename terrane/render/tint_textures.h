@@ -1,5 +1,5 @@
-// The tint around the camera as textures: a clipmap's levels (clipmap.h), one layer each. Takes no
-// memory where there is no tint. Used by the renderer on the context's thread.
+// The tint around the camera as textures: one layer for each level of a clipmap (clipmap.h). Takes no memory
+// without a tint. Used by the renderer on the context's thread.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ class TintTextures {
     const Clipmap& clipmap() const { return clipmap_; }
 
     void set(world::ChunkPos tile, const world::TintTile& colors);
-    // For a frame from the camera; nothing where there is no tint.
+    // Binds the tint for a frame from the camera; does nothing without a tint.
     void bind(const Camera& camera, gpu::MappedRing& ring) const;
     std::size_t gpuBytes() const { return textures_.sizeBytes(); }
 

@@ -1,4 +1,4 @@
-// From light to what a screen shows: exposure, a filmic curve, sRGB, and noise of one step against bands in the sky. Needs
+// Tone mapping: exposure, a filmic curve, sRGB, and noise of one step against banding in the sky. Needs
 // frame_uniforms.glsl.
 #include "terrane/shared/hash.h"
 

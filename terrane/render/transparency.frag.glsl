@@ -1,8 +1,8 @@
-// The light of all layers of blended faces over the image: what they add, and the share of what lies behind that they let
-// through, for each channel.
+// Light of all layers of blended faces over the image: the color that they add, and the share of the background that
+// they transmit, for each channel.
 // MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
-// OCCLUSION: 1 where there is ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
-// QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes what the screen shows
+// OCCLUSION: 1 with ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
+// QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes display colors
 // (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/light_sample.glsl"
@@ -38,7 +38,7 @@ Passed over(vec4 color) {
     return Passed(color, vec4(1.0 - color.a));
 }
 
-// `behind`: depth of what comes next. `visibility`: of light from all around. `hasFarFloor`, `isNearest`: see water.glsl.
+// `behind`: depth of the next surface. `visibility`: of ambient light. `hasFarFloor`, `isNearest`: see water.glsl.
 Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool hasFarFloor, bool isNearest) {
     float blocks = blocksOfDepth(depth);
     vec3 toPoint = inRay * blocks, position = frame.cameraPosition.xyz + toPoint;
@@ -58,13 +58,13 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
     } else {
         passed = over(vec4(shade(layer.surface, litOf(layer.surface), land, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
-    // Of what fades away in the distance, so much is left.
+    // Share of the layer that is left after fading in the distance.
     float share = max(passed.color.a, 1e-3);
     vec4 air = throughAir(passed.color.rgb / share, toPoint, levels.a);
     return Passed(air * share, 1.0 - air.a * (1.0 - passed.through));
 }
 
-// Found for the nearest layer alone.
+// Ambient occlusion exists for the nearest layer only.
 float visibilityAt(ivec2 pixel, int n) {
 #if OCCLUSION == 1
     if (n == 0) return texelFetch(occlusion, pixel, 0).r;
@@ -72,7 +72,7 @@ float visibilityAt(ivec2 pixel, int n) {
     return 1.0;
 }
 
-// A loop over the layers that are there: software renderers run what a branch leaves out.
+// Loops over the existing layers only: software renderers run all branches.
 Passed shadeLayers(ivec2 pixel, int k, float behind) {
     Passed sum = Passed(vec4(0.0), vec4(1.0));
     int last = layersAt(pixel, k) - 1;
@@ -90,14 +90,14 @@ Passed shadeLayers(ivec2 pixel, int k, float behind) {
     return sum;
 }
 
-// Of what is opaque.
+// Mean depth of the opaque surfaces.
 float meanDepthAt(ivec2 pixel) {
     float sum = 0.0;
     for (int k = 0; k < MSAA_SAMPLES; ++k) sum += depthAt(pixel, k);
     return sum / float(MSAA_SAMPLES);
 }
 
-// Opaque surfaces that differ are no reason to shade each sample: a layer sees only how far they are behind it.
+// Different opaque surfaces do not require shading of each sample: a layer depends only on their distance behind it.
 Passed shadeSamples(ivec2 pixel) {
     bool isOne = isOneLayer(pixel);
     int count = isOne ? 1 : MSAA_SAMPLES;
@@ -122,7 +122,7 @@ vec3 skyBehind(vec3 direction) {
     return color;
 }
 
-// What is opaque, or the sky, as it is in the image already but for the curve.
+// Color of the opaque surface or the sky, as in the image but before tone mapping.
 vec3 colorBehind(ivec2 pixel) {
     float depth = depthAt(pixel, 0);
     if (depth <= 0.0) return skyBehind(normalize(inRay));

@@ -8,12 +8,6 @@
 namespace terrane::render {
 namespace {
 
-gpu::Handle<gpu::ObjectKind::Query> makeQuery() {
-    GLuint id = 0;
-    glCreateQueries(GL_ANY_SAMPLES_PASSED, 1, &id);
-    return gpu::Handle<gpu::ObjectKind::Query>(id);
-}
-
 GLenum targetOf(int samples) {
     return samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
 }
@@ -27,7 +21,7 @@ TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
                   quadShaders(shaders, "transparency", "shade layers")},
       shade_{FullscreenPass(shaders, "transparency"), FullscreenPass(shaders, "transparency")},
       mask_(shaders, PixelMask::Of::Layers) {
-    for (auto& query : anyDrawn_) query = makeQuery();
+    for (auto& query : anyDrawn_) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
 }
 
 base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameTargets& targets) {
@@ -37,7 +31,7 @@ base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameT
     auto framebuffer =
         gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer");
     if (!framebuffer) return tl::unexpected(framebuffer.error());
-    framebuffer->clearColor(0, glm::vec4(0));  // once: what no face was drawn to is read, but never used
+    framebuffer->clearColor(0, glm::vec4(0));  // once: pixels without a face are read, but never used
     target.framebuffer = std::move(*framebuffer);
     return target;
 }
@@ -79,8 +73,8 @@ base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOpt
     return selected;
 }
 
-// With one sample a pixel the layers' quads are drawn once more to shade the pixels they cover, and no
-// others. A single layer has a background everywhere.
+// With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
+// A single layer has a background everywhere.
 base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
                                                const LightVariant& light, const QuadFeatures& features) {
     shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
@@ -121,8 +115,8 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     return {};
 }
 
-// A layer starts with the depth of what is opaque: faces behind that fail the depth test, and where none is
-// drawn the depth tells so.
+// A layer starts with the depth of the opaque surfaces: faces behind them fail the depth test, and pixels
+// without a face keep that depth.
 void TransparencyPass::copyDepth(const FrameTargets& targets, int number,
                                  std::span<const ScreenRect> rects) const {
     const Target& target = targets_[static_cast<std::size_t>(number)];
@@ -136,7 +130,7 @@ void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads,
     const auto index = static_cast<std::size_t>(number);
     Target& target = targets_[index];
     target.framebuffer.bind();
-    // Behind a layer without faces there are none: the GPU leaves out their drawing, not the copy above.
+    // No layers are behind one without faces: the GPU skips their drawing, not the copy above.
     if (number > 0) {
         glBeginConditionalRender(anyDrawn_[index - 1].id(), GL_QUERY_WAIT);
         targets_[index - 1].depth.bind(shared::kTransparencyDepthUnit);
@@ -175,7 +169,7 @@ void TransparencyPass::bindLayers() const {
     }
 }
 
-// The whole screen shades so where quads are not drawn again.
+// Shades a rectangle of the screen, if quads are not drawn again.
 void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets,
                                    const ScreenRect& rect, const ShadingInputs& inputs,
                                    const AmbientOcclusion& occlusion) const {
@@ -197,7 +191,7 @@ void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& target
     glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
     bindLayers();
     if (occlusion.isOn()) {
-        const ScreenRect bounds = boundsOf(rects);  // one: its blur reads beyond a rectangle
+        const ScreenRect bounds = boundsOf(rects);  // one rectangle: the blur reads beyond its edges
         const gpu::Scissor scissor(bounds.min, bounds.size());
         occlusion.drawNearestLayer(pipeline, targets);
         occlusion.result().bind(shared::kOcclusionUnit);

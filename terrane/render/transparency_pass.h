@@ -23,21 +23,21 @@ class TransparencyPass {
     TransparencyPass() = default;
     explicit TransparencyPass(const gpu::ShaderLoader& shaders);
 
-    // Makes room for the layers. Comes again whenever the targets are others.
+    // Allocates the layers. Comes again when the targets change.
     base::Result<void> configure(const FrameTargets& targets, const RenderOptions& options,
                                  const LightVariant& light, const QuadFeatures& features);
 
-    // Into textures of its own, behind nothing of the depth in `targets`. All of it happens within `rects`,
-    // which hold all pixels with blended faces and do not overlap; there is one at least.
+    // Draws the layers into textures of its own, in front of the depth in `targets`. Only within `rects`,
+    // which contain all pixels with blended faces and do not overlap; there is at least one.
     void peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
                     std::span<const ScreenRect> rects);
-    // Over the scene, where peel found anything. Of the same quads.
+    // Shades the layers of the same quads over the scene, if there are any.
     void shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
                const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
                std::span<const ScreenRect> rects) const;
 
-    // After peelLayers(): of what is nearest in each sample, opaque or blended. Whole with ambient occlusion
-    // or depth of field, which read it beside the layers; else of the rectangles.
+    // After peelLayers(): depth of the nearest surface in each sample, opaque or blended. Complete with
+    // ambient occlusion or depth of field, which read it beside the layers; else within the rectangles.
     const MsaaTexture& nearestDepth() const { return targets_[0].depth; }
     std::size_t gpuBytes() const;
 
@@ -62,9 +62,9 @@ class TransparencyPass {
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
     bool isDirect_ = false;       // see direct_image.h
-    bool isMasked_ = false;       // the whole screen but for pixels without layers
+    bool isMasked_ = false;       // the whole screen except pixels without layers
     bool isBounded_ = true;       // by rectangles: a single layer has a background everywhere
-    bool hasWholeDepth_ = false;  // others read the first layer's depth all over the screen
+    bool hasWholeDepth_ = false;  // other passes read the first layer's depth all over the screen
     gpu::Framebuffer overQuads_, overQuadsDirect_;  // the scene, the LDR target with the first layer's depth
     int layers_ = 0;
     glm::ivec2 size_{0};

@@ -1,13 +1,14 @@
-// What a camera in the water sees: colors that fade, light that waves bundle on the ground, shafts of it. Needs
-// frame_uniforms.glsl, sky_color.glsl and bundled_light.glsl.
+// View of a camera in the water: fading colors, caustics on the ground, and shafts of light. Needs frame_uniforms.glsl,
+// sky_color.glsl and bundled_light.glsl.
 
-// How much brighter the ground is than without waves. Daylight loses a level of 15 a block, and bundles with it.
+// Brightness of the ground relative to that without waves. Caustics fade with daylight, which loses a level of 15 a
+// block.
 float bundlesOnGround(vec3 position, float blocks, float daylight) {
     float strength = 2.2 * sunInWater() * daylight * (1.0 - smoothstep(12.0, 30.0, blocks));
     return max(1.0 + strength * (bundledLight(bundlePlace(position, -position.z)) - kMeanBundle), 0.0);
 }
 
-// Bundles along the view, more than in the mean, brighter toward the light.
+// Caustics along the view relative to their mean, brighter toward the light.
 float shafts(vec3 direction, float blocks) {
     float sum = 0.0, reach = min(blocks, 16.0);
     for (int k = 0; k < 6; ++k) {
@@ -18,7 +19,7 @@ float shafts(vec3 direction, float blocks) {
     return sum / 6.0 * (reach / 16.0) * (0.4 + 1.6 * toLight * toLight);
 }
 
-// Nothing is farther than some thirty blocks.
+// Nothing is visible beyond some thirty blocks.
 vec4 seenUnderWater(vec3 color, vec3 toPoint, float daylight) {
     float blocks = length(toPoint);
     vec3 direction = toPoint / max(blocks, 1e-4);

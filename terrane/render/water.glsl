@@ -1,23 +1,23 @@
-// Water: waves in its normals, sky and shore in its mirror, glitter toward the sun or moon, darker and bluer the more of it one
-// looks through. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, bundled_light.glsl. WATER_DETAIL: 1 adds the mirror
-// image of the shore, foam and light that waves bundle on the ground.
+// Water: waves in its normals, reflections of sky and shore, glitter toward the sun or moon, darker and bluer with
+// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, bundled_light.glsl. WATER_DETAIL: 1 adds reflections
+// of the shore, foam and caustics.
 #include "terrane/render/water_waves.glsl"
 #if WATER_DETAIL == 1
 #include "terrane/render/water_reflection.glsl"
 #include "terrane/render/water_shore.glsl"
 #endif
 
-// Color that a layer adds, and the share of what lies behind that it lets through.
+// Color that a layer adds, and the share of the background that it transmits.
 struct Passed {
     vec4 color, through;
 };
 
-// Of the light that goes through so many blocks: red is lost first. Rather murkier than clear water is.
+// Share of light that passes through so many blocks: red is absorbed first. Murkier than clear water.
 vec3 throughBody(float blocks) {
     return exp(-vec3(0.34, 0.19, 0.165) * blocks);
 }
 
-// Light that comes back from within so much water of a color: turquoise where it is shallow, dark where it is deep.
+// Light scattered back by so much water of a color: turquoise if shallow, dark if deep.
 vec3 waterBody(vec3 color, vec3 lit, float blocks) {
     vec3 shallow = color * vec3(0.75, 1.15, 1.0) + vec3(0.0, 0.06, 0.045), deep = color * vec3(0.07, 0.24, 0.38);
     return mix(deep, shallow, exp(-0.13 * blocks)) * lit;
@@ -28,13 +28,14 @@ float waterMirror(float facing) {
     return 0.02 + 0.98 * pow(1.0 - clamp(facing, 0.0, 1.0), 5.0);
 }
 
-// The share of daylight that is left under so much water: it loses a level a block.
+// Share of daylight left under so much water: it loses a level a block.
 float lightUnder(float blocks) {
     return brightnessOf(vec4(clamp(1.0 - blocks / 15.0, 0.0, 1.0))).a;
 }
 
-// The sun or moon in all the small mirrors of a rough surface, whose slopes are spread normally (C. Cox, W. Munk, Measurement of
-// the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Less bright than the disc, without an edge where it would be brighter.
+// Reflection of the sun or moon in a rough surface whose slopes are normally distributed (C. Cox, W. Munk, Measurement
+// of the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Compressed smoothly below the
+// brightness of the disc.
 vec3 glitter(vec3 view, Waves waves) {
     vec3 toLight = frame.lightDirection.xyz, between = normalize(toLight - view);
     float up = max(between.z, 0.05), spread = waves.variance + 0.25 * frame.discSine * frame.discSine;
@@ -46,16 +47,16 @@ vec3 glitter(vec3 view, Waves waves) {
     return light * most / (2.0 * light + most + 1e-6) * smoothstep(-0.02, 0.05, toLight.z);
 }
 
-// From below: the world above through a round window, beyond which the surface mirrors the water (Snell's law).
+// From below: the world above through a round window, outside of which the surface reflects the water (Snell's law).
 Passed shadeFromBelow(vec3 view, vec3 normal) {
     float facing = clamp(dot(-view, normal), 0.0, 1.0), bent = 1.77 * (1.0 - facing * facing);
     float mirror = mix(waterMirror(sqrt(max(1.0 - bent, 0.0))), 1.0, smoothstep(0.9, 1.02, bent));
     return Passed(vec4(murk() * mirror * (0.8 + 0.7 * facing), mirror), vec4(1.0 - mirror));
 }
 
-// A surface of water before `blocks` of it. `levels`: of light; `shadow`: the share of direct light; `visibility`: that of light
-// from all around. `hasFarFloor`: what lies behind belongs to a far tile, whose light knows nothing of the water. `isNearest`:
-// no other layer is before it.
+// Shades a surface of water in front of `blocks` of water. `levels`: of light; `shadow`: the share of direct light;
+// `visibility`: that of ambient light. `hasFarFloor`: the surface behind belongs to a far tile, whose light does not
+// include the water. `isNearest`: no other layer is in front.
 Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility,
                   bool hasFarFloor, bool isNearest) {
     vec4 light = brightnessOf(levels);

@@ -1,11 +1,11 @@
-// What stands at the shore, mirrored in water: a march over the depth of what is opaque, in screen space. Needs
+// Reflections of the shore in water: a march over the depth of opaque surfaces, in screen space. Needs
 // frame_uniforms.glsl, gbuffer_read.glsl and the functions of transparency.frag.glsl's layers.
-// The scene is read while layers are drawn over it: only pixels without any layer, which nothing writes (OpenGL 4.5, section
-// 9.3, "Rendering Feedback Loops").
+// The scene is read while layers are drawn over it: only pixels without any layer, which are not written (OpenGL 4.5,
+// section 9.3, "Rendering Feedback Loops").
 layout(binding = kSceneUnit) uniform sampler2D scene;
 
 const int kMarchSteps = 12, kRefineSteps = 3;
-const float kLeastMirror = 0.04;  // below that a mirror image is not seen
+const float kLeastMirror = 0.04;  // weaker reflections are invisible
 
 ivec2 pixelAt(vec2 screen) {
     return ivec2(clamp((0.5 + 0.5 * screen) * frame.viewportSize, vec2(0.0), frame.viewportSize - 1.0));
@@ -21,13 +21,14 @@ bool isBehind(vec3 at) {
     return at.z < depthAt(pixelAt(at.xy), 0);
 }
 
-// Color, and the share of it: 0 where the ray leaves the image. `at`: a ray's end behind something, a step after `before`.
+// Color, and its share: 0 if the ray leaves the image. `at`: a point of the ray behind a surface, one step after
+// `before`.
 vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
     float seen = blocksOfDepth(depthAt(pixelAt(at.xy), 0)), blocks = blocksOfDepth(at.z);
-    // The ray may pass far behind what stands near.
+    // The ray may pass far behind near surfaces.
     float thickness = 1.0 + 0.05 * seen + abs(blocks - blocksOfDepth(before.z));
     float share = blocks - seen < thickness ? 1.0 : 0.0;
-    // Where the shore meets the water pixels have both: those above are taken.
+    // Pixels at the shore line have both land and water: the pixels above are read.
     ivec2 pixel = pixelAt(at.xy), up = ivec2(sign(onScreen));
     for (int k = 0; k < 3 && hasLayer(pixel); ++k) pixel = clamp(pixel + up, ivec2(0), ivec2(frame.viewportSize) - 1);
     if (hasLayer(pixel)) share = 0.0;
@@ -36,7 +37,7 @@ vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
     return vec4(color, share * edge.x * edge.y);
 }
 
-// Positions on the screen and depths are linear along the ray (depth is near / distance), up to where it goes at infinity.
+// Screen positions and depths are linear along the ray (depth is near / distance), up to its end at infinity.
 vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
     vec4 from = frame.viewProjection * vec4(position, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
     vec3 start = from.xyz / from.w, way = along.xyz / max(along.w, 0.02) - start;
@@ -44,7 +45,7 @@ vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
     way *= clamp(min(toEdge.x, toEdge.y), 0.0, 1.0);
     float before = 0.0;
     int count = mirror > kLeastMirror && along.w > 0.02 ? kMarchSteps : 0;
-    // Two loops one after the other, and all else behind them: software renderers run nested ones for every step.
+    // Two loops in sequence, with all else after them: software renderers run nested loops for every step.
     int k = 1;
     float here = 0.0;
     bool isHit = false;

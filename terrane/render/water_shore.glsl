@@ -1,9 +1,10 @@
-// Where water meets the ground: foam along the shore, and light that waves bundle on the ground below. Needs bundled_light.glsl,
-// gbuffer_read.glsl and water_waves.glsl.
+// Shore effects: foam along the shore, and caustics on the ground below. Needs bundled_light.glsl, gbuffer_read.glsl
+// and water_waves.glsl.
 
-const float kShoreReach = 48.0;  // blocks from the camera: beyond, foam is thinner than a pixel
+const float kShoreReach = 48.0;  // blocks from the camera: farther foam is thinner than a pixel
 
-// 1 where something opaque stands at a place of the surface, as far as the screen tells: seen no more than three blocks before it.
+// 1 if an opaque surface is at a place of the water surface, as far as the depth shows: at most three blocks in front
+// of it.
 float groundAt(vec4 clip) {
     vec2 screen = clip.xy / clip.w;
     float inFront = clip.w - blocksOfDepth(depthAt(ivec2((0.5 + 0.5 * screen) * frame.viewportSize), 0));
@@ -11,8 +12,8 @@ float groundAt(vec4 clip) {
     return !isOutside && inFront > 0.02 + 0.002 * clip.w && inFront < 3.0 ? 1.0 : 0.0;
 }
 
-// The share of foam, in a line that comes and goes: where ground lies within part of a block toward the camera, or
-// behind it, seen through little water. `noise`: 0…1.
+// Share of foam, in a line that moves back and forth: where ground is within part of a block toward the camera, or
+// behind shallow water. `noise`: 0…1.
 float foamAt(vec3 position, vec3 toPoint, float blocks, float noise) {
     float away = length(toPoint);
     vec2 at = wavePosition(position);
@@ -25,7 +26,7 @@ float foamAt(vec3 position, vec3 toPoint, float blocks, float noise) {
     return 0.55 * share * (1.0 - smoothstep(0.5 * kShoreReach, kShoreReach, away));
 }
 
-// How much brighter the ground behind is than without waves. `lit`: the share of daylight that reaches the surface.
+// Brightness of the ground behind relative to that without waves. `lit`: share of daylight that reaches the surface.
 float bundlesBehind(vec3 position, vec3 toPoint, vec3 view, float blocks, float lit) {
     float below = min(blocks, 64.0) * abs(view.z), share = 1.0, away = length(toPoint);
     float strength = 1.8 * sunInWater() * lit * (1.0 - smoothstep(24.0, 60.0, away)) * exp(-0.2 * below) *

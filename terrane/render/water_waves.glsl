@@ -1,12 +1,12 @@
-// Waves in the normals of water: patterns of noise that move through each other, and at sea a swell that goes with the wind.
-// Needs frame_uniforms.glsl. WATER_DETAIL: 1 draws the swell.
+// Waves in the normals of water: moving patterns of noise, and at sea a swell in the direction of the wind. Needs
+// frame_uniforms.glsl. WATER_DETAIL: 1 adds the swell.
 #include "terrane/render/wind.glsl"
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
 
 struct Waves {
     vec2 slope;      // of the normal: x and y over z
-    float variance;  // of the slopes that a pixel holds and does not show
+    float variance;  // of slopes smaller than a pixel
 };
 
 // Positions repeat every 64 blocks, so that they are exact anywhere in the world.
@@ -18,8 +18,8 @@ float waveSeconds() {
     return (frame.switches & kSwitchAnimation) != 0 ? frame.timeSeconds : 0.0;
 }
 
-// How far it is over level water from one pixel to the next, whose rays differ so: pixels beside may show other things, so
-// their positions do not tell.
+// Distance on a level water surface to the next pixel, whose ray differs by `rayStep`. Derivatives of the position
+// would be wrong where neighboring pixels show other surfaces.
 vec2 stepOnWater(vec3 toPoint, vec3 rayStep) {
     float ahead = dot(toPoint, frame.rayAhead.xyz), down = abs(toPoint.z) < 1e-3 ? 1e-3 : toPoint.z;
     return ahead * (rayStep.xy - toPoint.xy * (rayStep.z / down));
@@ -29,8 +29,8 @@ vec2 turned(vec2 v) {
     return vec2(v.x + v.y, v.x - v.y);
 }
 
-// A wave of `count` waves along 64 blocks of each axis, as steep as `steepness`; waves in deep water run by the square root of
-// their wave number (G. B. Airy, Tides and Waves, 1845). A pixel that holds more than half a wave shows none of it.
+// Adds a wave with `count` periods along 64 blocks of each axis and this steepness; its speed is that of deep water, by
+// the square root of the wave number (G. B. Airy, Tides and Waves, 1845). A wave shorter than two pixels is left out.
 void addSwell(inout Waves waves, vec2 count, float steepness, vec2 at, vec2 dx, vec2 dy) {
     vec2 k = count * (6.2831853 / 64.0);
     vec2 over = vec2(dot(k, dx), dot(k, dy));
@@ -40,7 +40,7 @@ void addSwell(inout Waves waves, vec2 count, float steepness, vec2 at, vec2 dx, 
     waves.variance += 0.5 * steepness * steepness * (1.0 - share * share);
 }
 
-// `open`: 0 on calm shallow water … 1 at sea. Noise gets flatter with distance, where a pixel holds many of its waves.
+// `open`: 0 on calm shallow water … 1 at sea. Noise flattens with distance, where a pixel has many waves.
 Waves wavesAt(vec3 position, vec3 toPoint, float open) {
     vec2 at = wavePosition(position);
     vec2 dx = stepOnWater(toPoint, frame.rayAcross.xyz * (2.0 / frame.viewportSize.x));
@@ -65,7 +65,7 @@ vec4 fineNoise(vec3 position) {
     return textureLod(noiseTexture, wavePosition(position) / 4.0 + vec2(0.13, 0.05) * waveSeconds(), 0.0);
 }
 
-// Ripples break the light of the sun into sparks. With distance they spread slopes instead.
+// Ripples break sunlight into sparks. In the distance they only spread the slopes.
 Waves withRipples(Waves waves, vec4 fine, vec3 toPoint) {
     float shown = 1.0 / (1.0 + 0.0025 * dot(toPoint, toPoint));
     return Waves(waves.slope + 0.45 * shown * (fine.ba - 0.5), waves.variance + 0.006 * (1.0 - shown * shown));

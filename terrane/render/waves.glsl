@@ -1,16 +1,16 @@
-// How plants, leaves and water move. Everything repeats after 4,096 chunks, so that numbers stay small and images do
-// not depend on where in the world they are. Needs frame_uniforms.glsl.
+// Movement of plants, leaves and water. Everything repeats after 4,096 chunks, so that numbers stay small and images do
+// not depend on the place in the world. Needs frame_uniforms.glsl.
 #include "terrane/shared/hash.h"
 #include "terrane/shared/material.h"
 
 const float kTurn = 6.2831853;
 
-// Water lies still from here on, in blocks from the camera: its waves are smaller than a pixel, and land beyond the chunks,
-// whose water does not move, meets it without a gap.
+// Distance from the camera, in blocks, at which water is still: its waves are smaller than a pixel, and it meets water
+// beyond the chunks, which does not move, without a gap.
 const float kStillFrom = 96.0;
 
-// The surface at the corner of a chunk with the lowest x and y, in wave heights: it sinks by a third, so that waves reach less
-// far above it.
+// Height of the surface at the chunk's corner of lowest x and y, in wave heights; lowered by a third, so that waves
+// rise less above it.
 float nodeWave(ivec2 chunk, float seconds) {
     vec2 away = float(kChunkSize) * vec2(chunk - frame.cameraChunk) - frame.cameraPosition.xy;
     float share = 1.0 - smoothstep(0.6 * kStillFrom, kStillFrom, length(away));
@@ -19,7 +19,7 @@ float nodeWave(ivec2 chunk, float seconds) {
     return share * (sin(kTurn * (0.25 * seconds + phase)) - 1.0 / 3.0);
 }
 
-// Straight along x and y between the corners of chunks: quads of any size that lie in one chunk meet at their edges.
+// Linear along x and y between the corners of chunks: quads of any size in one chunk meet at their edges.
 float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
     vec2 f = inChunk / float(kChunkSize);
     float low = mix(nodeWave(chunk, seconds), nodeWave(chunk + ivec2(1, 0), seconds), f.x);
@@ -27,8 +27,9 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
     return mix(low, high, f.y);
 }
 
-// `surface`: how high the corner lies on the surface of a liquid, as a share of its height; lower surfaces have lower waves. `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS, see
-// quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
+// `surface`: height of the corner on the surface of a liquid, as a share of its height; lower surfaces have lower
+// waves. `top`: 1 at the upper end of upright planes. Each class of faces has its own kinds of movement (ALPHA_CLASS,
+// see quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
 vec3 waveOffset(MaterialRecord material, float surface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
                 float seconds) {
     uint animation = material.animation;

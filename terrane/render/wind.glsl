@@ -1,2 +1,2 @@
-// The wind that clouds and waves go with.
-const vec2 kWind = vec2(5.0, 2.0);  // blocks a second; patterns are read at places that move so, and go the other way
+// Wind of clouds and waves.
+const vec2 kWind = vec2(5.0, 2.0);  // blocks a second; texture coordinates move so, and patterns the other way

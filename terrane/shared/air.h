@@ -1,4 +1,4 @@
-// What the shaders know of the air in a frame. Its constants are those of world/air.h.
+// Uniforms of the air, set once a frame. world/air.h has the model and its constants.
 #ifndef TERRANE_SHARED_AIR_H
 #define TERRANE_SHARED_AIR_H
 
@@ -13,8 +13,9 @@ const uint kSkyTableRows = 32u;
 struct AirFrame {
     vec4 lightAzimuth;  // x, y: level direction toward the light, unit length; z: scale of the table; w: 0
     vec4 aureole;       // narrow glow around the light; w: its sharpness
-    // Powers of ½ a block at the camera's altitude that are left of red, and of all colors in haze; 1 / scale
-    // height of the haze, and by how much a block of rise thins the molecules on the way to it.
+    // x, y: optical depth of a block at the camera's altitude in powers of ½, of molecules for red and of
+    // haze for
+    // all colors. z: 1 / scale height of the haze. w: share by which molecules thin with each block of rise.
     vec4 depth;
 };
 

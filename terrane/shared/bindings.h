@@ -25,7 +25,7 @@ const uint kCountsBinding = 4u;
 const uint kVisibleLastFrameBinding = 5u;
 const uint kTestedMeshSectionsBinding = 6u;
 const uint kQuadsBinding = 7u;
-const uint kListedQuadsBinding = 2u;  // where visible mesh sections are not read any more
+const uint kListedQuadsBinding = 2u;  // not with kVisibleBinding, which has the same number
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -45,12 +45,12 @@ const uint kHiZUnit = 17u;                // Hi-Z
 const uint kQuadsUnit = 18u;              // buffers as textures
 const uint kShapeFacesUnit = 19u;
 const uint kMaterialsUnit = 20u;
-const uint kSmoothTexturesUnit = 21u;  // the block textures with one sampler and the other: FACE_SAMPLING
+const uint kSmoothTexturesUnit = 21u;  // the block textures with either sampler: FACE_SAMPLING
 const uint kNearestTexturesUnit = 22u;
 const uint kTintUnit = 23u;
 const uint kLandShadowUnit = 24u;
 const uint kLandGroundUnit = 25u;
-const uint kShadowDepthsUnit = 26u;  // the maps of kShadowUnit as numbers
+const uint kShadowDepthsUnit = 26u;  // the maps of kShadowUnit without comparison
 const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
 const uint kListedQuadsUnit = 30u;  // a buffer as a texture
@@ -63,8 +63,8 @@ const uint kHiZFromImage = 0u;
 const uint kHiZToImage = 1u;
 
 // Plain uniforms
-const uint kArenaLocation = 0u;      // of quad_cull.comp.glsl and quad_list.comp.glsl
-const uint kListedBitLocation = 1u;  // of quad_list.comp.glsl
+const uint kArenaLocation = 0u;      // quad_cull.comp.glsl and quad_list.comp.glsl
+const uint kListedBitLocation = 1u;  // quad_list.comp.glsl
 
 SHARED_END
 #endif

@@ -23,11 +23,11 @@ const uint kVectorsPerSegment = 3u;
 
 // A lake is a vec4: center (x, y) from the first column's sample, radius, level.
 
-// Distance where nothing is within reach, blocks.
+// Distance in blocks where no river or lake is within reach.
 const float kNoRiver = 65536.0f;
 
-// What a tile has of a map: its segments, then its lakes, from vector number `first` of the data on. By tile
-// job, then map.
+// The part of a map for one tile: its segments, then its lakes, from vector number `first` of the data on.
+// Lists are ordered by tile job, then map.
 struct DrainageList {
     uint first, segmentCount, lakeCount, unused;
 };

@@ -1,5 +1,5 @@
-// Figures of players: the record that the vertex shader reads of each, and the measures of the legs, which
-// the walk follows.
+// Figures of players: the record that the vertex shader reads for each figure, and the measures of the legs,
+// which the walk animation shares.
 #ifndef TERRANE_SHARED_FIGURE_H
 #define TERRANE_SHARED_FIGURE_H
 
@@ -10,7 +10,7 @@ SHARED_BEGIN
 const float kFigureLeg = 0.7f;        // blocks from the hip to the ground
 const float kFigureMostSwing = 0.9f;  // radians that a leg is turned forward or back at a run
 
-// One draw call has so many at the most: 256 × 48 = 12 KiB, of the 16 KiB that a block of uniforms may have.
+// Most figures in a draw call: 256 × 48 = 12 KiB, within the 16 KiB that every driver allows a uniform block.
 const uint kMostFigures = 256u;
 const uint kFigureBoxes = 14u;           // the last one of the hair, if any
 const uint kVerticesPerFigureBox = 18u;  // of three faces

@@ -1,4 +1,4 @@
-// What the shaders know of a frame and of each material.
+// Uniforms of a frame, and the record of a material.
 #ifndef TERRANE_SHARED_FRAME_H
 #define TERRANE_SHARED_FRAME_H
 
@@ -8,8 +8,8 @@
 SHARED_BEGIN
 
 // Positions on the GPU are in blocks from the corner of the camera's chunk at z = 0, so that they are small
-// and exact wherever in the world the camera is. Colors are linear.
-// Of vec4 positions, directions and colors x, y, z count; w is 0.
+// and exact wherever in the world the camera is. Colors are linear. vec4 positions, directions and colors use
+// x, y, z; their w is 0.
 struct Frame {
     mat4 viewProjection;  // to clip space; depth 1 at the near plane, 0 at infinity
 
@@ -21,7 +21,6 @@ struct Frame {
     vec4 lightDirection;  // to the sun or moon
     vec4 lightColor;      // of the sun or moon
     vec4 ambientColor;    // from the sky, on faces that look up
-    vec4 zenithColor;
     vec4 horizonColor;
     vec4 glowColor;  // around the light at the horizon
     vec4 discColor;  // of the sun or moon itself
@@ -44,7 +43,7 @@ struct Frame {
     float exposure;
     float ambientFromBelow;  // share of ambientColor on faces that look down
     float hiddenLampShare;   // share of lamp light that full daylight hides
-    float discSine;          // of the radius of the sun's or moon's disc
+    float discSine;          // sine of the radius of the sun's or moon's disc
 
     float starBrightness;  // 0…1
     float starTurn;        // how far the stars have turned, 0…1
@@ -55,12 +54,12 @@ struct Frame {
     uint unused0, unused1, unused2;
 };
 
-// Along the view, as the depth has it, surfaces may fade from this share of the distance of the fog on: they
-// do from 5/6 over the ground, and more at the sides of a wide image.
+// Share of the fog distance, along the view direction, from which surfaces may fade: 5/6 over the ground,
+// less toward the sides of a wide image.
 const float kFadingBegins = 0.4f;
 
-// Depths of a mask where all surfaces belong to far tiles, or lie beyond kSimpleLightFrom blocks along the
-// view: steps of 16 bits.
+// Depths of the pixel mask where all surfaces of a pixel belong to far tiles, or lie beyond kSimpleLightFrom
+// blocks along the view. Both are steps of 16 bits.
 const float kFarSurfacesDepth = 21845.0f / 65535.0f;
 const float kDistantSurfacesDepth = 43690.0f / 65535.0f;
 const float kSimpleLightFrom = 48.0f;
@@ -70,7 +69,7 @@ const uint kViewDepth = 2u;
 const uint kViewMerging = 3u;  // each quad in a color of its own
 const uint kViewLight = 4u;
 
-// Frame::switches: what costs nothing to switch within a shader.
+// Bits of Frame::switches: options that cost nothing to branch on within a shader.
 const int kSwitchAnimation = 1;
 const int kSwitchDistanceFog = 4;
 const int kSwitchUnlit = 8;  // the colors of the blocks alone
@@ -87,7 +86,7 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Frame) == 64 + 18 * 16, "members lie in groups of 16 bytes, as in std140");
+static_assert(sizeof(Frame) == 64 + 17 * 16, "members lie in groups of 16 bytes, as in std140");
 static_assert(sizeof(MaterialRecord) == 16);
 }  // namespace terrane::shared
 #endif

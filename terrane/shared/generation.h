@@ -1,4 +1,4 @@
-// What the host and the generation shaders agree on.
+// Constants and records shared by the host and the generation shaders.
 #ifndef TERRANE_SHARED_GENERATION_H
 #define TERRANE_SHARED_GENERATION_H
 
@@ -6,10 +6,11 @@
 
 SHARED_BEGIN
 
-// Loops in generators end after so many rounds: no mistake in a generator hangs a GPU.
+// Upper limit on rounds of a loop in a generator: no mistake in a generator hangs a GPU.
 const int kMaxLoopRounds = 1024;
 
-// How far a pass reads from its column, blocks along x and y: the eight chunks around its own.
+// Farthest offset that a pass reads from its column, in blocks along x and y: the eight chunks around its
+// own.
 const int kMaxReadOffset = 16;
 
 // Storage buffers of a generator pass

@@ -1,5 +1,5 @@
-// Where the light of a block lies on the GPU: light tiles of 8³ blocks in a pool, found through a grid
-// that wraps around the camera.
+// Layout of light on the GPU: light tiles of 8³ blocks in a pool, found through a grid that wraps around the
+// camera.
 #ifndef TERRANE_SHARED_LIGHT_GRID_H
 #define TERRANE_SHARED_LIGHT_GRID_H
 
@@ -14,7 +14,7 @@ const uint kLightPoolTiles = 64u;       // light tiles of the pool texture along
 
 // An entry of the grid: a light tile's number in the pool, or the one value of a light tile that needs none.
 const uint kLightUniformBit = 0x80000000u;
-// Where no chunk is lit: full daylight, as the open sky has it.
+// Entry where no chunk is lit: full daylight, as under the open sky.
 const uint kLightUnknown = 0x8000F000u;
 
 SHARED_END

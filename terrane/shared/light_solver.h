@@ -1,4 +1,4 @@
-// What the host and the shaders that solve light agree on (terrane/light_gpu).
+// Constants and records shared by the host and the shaders that solve light (terrane/light_gpu).
 #ifndef TERRANE_SHARED_LIGHT_SOLVER_H
 #define TERRANE_SHARED_LIGHT_SOLVER_H
 
@@ -23,8 +23,8 @@ const uint kLightTileWordsX = 4u;
 const uint kLightTileWords = 256u;
 const uint kBrickWords = 2048u;  // 16³ blocks
 
-// Rounds that are given to the GPU at once; even, so that the two work lists keep their turns. Light crosses
-// at most 14 borders between light tiles, on most paths two.
+// Rounds submitted to the GPU at once; even, so that the two work lists keep their turns. Light crosses at
+// most 14 borders between light tiles, on most paths two.
 const uint kSolverRounds = 4u;
 
 // Blocks by their properties: opacity in bits 0–3, emission in 4–15.
@@ -35,7 +35,7 @@ SHARED_FN uint emissionOf(uint property) {
     return property >> 4;
 }
 
-// Of the chunks beside one, where nothing is known.
+// Number of a neighboring chunk that is unknown.
 const uint kNoChunk = 0xFFFFFFFFu;
 
 // A round's indirect dispatch: x is the length of its work list.
@@ -46,7 +46,8 @@ struct SolverRound {
     uint unused;
 };
 
-// Of a light tile before light spreads: all its light or'ed, and
+// Summary of a light tile before light spreads: the bitwise or of its light values in the low 16 bits, and
+// these bits.
 const uint kTileIsUniform = 0x10000u;
 const uint kTileIsOpaque = 0x20000u;  // no light gets in
 

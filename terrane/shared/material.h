@@ -42,7 +42,7 @@ const uint kWaveUnits = 1000u;
 //        19–26  amplitude of its waves
 //        27     whether it takes the tint
 //
-// Of these, bits 0–7 say how a fragment samples its texture.
+// Bits 0–7 say how a fragment samples its texture.
 SHARED_FN uint optionsWrap(uint options) {
     return options & 3u;
 }

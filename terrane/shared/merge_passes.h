@@ -26,15 +26,15 @@ SHARED_FN uint endOfMergePasses(uint method) {
     return method == kMergeLines || method == kMergeSquaresExt ? kMergePasses : 0u;
 }
 
-// Where a pass merges: bit n stands for the line between bits (or rows) n - 1 and n. The middles of cells of
-// 2, 4 and 8, then all but those between cells of 8.
+// Lines at which a pass merges: bit n stands for the line between bits (or rows) n - 1 and n. First the
+// middles of cells of 2, 4 and 8, then all lines but those between cells of 8.
 SHARED_FN uint mergeLines(uint pass) {
     if (pass < 2u) return 0xAAAAu;
     if (pass < 4u) return 0x4444u;
     return pass < kSquarePasses ? 0x1010u : 0xFEFEu;
 }
-// How long the first rectangle is along the axis, as the thesis has it: the second is at most as long. 0: any
-// length.
+// Length that the first rectangle must have along the axis, as in the thesis; the second is at most as long.
+// 0: any length.
 SHARED_FN uint mergeLength(uint pass) {
     return pass < kSquarePasses ? 1u << (pass >> 1) : 0u;
 }

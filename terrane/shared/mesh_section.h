@@ -52,8 +52,8 @@ const uint kMaxQuadsPerCommand = 16384u;
 // Lists of commands, one for each draw bucket.
 const uint kDrawLists = 6u;
 
-// Of those the first ones, of opaque and tested faces, draw lists of quads (render/quad_list.h): their base
-// vertex is 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
+// The first lists, of opaque and tested faces, draw lists of quads (render/quad_list.h): their base vertex is
+// 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
 const uint kListedDrawLists = 4u;
 const uint kFirstListedQuad = 1u << 28;
 
@@ -69,20 +69,20 @@ struct DrawCounts {
     uint meshSections;
 };
 
-// Bits of a mesh section's word of visibility: face directions to draw of opaque and tested faces and of
+// Bits of a mesh section's visibility word: face directions to draw, of opaque and tested faces and of
 // blended faces, then the arena of its quads.
 const uint kOpaqueDirectionBits = 0u;
 const uint kDrawnEarlyBits = 8u;  // of the late pass: directions that the early one drew
 const uint kBlendedDirectionBits = 16u;
 const uint kArenaBits = 24u;
 
-// What a culling phase draws. With occlusion culling there are two: early, mesh sections that were visible in
-// the frame before, and late, others that the depth of these (Hi-Z) does not hide.
+// Culling phases. Occlusion culling has two: early draws mesh sections that were visible in the frame before;
+// late draws others that the depth of these (Hi-Z) does not hide.
 const uint kCullAll = 0u;
 const uint kCullEarly = 1u;
 const uint kCullLate = 2u;
 
-// How far leaves and plants may leave the box of their mesh section, in blocks.
+// Farthest that leaves and plants reach out of the box of their mesh section, in blocks.
 const float kWaving = 0.25f;
 
 // Threads of a work group: mesh sections of cull.comp.glsl, quads of quad_cull.comp.glsl, texels a side of
@@ -95,11 +95,11 @@ const uint kHiZThreads = 8u;
 // many.
 const uint kHiZTexelPixels = 2u;
 
-// What culling needs to know. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
+// Uniforms of culling. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
 struct CullFrame {
     vec4 cameraPlanes[5];
     vec4 cameraPosition;                       // from the corner of its chunk
-    uvec4 firstCommand[kFirstCommandVectors];  // of arena × kDrawLists + list, in the buffer of commands
+    uvec4 firstCommand[kFirstCommandVectors];  // by arena × kDrawLists + list, in the buffer of commands
     mat4 viewProjection;
     ivec2 cameraChunk;
     vec2 viewportSize;  // pixels
@@ -110,10 +110,10 @@ struct CullFrame {
     uint arenaQuads;      // addresses of an arena
     float edgeExpansion;  // pixels, as in Frame
     float blockPixels;    // pixels that a block takes, one block ahead
-    uint samples;         // of a pixel
+    uint samples;         // a pixel
 };
 
-// Mesh sections whose quads are to be tested: how many, as glDispatchComputeIndirect reads it, and their
+// Mesh sections whose quads are to be tested: their number, as glDispatchComputeIndirect reads it, and their
 // places in the order, which follow.
 struct TestedMeshSections {
     uint count;

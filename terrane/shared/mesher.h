@@ -1,4 +1,4 @@
-// What the host and the shaders that mesh agree on (terrane/mesh_gpu).
+// Constants and records shared by the host and the shaders that mesh (terrane/mesh_gpu).
 #ifndef TERRANE_SHARED_MESHER_H
 #define TERRANE_SHARED_MESHER_H
 
@@ -19,14 +19,14 @@ const uint kMeshQuadsBinding = 7u;
 // Palettes of packed sections of blocks hold the id and, from bit 16 on, the flags of its type; those of
 // block state hold values.
 
-// In place of where a mesh section's quads go: they are not written.
+// Place of a mesh section whose quads are not written.
 const uint kNoPlace = 0xFFFFFFFFu;
 
-// In place of a section's number
+// Section numbers without a section
 const uint kNoSection = 0xFFFFFFFFu;      // air, or no block state
 const uint kOpaqueSection = 0xFFFFFFFEu;  // below the world
 
-// What a work group meshes: the part of a section that lies in one mesh section.
+// Work of one work group: the part of a section that lies in one mesh section.
 struct MeshUnit {
     uint section;
     uint blockState;
@@ -70,7 +70,7 @@ const uint kMeshFlowFalling = 8u;
 const uint kMeshFaceSideShift = 11u;
 const uint kMeshFaceOnBorderBit = 1u << 14;
 
-// Quads of a unit by range, and 0 where there are none.
+// Words of a unit: its number of quads by range, then one that is 0 where it has no faces.
 const uint kMeshUnitWords = 25u;
 
 struct MeshSectionCounts {

@@ -35,13 +35,14 @@ SHARED_FN uint maxLevels(uint a, uint b) {
            maxOfBytes((a >> 4) & kEvenLevels, (b >> 4) & kEvenLevels) << 4;
 }
 
-// Each level less what is lost, at least 0. `loss` has the same number in all four bytes or in the two bytes
-// of a block, so that it is one for even and odd nibbles.
+// Each level minus the loss, at least 0. `loss` has the same number in all four bytes or in the two bytes of
+// a block, so that it is one for even and odd nibbles.
 SHARED_FN uint lessLevels(uint levels, uint loss) {
     return lessOfBytes(levels & kEvenLevels, loss) | lessOfBytes((levels >> 4) & kEvenLevels, loss) << 4;
 }
 
-// What a block of this opacity takes of each level: 1 + opacity, of which 15 is as much as 16.
+// Loss of each level in a block of this opacity: 1 + opacity, where 15 stands for 16, since no level is
+// higher.
 SHARED_FN uint lossOfOpacity(uint opacity) {
     return opacity < 15u ? opacity + 1u : 15u;
 }

@@ -8,7 +8,7 @@ layout(std430, binding = kPackedDataBinding) readonly buffer PackedData {
     uint data[];  // palettes and words
 };
 
-// `block`: index in the section. Palettes hold what the host made of the values, dense sections the values themselves.
+// `block`: index in the section. Palettes hold values converted by the host, dense sections the values themselves.
 uint packedValue(PackedSection section, uint block) {
     if (section.bits == 0u) return data[section.palette];
     uint index = packedIndex(section, data[section.words + packedWordIndex(section, block)], block);

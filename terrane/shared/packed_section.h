@@ -22,13 +22,13 @@ struct PackedSection {
     uint unused;
 };
 
-// Of a section that is not of one value: the place of the word that holds a block, counted from the section's
-// first word. `block`: index in the section.
+// Index of the word that holds a block, from the section's first word, for sections of more than one value.
+// `block`: index in the section.
 SHARED_FN uint packedWordIndex(PackedSection section, uint block) {
     return (block * section.bits) >> 5;
 }
-// The block's index into the palette, or its value in a dense section. Widths are powers of two: none crosses
-// a word.
+// Index of a block into the palette, or its value in a dense section. Widths are powers of two, so that no
+// index crosses a word.
 SHARED_FN uint packedIndex(PackedSection section, uint word, uint block) {
     return word >> ((block * section.bits) & 31u) & ((1u << section.bits) - 1u);
 }

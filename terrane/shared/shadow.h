@@ -16,10 +16,10 @@ const uint kShadowTiles = 8u;
 // from the camera, which is at most 1,024 √2 blocks from the anchor.
 const float kShadowRange = 8192.0f;
 
-// From positions of the frame (see Frame) to the maps. Where a new map is being drawn for another direction
-// of the light, the cascades differ in it.
+// Transforms from positions of the frame (see Frame) to the maps. Cascades differ in the direction of the
+// light while a new map is being drawn for another direction.
 struct ShadowFrame {
-    vec4 toMap[9];  // of each cascade three rows: x and y in widths of the map, not wrapped; depth, 1 toward
+    vec4 toMap[9];  // three rows for each cascade: x and y in widths of the map, not wrapped; depth, 1 toward
                     // the light
     // x, y, z of each cascade:
     vec4 reach;       // 1 / blocks from the camera that it holds

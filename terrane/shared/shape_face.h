@@ -20,12 +20,12 @@ const uint kShapeFaceFlowSide = 28u;    // 28–207 sides of a liquid that flows
 const uint kShapeFaceCount = 208u;  // faces of models follow: rectangles in the cell (world/block_model.h)
 const uint kMaxShapeFaces = 2048u;  // in all; a quad has 11 bits
 
-// Where the top of a liquid lies in its cell, in sixteenths of a block; an integer, since C++ takes no `const
+// Height of the top of a liquid in its cell, in sixteenths of a block; an integer, since C++ takes no `const
 // float` for a constant expression.
 const uint kLiquidSurfaceSixteenths = 14u;
 
-// Where the sides of a liquid that flows begin and end: 0 the bottom of the cell, k the height of level 8 -
-// k, 8 that of a source, 9 the top of the cell. Each pair has four faces.
+// Heights at which the sides of a flowing liquid begin and end: 0 the bottom of the cell, k the height of
+// level 8 - k, 8 that of a source, 9 the top of the cell. Each pair has four faces.
 const uint kFlowHeights = 9u;
 SHARED_FN uint flowSideFace(uint side, uint low, uint high) {
     return kShapeFaceFlowSide + 4u * (high * (high - 1u) / 2u + low) + side;
@@ -37,8 +37,8 @@ struct ShapeFace {
     vec4 axisU;   // along the texture's width for one block
     vec4 axisV;   // along the texture's height for one block, upward on upright faces
     vec4 normal;  // outward, axisU × axisV normalized
-    // Where an edge lies on the surface of a liquid, its height is this share of the surface's: base.w at v =
-    // 0, axisV.w at v = 1. All other w are 0.
+    // Height of an edge on the surface of a liquid, as a share of the surface's height: base.w at v = 0,
+    // axisV.w at v = 1. All other w are 0.
 };
 
 // The part of an axis that points toward negative coordinates.

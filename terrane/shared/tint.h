@@ -14,8 +14,8 @@ const uint kNeutralTintGreen = 135u;
 const uint kNeutralTintBlue = 50u;
 
 // Level l of the clipmap has texels of 4^(l + 1) blocks, the columns of the generator's level 2 l + 2. A
-// chunk of that level is a tile of 16 × 16 texels; a level holds 16 × 16 tiles: 256² × 4 bytes × 5 levels
-// = 1.3 MB. Of the coarsest 7 tiles are used: 114,688 blocks.
+// chunk of that level is a tile of 16 × 16 texels; a level holds 16 × 16 tiles: 256² × 4 bytes × 5 levels =
+// 1.3 MB. The coarsest is used up to 7 tiles from the camera: 114,688 blocks.
 const uint kTintLevels = 5u;
 const uint kTintTexels = 256u;  // along a side of a level
 const uint kTintTiles = 16u;    // the same in tiles

@@ -28,7 +28,7 @@ base::Result<std::unique_ptr<FrameSink>> openFrameFolder(const std::filesystem::
     if (error || !std::filesystem::is_directory(folder))
         return base::fail("{}: cannot be made: {}", folder.string(),
                           error ? error.message() : "it is not a folder");
-    // Frames of an earlier video among these would not be noticed.
+    // Frames of an earlier video would mix with the new ones.
     if (!std::filesystem::is_empty(folder, error) || error)
         return base::fail("{}: the folder for frames is not empty", folder.string());
     return std::make_unique<FrameFolder>(folder);

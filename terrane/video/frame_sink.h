@@ -1,4 +1,4 @@
-// Where the frames of a video go: a file made by ffmpeg, or a folder of images. One thread.
+// Destination of the frames of a video: a file made by ffmpeg, or a folder of images. One thread.
 #pragma once
 
 #include <filesystem>
@@ -12,12 +12,12 @@ namespace terrane::video {
 
 class FrameSink {
   public:
-    virtual ~FrameSink() = default;  // without finish() before it, an unfinished file is removed
+    virtual ~FrameSink() = default;  // removes an unfinished file unless finish() was called
     virtual base::Result<void> add(const base::Image& frame) = 0;
     virtual base::Result<void> finish() = 0;
 };
 
-// frame_00000.png and so on. The folder is made, or is there and empty.
+// Writes frame_00000.png and so on. Creates the folder if needed; an existing one must be empty.
 base::Result<std::unique_ptr<FrameSink>> openFrameFolder(const std::filesystem::path& folder);
 
 struct VideoFormat {
@@ -25,7 +25,7 @@ struct VideoFormat {
     int framesPerSecond = 30;
 };
 
-// H.264 in .mp4 or .mkv, by the program ffmpeg. The file appears with finish(), complete.
+// Encodes H.264 into .mp4 or .mkv with the program ffmpeg. The file appears complete with finish().
 base::Result<std::unique_ptr<FrameSink>> openVideo(const std::filesystem::path& file,
                                                    const VideoFormat& format);
 

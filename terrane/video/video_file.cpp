@@ -25,14 +25,14 @@ struct FileCloser {
 };
 using File = std::unique_ptr<std::FILE, FileCloser>;
 
-// What ffmpeg calls the container of a file; empty where it is none that is known to work.
+// ffmpeg's name for the container of a file; empty if it is not known to work.
 std::string containerOf(const std::filesystem::path& file) {
     std::string ending = file.extension().string();
     std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
     return ending == ".mp4" ? "mp4" : ending == ".mkv" ? "matroska" : "";
 }
 
-// BT.709 is what players take colors of HDTV sizes for; 4:2:0 is what all of them can play.
+// Players take colors of HDTV sizes as BT.709, and all of them can play 4:2:0.
 std::vector<std::string> argumentsFor(const std::filesystem::path& output, const std::string& container,
                                       const VideoFormat& format) {
     return {"ffmpeg", "-hide_banner", "-nostdin", "-loglevel", "error", "-f", "rawvideo", "-pixel_format",
@@ -41,17 +41,19 @@ std::vector<std::string> argumentsFor(const std::filesystem::path& output, const
             "scale=out_color_matrix=bt709:out_range=tv", "-c:v", "libx264", "-preset", "medium", "-crf", "18",
             "-pix_fmt", "yuv420p", "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709",
             "-color_range", "tv", "-movflags", "+faststart", "-f", container, "-y",
-            // Names that begin with a dash or have a colon are no options or protocols.
+            // With "file:" names that begin with a dash or have a colon are not taken as options or
+            // protocols.
             "file:" + output.string()};
 }
 
 struct Child {
     pid_t id = -1;
     int input = -1;  // a pipe to its standard input
-    File messages;   // what it wrote to standard error
+    File messages;   // its standard error
 };
 
-// Its own group: an interrupt from the keyboard reaches this program alone, which then ends ffmpeg.
+// Starts ffmpeg in its own process group: an interrupt from the keyboard reaches only this program, which
+// then ends ffmpeg.
 int spawn(std::vector<std::string> arguments, int readEnd, int messages, pid_t& id) {
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -103,7 +105,7 @@ class VideoFile : public FrameSink {
         for (std::size_t left = frame.rgba.size(); left > 0;) {
             const ssize_t written = write(child_.input, at, left);
             if (written < 0 && errno == EINTR) continue;
-            if (written < 0) return failed();  // a broken pipe: it says why
+            if (written < 0) return failed();  // a broken pipe: ffmpeg's messages have the reason
             at += written;
             left -= static_cast<std::size_t>(written);
         }
@@ -130,7 +132,7 @@ class VideoFile : public FrameSink {
         child_.id = -1;
     }
 
-    // Waits for ffmpeg and leaves nothing of its file.
+    // Waits for ffmpeg and removes its file.
     void end() {
         if (child_.input >= 0) close(child_.input);
         child_.input = -1;
@@ -175,7 +177,7 @@ base::Result<std::unique_ptr<FrameSink>> openVideo(const std::filesystem::path& 
         return base::fail("{}: cannot be written: it is not a regular file", file.string());
     std::filesystem::path unfinished = file;
     unfinished += fmt::format(".part{}", getpid());
-    std::signal(SIGPIPE, SIG_IGN);  // writing to an ffmpeg that has ended gives an error instead
+    std::signal(SIGPIPE, SIG_IGN);  // so that writing to an ended ffmpeg returns an error
     auto child = start(argumentsFor(unfinished, container, format));
     if (!child) return tl::unexpected(child.error());
     return std::make_unique<VideoFile>(std::move(*child), file, unfinished);

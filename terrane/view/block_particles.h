@@ -1,4 +1,4 @@
-// Splinters that fly off a block that is broken: plain values that fall and end. Used on the world's thread.
+// Particles of a broken block: plain values that fall and end. Used on the world's thread.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@ namespace terrane::view {
 struct Particle {
     glm::dvec3 position{0};
     glm::vec3 velocity{0};  // blocks a second
-    float side = 0;         // of a square, in blocks
+    float side = 0;         // of the square, in blocks
     float secondsLeft = 0;
-    std::uint8_t shade = 0;  // 0…255: how bright beside the others of its block
+    std::uint8_t shade = 0;  // 0…255: brightness among the particles of its block
     world::BlockId block = world::kAir;
 };
 
 class BlockParticles {
   public:
-    // 24 of a block; at most 480 in all, the oldest go first: 480 × 48 bytes = 23 KB.
+    // 24 particles a block, at most 480 in all; the oldest are removed first. 480 × 48 bytes = 23 KB.
     static constexpr std::size_t kOfABlock = 24, kMost = 480;
     static constexpr float kSeconds = 0.8f, kGravity = 18;
 
     void burst(world::BlockPos pos, world::BlockId block);
-    // They fall, and stop where a block is that collides.
+    // Moves all particles: they fall, and stop at blocks with collision.
     void advance(double seconds, const world::World& world, const world::BlockRegistry& blocks);
     const std::vector<Particle>& particles() const { return particles_; }
 
   private:
     std::vector<Particle> particles_;
-    std::minstd_rand random_{1};  // of looks alone: nothing in the world depends on it
+    std::minstd_rand random_{1};  // for appearance only: the world does not depend on it
 };
 
 }  // namespace terrane::view

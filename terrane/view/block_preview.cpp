@@ -10,8 +10,8 @@
 namespace terrane::view {
 namespace {
 
-constexpr std::uint32_t kQuads = 1024;  // of one block there are few
-constexpr int kZ = 100;                 // where the block floats
+constexpr std::uint32_t kQuads = 1024;  // one block has few
+constexpr int kZ = 100;                 // height of the block
 constexpr render::Camera kCamera{{5.3, 5.3, kZ + 2.6}, 45, -25, 24};
 
 mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks) {
@@ -20,7 +20,7 @@ mesh::ChunkMesh meshOf(world::BlockId block, const world::BlockRegistry& blocks)
     return mesh::meshAlone(chunk, blocks);
 }
 
-// Makes the pixels clear that show the background alone.
+// Makes pixels transparent that show only the background.
 void clearWhereEqual(base::Image& image, const base::Image& background) {
     for (std::size_t at = 0; at < image.rgba.size(); at += 4) {
         const bool isEqual = std::equal(image.rgba.begin() + static_cast<std::ptrdiff_t>(at),
@@ -61,7 +61,7 @@ base::Result<void> BlockPreview::reloadShaders() {
     return renderer_.reloadShaders();
 }
 
-// Waits for the GPU: some milliseconds, once a kind of block.
+// Waits for the GPU: some milliseconds, once a block type.
 base::Image BlockPreview::drawn(const mesh::ChunkMesh& mesh) {
     renderer_.setChunk({0, 0}, mesh);
     renderer_.draw({kCamera, world::environmentAt(0.4f), 1000.0f});

@@ -1,5 +1,5 @@
-// Lit images of single blocks, for the corner that shows what is in the hand and for slots of chests. Each
-// is drawn once and kept: 83 KB a kind of block, 16 MB for all. Used on the thread of the OpenGL context.
+// Lit images of single blocks, for the selected block and the slots of containers. Each is drawn once and
+// kept: 83 KB a block type, 16 MB for all. Used on the thread of the OpenGL context.
 #pragma once
 
 #include <map>
@@ -23,12 +23,12 @@ class BlockPreview {
                                              const render::TextureSource& textures,
                                              const gpu::DeviceInfo& device);
     base::Result<void> setTextures(const render::TextureSource& textures);
-    base::Result<void> reloadShaders();  // of images as they are asked for from then on
+    base::Result<void> reloadShaders();  // all images are drawn again on request
 
-    // The OpenGL texture with the block's image, clear around the block; its rows run from above. 0 where it
-    // was not drawn yet and beginFrame() left no room for it: it comes with a later frame.
+    // The OpenGL texture with the block's image, transparent around the block; the first row is the top. 0 if
+    // the image does not exist yet and the limit of beginFrame() is reached: it is drawn in a later frame.
     unsigned image(world::BlockId block);
-    // So many images may be drawn until the next call, at some milliseconds each.
+    // Sets how many images may be drawn until the next call, at some milliseconds each.
     void beginFrame(int images) { leftInFrame_ = images; }
 
   private:

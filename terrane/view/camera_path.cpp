@@ -20,7 +20,7 @@ MonotoneCurve curveOf(const Keys& keys, Value value) {
     return {std::move(times), std::move(values)};
 }
 
-// Each yaw within half a turn of the one before.
+// Makes each yaw differ by at most half a turn from the one before.
 Keys unwound(Keys keys) {
     for (std::size_t k = 1; k < keys.size(); ++k) {
         const double turn = keys[k].yaw - keys[k - 1].yaw;

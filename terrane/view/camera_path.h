@@ -1,4 +1,4 @@
-// Where a camera is, and when in the day, between the keys of a shot. Any thread.
+// Camera and time of day between the keys of a shot. Any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -24,11 +24,11 @@ struct PathPoint {
     float timeDay = 0.5f;  // 0…1
 };
 
-// Each number runs along a MonotoneCurve. Yaw turns the shorter way from key to key. Where the keys have
-// points to look at, the point moves.
+// Each component follows a MonotoneCurve. Yaw turns the shorter way from key to key. If the keys have points
+// to look at, the point moves.
 class CameraPath {
   public:
-    // At least one key, times ascend strictly; all look at points or none does.
+    // `keys`: at least one, times ascend strictly; all look at points or none does.
     explicit CameraPath(std::vector<CameraKey> keys);
 
     PathPoint at(double seconds) const;
@@ -40,7 +40,7 @@ class CameraPath {
     MonotoneCurve timeDay_, fieldOfView_;
 };
 
-// Degrees of a look from one point to another.
+// Direction from one point to another, degrees.
 struct Look {
     double yaw = 0, pitch = 0;
 };

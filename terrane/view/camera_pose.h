@@ -1,4 +1,4 @@
-// Between where a player stands and what draws it.
+// Conversions between the pose of a player and a camera.
 #pragma once
 
 #include "terrane/render/camera.h"
@@ -13,7 +13,7 @@ inline world::Pose poseOf(const render::Camera& camera) {
     return {camera.position, camera.yaw, camera.pitch};
 }
 
-// Distance in blocks at which everything has become sky.
+// Distance in blocks at which the fog is complete.
 inline float fogDistance(int viewDistance) {
     return static_cast<float>(viewDistance) * static_cast<float>(world::kChunkSize);
 }

@@ -7,7 +7,8 @@
 namespace terrane::view {
 namespace {
 
-// Many tiles come in that time, and each change looks at all: they take a tenth of the time at most.
+// Least time between changes. Many tiles arrive in it, and each change visits all tiles; changes take a tenth
+// of the time at most.
 constexpr std::chrono::milliseconds kBetweenChanges{15};
 constexpr int kTimesItself = 10;
 

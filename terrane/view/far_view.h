@@ -1,5 +1,5 @@
-// Puts land beyond the chunks on screen: hands tiles to the renderer, and has chunks and tiles shown so that
-// each column is drawn once (stream/tile_table.h). Used by WorldView on the thread of the OpenGL context.
+// Shows land beyond the chunks: passes tiles to the renderer, and shows chunks and tiles so that each column
+// is drawn once (stream/tile_table.h). Used by WorldView on the thread of the OpenGL context.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace terrane::view {
 
-// How far tiles reach and how wide their rings are: see stream::TileView. In chunks.
+// Distance of tiles and width of their rings, in chunks: see stream::TileView.
 struct Horizon {
     int distance = 0;  // 0: no tiles
     int detail = 12;
@@ -24,18 +24,20 @@ class FarView {
         : tiles_(session.tiles()), pipeline_(session.pipeline()), renderer_(renderer) {}
 
     void setView(world::ChunkPos center, int viewDistance, const Horizon& horizon);
-    // A chunk comes to the renderer for the first time: it stays hidden until it can take a tile's place.
+    // Comes before the renderer gets a chunk for the first time: the chunk stays hidden until it can replace
+    // a tile.
     void beforeChunk(world::ChunkPos pos);
-    // It is there; or it was taken from the renderer.
+    // The chunk is complete in the renderer, or was removed from it.
     void setChunkReady(world::ChunkPos pos, bool isReady) { tiles_.setChunkReady(pos, isReady); }
-    // The renderer forgot everything.
+    // The renderer has removed all chunks and tiles.
     void forgetAll() { tiles_.forgetAll(); }
 
-    // Takes in finished tiles and gives out new work.
+    // Receives finished tiles and submits new work.
     void update() { tiles_.update(pipeline_.meshOptions().method); }
-    // Hands tiles to the renderer until the deadline. False where there is no room for one.
+    // Passes tiles to the renderer until the deadline. False if there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
-    // Shows and hides what came and went. While tiles come, some times a second, unless something is gone.
+    // Shows new tiles and hides replaced ones. While tiles load, only some times a second, unless a shown one
+    // is gone.
     void applyChanges();
     // The same at once.
     void applyNow();

@@ -27,7 +27,7 @@ double cpuMilliseconds() {
     return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
 }
 
-// Draws frames and logs them.
+// Flies, draws frames and logs them.
 class Pilot {
   public:
     Pilot(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight)
@@ -58,7 +58,7 @@ class Pilot {
     }
 
   private:
-    // Seconds that it took.
+    // Returns the seconds taken.
     double standUntilLoaded() {
         const auto start = Clock::now();
         do frame({});
@@ -66,7 +66,7 @@ class Pilot {
         return secondsSince(start);
     }
 
-    // Also what the GPU is to mesh.
+    // Whether all chunks in view and all tiles are on screen, and none waits for the GPU to mesh it.
     bool isAllThere() const {
         const stream::ChunkPipeline& pipeline = session_.pipeline();
         return pipeline.progress().complete() && pipeline.waitingChanges() == 0 && view_.waiting() == 0 &&

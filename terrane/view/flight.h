@@ -1,5 +1,5 @@
-// A flight straight ahead at full speed, as the window would show it: in real time, with frames drawn while
-// chunks load. What each frame took is kept.
+// A flight straight ahead at full speed, as in the window: in real time, with frames drawn while chunks load.
+// Records the time of each frame.
 #pragma once
 
 #include <span>
@@ -18,18 +18,18 @@ struct Flight {
 };
 
 struct FlightFrame {
-    double seconds = 0;  // of its beginning, since take-off
-    // Milliseconds, and what they were spent on; each with what the GPU does for it.
+    double seconds = 0;  // start of the frame, since take-off
+    // Milliseconds of the frame and of its parts; each includes the work of the GPU for it.
     double all = 0, follow = 0, upload = 0, draw = 0;
-    // Of these the CPU time of this thread: where other programs use the machine as well, any part of a
-    // frame may have to wait for them.
+    // CPU time of this thread in these parts: if other programs use the machine too, any part of a frame may
+    // have to wait for them.
     double followCpu = 0, uploadCpu = 0;
     std::size_t uploads = 0, visible = 0, inView = 0, active = 0, queued = 0;  // chunks
 
     double loadingCpu() const { return followCpu + uploadCpu; }
 };
 
-// The camera stands until all in view is there, flies, and stands again until all is there.
+// The camera stands until all in view is loaded, flies, and stands again until all is loaded.
 struct FlightLog {
     std::vector<FlightFrame> frames;
     std::size_t takeOff = 0, landing = 0;  // frames: the flight's first, the first after it
@@ -39,20 +39,20 @@ struct FlightLog {
     int viewDistance = 0;     // at the end: less than asked for where GPU memory allows no more
 };
 
-// Draws into the renderer's own image. On the thread of the session and of the OpenGL context.
+// Flies and draws into the renderer's own image. On the thread of the session and of the OpenGL context.
 FlightLog fly(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight);
 
-// There is at least one.
+// Frames between take-off and landing; at least one.
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);
 
-// As CSV, a line a frame.
+// Writes frames as CSV, a line a frame.
 [[nodiscard]] base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames);
 
-// Of the frames in flight; milliseconds.
+// Statistics of the frames in flight, in milliseconds.
 struct FlightStatistics {
-    double median = 0, longest = 0, maxLoading = 0;  // the last of CPU time
-    // Frames over twice the median, and those of them that would not be without the time that loading took by
-    // the clock, or without its CPU time.
+    double median = 0, longest = 0, maxLoading = 0;  // maxLoading: CPU time
+    // Frames over twice the median, and those of them that would not be without loading, measured by the
+    // clock or by CPU time.
     std::size_t slow = 0, slowByLoadingTime = 0, slowByLoadingCpu = 0;
 };
 FlightStatistics statisticsOf(const FlightLog& log);

@@ -1,4 +1,4 @@
-// How long frames take: the range over the last second, and how many there are in each second.
+// Measures frame rates: the range over the last second, and the frames in each second.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,8 @@ class FrameMeter {
     }
     // Frames that began in the last whole second; 0 in the first.
     int lastSecond() const { return lastSecond_; }
-    // The count that most seconds had, the higher of equals, as the thesis measures; 0 in the first second.
+    // The most frequent count of frames in a second, the higher if equal, as the thesis measures; 0 in the
+    // first second.
     int mode() const {
         const auto most = std::ranges::max_element(
             seconds_, [](const auto& a, const auto& b) { return a.second <= b.second; });

@@ -1,4 +1,4 @@
-// How long frames take that show the same image again and again.
+// Measures frames that show the same image again and again.
 #pragma once
 
 #include <map>

@@ -9,7 +9,7 @@
 namespace terrane::view {
 namespace {
 
-// Beyond the world's edge there is none.
+// Empty beyond the world's edge.
 world::LandTile tileOf(const gen::LevelGenerators& generators, const world::BlockRegistry& blocks,
                        world::ChunkPos pos) {
     if (!world::isInWorld(pos)) return {};

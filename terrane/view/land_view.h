@@ -1,6 +1,6 @@
-// Brings the land around the camera to the renderer for its light: a thread asks the generator for tiles
-// (render/land_map.h), coarse ones first, and each frame hands on what is finished. Land is as it was
-// generated: edits change no light in the distance. Used by WorldView on the thread of the OpenGL context.
+// Supplies the renderer with the land around the camera for its light: a thread generates tiles
+// (render/land_map.h), coarse ones first, and each frame passes on finished ones. Land is as generated: edits
+// do not change light in the distance. Used by WorldView on the thread of the OpenGL context.
 #pragma once
 
 #include <chrono>
@@ -17,16 +17,16 @@ namespace terrane::view {
 
 class LandView {
   public:
-    // Tiles that a frame hands on, together some 3 ms: the thread makes as many in 60 ms.
+    // Most tiles that a frame passes on, some 3 ms in all: the thread makes as many in 60 ms.
     static constexpr std::size_t kTilesAFrame = 128, kAllTiles = SIZE_MAX;
 
     // Both outlive this.
     LandView(const game::Session& session, render::Renderer& renderer);
 
-    // Hands on up to `limit` tiles, and asks for those that are missing for a view of `reach` blocks. With
-    // kAllTiles the next frame has the light of all of them.
+    // Passes up to `limit` tiles to the renderer, and requests those that are missing for a view of `reach`
+    // blocks. With kAllTiles the next frame has the light of all of them.
     void update(world::ChunkPos camera, double reach, std::size_t limit);
-    // As of the last update().
+    // Requested tiles not passed on yet, as of the last update().
     std::size_t missing() const { return maker_ ? maker_->pending() : 0; }
     // Blocks until a tile is finished, or the time is over.
     void wait(std::chrono::milliseconds atMost) {

@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::size_t kMebibyte = std::size_t{1} << 20;
 
-// Within the distance and one ring around it.
+// Chunks within the distance and one ring around it.
 double chunksAround(int distance) {
     const double side = 2 * distance + 3;
     return side * side;

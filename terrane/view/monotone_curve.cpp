@@ -16,7 +16,7 @@ double slopeBetween(double widthBefore, double before, double widthAfter, double
     return (weightBefore + weightAfter) / (weightBefore / before + weightAfter / after);
 }
 
-// The slope at an end, from the parabola through three values, held back where it would swing over.
+// Slope at an end, from the parabola through three values, limited so that the curve does not overshoot.
 double slopeAtEnd(double width, double near, double widthNext, double next) {
     const double slope = ((2 * width + widthNext) * near - width * next) / (width + widthNext);
     if (slope * near <= 0) return 0;

@@ -1,5 +1,5 @@
-// A smooth curve through values at given times. Between two of them it stays between these two: it never
-// swings beyond what was asked for. Any thread.
+// A smooth curve through values at given times. Between two values it stays between them, without overshoot.
+// Any thread.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// A thread that makes tiles of a clipmap (render/clipmap.h) one after the other, and hands them over. Used by
-// views of the tint and of the land on the thread of the OpenGL context.
+// A thread that makes tiles of a clipmap (render/clipmap.h) one after the other. Used by views of the tint
+// and of the land on the thread of the OpenGL context.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ class TileMaker {
   public:
     using Tile = std::pair<world::ChunkPos, T>;
 
-    // `maxRequested`: tiles asked for at once; the fewer, the sooner the thread follows a camera that moves
-    // on. Throws std::system_error where no thread can be started. `make` is called by the thread and throws
+    // `maxRequested`: tiles requested at once; the fewer, the sooner the thread follows a moving camera.
+    // Throws std::system_error if no thread can be started. `make` is called by the thread and throws
     // nothing.
     TileMaker(std::size_t maxRequested, std::function<T(world::ChunkPos)> make)
         : maxRequested_(maxRequested), make_(std::move(make)), thread_([this] { run(); }) {}
@@ -35,7 +35,7 @@ class TileMaker {
     TileMaker(const TileMaker&) = delete;
     TileMaker& operator=(const TileMaker&) = delete;
 
-    // Of these those that were not asked for yet, up to the limit.
+    // Requests the tiles that are not requested yet, up to the limit.
     void request(const std::vector<world::ChunkPos>& tiles) {
         std::vector<world::ChunkPos> more;
         for (const world::ChunkPos tile : tiles) {
@@ -84,7 +84,7 @@ class TileMaker {
     std::function<T(world::ChunkPos)> make_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> requested_;
 
-    std::mutex mutex_;  // of all below
+    std::mutex mutex_;  // guards the members below
     std::condition_variable hasWork_, hasFinished_;
     std::deque<world::ChunkPos> waiting_;
     std::deque<Tile> finished_;

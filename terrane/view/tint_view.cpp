@@ -22,7 +22,7 @@ world::TintTile neutralTile() {
     return tile;
 }
 
-// Beyond the world's edge there is none.
+// Neutral beyond the world's edge.
 world::TintTile tileOf(const gen::LevelGenerators& generators, world::ChunkPos pos) {
     if (!world::isInWorld(pos)) return neutralTile();
     try {

@@ -1,6 +1,6 @@
-// Brings the tint around the camera to the renderer: a thread asks the generator for tiles (render/
-// clipmap.h), near ones first, and each frame hands on what is finished. Does nothing where the
-// generator has no tint. Used by WorldView on the thread of the OpenGL context.
+// Supplies the renderer with the tint around the camera: a thread generates tiles (render/clipmap.h), near
+// ones first, and each frame passes on finished ones. Does nothing if the generator has no tint. Used by
+// WorldView on the thread of the OpenGL context.
 #pragma once
 
 #include <chrono>
@@ -16,15 +16,16 @@ namespace terrane::view {
 
 class TintView {
   public:
-    // Tiles that a frame hands on: 1 KiB each, together some 0.1 ms.
+    // Most tiles that a frame passes on: 1 KiB each, some 0.1 ms in all.
     static constexpr std::size_t kTilesAFrame = 32, kAllTiles = SIZE_MAX;
 
     // Both outlive this. Tells the renderer whether there is a tint.
     TintView(const game::Session& session, render::Renderer& renderer);
 
-    // Hands on up to `limit` tiles, and asks for those that are missing within `reach` blocks of the camera.
+    // Passes up to `limit` tiles to the renderer, and requests those that are missing within `reach` blocks
+    // of the camera.
     void update(world::ChunkPos camera, double reach, std::size_t limit);
-    // As of the last update().
+    // Requested tiles not passed on yet, as of the last update().
     std::size_t missing() const { return maker_ ? maker_->pending() : 0; }
     // Blocks until a tile is finished, or the time is over.
     void wait(std::chrono::milliseconds atMost) {

@@ -19,8 +19,7 @@ using Clock = std::chrono::steady_clock;
 // Most batches of the mesher on the GPU take less.
 constexpr std::size_t kStagingBytes = std::size_t{8} << 20;
 
-// Where the camera looks over the ground, in sixteenths of a circle: chunks are put in order again only when
-// it turns.
+// Horizontal view direction in sixteenths of a circle: chunks are sorted again only when it changes.
 glm::vec2 lookSector(const render::Camera& camera) {
     const glm::vec3 look = render::lookDirection(camera);
     const double sector = std::numbers::pi / 8;
@@ -90,8 +89,8 @@ std::size_t WorldView::upload(double budgetSeconds) {
     return count;
 }
 
-// Calls set() until it finds room, and makes the view shorter in between. False where the chunk is no longer
-// in the view.
+// Calls set() until it succeeds, and shortens the view in between. False if the chunk is no longer in the
+// view.
 template <class Set>
 bool WorldView::makeRoomFor(world::ChunkPos pos, const Set& set) {
     while (!set()) {
@@ -104,7 +103,7 @@ bool WorldView::makeRoomFor(world::ChunkPos pos, const Set& set) {
     return true;
 }
 
-// Far land goes first.
+// Halves the horizon; false if there is no far land. The horizon is shortened before the view.
 bool WorldView::shortenHorizon() {
     if (horizon_.distance <= viewDistance_) return false;
     horizon_.distance /= 2;
@@ -113,7 +112,7 @@ bool WorldView::shortenHorizon() {
     return true;
 }
 
-// False where the view is as short as can be.
+// Shortens the horizon or the view; false if both are as short as possible.
 bool WorldView::shortenView() {
     if (shortenHorizon()) return true;
     const render::GpuMemory used = renderer_.memory();
@@ -128,9 +127,9 @@ bool WorldView::shortenView() {
     return true;
 }
 
-// The image may get larger, or the mesher take more, when the world already takes all that is left. Buffers
-// do not shrink: all chunks are taken back, and those that fit come again. Once for each size of what is
-// fixed.
+// The image may get larger, or the mesher take more, when the world already uses the whole budget. Buffers do
+// not shrink, so all chunks are removed, and those that fit are added again. Once for each size of the fixed
+// memory.
 void WorldView::keepWithinBudget() {
     if (queue_) renderer_.setStagingBytes(std::max(queue_->gpuBytes(), kStagingBytes));
     const render::GpuMemory used = renderer_.memory();
@@ -157,7 +156,7 @@ void WorldView::show(const stream::ChunkChange& change) {
     far_.beforeChunk(change.pos);
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
-    // An edit of a chunk that is on the way is meshed with the rest of it.
+    // An edited chunk that is queued or in flight is meshed again as a whole.
     if (change.needsMesh || (change.mesh && queue_ && queue_->contains(change.pos))) {
         queue_->add(change.pos);
     } else if (change.mesh) {
@@ -196,7 +195,7 @@ void WorldView::writeMeshes() {
     queue_->write(places, renderer_.quadBuffers());
     if (refused.empty()) return;
     if (!shortenView()) return warnOfNoRoom(refused.front());
-    // Those that are still in view come with the next batch.
+    // Refused chunks that are still in view come with the next batch.
     for (const world::ChunkPos pos : refused) {
         if (session_.pipeline().stageAt(pos) == stream::ChunkStage::Visible) queue_->add(pos);
     }
@@ -214,7 +213,7 @@ void WorldView::countMeshes() {
     queue_->count(inputs);
 }
 
-// Once: there may be thousands.
+// Warns once: there may be thousands of chunks.
 void WorldView::warnOfNoRoom(world::ChunkPos pos) {
     if (hasWarned_) return;
     hasWarned_ = true;

@@ -1,10 +1,10 @@
-// What a frame does so that the world around its camera is on screen: asks for chunks, takes in what workers
-// did, hands it to the renderer within a budget of time and within the renderer's memory budget. Used on the
-// thread of the OpenGL context.
+// Keeps the world around the camera on screen: each frame requests chunks, receives finished ones and passes
+// them to the renderer within a time budget and within the renderer's memory budget. Used on the thread of
+// the OpenGL context.
 //
-// Where a chunk finds no room within the memory budget the view gets shorter (memory_budget.h) until it fits,
-// and the farthest chunks go. The view stays as short until another view distance is asked for: it cannot
-// flap.
+// If a chunk does not fit the memory budget, the view gets shorter (memory_budget.h) until it does, and the
+// farthest chunks are removed. The view stays short until another view distance is set, so that it does not
+// oscillate.
 #pragma once
 
 #include <algorithm>
@@ -21,16 +21,16 @@
 
 namespace terrane::view {
 
-// A frame's time for what workers finished, as a share of what the last one took, so that loading makes no
-// frame much longer however fast the machine draws: a sixteenth, and up to a quarter where all of the view is
-// `missing`. A chunk takes about 0.1 ms: at 60 frames a second 600 chunks a second come on screen, and a
-// flight at full speed with view distance 32 needs 350.
+// Time for uploads in a frame, as a share of the last frame's time, so that loading makes no frame much
+// longer on any machine: a sixteenth, and up to a quarter if all of the view is `missing`. A chunk takes
+// about 0.1 ms: at 60 frames a second 600 chunks a second appear on screen, and a flight at full speed with
+// view distance 32 needs 350.
 inline double uploadBudget(double frameSeconds, double missing) {
     return std::clamp(frameSeconds * std::clamp(missing / 4, 1.0 / 16, 1.0 / 4), 0.001, 0.025);
 }
 
-// The share of a view that is not on screen as it is, 0 to 1: chunks that are not visible yet, and changes
-// that wait for the renderer.
+// Share of a view that is not up to date on screen, 0 to 1: chunks that are not visible yet, and changes that
+// wait for the renderer.
 inline double missingShare(const stream::Progress& progress, std::size_t waitingChanges) {
     const auto wanted = static_cast<double>(std::max<std::size_t>(progress.inView, 1));
     const auto missing = static_cast<double>(progress.inView - progress.visible + waitingChanges);
@@ -39,7 +39,7 @@ inline double missingShare(const stream::Progress& progress, std::size_t waiting
 
 class WorldView {
   public:
-    // Time of a frame for meshing on the GPU.
+    // Time for meshing on the GPU in a frame; kNoHurry: no limit.
     static constexpr double kFrameMilliseconds = 3, kNoHurry = 0;
 
     // Both outlive this.
@@ -51,36 +51,36 @@ class WorldView {
           land_(session, renderer) {}
 
     // For a session whose pipeline leaves whole chunks to its caller (stream::MeshPolicy): meshes them on the
-    // GPU, where they are drawn from, for so long a frame. Comes before the first upload.
+    // GPU, within this time a frame. Comes before the first upload.
     base::Result<void> meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds);
 
-    // Chunks up to `viewDistance` around the camera come, or as far as memory allows, those in front of it
-    // first. Takes in what is there.
+    // Requests chunks up to `viewDistance` around the camera, or as far as memory allows, those in view
+    // direction first. Receives finished chunks.
     void follow(const render::Camera& camera, int viewDistance);
-    // The same without taking in. `direction`: see stream::ViewOrder.
+    // The same without receiving chunks. `direction`: see stream::ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {});
-    // How far land goes on beyond the chunks, from the next setView() or follow() on.
+    // Sets the distance of land beyond the chunks, from the next setView() or follow() on.
     void setHorizon(const Horizon& horizon);
-    // What was asked for last, or what memory allows of it.
+    // The requested view distance, or what memory allows of it.
     int viewDistance() const { return viewDistance_; }
-    // How far one sees, chunks: to the horizon, or the view distance.
+    // Farthest visible distance in chunks: the horizon, or the view distance.
     int sightDistance() const { return std::max(viewDistance_, horizon_.distance); }
-    // Hands changed chunks to the renderer, at least one, until so much time is over; the rest waits for the
-    // next frames. How many it handed on.
+    // Passes changed chunks to the renderer, at least one, until the time is over; the rest waits for the
+    // next frames. Returns their number.
     std::size_t upload(double budgetSeconds);
-    // Tells that the view is shorter than asked for, once, when the shorter view is on screen; it is logged
-    // too.
+    // A message that the view is shorter than requested, once, when the shorter view is on screen; it is
+    // logged too.
     std::optional<std::string> takeNotice() { return std::exchange(notice_, std::nullopt); }
     double missing() const {
         return missingShare(session_.pipeline().progress(), session_.pipeline().waitingChanges());
     }
-    // Chunks that were handed on and wait for the GPU to mesh them.
+    // Chunks that wait for the GPU to mesh them.
     std::size_t waiting() const { return queue_ ? queue_->size() : 0; }
-    // Takes in the tiles that workers finished; part of follow().
+    // Receives the tiles that workers finished; part of follow().
     void updateTiles() { far_.update(); }
     // Tiles that are not on screen yet.
     std::size_t missingTiles() const { return far_.missing(); }
-    // Tiles of the tint and of the land that are asked for.
+    // Requested tiles of the tint and of the land.
     std::size_t missingClipmapTiles() const { return tints_.missing() + land_.missing(); }
     // Blocks until workers may have finished something, or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
@@ -116,8 +116,7 @@ class WorldView {
 };
 
 // Waits until the renderer has everything that the camera may see, as it is now, as far as memory allows: see
-// WorldView::viewDistance(). `now`: the pipeline's time.
-// Returns the milliseconds that uploading took.
+// WorldView::viewDistance(). `now`: the pipeline's time. Returns the milliseconds that uploading took.
 double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint64_t kNoLimit = UINT64_MAX;
 
-// Grows as long as it may.
+// Allocates, and grows the arenas if needed and allowed.
 std::optional<std::uint32_t> allocateGrowing(ArenaAllocator& arenas, std::uint32_t size, std::uint64_t most) {
     if (const auto found = arenas.allocate(size)) return found;
     const auto growth = arenas.planGrowth(size, most - arenas.capacity());
@@ -46,7 +46,7 @@ TEST(ArenaAllocator, ACopyCountsBesideWhatItReplaces) {
     EXPECT_EQ(arenas.planGrowth(60, kNoLimit)->arena, 1u) << "longer than what the first can get";
 }
 
-// Ranges of random sizes come and go: none overlaps another or the end of an arena, none is lost.
+// Ranges of random sizes are allocated and freed: none overlaps another or the end of an arena, none is lost.
 TEST(ArenaAllocator, RangesNeverOverlap) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
         const ArenaSizes sizes{.arena = 100 + seed, .first = 10 + seed, .count = 1 + seed % 7};

@@ -25,15 +25,12 @@ TEST_F(ContextTest, offersWhatIsNeeded) {
     EXPECT_GE(info.maxTextureSize, 16384);  // the least that OpenGL 4.5 allows, and so on
     EXPECT_GE(info.maxTexture3dSize, 2048);
     EXPECT_GE(info.maxArrayLayers, 2048);
-    EXPECT_GE(info.maxComputeInvocations, 1024);
     EXPECT_GE(info.maxStorageBlockBytes, 1 << 24);
-    EXPECT_GE(info.uniformAlignmentBytes, 1);
-    EXPECT_GE(info.storageAlignmentBytes, 1);
     EXPECT_GE(info.maxAnisotropy, 1.0F);
     EXPECT_EQ(info.software, info.renderer.find("llvmpipe") != std::string::npos) << info.renderer;
 }
 
-// OpenGL has a limit for each use: textures of that many samples can be made for both.
+// OpenGL has a limit for each use: textures of maxSamples samples can be made for both.
 TEST_F(ContextTest, SamplesAreThoseOfColorsAndDepth) {
     const int samples = queryDevice().maxSamples;
     EXPECT_GE(samples, 1);

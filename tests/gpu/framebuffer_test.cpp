@@ -52,7 +52,7 @@ TEST_F(FramebufferTest, readsTheTopRowFirst) {
 TEST_F(FramebufferTest, everyColorIsCleared) {
     const Texture2D first({4, 4}, GL_RGBA8, 1, "first");
     const Texture2D second({4, 4}, GL_RGBA8, 1, "second");
-    const Texture2D depth({4, 4}, GL_DEPTH32F_STENCIL8, 1, "depth");
+    const Texture2D depth({4, 4}, GL_DEPTH_COMPONENT32F, 1, "depth");
     const Framebuffer target = make({.colors = {first, second}, .depth = depth});
     EXPECT_EQ(target.colorCount(), 2);
     target.bind();

@@ -15,9 +15,9 @@
 
 namespace terrane::gpu {
 
-// Ends a program of tests where TERRANE_EXPECT_RENDERER is set and the driver's name does not contain it, or
-// there is none. A failure would not do: CTest takes a program that skips a test for skipped, whatever it
-// returns.
+// Ends the test program if TERRANE_EXPECT_RENDERER is set and the driver's name does not contain it, or there
+// is no driver. A failure would not be enough: CTest reports a program that skips a test as skipped, whatever
+// it returns.
 inline void checkExpectedRenderer(const base::Result<HeadlessContext>& made) {
     const char* expected = std::getenv("TERRANE_EXPECT_RENDERER");
     if (expected == nullptr) return;

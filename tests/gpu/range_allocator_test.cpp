@@ -56,7 +56,7 @@ TEST(RangeAllocatorTest, reachesTheLastUnitOf32Bits) {
     EXPECT_EQ(ranges.largestFree(), 0xFFFFFFFFU);
 }
 
-// One flag per unit: what the allocator must agree with.
+// Reference: one flag per unit.
 class UnitMap {
   public:
     explicit UnitMap(std::size_t capacity) : used_(capacity, false) {}
@@ -155,8 +155,8 @@ TEST(RangeAllocatorTest, agreesWithAMapOfUnitsUnderRandomUse) {
     }
 }
 
-// Meshes of 200 to 3,200 quads come and go, as when a camera flies through a landscape, in a pool that stays
-// 90 % full.
+// Meshes of 200 to 3,200 quads are added and removed, as on a flight through a landscape, in a pool that
+// stays 90 % full.
 TEST(RangeAllocatorTest, fragmentsLittleUnderMeshesThatComeAndGo) {
     constexpr std::uint32_t kCapacity = 4'000'000, kFull = kCapacity / 10 * 9;
     RangeAllocator ranges(kCapacity);

@@ -56,7 +56,6 @@ std::vector<StructLayout> frameLayouts() {
               {"lightDirection", offsetof(Frame, lightDirection)},
               {"lightColor", offsetof(Frame, lightColor)},
               {"ambientColor", offsetof(Frame, ambientColor)},
-              {"zenithColor", offsetof(Frame, zenithColor)},
               {"horizonColor", offsetof(Frame, horizonColor)},
               {"glowColor", offsetof(Frame, glowColor)},
               {"discColor", offsetof(Frame, discColor)},
@@ -285,7 +284,7 @@ std::vector<StructLayout> allLayouts() {
     return all;
 }
 
-// Has two of the struct in a block, and a word behind them whose offset tells how long they are.
+// Shader with two of the struct in a block, and a word after them whose offset gives their size.
 std::string shaderWith(const StructLayout& layout) {
     const std::string block = layout.isUniform ? "layout(binding = 0, std140) uniform"
                                                : "layout(binding = 0, std430) readonly buffer";
@@ -336,7 +335,7 @@ TEST_F(SharedLayoutTest, structsLieInBuffersAsInMemory) {
     }
 }
 
-// A struct that is new in terrane/shared is to stand in the lists above.
+// Every struct in terrane/shared must be in the lists above.
 TEST(SharedStructs, everyOneIsChecked) {
     std::set<std::string> known, found;
     for (const StructLayout& layout : allLayouts()) known.insert(layout.name);

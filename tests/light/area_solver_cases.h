@@ -1,4 +1,4 @@
-// What every back end of AreaSolver must solve, against the equation itself.
+// Requirements on every back end of AreaSolver, tested against the equation itself.
 #pragma once
 
 #include <string>
@@ -39,7 +39,7 @@ inline void expectPlainWorlds(AreaSolver& solver) {
     expectSolves(solver, ends, world::kChunkHeight);
 }
 
-// Opaque blocks that shine into what else is even and dark.
+// Opaque blocks that emit light into otherwise uniform dark sections.
 inline void expectLampsInWalls(AreaSolver& solver) {
     const world::BlockId stone = contentBlock("stone"), ore = contentBlock("glowing_ore"),
                          lamp = contentBlock("lamp_blue");

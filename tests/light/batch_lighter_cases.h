@@ -1,4 +1,4 @@
-// What every back end of BatchLighter must do, against lightChunk.
+// Requirements on every back end of BatchLighter, tested against lightChunk.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace terrane::light {
 
-// The chunk's light by the definition.
+// Reference: light of the chunk by definition.
 inline ChunkLight directLight(const LightRequest& request) {
     LightScratch scratch;
     std::array<LocalLight, kFieldChunks> locals;
@@ -76,7 +76,7 @@ inline void expectRandomChunksLit(BatchLighter& lighter) {
     expectLit(lighter, {});
 }
 
-// Not every chunk that is known is asked for, and those that are lie apart.
+// Requests only some of the known chunks, apart from each other.
 inline void expectScatteredRequestsLit(BatchLighter& lighter) {
     RequestArea area(7, 6, caves(30));
     std::vector<LightRequest> requests;
@@ -105,7 +105,7 @@ inline void expectMissingNeighborsLit(BatchLighter& lighter) {
     expectLit(lighter, requests);
 }
 
-// Each request counts what it has around it, whatever others of the batch have at the same place.
+// Each request uses its own neighbors, whatever others of the batch have at the same place.
 inline void expectSnapshotsKeptApart(BatchLighter& lighter) {
     const world::BlockId lamp = contentBlock("lamp_white");
     RequestArea before(3, 1, layers(50)), after(3, 1, layers(50));
@@ -123,7 +123,7 @@ inline void expectSnapshotsKeptApart(BatchLighter& lighter) {
     EXPECT_FALSE(directLight(fresh) == directLight(without)) << "the neighbor's light matters here";
 }
 
-// As a frame does that never waits.
+// As in a frame that never waits.
 inline void expectLightInOrder(BatchLighter& lighter) {
     const std::vector<LightRequest> requests = RequestArea(5, 4, caves(60)).all();
     EXPECT_TRUE(lighter.take(false).empty());
@@ -147,7 +147,7 @@ inline void expectLightInOrder(BatchLighter& lighter) {
     }
 }
 
-// More than all batches in flight hold; and the lighter needs nothing of a chunk once it has taken it.
+// More requests than all batches in flight take; the lighter needs nothing of a chunk once it has taken it.
 inline void expectManyRequestsLit(BatchLighter& lighter) {
     std::vector<LightRequest> requests = RequestArea(20, 10, layers(70)).all();
     const std::vector<ChunkLight> lights = lightAll(lighter, requests);

@@ -32,7 +32,7 @@ TEST(LightArea, EqualsTheFormulaIteratedUntilStable) {
     expectReference(TestArea(2, 2, caves(9)));
 }
 
-// Light reaches 15 blocks: what lies beyond the next chunk cannot matter.
+// Light reaches 15 blocks: blocks beyond the next chunk do not matter.
 TEST(LightArea, IsExactOneChunkInside) {
     const TestArea::Source world = caves(4);
     const TestArea small(3, 3, [&](int x, int y, int z) { return world(x + 16, y + 16, z); });

@@ -8,7 +8,7 @@
 namespace terrane::light {
 namespace {
 
-// Both stages by hand for the chunk in the middle of 3×3.
+// Runs both stages for the chunk in the middle of 3×3.
 ChunkLight lightMiddle(const TestArea& area, LightScratch& scratch) {
     std::vector<LocalLight> locals;
     for (const world::Chunk& chunk : area.chunks)
@@ -18,7 +18,7 @@ ChunkLight lightMiddle(const TestArea& area, LightScratch& scratch) {
     return lightChunk(around, scratch);
 }
 
-// What lies beyond the 3×3 chunks cannot matter: the reference sees 5×5.
+// Chunks beyond the 3×3 do not matter: the reference has 5×5.
 void expectExact(const TestArea::Source& source, LightScratch& scratch) {
     const TestArea small(3, 3, [&](int x, int y, int z) { return source(x + 16, y + 16, z); });
     const TestArea large(5, 5, source);

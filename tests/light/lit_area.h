@@ -41,7 +41,7 @@ class LitArea {
         edits_.clear();
         return changes;
     }
-    // The same, and checks that what is reported is what changed.
+    // The same, and checks that the reported changes are the real ones.
     std::vector<LightChange> relightEdits() {
         const LitChunks before = chunks_;
         std::vector<LightChange> changes = relightQuietly();
@@ -95,7 +95,7 @@ class Random {
     std::uint32_t seed_, count_ = 0;
 };
 
-// Mostly what matters for light; all kinds of blocks now and then.
+// Mostly blocks that matter for light; now and then any block.
 inline world::BlockId randomBlock(Random& random) {
     static const std::array kBlocks = {world::kAir,
                                        world::kAir,

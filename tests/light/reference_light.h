@@ -76,7 +76,7 @@ class Reference {
     std::vector<int> level_;
 };
 
-// Of a world whose blocks end at kFilledHeight; no color reaches the height that is compared block by block.
+// Compares the light of a world whose blocks end at kFilledHeight; no color reaches the compared height.
 inline void expectReference(const TestArea& area, const std::vector<LightValue>& light,
                             int height = kFilledHeight + 16) {
     ASSERT_EQ(light.size(), area.index(0, 0, world::kChunkHeight));

@@ -60,7 +60,7 @@ TEST(Relight, LampInAShaftReachesFourteenBlocksUpAndDown) {
     }
 }
 
-// Of two lamps the other's light fills what one leaves.
+// The light of the other lamp fills the place of a removed one.
 TEST(Relight, OtherLampsShineOn) {
     LitArea lit(TestArea(3, 3, darkHall()), {5, 5});
     lit.set(20, 24, 50, contentBlock("lamp_red"));
@@ -143,7 +143,7 @@ TEST(Relight, LeavesChunksWithoutLightAlone) {
     EXPECT_EQ((chunks[{0, 0}].light), nullptr);
 }
 
-// What others hold of the old light stays as it was; unchanged chunks keep their snapshot.
+// Snapshots of the old light stay unchanged; unchanged chunks keep their snapshot.
 TEST(Relight, MakesNewSnapshots) {
     LightScratch scratch;
     world::Chunk chunk = TestArea::makeChunk(0, 0, darkHall());
@@ -180,7 +180,8 @@ constexpr int kEditsAWorld = 1500;
 constexpr int kEditsAWorld = 60;
 #endif
 
-// Edits one at a time and in batches of up to twelve; compared after ten edits at least.
+// Edits single blocks and batches of 2 to 12, and compares after the first and then after every 10 edits or
+// more.
 void editRandomly(const TestArea::Source& source, std::uint32_t seed, ChunkPos corner) {
     LitArea lit(TestArea(3, 3, source), corner);
     Random random(seed);

@@ -36,7 +36,7 @@ TEST_F(GpuBatchLighterTest, DoesWhatEveryBackEndDoes) {
     light::expectLighterCases(*lighter_);
 }
 
-// Squares as streaming asks for them, with all that is around them; and parts of them.
+// Squares as streaming requests them, with all neighbors; and parts of them.
 TEST_F(GpuBatchLighterTest, OverworldEqualsCpu) {
     const auto graph = gen::makeGenerator("overworld", contentBlocks());
     ASSERT_TRUE(graph);
@@ -56,7 +56,7 @@ TEST_F(GpuBatchLighterTest, OverworldEqualsCpu) {
     }
 }
 
-// More rounds than are given at once, so that the first look does not find the light; a batch behind it
+// More rounds than one submission, so that the light is not found at the first check; a batch behind it
 // waits. The tunnel crosses a border between light tiles at every third step.
 TEST_F(GpuBatchLighterTest, TunnelsTakeSeveralLooks) {
     const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");

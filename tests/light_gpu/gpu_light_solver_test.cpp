@@ -68,7 +68,7 @@ TEST_F(GpuLightSolverTest, PartsFitTogether) {
     EXPECT_EQ(difference(solver_->solve(area.view()), area.lights()), "");
 }
 
-// More rounds than one go has: the tunnel crosses a border between light tiles at every third step.
+// More rounds than one submission: the tunnel crosses a border between light tiles at every third step.
 TEST_F(GpuLightSolverTest, TunnelsAlongBordersOfTiles) {
     const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
     const TestArea area(2, 2, [&](int x, int y, int z) {

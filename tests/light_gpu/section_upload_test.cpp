@@ -10,7 +10,7 @@
 namespace terrane::light_gpu {
 namespace {
 
-// What the shaders read, as they read it (packed_section.glsl).
+// Reads a property as the shaders do (packed_section.glsl).
 shared::uint propertyAt(const world::PackedSections& packed, std::size_t chunk, int index) {
     const auto at = static_cast<shared::uint>(index), block = at % shared::kBlocksPerSection;
     const shared::PackedSection section =

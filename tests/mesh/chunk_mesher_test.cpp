@@ -40,7 +40,7 @@ bool mayMerge(const shared::Quad q, const world::Material& material) {
            (shape >= shared::kShapeFaceLiquidTop && shape < shared::kShapeFaceCount);
 }
 
-// The parts of a chunk that no quad reaches out of: cells of the method, sections, mesh sections.
+// Quads stay inside cells of the method, sections and mesh sections.
 void expectInside(const shared::Quad q, const MeshOptions& options) {
     const auto cell = options.method == MergeMethod::Greedy ? 16u : 8u;
     const auto cellZ = std::min(cell, static_cast<unsigned>(options.meshSectionHeight));
@@ -156,7 +156,7 @@ INSTANTIATE_TEST_SUITE_P(All, MixAndMethod,
                          testing::Combine(testing::Range(0, static_cast<int>(Mix::Count)),
                                           testing::Range(0, static_cast<int>(MergeMethod::Count))));
 
-// Of the methods without runs of any length the later merges more.
+// Among the methods without unlimited runs the later ones merge more.
 TEST(ChunkMesher, MethodsMergeMoreAndMore) {
     for (unsigned seed = 0; seed < 5; ++seed) {
         const Area area(randomBlocks(Mix::Terrain, seed));

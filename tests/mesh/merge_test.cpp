@@ -166,7 +166,7 @@ TEST(Merge, NoneHasARectangleForEachBit) {
 
 using Rectangles = std::vector<Rectangle>;
 
-// What tells lines and greedy apart: a shorter run over a longer one.
+// The difference between lines and greedy: a shorter run over a longer one.
 TEST(Merge, LinesJoinsEqualLengthsOnlyGreedyWhatFits) {
     const BitSlice rows = sliceOf({0b0111, 0b0111, 0b1111});
     EXPECT_EQ(merged(MergeMethod::Lines, rows), (Rectangles{{0, 0, 3, 2}, {0, 2, 4, 1}}));

@@ -80,7 +80,7 @@ INSTANTIATE_TEST_SUITE_P(All, RemeshHeights, testing::Values(8, 16, 32, 64, 128)
 
 constexpr MeshOptions kFourMeshSections{.meshSectionHeight = 64};
 
-// The mesh sections left out are not looked at: they stay as they were even where that is wrong by now.
+// The mesh sections left out are not read: they stay as they were even if that is wrong by now.
 TEST(WithMeshSections, OthersAreCopied) {
     Edited edited(randomBlocks(Mix::Terrain, 12));
     MeshScratch scratch;

@@ -12,7 +12,7 @@ namespace {
 using testing::IsEmpty;
 using testing::UnorderedElementsAre;
 
-// A quad as the rules speak of it: lowest block, shape face, size.
+// A quad in the terms of the rules: lowest block, shape face, size.
 struct Seen {
     unsigned x, y, z, shapeFace, extentU = 1, extentV = 1;
     bool operator==(const Seen&) const = default;

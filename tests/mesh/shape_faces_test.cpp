@@ -74,7 +74,7 @@ TEST(ShapeFaces, UprightFacesStandOnTheirV) {
     }
 }
 
-// Where the planes of each kind lie in the cell: for the sides of x and y the coordinate across, in table
+// Places of the planes of each kind in the cell: for the sides of x and y the coordinate across, in table
 // order.
 TEST(ShapeFaces, PlanesLieWhereTheirShapeSays) {
     struct Row {

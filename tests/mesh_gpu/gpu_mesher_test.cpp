@@ -120,7 +120,7 @@ TEST_F(GpuMesherTest, EveryMethodOnTheOverworldEqualsCpu) {
     }
 }
 
-// What lies in the buffer around the mesh sections' places stays as it was.
+// Data in the buffer around the places of the mesh sections stays unchanged.
 TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
     ASSERT_TRUE(mesher) << mesher.error().message;
@@ -153,7 +153,7 @@ TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     EXPECT_EQ(written, meshChunk(inputs[0], scratch).quads.size());
 }
 
-// The way to the screen: room is made in the store that is drawn from, the shader fills it.
+// As on the way to the screen: room is made in the store that is drawn from, and the shader fills it.
 TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
     ASSERT_TRUE(mesher) << mesher.error().message;

@@ -23,7 +23,7 @@ inline mesh::ChunkMesh sorted(mesh::ChunkMesh mesh) {
     return mesh;
 }
 
-// Read back, its mesh sections one behind the other.
+// Mesh of a chunk read back from the store, its mesh sections in sequence.
 inline mesh::ChunkMesh meshIn(const render::QuadStore& store, world::ChunkPos pos) {
     mesh::ChunkMesh stored;
     for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos)) {

@@ -40,7 +40,7 @@ class MeshQueueTest : public gpu::GlTest {
         store_.emplace(render::QuadStoreSizes{maxQuads, maxArenas});
     }
 
-    // Other blocks than before.
+    // Changes the blocks of a chunk.
     void change(ChunkPos pos) {
         auto chunk = std::make_shared<world::Chunk>();
         const unsigned seed = ++changes_;
@@ -82,8 +82,8 @@ class MeshQueueTest : public gpu::GlTest {
         }
         queue_->write(places, store_->buffers());
     }
-    // Asks without waiting, as frames do, which now and then wait for a fence of their own. Without that a
-    // fence that is only asked may never pass: zink on lavapipe (Mesa 22.3.6), where glFinish changes nothing
+    // Polls without waiting, as frames do, which now and then wait for a fence of their own. Without that
+    // wait a polled fence may never pass: zink on lavapipe (Mesa 22.3.6), where glFinish changes nothing
     // either.
     void finish() {
         // A guard against a queue that never ends. Beside other tests the driver's threads may wait for long.
@@ -119,7 +119,7 @@ TEST_F(MeshQueueTest, WritesWhatTheCpuWouldUpload) {
     EXPECT_EQ(store_->uploadedBytes(), 0u);
 }
 
-// However small the budget, it goes on.
+// Batches progress with the smallest budget.
 TEST_F(MeshQueueTest, ABudgetMakesSmallBatches) {
     makeQueue(1e-9);
     for (const auto& [pos, chunk] : chunks_) queue_->add(pos);
@@ -144,7 +144,7 @@ TEST_F(MeshQueueTest, OldQuadsStayUntilTheNewOnesAreThere) {
     EXPECT_FALSE(meshIn(*store_, {1, 1}) == before);
 }
 
-// What changes while its old blocks are on the way is meshed again.
+// A chunk that changes while its old blocks are in flight is meshed again.
 TEST_F(MeshQueueTest, AddedAgainOnTheWayItIsMeshedAgain) {
     queue_->add({1, 1});
     advance();

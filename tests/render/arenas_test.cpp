@@ -88,7 +88,7 @@ TEST_F(ArenasTest, ManyArenasMakeTheSameImages) {
     compare(options, "several samples");
 }
 
-// What goes and comes while frames are drawn finds its way into other arenas.
+// Chunks that are removed and added while frames are drawn move to other arenas.
 TEST_F(ArenasTest, ChunksMoveBetweenArenas) {
     Renderer one = makeRenderer({}), many = makeRenderer(tinyArenas());
     RenderOptions options = plainOptions(1);

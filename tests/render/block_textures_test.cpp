@@ -90,7 +90,7 @@ base::Result<base::Image> textureNobodyReads(std::string_view name) {
     return base::fail("not to be read");
 }
 
-// Before an image is read, and in words that tell the number.
+// Fails before an image is read, with a message that has the number.
 TEST(BlockTextures, MoreThanCanBeDrawnAreAnError) {
     std::string toml;
     for (shared::uint k = 0; k < shared::kMaxBlockTextures; ++k) {

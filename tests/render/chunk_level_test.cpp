@@ -18,8 +18,8 @@ int heightOf(int x, int y) {
     return x > 6 && y > 8 ? 8 : 16 + (x + y) / 3;
 }
 
-// Part cx, cy of a landscape in which each column of heightOf is `width` blocks wide. Around it is air, but
-// where the landscape goes on.
+// Part cx, cy of a landscape in which each column of heightOf is `width` blocks wide, surrounded by air
+// except where the landscape continues.
 mesh::ChunkMesh expandedMesh(int cx, int cy, int width) {
     const auto chunkAt = [&](int chunkX, int chunkY) {
         auto chunk = std::make_shared<world::Chunk>();
@@ -40,7 +40,7 @@ mesh::ChunkMesh expandedMesh(int cx, int cy, int width) {
     return mesh::meshChunk(mesh::meshInput(blocks, contentBlocks(), {}), scratch);
 }
 
-// The share of pixels of which a component differs by more than that.
+// Share of pixels with a component that differs by more than `limit`.
 double shareThatDiffers(const base::Image& a, const base::Image& b, int limit) {
     int count = 0;
     for (int y = 0; y < a.height; ++y) {
@@ -54,7 +54,7 @@ double shareThatDiffers(const base::Image& a, const base::Image& b, int limit) {
     return static_cast<double>(count) / (a.width * a.height);
 }
 
-// One chunk of level 2 covers what 4 × 4 chunks of level 0 do that have each of its columns 4 × 4 times.
+// One chunk of level 2 equals 4 × 4 chunks of level 0 that repeat each of its columns 4 × 4 times.
 TEST_F(ChunkLevel, AChunkOfLevelTwoCoversFourTimesAsMuch) {
     constexpr int kWidth = 4;
     const glm::dvec3 corner(-64, 64, 0);  // of chunk -1, 1 of level 2

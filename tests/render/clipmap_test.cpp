@@ -86,8 +86,8 @@ TEST(Clipmap, LevelsBeyondTheViewAreNotAskedFor) {
     EXPECT_EQ(levels(65536), 5u);
 }
 
-// The texels of the clipmap as they would be in textures: each has the place of its column in the world, x
-// and y. The slow way: a table by level and texel.
+// Reference for the texels of the clipmap's textures: each has the place of its column in the world, x and y.
+// A table by level and texel.
 class SlowTextures {
   public:
     void set(world::ChunkPos tile) {
@@ -105,8 +105,8 @@ class SlowTextures {
     std::map<std::tuple<int, int, int>, std::pair<std::int64_t, std::int64_t>> texels_;
 };
 
-// Wherever the camera was before, and with some tiles still to come: every place that a level reaches shows
-// the column it lies in, found as the shader finds it.
+// For any earlier camera, and with some tiles still missing: every place within the reach of a level shows
+// its column, found as in the shader.
 TEST(Clipmap, RandomFlightsShowTheRightColumns) {
     std::mt19937 random(3);
     const auto between = [&](double low, double high) {

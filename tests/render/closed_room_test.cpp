@@ -1,5 +1,5 @@
-// No sun inside of closed rooms, whichever cascade tells so. Without light of chunks nothing but the shadow
-// map keeps it out.
+// No sun inside of closed rooms, in any cascade. Chunks have no light here, so only the shadow map keeps the
+// sun out.
 #include "tests/render/sunlit_fixture.h"
 
 namespace terrane::render {
@@ -54,8 +54,8 @@ TEST_F(ClosedRoomTest, RoomsAreDarkInEachCascade) {
     }
 }
 
-// One block wide: in the last cascade points are moved into the wall beside, so only what is near is
-// asked for.
+// One block wide: in the last cascade points are moved into the adjacent wall, so only near points are
+// tested.
 TEST_F(ClosedRoomTest, NarrowCorridorsAreDarkNearby) {
     showTunnel({1, 2});
     for (const bool isSoft : {false, true}) {

@@ -26,7 +26,7 @@ inline const gpu::ShaderLoader& contentShaders() {
     return loader;
 }
 
-// Nothing besides light, textures and what is blended, for images that show one thing.
+// Only light, textures and blended faces, for images that show one feature.
 inline RenderOptions plainOptions(int samples) {
     RenderOptions options;
     options.msaaSamples = samples;

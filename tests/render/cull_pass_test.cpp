@@ -17,7 +17,7 @@ constexpr int kTestedTwoSided = mesh::drawBucket(mesh::AlphaClass::Tested, true)
 constexpr int kBlended = mesh::drawBucket(mesh::AlphaClass::Blended, true);
 constexpr int kMeshSectionHeight = 64;
 
-// How many quads of each draw bucket, face direction and mesh section a mesh made here has.
+// Number of quads of a draw bucket, face direction and mesh section in a test mesh.
 struct Part {
     int meshSection, bucket, direction;
     std::uint32_t count;
@@ -47,7 +47,7 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
     return mesh;
 }
 
-// What the GPU chose, read back.
+// The selection of the GPU, read back.
 struct Drawn {
     std::array<std::vector<shared::DrawCommand>, mesh::kDrawBucketCount> commands;
     std::size_t quadCount = 0, meshSectionCount = 0;
@@ -228,7 +228,7 @@ TEST_F(CullPassTest, LongRangesAreSplit) {
     EXPECT_EQ(drawn(kOpaque), stored({1, 0}, 1, kOpaque, mesh::kAnyDirection));
 }
 
-// Over the ground, in chunks; squared. Of the commands of a list, in their order.
+// Squared horizontal distances in chunks of the commands of a list, in their order.
 std::vector<int> distances(const std::vector<shared::DrawCommand>& commands,
                            const std::map<std::uint32_t, world::ChunkPos>& chunkOfQuad,
                            world::ChunkPos from) {
@@ -260,7 +260,7 @@ TEST_F(CullPassTest, TheNearestAreDrawnFirst) {
     }
 }
 
-// The order must not depend on the hash table's, or on which chunk came first.
+// The order must not depend on that of the hash table, nor on the order in which chunks came.
 TEST_F(CullPassTest, OrderDependsOnPlacesOnly) {
     std::vector<std::uint32_t> first;
     for (int round = 0; round < 2; ++round) {

@@ -1,4 +1,4 @@
-// The image that is drawn at once is the one that goes through the image of light.
+// The image drawn directly equals the one drawn through the scene image.
 #include "terrane/render/direct_image.h"
 
 #include "tests/render/sunlit_fixture.h"

@@ -1,4 +1,4 @@
-// No view from inside closed terrain shows a pixel of what is behind it, though the merged quads' corners lie
+// No view from inside closed terrain shows a pixel of the background, though the corners of merged quads lie
 // on each other's edges. Filling the holes instead of covering the cracks leaves few.
 #include <algorithm>
 #include <cmath>
@@ -129,7 +129,7 @@ TEST_F(EdgeExpansion, NoViewShowsTheBackground) {
     EXPECT_EQ(backgroundPixels(4, TJunctions::Covered), 0u);
 }
 
-// The test above would find them. A hole of several samples is not filled.
+// The test above would find the cracks. A hole of several samples is not filled.
 TEST_F(EdgeExpansion, WithoutItCracksAreSeenAndFillingClosesMost) {
     for (const int samples : {1, 4}) {
         const std::size_t open = backgroundPixels(samples, TJunctions::Open);
@@ -161,7 +161,7 @@ class EdgeExpansionOnCoarseGrid : public EdgeExpansion {
         EdgeExpansion::TearDown();
     }
 
-    // `rounding`: floor or round, as the rasterizer moves corners. `toldBits`: what it says of its grid.
+    // `rounding`: floor or round, as the rasterizer moves corners. `toldBits`: its subpixel bits as reported.
     void makeRenderer(const std::string& rounding, int toldBits) {
         std::string shader = contentShaders().find(kExpansionShader).value();
         constexpr std::string_view kName = "vec4 expandEdges(";

@@ -28,7 +28,7 @@ void addScene(Renderer& renderer, const world::BlockRegistry& blocks) {
     }
 }
 
-// The built-in textures, but that of stone, which no block of the scene has: 64² of all colors.
+// The built-in textures, except that of stone, which no block of the scene has: 64² of all colors.
 base::Result<base::Image> withLargeStone(std::string_view name) {
     if (name != "stone") return contentTexture(name);
     base::Image image{64, 64, {}};

@@ -1,4 +1,4 @@
-// What a failure leaves of the passes, and passes rebuilt from shaders that were written.
+// Passes after a failure, and passes rebuilt from changed shaders.
 #include "terrane/render/frame_passes.h"
 
 #include <algorithm>
@@ -38,7 +38,7 @@ class FramePassesTest : public gpu::GlTest {
         GlTest::TearDown();
     }
 
-    // All that has targets or a memory of its own: shadows, layers, occlusion, blur, rays, culling.
+    // Options of all passes with targets or state: shadows, layers, occlusion, blur, rays, culling.
     static RenderOptions fullOptions(int samples) {
         RenderOptions options;
         options.msaaSamples = samples;
@@ -55,7 +55,7 @@ class FramePassesTest : public gpu::GlTest {
         renderer_->draw(input);
         return renderer_->readImage();
     }
-    // The second image draws by what the first one saw.
+    // The second image depends on the visibility found in the first one.
     base::Image drawTwice() {
         draw();
         return draw();
@@ -66,7 +66,7 @@ class FramePassesTest : public gpu::GlTest {
     std::optional<Renderer> renderer_;
 };
 
-// Wherever among the passes it happens, in whichever direction the options change.
+// In whichever pass it fails, and in whichever direction the options change.
 TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
     struct Case {
         std::string name, condition;
@@ -151,7 +151,7 @@ TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAnImage) {
     EXPECT_EQ(draw().rgba[0], 255);
 }
 
-// Whoever writes times into columns knows all passes.
+// Code that writes times into columns needs the names of all passes.
 TEST_F(FramePassesTest, EachPassThatIsMeasuredIsListed) {
     RenderOptions options = fullOptions(1);
     options.tJunctions = TJunctions::Filled;

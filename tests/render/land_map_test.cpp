@@ -61,7 +61,8 @@ LandLight lightAt(double azimuth, double elevation) {
             0.045f};
 }
 
-// The share of the light at a place, as land_light.glsl finds it: of a level, or of the finest that has it.
+// Share of the light at a place, as land_light.glsl computes it, by a level or by the finest that has the
+// place.
 struct Found {
     int level = -1;
     float share = 1, sky = 1;
@@ -188,7 +189,7 @@ TEST(LandMap, LevelsAgree) {
     }
 }
 
-// Over the edge of a level light goes on without a step.
+// Light continues over the edge of a level without a step.
 TEST(LandMap, NoRingIsSeenWhereALevelEnds) {
     LandMap map = mapWith();
     const auto rough = [](double x, double y) {
@@ -214,7 +215,7 @@ TEST(LandMap, NoRingIsSeenWhereALevelEnds) {
     }
 }
 
-// Levels are computed one after the other, and what throws a shadow may lie in the next one.
+// Levels are computed one after the other, and a shadow's caster may be in the next one.
 TEST(LandMap, AMountainFarAwayShadesFineLevels) {
     LandMap map = mapWith();
     const auto flat = [](double, double) { return 60.0; };
@@ -230,7 +231,7 @@ TEST(LandMap, AMountainFarAwayShadesFineLevels) {
     EXPECT_LT(found(map, {}, place).share, 0.1f);
 }
 
-// Whatever way a camera came, the land is that of one that was always there.
+// Whatever the path of a camera, the land is that of one that was always there.
 TEST(LandMap, AFlightLeavesNothingBehind) {
     std::mt19937 random(13);
     LandMap map = mapWith(3000);

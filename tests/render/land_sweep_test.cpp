@@ -93,7 +93,7 @@ TEST(LandSweep, FindsTheShadowsOfASlowMarch) {
             const int x = static_cast<int>(random() % kGridSide), y = static_cast<int>(random() % kGridSide);
             const LandShadow& fast = shadows[static_cast<std::size_t>(y * kGridSide + x)];
             const LandShadow slow = marched(land, light, {x, y});
-            // What lies at the border is mixed with what is beyond.
+            // Texels at the border are mixed with the outside.
             const glm::vec2 thrower =
                 glm::vec2(x, y) + glm::normalize(glm::vec2(light)) * slow.distance / kGridTexel;
             const glm::vec2 inside = glm::min(thrower, static_cast<float>(kGridSide - 1) - thrower);
@@ -130,7 +130,7 @@ TEST(LandSweep, ASlopeInTheLightHasNoShadow) {
     }
 }
 
-// Grid beside the square throws shadows into it, and those fall with the distance.
+// Land outside the square throws shadows into it, and the shadows fall with distance.
 TEST(LandSweep, ShadowsComeInFromOutside) {
     const Grid flat = landOf([](float, float) { return 10.0f; });
     for (const float azimuth : {0.0f, 0.6f, 1.5707963f, 2.5f, 3.1415927f, 4.0f, 5.5f}) {

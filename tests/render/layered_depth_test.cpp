@@ -1,4 +1,4 @@
-// Depth of field and ambient occlusion go by the nearest surface, blended or not.
+// Depth of field and ambient occlusion use the nearest surface, blended or not.
 #include <cmath>
 
 #include "terrane/mesh/chunk_mesher.h"
@@ -28,7 +28,7 @@ double meanDifference(const base::Image& a, const base::Image& b) {
 
 class LayeredDepth : public RendererTest {
   protected:
-    // How much depth of field changes the image of a checkered wall 190 blocks away.
+    // Change that depth of field makes to the image of a checkered wall 190 blocks away.
     double blur(int samples) {
         const FrameInput input{{{8, 8, 100}, 0, 0, 4}, world::environmentAt(0.5f), 4000, 0, View::Color};
         RenderOptions options = plainOptions(samples);
@@ -53,7 +53,7 @@ TEST_F(LayeredDepth, GlassNearbyIsNotBlurredByWhatIsFarBehindIt) {
     }
 }
 
-// A pane of glass before the sky, and a ledge of stone at it: the glass is occluded beside the ledge.
+// A pane of glass in front of the sky, with a ledge of stone at it: the glass is occluded beside the ledge.
 TEST_F(LayeredDepth, GlassIsOccludedByWhatStandsAtIt) {
     constexpr int kLedge = 11;
     const auto blockAt = [](int x, int, int z) { return x == 12 ? "cyan_glass" : z == 98 ? "stone" : "air"; };

@@ -69,8 +69,7 @@ class LightImageTest : public gpu::GlTest {
         }
     }
 
-    // From 14 blocks above the lamp, so that borders of chunks and light tiles lie in the image wherever it
-    // stands.
+    // From 14 blocks above the lamp, so that borders of chunks and light tiles are in the image at any place.
     base::Image draw(Renderer& renderer, const Scene& scene) {
         const Camera camera{.position = {scene.middle.x * 16.0 + scene.x + 0.5,
                                          scene.middle.y * 16.0 + scene.y + 0.5, scene.z + 14.0},
@@ -107,9 +106,9 @@ TEST_F(LightImageTest, ALampShines) {
     EXPECT_GT(redAt(with, 48, 60), redAt(with, 48, 94) + 20) << "it falls with distance";
 }
 
-// Borders of light tiles (8 blocks) and chunks (16) lie elsewhere in each of these; the image is the same but
-// for the steps of filtered fetches, of stone's texture too, and dither. Without the nodes beyond a border it
-// would differ by 20 and more.
+// Borders of light tiles (8 blocks) and chunks (16) are at other places in each of these; the image is the
+// same except for the steps of filtered fetches, also of the stone texture, and dither. Without the nodes
+// beyond a border it would differ by 20 and more.
 TEST_F(LightImageTest, BordersCannotBeSeen) {
     const base::Image reference = imageOf({{0, 0}, 4, 4, 100});
     for (const Scene& scene :
@@ -133,8 +132,7 @@ TEST_F(LightImageTest, BordersCannotBeSeenInSmoothLight) {
     EXPECT_LE(largestDifference(imageOf({{0, 0}, 15, 7, 100}), reference), 16) << "the other parity";
 }
 
-// Of a point on the axis and one on the diagonal at the same distance from the lamp, how much brighter the
-// first is.
+// Difference in brightness of a point on the axis and one on the diagonal at the same distance from the lamp.
 TEST_F(LightImageTest, SmoothLightIsRounder) {
     constexpr int kAxis = 34, kDiagonal = 24;  // pixels; 34 / √2
     const auto excess = [&](LightSampling sampling) {
@@ -162,7 +160,7 @@ TEST_F(LightImageTest, LightThatChangesReplacesTheOld) {
     EXPECT_EQ(largestDifference(draw(renderer, {}), imageOf({})), 0);
 }
 
-// Who flies far has light of new chunks at places of old ones, which are removed later.
+// After a long flight new chunks have light at the grid places of old ones, which are removed later.
 TEST_F(LightImageTest, AChunkThatIsFarAwayTakesNoLightAlong) {
     Renderer renderer = makeRenderer();
     renderer.setLight({-1024, 1024}, light::ChunkLight());
@@ -264,7 +262,7 @@ light::ChunkLight noiseLight() {
     return noise;
 }
 
-// 4,096 light tiles are those of 32 chunks of noise: of others only the middles of light tiles are kept,
+// 4,096 light tiles are enough for 32 chunks of noise; other chunks keep only the middle of each light tile
 // until there is room.
 TEST_F(LightImageTest, APoolThatCannotGrowKeepsWhatFits) {
     constexpr std::size_t kPoolBytes = 4096 * 1024;

@@ -25,7 +25,7 @@ struct MeshSection {
     std::uint32_t heights;
 };
 
-// All sorted at once.
+// Reference: sorts all at once.
 std::vector<std::uint32_t> sortedSlots(const std::map<std::uint32_t, MeshSection>& meshSections,
                                        world::ChunkPos center) {
     std::vector<std::uint32_t> slots;

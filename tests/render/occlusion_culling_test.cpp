@@ -1,4 +1,4 @@
-// What lies behind other things is not drawn, and nothing else is missing.
+// Hidden surfaces are not drawn, and nothing else is missing.
 #include <random>
 
 #include "terrane/mesh/chunk_mesher.h"
@@ -55,7 +55,7 @@ class OcclusionCulling : public RendererTest {
         return draw(input);
     }
 
-    // Of a later frame: what was visible in the one before is drawn first.
+    // Quads of a later frame: those visible in the frame before are drawn first.
     std::size_t quadsSeenBy(const Camera& camera) {
         for (int frame = 0; frame < 8; ++frame) draw(noon(camera));
         return renderer_->statistics().quads;

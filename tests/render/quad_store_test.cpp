@@ -15,7 +15,7 @@ class QuadStoreTest : public gpu::GlTest {};
 
 using world::ChunkPos;
 
-// Quads that tell where they come from. One mesh section.
+// Quads with unique numbers by chunk. One mesh section.
 mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count) {
     mesh::ChunkMesh mesh;
     for (std::uint32_t k = 0; k < count; ++k) mesh.quads.push_back({seed, k});
@@ -25,7 +25,7 @@ mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count) {
     return mesh;
 }
 
-// What the store has of a chunk, read back: as the chunk's mesh.
+// A chunk's content in the store, read back as a mesh.
 mesh::ChunkMesh readBack(const QuadStore& store, ChunkPos pos) {
     mesh::ChunkMesh mesh;
     for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos)) {

@@ -1,4 +1,4 @@
-// A renderer with next to nothing but light, textures and what is blended, for tests that look at its images.
+// A renderer with little but light, textures and blended faces, for tests that compare its images.
 #pragma once
 
 #include <array>

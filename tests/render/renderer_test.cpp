@@ -90,7 +90,7 @@ TEST_F(RendererTest, TheMoonIsRoundAtTheEdgeOfTheImage) {
     }
 }
 
-// How many steps brighter the brightest pixel is than the darkest.
+// Difference in steps between the brightest and the darkest pixel.
 int rangeOfGreen(const base::Image& image, glm::ivec2 from, glm::ivec2 to) {
     int least = 255, most = 0;
     for (int y = from.y; y < to.y; ++y) {
@@ -186,7 +186,7 @@ TEST_F(RendererTest, RemovedChunksAreGone) {
     EXPECT_EQ(draw(noon(kLevel)).rgba, before.rgba);
 }
 
-// States of one frame must not reach into the next, also over more frames than the ring has mesh sections.
+// State of one frame must not affect the next, also over more frames than the ring has slices.
 TEST_F(RendererTest, FramesDoNotDependOnTheOnesBefore) {
     renderer_->setChunk({0, 0}, blockMesh("stone", 4, 8, 100));
     renderer_->setChunk({1, 0}, blockMesh("oak_leaves", 0, 4, 100));
@@ -200,7 +200,7 @@ TEST_F(RendererTest, FramesDoNotDependOnTheOnesBefore) {
     }
 }
 
-// Whatever a chunk was, growing, shrinking or gone: the next frame is that of a renderer that never saw it.
+// A chunk may grow, shrink or vanish: the next frame is that of a renderer that never saw its old mesh.
 TEST_F(RendererTest, EditsAreWholeInTheNextFrame) {
     std::vector<mesh::ChunkMesh> meshes;
     std::vector<base::Image> expected;

@@ -112,10 +112,10 @@ bool has(const gpu::ShaderDefines& defines, const char* name, const char* value)
     return std::ranges::find(defines, std::pair<std::string, std::string>(name, value)) != defines.end();
 }
 
-// What no options lead to: with several samples a pixel layers are shaded over the whole screen, surfaces
-// over the sky, and neither as the screen shows them; nor is this where there is ambient occlusion
-// or mirrored shores.
-// Without shadows light knows no land. Far tiles have a shader of their own with several samples, in air.
+// Combinations that no options select: with several samples a pixel layers are shaded over the whole screen,
+// surfaces over the sky, and neither writes display colors; display colors exclude ambient occlusion and
+// reflected shores. Without shadows the land does not affect light. Far tiles have a shader of their own only
+// with several samples, in air.
 bool isNeverSelected(const gpu::ShaderDefines& defines) {
     if (has(defines, "FAR", "1") && (has(defines, "MSAA_SAMPLES", "1") || has(defines, "UNDER_WATER", "1")))
         return true;
@@ -145,8 +145,8 @@ std::string named(const gpu::ShaderDefines& defines) {
     return names;
 }
 
-// Macros that conditions of the text ask for and nothing in it defines: a list above lacks them. The language
-// would take them for 0 or for an error.
+// Macros in #if conditions of the text that nothing in it defines: a list above lacks them. The language
+// would take them as 0 or as an error.
 std::string undefinedMacros(const std::string& text) {
     static const std::regex condition("\n#(?:el)?if ([^\n]*)"), macro("[A-Z][A-Z0-9_]*");
     std::string names;
@@ -191,9 +191,9 @@ Output run(const std::string& command) {
     return output;
 }
 
-// What the reference compiler says against shaders, given by name; empty where it accepts all. Each run of it
-// reads the language's functions first, which takes longer than dozens of shaders. A command that names more
-// than some hundred is too long for the shell.
+// Errors of the reference compiler for shaders, given by name; empty if it accepts all. Each run reads the
+// language's functions first, which takes longer than dozens of shaders. A command that names more than some
+// hundred is too long for the shell.
 std::string complaints(const gpu::ScratchFolder& folder, const Stage& stage,
                        const std::map<std::string, std::string>& texts) {
     constexpr std::size_t kMostOfARun = 100;
@@ -265,7 +265,7 @@ TEST(ShaderMacros, ThoseThatNobodyDefinesAreFound) {
 
 class ShaderPrograms : public gpu::GlTest {};
 
-// A pass is what a quad's vertices are made for; layers are shaded over quads or over the screen.
+// Quads have a vertex shader variant for each PASS; layers are shaded over quads or over the screen.
 std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& defines) {
     if (path.find("/figure") != std::string_view::npos) return "terrane/render/figure.vert.glsl";
     const bool isOfQuads = std::ranges::any_of(defines, [](const auto& d) { return d.first == "PASS"; });
@@ -273,7 +273,7 @@ std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& def
                                                     : "terrane/render/fullscreen.vert.glsl";
 }
 
-// Whatever the reference compiler accepts, stages must fit each other too.
+// The stages must fit each other too, which the reference compiler does not check.
 TEST_F(ShaderPrograms, EveryPairLinksOnTheDriver) {
     for (const base::EmbeddedFile& file : embedded::shaders()) {
         const Stage* stage = stageOf(file.path);

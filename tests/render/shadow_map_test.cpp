@@ -82,7 +82,7 @@ TEST_F(ShadowMapTest, AWalkEndsWithTheMapsOfAFreshRenderer) {
     EXPECT_GT(differentPixels(drawAt(camera, 0.33f), fresh, 8), kPixels / 200) << "the tower can be seen";
 }
 
-// Level ground has no shadow on it, whichever cascade tells so.
+// Level ground has no shadow on it in any cascade.
 TEST_F(ShadowMapTest, LevelGroundDoesNotShadeItself) {
     show(golden::flatWorld(14));
     const Camera camera{{-190, 5, 130}, 3, -14};

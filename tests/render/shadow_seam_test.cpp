@@ -1,4 +1,4 @@
-// A shadow along a plain goes on through all cascades: no line of another brightness where one ends.
+// A shadow along a plain continues through all cascades, without a change of brightness where one ends.
 #include "tests/render/sunlit_fixture.h"
 
 namespace terrane::render {
@@ -18,7 +18,7 @@ class ShadowSeamTest : public SunlitTest {
             {{{0, 0, kGroundTop}, {kStripEnd, 0, kWallTop - 1}}}};
         show(stoneWorld({0, -3}, {kStripEnd / world::kChunkSize, 2}, boxes));
     }
-    // Where the pixel's ray meets the plane of the ground; x < 0 where it does not.
+    // Point where the pixel's ray meets the plane of the ground; x < 0 if it does not.
     static glm::dvec2 groundAt(const Camera& camera, int x, int y) {
         const ViewMatrices view =
             viewMatrices(camera, static_cast<float>(kLarge.x) / static_cast<float>(kLarge.y));

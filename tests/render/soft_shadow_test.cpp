@@ -1,4 +1,4 @@
-// How wide the edges of shadows are.
+// Width of shadow edges.
 #include <algorithm>
 
 #include "tests/render/sunlit_fixture.h"
@@ -10,7 +10,7 @@ constexpr int kPlainTop = 64;  // highest blocks of the plain
 
 class SoftShadowTest : public SunlitTest {
   protected:
-    // Of the shadow of a wall so high, in pixels, straight from above: those between dark and light.
+    // Pixels between dark and light at the shadow edge of a wall of this height, seen straight from above.
     int edgePixels(int height, bool isSoft) {
         show(stoneWorld({-2, -2}, {2, 2},
                         std::array<StoneBox, 2>{{{{{-32, -32, 60}, {47, 47, kPlainTop}}},
@@ -41,7 +41,7 @@ class SoftShadowTest : public SunlitTest {
     }
 };
 
-// The farther away what stops the light, the wider.
+// Edges are wider if the caster is farther away.
 TEST_F(SoftShadowTest, EdgesWidenWithDistance) {
     const int low = edgePixels(3, true), high = edgePixels(20, true);
     EXPECT_GE(high, 2 * low);

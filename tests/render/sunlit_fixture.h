@@ -1,5 +1,5 @@
-// Worlds of stone under a sun that stands anywhere, for tests of shadows: nothing but direct light and a
-// little from all around, without air.
+// Worlds of stone under a sun of any direction, for tests of shadows: only direct light and a little ambient
+// light, without air.
 #pragma once
 
 #include <algorithm>
@@ -83,7 +83,7 @@ class SunlitTest : public RendererTest {
     }
 };
 
-// By how many steps of 255 a is brighter than b, by pixel: the largest of three colors.
+// Steps of 255 by which a is brighter than b, by pixel: the largest of three colors.
 inline std::vector<int> stepsBrighter(const base::Image& a, const base::Image& b) {
     std::vector<int> steps;
     for (std::size_t k = 0; k < a.rgba.size(); k += 4) {

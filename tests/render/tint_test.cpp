@@ -56,7 +56,7 @@ class TintImages : public RendererTest {
     }
 };
 
-// Neither does a neutral or missing one change anything.
+// A neutral or missing tint changes nothing either.
 TEST_F(TintImages, TintedBlocksTakeItAndOthersDoNot) {
     const base::Image grass = imageOf("grass"), stone = imageOf("stone");
     EXPECT_TRUE(renderer_->useTint(true));

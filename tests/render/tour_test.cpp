@@ -85,7 +85,7 @@ TEST_F(Tour, AnyOptionsInAnyOrder) {
         made->draw(frameOf(frame));
         ASSERT_EQ(context_.debugErrorCount(), 0) << "frame " << frame;
         if (frame % 125 > 0) continue;
-        // What was drawn before leaves no trace.
+        // Earlier frames leave no trace.
         made->setChunk({1, 1}, meshes.at({1, 1}));
         ASSERT_TRUE(made->configure({64, 40}, RenderOptions{}));
         made->draw(frameOf(3));
@@ -95,7 +95,7 @@ TEST_F(Tour, AnyOptionsInAnyOrder) {
     }
 }
 
-// The layers are drawn where one may see blended faces, and nowhere else.
+// Layers are drawn only if blended faces may be visible.
 TEST_F(Tour, LayersCostNothingWithoutBlendedFaces) {
     auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
     ASSERT_TRUE(made) << made.error().message;

@@ -136,7 +136,7 @@ TEST_F(Water, MirrorsATowerBehindIt) {
     const FrameInput input = noon({{-30, 8, 103}, 0, -4});
     const auto tower =
         meshOf([](int x, int y, int z) { return x == 0 && y > 4 && y < 12 ? "lamp_red" : lakeAt(x, y, z); });
-    // How much redder than blue the water below the foot of the tower gets by the tower.
+    // Change of red minus blue in the water below the foot of the tower due to the tower.
     const auto redness = [&](int samples, render::Water water) {
         configure(samples, water);
         const auto sum = [&] {
@@ -174,7 +174,7 @@ TEST_F(Water, GlittersTowardTheSun) {
     }
 }
 
-// Of a still scene: what a hundredth of a block of the camera's way changes.
+// Change of a still scene when the camera moves by a hundredth of a block.
 TEST_F(Water, DoesNotFlickerWhenTheCameraMovesALittle) {
     setLake();
     configure(4, render::Water::Full);

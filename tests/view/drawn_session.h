@@ -1,4 +1,4 @@
-// A session of the overworld with a renderer, as a command has them, for tests that look at images.
+// A session of the overworld with a renderer, as in a command, for tests that compare images.
 #pragma once
 
 #include <memory>

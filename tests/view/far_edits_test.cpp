@@ -1,4 +1,4 @@
-// What players build is seen from beyond the view distance, at once and after a restart.
+// Buildings of players are visible from beyond the view distance, at once and after a restart.
 #include <cmath>
 #include <filesystem>
 #include <glm/trigonometric.hpp>
@@ -17,8 +17,8 @@ constexpr glm::ivec2 kEditsSize{160, 96};
 constexpr world::BlockPos kTown{-1024, 512, 0};
 constexpr int kTownBlocks = 64;
 
-// Looks at the middle of the town from so many chunks to the south of it, through a lens that shows it about
-// as large from everywhere.
+// Looks at the middle of the town from this many chunks to the south, with a field of view that shows it at
+// about the same size from any distance.
 render::Camera cameraAt(int chunks) {
     const glm::dvec3 town{kTown.x + kTownBlocks / 2, kTown.y + kTownBlocks / 2, 175};
     const double away = chunks * 16.0, above = away * 0.12;

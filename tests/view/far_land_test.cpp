@@ -1,4 +1,4 @@
-// Land to the horizon that is known beforehand: flat, or the same again every 256 blocks.
+// Land to the horizon with known content: flat, or repeating every 256 blocks.
 #include <algorithm>
 
 #include "terrane/view/camera_pose.h"
@@ -51,7 +51,7 @@ base::Result<gen::GeneratorGraph> plain(int level) {
     return gen::makeGenerator("flat", contentBlocks(), level);
 }
 
-// All that is seen of flat land are its tops: tiles have sides under all of their border, which stay hidden.
+// Flat land shows only tops: tiles have sides under all of their border, which stay hidden.
 TEST_F(FarLandTest, FlatLandHasNoLattice) {
     const auto player = makeDrawnSession({.size = kLandSize, .viewDistance = kLandNear, .makeGraph = plain});
     player->view->setHorizon({512, 8});

@@ -48,7 +48,7 @@ TEST_F(FarSamenessTest, TilesLookLikeChunks) {
     }
 }
 
-// The figures see what differs.
+// The statistics detect differences.
 TEST(PictureFigures, TellWhatDiffers) {
     constexpr int kSide = 64;
     const auto filled = [](std::uint8_t value) {

@@ -102,7 +102,7 @@ TEST_F(FarViewTest, AFastFlightShowsNoHoles) {
     }
 }
 
-// Far land that was hidden, and comes out from behind what is near, is in the very next image.
+// Far land that appears from behind near land is in the very next image.
 TEST_F(FarViewTest, HiddenLandIsNeverMissed) {
     render::Camera camera{{-1020, -60, 120}, 0, -5};
     const auto player = load(camera, kFar);

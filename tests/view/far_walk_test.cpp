@@ -1,4 +1,4 @@
-// Walking over the borders where chunks give way to tiles shows no more change than the walk itself.
+// Walking over the borders between chunks and tiles shows no more change than the walk itself.
 #include <cmath>
 #include <cstdlib>
 
@@ -41,7 +41,7 @@ class FarWalkTest : public gpu::GlTest {
         double most = 0, mean = 0;
     };
 
-    // On a walk of so many steps: what changes between one image and the next.
+    // Changes between consecutive images on a walk of this many steps.
     static Changes changesOnWalk(bool hasTiles, int steps, const glm::dvec3& step) {
         const int near = hasTiles ? kTilesFrom : kAllChunks;
         const auto player = open(hasTiles, near);

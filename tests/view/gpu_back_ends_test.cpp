@@ -1,5 +1,5 @@
-// A session that is played with generation, light and meshes on the GPU, beside one where workers do all:
-// the same edits, the same views, the same images.
+// A session with generation, light and meshes on the GPU, compared to one with workers: the same edits, views
+// and images.
 #include "terrane/view/gpu_back_ends.h"
 
 #include "tests/view/drawn_session.h"

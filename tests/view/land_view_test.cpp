@@ -1,4 +1,4 @@
-// The light of land from the generator to the image.
+// Light of the land, from the generator to the image.
 #include "terrane/view/land_view.h"
 
 #include <cmath>
@@ -24,7 +24,8 @@ base::Result<gen::GeneratorGraph> plain(int level, bool hasWall) {
 
 constexpr render::Camera kLooksBack{.position = {8, 8, 200}, .yaw = 225, .pitch = -4.6f, .fieldOfView = 20};
 
-// Of the ground some 1,500 blocks away and 1,060 beside the light's way, where the shadow maps have ended.
+// Brightness of the ground some 1,500 blocks away and 1,060 beside the direction of the light, beyond the
+// shadow maps.
 double groundBrightness(bool hasWall, float elevation,
                         render::ShadowReach shadows = render::ShadowReach::Horizon) {
     DrawnSessionOptions options{.makeGraph = [=](int level) { return plain(level, hasWall); }};

@@ -51,7 +51,7 @@ TEST_F(TintViewTest, GrassHasTheColorOfItsPlace) {
     EXPECT_GT(at(86, 1), at(86, 0) + 50);
 }
 
-// The renderer of one world is the next one's.
+// The next world uses the same renderer.
 TEST_F(TintViewTest, AnotherWorldForgetsIt) {
     const auto first = sessionOf(true), second = sessionOf(false);
     EXPECT_FALSE(second->renderer.hasTint());

@@ -1,4 +1,4 @@
-// A view with too little GPU memory for the distance that is asked for, beside one with enough.
+// A view with too little GPU memory for the requested distance, compared to one with enough.
 #include <chrono>
 
 #include "terrane/view/camera_pose.h"
@@ -11,8 +11,8 @@ constexpr std::size_t kBudgetBytes = std::size_t{24} << 20;
 constexpr int kRequested = 14;
 constexpr glm::ivec2 kImageSize{160, 90};
 
-// Where quads overlap at equal depth the order of drawing decides, which depends on the frames before: none
-// do.
+// Options without overlapping quads: at equal depth the result depends on the order of drawing, and so on the
+// frames before.
 render::RenderOptions options() {
     render::RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Open;
@@ -45,7 +45,7 @@ class ViewMemoryTest : public gpu::GlTest {
         return largest;
     }
 
-    // Frames as the window draws them, until all is there. How many notices there were.
+    // Draws frames as the window does until all is loaded. Returns the number of notices.
     static int frames(DrawnSession& player, const render::Camera& camera, int distance) {
         int notices = 0;
         for (bool isLoaded = false; !isLoaded;) {

@@ -7,7 +7,8 @@ namespace {
 
 constexpr double kNothingYet = 1, kNextToAll = 0.05;  // what is missing
 
-// A frame that draws for so long, and loads for as long as the frame before it allows, again and again.
+// Time of a frame that draws for this long, and loads for as long as the frame before allows, repeated until
+// stable.
 double frameThatLoads(double drawing, double missing) {
     double frame = drawing;
     for (int k = 0; k < 100; ++k) frame = drawing + uploadBudget(frame, missing);
