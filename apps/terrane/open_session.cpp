@@ -26,12 +26,12 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
             return base::fail(base::ErrorCode::BadInput, "--store-generated requires --world");
         return nullptr;
     }
-    // Before a save is made: a generator that does not exist has none.
+    // An unknown generator is an error before a save is created.
     if (auto known = makeGraph(options, content); !known) return tl::unexpected(known.error());
     store::WorldRequest request;
     request.access = access;
     if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options, content);
-    request.wanted = {options.seed, options.generator, save.regenerate, save.followsGenerator};
+    request.world = {options.seed, options.generator, save.regenerate, save.followsGenerator};
     request.versionOf = [&](std::string_view name) { return gen::versionOf(content.generators, name); };
     request.sharing = sharing;
     auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), *content.blocks, request);
@@ -56,7 +56,7 @@ namespace {
 
 constexpr const char* kStoreGeneratedSetting = "store_generated";
 
-// As asked for, else as the world was opened before; kept in the world.
+// The option if given, which is then stored in the world; else the world's stored value, on by default.
 bool storesGenerated(store::ChunkStore& store, const SaveOptions& save) {
     if (!save.storeGenerated) return store.metadata(kStoreGeneratedSetting) != "off";
     store.setMetadata(kStoreGeneratedSetting, *save.storeGenerated ? "on" : "off");

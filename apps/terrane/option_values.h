@@ -1,4 +1,4 @@
-// What options that several commands share say; options.h reads them. Without the parser, which takes long to
+// Values of options that several commands share; options.h parses them. Free of CLI11, which is slow to
 // compile.
 #pragma once
 
@@ -20,14 +20,14 @@ class App;
 namespace terrane::app {
 
 struct WorldOptions {
-    // Where none is given: those of the world that is opened, or these of a new one.
+    // Defaults of a new world; an existing world keeps its own.
     static constexpr std::uint64_t kDefaultSeed = 1;
     static constexpr const char* kDefaultGenerator = "continents";
 
     std::optional<std::uint64_t> seed;
-    std::string seedText;  // that the seed was made from; empty where a number was given
+    std::string seedText;  // text that was hashed to the seed; empty for a number
     std::optional<std::string> generator;
-    std::string otherwise = kDefaultGenerator;  // a scene's, where a command draws one
+    std::string otherwise = kDefaultGenerator;  // of the scene, for commands that draw one
     std::vector<std::string> content;           // packs: names or paths
     unsigned threads = 0;                       // 0: as many as the machine has
 
@@ -37,10 +37,10 @@ struct WorldOptions {
 
 // --world, --recreate, --regenerate, --store-generated.
 struct SaveOptions {
-    std::string world;  // a store::WorldLocation; empty: none, edits last until the program ends
+    std::string world;  // a store::WorldLocation; empty: none, edits are lost at exit
     store::Regenerate regenerate = store::Regenerate::None;
-    bool followsGenerator = false;  // store::WantedWorld
-    // Whether generated chunks are stored too. The world keeps it; where nothing is said they are.
+    bool followsGenerator = false;  // store::RequestedWorld
+    // Whether generated chunks are stored too. The world remembers it; by default they are.
     std::optional<bool> storeGenerated;
 };
 

@@ -1,17 +1,17 @@
-// What changes while one looks: players, places, and blocks that somebody builds, as the server tells them.
+// Live data from the server: players, places, and blocks that are being edited.
 'use strict';
 (() => {
   const {world, map, drawnAt, text, onEdits} = terrane;
   const players = new Map(), places = new Map();
   const markers = L.layerGroup().addTo(map);
 
-  // A color of its own for each name.
+  // A color derived from the name.
   function colorOf(name) {
     let hash = 0;
     for (const letter of name) hash = (hash * 31 + letter.codePointAt(0)) % 360;
     return `hsl(${hash} 70% 50%)`;
   }
-  // Names are others' words: they go into the page as text.
+  // Names come from players and are inserted as text, never as HTML.
   function icon(kind, name, color) {
     const element = document.createElement('div'), pin = document.createElement('i'), label = document.createElement('span');
     if (color) pin.style.setProperty('--color', color);
@@ -30,7 +30,7 @@
     marker.place = place;
     marker.setLatLng(drawnAt(place));
   }
-  // Places may have equal names: the second is another one.
+  // Different places may have equal names: a counter makes the keys unique.
   function showAll(entries, found, kind, color) {
     const counts = new Map(), keys = found.map(place => {
       const count = (counts.get(place.name) ?? 0) + 1;
@@ -63,7 +63,7 @@
     showNotice();
   }
 
-  // A browser opens few connections to a host: a page that nobody sees gives its own back.
+  // Browsers limit the connections per host: a hidden page closes its own.
   let events = null, waiting = 0;
   function listen() {
     clearTimeout(waiting);
@@ -75,7 +75,7 @@
     events.addEventListener('error', () => {
       isLost = true;
       showNotice();
-      // After some answers a browser does not try again by itself.
+      // Some error responses stop the browser's automatic reconnection.
       if (events.readyState === EventSource.CLOSED) waiting = setTimeout(listen, 2000 + 4000 * Math.random());
     });
     events.addEventListener('players', event => showPlayers(JSON.parse(event.data)));

@@ -1,11 +1,10 @@
-// The map itself: coordinates, layers of tiles, links to places. Others (live.js, panel.js, tools.js) work on what is made
-// here.
+// The map: coordinates, tile layers, links to places. Used by live.js, panel.js and tools.js.
 //
-// A place is {x, y} in blocks. North, -y, is up, and east, -x, is to the right, as on the game's compass.
+// A place is {x, y} in blocks. North (-y) is up and east (-x) is right, as on the game's compass.
 'use strict';
 const terrane = (() => {
   const world = window.terraneWorld;
-  let seen = world.edits;  // number of the last edits that the page knows of
+  let seen = world.edits;  // number of the last edit event shown
   const text = terraneTexts.text;
 
   const latLng = place => L.latLng(-place.y, -place.x);
@@ -36,8 +35,8 @@ const terrane = (() => {
     fadeAnimation: !matchMedia('(prefers-reduced-motion: reduce)').matches,
   });
 
-  // There are tiles of the world, in a folder of files those of an area alone (terrane/map/tiles_of_area.h). The second
-  // argument: a tile's pixels of zoom 0.
+  // A server has tiles of the whole world, a folder of files only those of an area
+  // (terrane/map/tiles_of_area.h). Second argument: the tile's bounds in pixels of zoom 0.
   const height = 256 * world.isometricHeight;
   const area = world.area ?? {x0: -2147483648, y0: -2147483648, x1: 2147483648, y1: 2147483648};
   const meet = (low, high, otherLow, otherHigh) => low < otherHigh && otherLow < high;
@@ -50,8 +49,7 @@ const terrane = (() => {
       meet(min.y - max.x / 2, bottom - min.x / 2, area.y0, area.y1);
   }
 
-  // Tiles are numbered by the blocks that they show. A tile that changed is loaded again in place, so that nothing
-  // flickers.
+  // Tiles are numbered by the blocks that they show. A changed tile is reloaded in place to avoid flicker.
   const Tiles = L.TileLayer.extend({
     getTileUrl(coords) {
       const isSeenFromAbove = this.options.name !== 'isometric';
@@ -63,7 +61,8 @@ const terrane = (() => {
       const tile = L.bounds([coords.x * size, coords.y * size], [(coords.x + 1) * size, (coords.y + 1) * size]);
       return L.TileLayer.prototype._isValidTile.call(this, coords) && isInArea(this.options.name, tile);
     },
-    // Loads a tile again in its place, so that nothing flickers; the last of several wins. What fails is tried again.
+    // Reloads a tile in place to avoid flicker; only the last of several requests counts. Retries after
+    // errors.
     loadAgain(tile) {
       const number = tile.reloads = (tile.reloads ?? 0) + 1;
       const isLast = () => tile.reloads === number && this._tiles[this._tileCoordsToKey(tile.coords)] === tile;
@@ -72,14 +71,14 @@ const terrane = (() => {
       image.onerror = () => setTimeout(() => { if (isLast()) this.loadAgain(tile); }, 3000 + 3000 * Math.random());
       image.src = `${this.getTileUrl(tile.coords)}?${seen}-${number}`;
     },
-    // Those of which isTouched(coords) is true.
+    // Reloads the tiles for which isTouched(coords) is true.
     reload(isTouched) {
       for (const tile of Object.values(this._tiles)) if (isTouched(tile.coords)) this.loadAgain(tile);
     },
-    // Leaflet fades in what has loaded: once is enough.
+    // Leaflet fades in each loaded tile: skip this after a reload.
     _tileReady(coords, error, element) {
       const tile = this._tiles[this._tileCoordsToKey(coords)];
-      const isIts = tile?.el === element;  // and not of a tile that was here before
+      const isIts = tile?.el === element;  // not of an earlier tile at these coords
       if (isIts && tile.isShown) return;
       L.TileLayer.prototype._tileReady.call(this, coords, error, element);
       if (!isIts) return;
@@ -134,7 +133,7 @@ const terrane = (() => {
     for (const name of Object.keys(overlays)) showOverlay(name, shown.includes(name));
     return true;
   }
-  // Where a place is drawn: the isometric view shows what is higher farther up.
+  // The drawn position of a place: the isometric view shifts high places up.
   function drawnAt(place) {
     const up = base === 'isometric' && place.z !== undefined ? (place.z - world.seaLevel) * world.isometricHeight : 0;
     return latLng({x: place.x + up, y: place.y - up});
@@ -156,11 +155,11 @@ const terrane = (() => {
   const shownLayers = () => [bases[base], ...Object.values(overlays)].filter(layer => map.hasLayer(layer));
   const levelOf = zoom => Math.max(-zoom, 0);
 
-  // The tiles that show some of a box {level, x0, y0, x1, y1}: blocks, the ends included.
+  // Reloads the tiles that show part of a box {level, x0, y0, x1, y1}, in blocks, bounds inclusive.
   function reload(box) {
     const corners = [[box.x0, box.y0], [box.x1 + 1, box.y0], [box.x0, box.y1 + 1], [box.x1 + 1, box.y1 + 1]];
     const bounds = L.bounds(corners.map(([x, y]) => map.options.crs.projection.project(latLng({x, y}))));
-    // Lamps shine 16 columns far; what is built stands up to the height of the world above its place.
+    // Light reaches 16 columns; in the isometric view, buildings extend up by the height of the world.
     const margin = 16 * 2 ** box.level, top = base === 'isometric' ? height : 0;
     for (const layer of shownLayers()) {
       layer.reload(({x, y, z}) => {
@@ -171,7 +170,7 @@ const terrane = (() => {
       });
     }
   }
-  // Edits are numbered. Where some were missed all is loaded again.
+  // Edit events are numbered. If some were missed, everything is reloaded.
   function onEdits({number, boxes}) {
     const isNext = number === seen + 1, isKnown = number === seen;
     seen = number;

@@ -1,4 +1,4 @@
-// The panel: views, overlays, who plays, places with names, search.
+// The panel: views, overlays, players, named places, search.
 'use strict';
 (() => {
   const {world, map, text, bases, overlays, showBase, showOverlay, go, live} = terrane;
@@ -62,7 +62,7 @@
     }));
   });
 
-  // Two numbers are a place; else the name of a player or place, or the beginning of one.
+  // Accepts two coordinates, or the name of a player or place, or its beginning.
   function find(query) {
     const numbers = query.match(/^\s*(-?\d+)[\s,;]+(-?\d+)\s*$/);
     if (numbers) return {x: Number(numbers[1]), y: Number(numbers[2])};

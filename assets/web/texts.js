@@ -1,4 +1,4 @@
-// Texts of the page in the reader's language; English where there is none.
+// Texts of the page in the browser's language, with English as fallback.
 'use strict';
 const terraneTexts = (() => {
   const texts = {
@@ -39,7 +39,7 @@ const terraneTexts = (() => {
   const language = (navigator.languages || ['en']).map(name => name.slice(0, 2)).find(name => texts[name]) || 'en';
   document.documentElement.lang = language;
   return {
-    // The text of a name, with {words} replaced by values.
+    // The text with this key; {word} placeholders are replaced by values.
     text(name, values = {}) {
       const text = texts[language][name] ?? texts.en[name];
       return text.replace(/\{(\w+)\}/g, (_, word) => values[word]);

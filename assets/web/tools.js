@@ -1,10 +1,10 @@
-// What is under the cursor, measuring, full screen, dark or light, keys.
+// Block under the cursor, measuring, full screen, theme, keyboard shortcuts.
 'use strict';
 (() => {
   const {world, map, text, placeOf, showBase, bases, go, live} = terrane;
   const byId = id => document.getElementById(id);
 
-  // Asks the server once the cursor rests.
+  // Queries the server once the cursor rests.
   let waiting = 0, asked = null;
   function showPlace(at) {
     const place = placeOf(at), x = Math.floor(place.x), y = Math.floor(place.y);
@@ -21,13 +21,13 @@
         const facts = [`${x}, ${y}, ${found.z}`, found.block, found.biome];
         if (found.depth > 0) facts.push(text('underWater', {depth: found.depth}));
         byId('place').textContent = facts.filter(Boolean).join(' · ');
-      } catch { /* another place is asked for, or nobody answers */ }
+      } catch { /* aborted by a newer query, or no server */ }
     }, 120);
   }
   map.on('mousemove click', event => showPlace(event.latlng));
   map.on('move', () => { if (L.Browser.mobile) showPlace(map.getCenter()); });
 
-  // A line from point to point, and its length in blocks.
+  // Draws a polyline and shows its length in blocks.
   let line = null;
   function measure(isOn) {
     byId('measure').setAttribute('aria-pressed', String(isOn));
@@ -56,7 +56,7 @@
   const root = document.documentElement;
   const kept = {
     get: () => { try { return localStorage.getItem('theme'); } catch { return null; } },
-    set: theme => { try { localStorage.setItem('theme', theme); } catch { /* nothing is kept */ } },
+    set: theme => { try { localStorage.setItem('theme', theme); } catch { /* storage is unavailable: not saved */ } },
   };
   if (kept.get()) root.dataset.theme = kept.get();
   function toggleTheme() {

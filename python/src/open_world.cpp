@@ -12,7 +12,7 @@
 namespace terrane::python {
 namespace {
 
-// The packs that a call names, and those that a world remembers.
+// Loads the named packs and those that a world remembers.
 base::Result<pack::Content> loadContent(const std::vector<std::string>& named,
                                         const std::vector<std::string>& remembered) {
     auto packs = pack::readPacks(named);
@@ -22,7 +22,7 @@ base::Result<pack::Content> loadContent(const std::vector<std::string>& named,
     return pack::loadContent(std::move(*packs));
 }
 
-// A store, with the generator of the world that it holds.
+// Combines a store with the generator of its world.
 base::Result<WorldSources> sourcesOf(pack::Content content, std::unique_ptr<store::ChunkStore> store,
                                      unsigned threads) {
     auto generators = generatorsOf(store->identity(), content);
@@ -69,19 +69,19 @@ base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned thread
 
 base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads) {
     const store::WorldLocation location = store::worldLocation(world.location);
-    const auto metadata = store_postgres::anyWorldMetadata(location);  // opening says what is wrong
+    const auto metadata = store_postgres::anyWorldMetadata(location);  // opening reports errors
     auto content =
         loadContent(world.content, metadata ? pack::rememberedPacks(*metadata) : std::vector<std::string>());
     if (!content) return tl::unexpected(content.error());
     store::WorldRequest request;
     request.access = world.isReadOnly ? store::WorldAccess::ReadOnly : store::WorldAccess::ReadWrite;
-    request.wanted = {world.seed, world.generator};
+    request.world = {world.seed, world.generator};
     request.versionOf = [&](std::string_view name) { return gen::versionOf(content->generators, name); };
     if (world.isCreated) {
         const NewWorld otherwise;
         const NewWorld made{
             world.seed.value_or(otherwise.seed), world.generator.value_or(otherwise.generator), {}};
-        // Before a save is made: a generator that does not exist has none.
+        // An unknown generator is an error before a save is created.
         if (auto known = gen::makeGenerator(made.generator, *content->blocks, 0, content->generators); !known)
             return tl::unexpected(known.error());
         request.create = identityOf(made, *content);

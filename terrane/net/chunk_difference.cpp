@@ -12,7 +12,7 @@ namespace {
 using world::kBlocksPerChunk;
 using world::kBlocksPerSection;
 
-// Blocks look alike but for their data.
+// The part of a block's value that is encoded once per run; block entity data is encoded apart.
 using Kind = std::pair<world::BlockId, std::uint16_t>;  // id, block state
 
 Kind kindOf(const world::BlockValue& value) {
@@ -27,7 +27,7 @@ bool isEqualSection(const world::Chunk& a, const world::Chunk& b, int number) {
     return a.section(number) == b.section(number) && a.blockStates(number) == b.blockStates(number);
 }
 
-// A bit for each section in which a block has data.
+// Bit mask of the sections that contain block entity data.
 unsigned sectionsWithData(const world::Chunk& chunk) {
     unsigned sections = 0;
     for (const world::BlockIndex i : chunk.blocksWithBlockEntityData())
@@ -35,7 +35,7 @@ unsigned sectionsWithData(const world::Chunk& chunk) {
     return sections;
 }
 
-// The blocks that follow `begin` without a gap and are of its kind.
+// Number of contiguous blocks from `begin` on that have the same kind.
 std::size_t runLength(std::span<const ChangedBlock> blocks, std::size_t begin) {
     std::size_t end = begin + 1;
     while (end < blocks.size() && blocks[end].index == blocks[end - 1].index + 1 &&
@@ -81,6 +81,9 @@ void readKinds(WireReader& wire, std::vector<Kind>& kinds) {
         wire.number(kind.first);
         wire.number(kind.second);
     });
+    std::vector<Kind> sorted = kinds;
+    std::ranges::sort(sorted);
+    wire.require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
 }
 
 void readRun(WireReader& wire, std::span<const Kind> kinds, std::uint32_t& next, ChunkDifference& blocks) {
@@ -156,7 +159,7 @@ std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, std::span<cons
 void mergeInto(ChunkDifference& to, std::span<const ChangedBlock> newer) {
     ChunkDifference merged;
     merged.reserve(to.size() + newer.size());
-    // set_union takes equal ones from the first range.
+    // set_union takes equal elements from the first range.
     std::ranges::set_union(newer, to, std::back_inserter(merged), {}, &ChangedBlock::index,
                            &ChangedBlock::index);
     to = std::move(merged);

@@ -1,5 +1,6 @@
-// How an edited chunk differs from what the generator makes: all of a world that travels, as every player's
-// program generates the rest. Plain values and functions; any thread. docs/protocol.md describes the bytes.
+// The difference between an edited chunk and the generated one. Only differences are sent: every player's
+// program generates the rest itself. Plain values and functions; any thread. docs/protocol.md describes the
+// bytes.
 #pragma once
 
 #include <span>
@@ -16,29 +17,29 @@ struct ChangedBlock {
 
     bool operator==(const ChangedBlock&) const = default;
 };
-// By index, in ascending order, each once.
+// Sorted by index; each index occurs once.
 using ChunkDifference = std::vector<ChangedBlock>;
 
-// Block entity data of more bytes does not travel: the block comes without it.
+// Larger block entity data is not sent: the block is sent without it.
 constexpr std::size_t kMaxBlockData = 32768;
 
-// What of `edited` is not as in `generated`.
+// The blocks of `edited` that differ from `generated`.
 ChunkDifference chunkDifference(const world::Chunk& generated, const world::Chunk& edited);
 void applyDifference(world::Chunk& chunk, std::span<const ChangedBlock> difference);
 
-// The same blocks at their places in the world.
+// Converts block indices to world positions.
 std::vector<world::PlacedBlock> placedBlocks(world::ChunkPos pos, std::span<const ChangedBlock> blocks);
 
-// `to` with the blocks of `newer` in it, or in place of its own.
+// Adds the blocks of `newer` to `to`, replacing those with the same index.
 void mergeInto(ChunkDifference& to, std::span<const ChangedBlock> newer);
 
-// At most so many blocks, and so many bytes of data, are in one message.
+// Maximum number of blocks, and of bytes of block entity data, in one message.
 constexpr std::size_t kMaxBlocksInPart = 8192;
 constexpr std::size_t kMaxDataInPart = 65536;
-// Parts of a difference that each fit a message, in order; one empty part where it is empty.
+// Splits a difference into parts that each fit a message, in order. An empty difference gives one empty part.
 std::vector<std::span<const ChangedBlock>> partsOf(std::span<const ChangedBlock> difference);
 
-// Runs of equal blocks: a wall of 16 blocks takes 3 bytes, a block by itself 2 to 5.
+// Run-length encoded: a wall of 16 blocks takes 3 bytes, a single block 2 to 5.
 void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks);
 void readBlocks(WireReader& wire, ChunkDifference& blocks);
 

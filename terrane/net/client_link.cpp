@@ -6,10 +6,10 @@
 namespace terrane::net {
 namespace {
 
-// Between attempts: 0.5 s, then twice as long each time.
+// Delay between attempts: 0.5 s, doubled each time.
 constexpr std::chrono::milliseconds kFirstWait{500}, kLongestWait{8000};
 constexpr std::chrono::seconds kLoginTime{15};
-// A server that is there says something every five seconds.
+// The server sends a message at least every five seconds.
 constexpr std::chrono::seconds kSilence{20};
 
 }  // namespace
@@ -75,7 +75,7 @@ void ClientLink::onMessage(ByteView bytes) {
     if (stage_ == Stage::Ended) return;
     heardAt_ = now_;
     const auto message = decodeServerMessage(bytes);
-    if (!message) return end("the server sent what is no message: " + message.error().message);
+    if (!message) return end("the server sent an invalid message: " + message.error().message);
     if (const auto* refused = std::get_if<Refused>(&*message)) return onRefused(*refused);
     if (const auto* greeting = std::get_if<Greeting>(&*message))
         return say(loginOf(identity_, *greeting, channel_));
@@ -98,7 +98,7 @@ void ClientLink::onOffer(const WorldOffer& offer) {
     if (events_.missingPacks) {
         auto missing = events_.missingPacks(offer);
         if (!missing) return end(missing.error().message);
-        fetch_->wanted = std::move(*missing);
+        fetch_->missing = std::move(*missing);
     }
     fetchOrProve();
 }
@@ -110,7 +110,7 @@ void ClientLink::onPackPart(const PackPart& part) {
     if (!isWhole) return end(isWhole.error().message);
     if (*isWhole) {
         const Bytes archive = std::exchange(fetch_->archive, {});
-        fetch_->wanted.pop_back();
+        fetch_->missing.pop_back();
         const auto taken = events_.packArrived(fetch_->offer.packs[part.number], archive);
         if (!taken) return end(taken.error().message);
     }
@@ -126,7 +126,7 @@ void ClientLink::fetchOrProve() {
     digests ? say(Proof{*digests}) : end(digests.error().message);
 }
 
-// A server that stops may start again: whoever was in its world waits for that.
+// A server that stops may start again: a client that was in its world waits for that.
 void ClientLink::onRefused(const Refused& refused) {
     if (wasJoined_ && isWorthReturning(refused.why)) return onCut(refused.reason);
     end(refused.reason);
@@ -139,7 +139,7 @@ void ClientLink::onCut(const std::string& reason) {
     reason_ = reason;
     stage_ = Stage::Waiting;
     const auto wait = std::min(kFirstWait * (1 << std::min(cuts_, 4)), kLongestWait);
-    // Many whose server stopped do not all come at once.
+    // Random jitter, so that the clients of a stopped server do not reconnect all at once.
     std::uint8_t share = 0;
     fillRandom(std::as_writable_bytes(std::span(&share, 1)));
     tryAt_ = now_ + wait + wait * share / 256;
@@ -147,7 +147,7 @@ void ClientLink::onCut(const std::string& reason) {
     goToNext();
 }
 
-// Of a key that a server told nobody is asked.
+// A key announced by a server is compared directly; `trusts` is not called.
 base::Result<bool> ClientLink::isTrusted(const std::string& serverKey) {
     if (isToldKey_) return key_ == serverKey;
     auto trusted = events_.trusts(serverKey);
@@ -162,7 +162,7 @@ void ClientLink::learnServers(const Servers& servers) {
             others_.push_back({*address, place.key});
 }
 
-// All of them one after the other, this one last.
+// Round robin; the current server goes to the end.
 void ClientLink::goToNext() {
     if (others_.empty()) return;
     OtherServer next = std::move(others_.front());

@@ -1,6 +1,6 @@
-// A client's link to a server: connects, logs in, comes back by itself after a cut, to another server of the
-// same world where the server told of one. What is done with the world is the caller's: it answers
-// WorldOffer, and gets all messages from Joined on. On the thread that runs the context.
+// A client's link to a server: connects, logs in, and reconnects after a lost connection, also to another
+// server of the same world if the server announced one. The caller handles the world: it answers WorldOffer,
+// and gets all messages from Joined on. On the thread that runs the context.
 #pragma once
 
 #include <chrono>
@@ -15,16 +15,15 @@
 namespace terrane::net {
 
 struct LinkEvents {
-    // The server's key, before anything is said to it: whether it is the one that it had before. The link
-    // ends where that cannot be known.
+    // Called before anything is sent: whether the server has the same key as before. An error ends the link.
     std::function<base::Result<bool>(const std::string& serverKey)> trusts;
-    // The digests of the sample chunks, or why this program cannot play there.
+    // Returns the digests of the sample chunks, or why this program cannot play there.
     std::function<base::Result<SampleDigests>(const WorldOffer&)> prove;
     std::function<void(const ServerMessage&)> message;
-    // The numbers in `packs` of the offer of those that are to be fetched first, or why this program cannot
-    // play there. An empty function: none.
+    // Returns the packs to download before Proof, as indices into `packs` of the offer, or why this program
+    // cannot play there. If the function is empty, no packs are downloaded.
     std::function<base::Result<std::vector<std::uint8_t>>(const WorldOffer&)> missingPacks = {};
-    // One of them, as the server sent it.
+    // Called with each downloaded pack.
     std::function<base::Result<void>(const PackOffer&, const Bytes& archive)> packArrived = {};
 };
 
@@ -33,25 +32,25 @@ class ClientLink {
     enum class Stage : std::uint8_t {
         Connecting,  // or logging in
         Joined,
-        Waiting,  // for the next attempt, after a cut
-        Ended,    // it will not come back: reason()
+        Waiting,  // for the next attempt, after a lost connection
+        Ended,    // will not reconnect: reason()
     };
 
     ClientLink(boost::asio::io_context& context, ServerAddress address, ClientIdentity identity,
                LinkEvents events);
 
-    // Attempts that are due. Call often, with the context run between calls.
+    // Reconnects when an attempt is due. Call often, with the context run between calls.
     void update(std::chrono::steady_clock::time_point now);
-    // Nothing while no world is joined.
+    // Drops the message while no world is joined.
     void send(const ClientMessage& message);
-    // Says goodbye and ends; what is on its way is sent while the context runs on.
+    // Sends Leave and ends; queued bytes are sent while the context runs on.
     void leave();
 
     Stage stage() const { return stage_; }
-    // Why the last connection ended; empty where none did.
+    // Why the last connection ended; empty if none did.
     const std::string& reason() const { return reason_; }
     const ServerAddress& address() const { return address_; }
-    // Of all connections so far.
+    // Bytes of all connections so far.
     std::uint64_t receivedBytes() const;
     std::uint64_t sentBytes() const;
 
@@ -73,14 +72,14 @@ class ClientLink {
     ServerAddress address_;
     ClientIdentity identity_;
     LinkEvents events_;
-    // Servers of the world that a trusted one told of, with their keys; the own one is not among them.
+    // Other servers of the world, with their keys, as announced by a trusted one.
     struct OtherServer {
         ServerAddress address;
         std::string key;
     };
     std::vector<OtherServer> others_;
-    std::string key_;         // of this server
-    bool isToldKey_ = false;  // a server told it
+    std::string key_;         // of the server at address_
+    bool isToldKey_ = false;  // key_ was announced by another server
     std::optional<ClientSocket> socket_;
     Bytes channel_;
     std::optional<PackFetch> fetch_;             // from WorldOffer to Proof

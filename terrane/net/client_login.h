@@ -1,5 +1,5 @@
-// A client's half of the login (docs/protocol.md), without sockets: what to say to what a server says, until
-// the player is in the world. Plain values and functions; any thread.
+// The client's side of the login (docs/protocol.md), without sockets: builds the answers to the server's
+// messages. Plain values and functions; any thread.
 #pragma once
 
 #include <optional>
@@ -11,7 +11,7 @@
 
 namespace terrane::net {
 
-// Who logs in.
+// The identity that a client logs in with.
 struct ClientIdentity {
     std::string name;
     PlayerKey key;
@@ -23,7 +23,7 @@ Hello helloOf(const ClientIdentity& identity);
 // Answers a Greeting. `channel`: the connection's keying material.
 Login loginOf(const ClientIdentity& identity, const Greeting& greeting, ByteView channel);
 
-// Whether it may help to come again soon: nothing about the player or its program is wrong.
+// Whether reconnecting soon may succeed: the refusal is not about the player or its program.
 constexpr bool isWorthReturning(Refusal why) {
     return why == Refusal::Stopping || why == Refusal::Silent || why == Refusal::TooSlow ||
            why == Refusal::Full;

@@ -10,7 +10,7 @@ constexpr std::string_view kClientNames[] = {"Hello", "Login",      "Proof", "Vi
                                              "Edit",  "Fill",       "Place", "TakeBack", "Say",
                                              "Pong",  "AskPlayers", "Leave", "AskPack"};
 
-// What a client may do to a block; the order is the one on the wire.
+// Kinds of changes to a block, in the order of the encoding.
 enum class ChangeKind : std::uint8_t { SetBlock, SetEntityData, UseBlock, Count };
 
 // x and y as integers, z as a byte.
@@ -27,7 +27,8 @@ void describe(auto& wire, Of<Hello> auto& m) {
     wire.fixed(m.magic);
     wire.require(m.magic == kMagic);
     wire.fixed(m.version);
-    // Only this much is the same in all versions: a newer client is told so, whatever follows.
+    // Magic and version are the same in all protocol versions: a newer client gets Refusal::Version whatever
+    // follows.
     if (m.version != kProtocolVersion) return wire.ignoreRest();
     wire.text(m.program, kMaxProgramBytes);
 }

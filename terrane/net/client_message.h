@@ -1,8 +1,8 @@
-// What a client says to a server: plain values, and their bytes. docs/protocol.md describes each message to
-// the byte. Any thread.
+// Messages from a client to a server: plain values, and their encoding. docs/protocol.md describes each
+// message to the byte. Any thread.
 //
-// A message is a byte that says which it is, its index in the variant below, then its fields. Messages are
-// never taken from the middle of a variant: another protocol has another version.
+// A message is a byte with its type, the index in the variant below, followed by its fields. The variant's
+// order is part of the protocol: changing it requires a new protocol version.
 #pragma once
 
 #include <optional>
@@ -35,7 +35,8 @@ struct Login {
 struct Proof {
     SampleDigests digests{};
 };
-// What the client shows: it gets edits of chunks up to `viewDistance` around `center`, of tiles to `horizon`.
+// The view of the client: the server sends edits of chunks up to `viewDistance` (chunks) around `center`, and
+// of tiles up to `horizon` (chunks).
 struct View {
     world::ChunkPos center;
     std::uint8_t viewDistance = 0;
@@ -73,7 +74,7 @@ struct Pong {
 // Asks for PlayerList.
 struct AskPlayers {};
 struct Leave {};
-// Asks for PackPart: the next bytes of a pack of WorldOffer, by its number there. Before Proof.
+// Asks for PackPart: the next bytes of the pack with this index in WorldOffer. Sent before Proof.
 struct AskPack {
     std::uint8_t number = 0;
     std::uint32_t offset = 0;
@@ -83,14 +84,14 @@ using ClientMessage = std::variant<Hello, Login, Proof, View, Move, Edit, Fill, 
                                    AskPlayers, Leave, AskPack>;
 
 Bytes encode(const ClientMessage& message);
-// Any bytes may be given: what is no message is an error that names the one it should be.
+// Accepts any bytes. The error for an invalid message names the type that it claims to be.
 [[nodiscard]] base::Result<ClientMessage> decodeClientMessage(ByteView bytes);
 
 // For logs: "Hello", "Edit".
 std::string_view nameOf(const ClientMessage& message);
 
-// What a player signs to show that it has the key: good for this connection alone. `channel`: the TLS
-// connection's exported keying material (RFC 9266), which a server between client and server does not share.
+// The text that a player signs to prove that it has the key; valid for this connection only. `channel`: the
+// TLS connection's exported keying material (RFC 9266), which differs on both sides of a man in the middle.
 Bytes loginText(ByteView channel, const Nonce& nonce, const std::string& name);
 
 }  // namespace terrane::net

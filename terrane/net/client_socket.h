@@ -1,5 +1,5 @@
-// A client's end of a connection: TCP with TLS 1.3, and messages as frames. Used on the thread that runs the
-// context; its events come from there.
+// The client's end of a connection: TCP with TLS 1.3, carrying frames. Used on the thread that runs the
+// context; its events come on that thread.
 #pragma once
 
 #include <cstdint>
@@ -20,22 +20,22 @@ struct ServerAddress {
     std::string host;
     std::uint16_t port = 25560;
 };
-// "example.org", "example.org:4000", "[::1]:4000".
+// Parses "example.org", "example.org:4000" or "[::1]:4000".
 [[nodiscard]] base::Result<ServerAddress> serverAddress(const std::string& text);
 std::string textOf(const ServerAddress& address);
 
 struct SocketEvents {
-    // `serverKey`: 64 hexadecimal digits by which the server is known. `channel`: the exported keying
+    // `serverKey`: SHA-256 of the server's public key, 64 hexadecimal digits. `channel`: the exported keying
     // material.
     std::function<void(const Bytes& channel, const std::string& serverKey)> opened;
     std::function<void(ByteView message)> message;
-    // Once, and nothing after it. Not where the socket was closed by close() or destroyed.
+    // Called once, as the last event. Not called after close() or destruction.
     std::function<void(const std::string& reason)> closed;
 };
 
 class ClientSocket {
   public:
-    // Connects; all else happens while the context runs.
+    // Starts to connect; the rest happens while the context runs.
     ClientSocket(boost::asio::io_context& context, const ServerAddress& address, SocketEvents events);
     ~ClientSocket();
     ClientSocket(ClientSocket&&) noexcept;
@@ -44,7 +44,7 @@ class ClientSocket {
     void send(ByteView message);
     void close();
 
-    // Bytes of the network's stream, before and after TLS is on it.
+    // Bytes received and sent on the TCP stream, TLS included.
     std::uint64_t receivedBytes() const;
     std::uint64_t sentBytes() const;
 

@@ -89,8 +89,8 @@ void ClientWorld::take(const BlocksChanged& changed) {
     showChunk(changed.chunk, changed.blocks);
 }
 
-// What is to be shown of a chunk of which something else was known: blocks that differ no longer are the
-// generator's again.
+// Replaces the known difference of a chunk. Returns the blocks to show: those of `difference`, and blocks
+// that no longer differ with their generated value.
 ChunkDifference ClientWorld::replaceDifference(world::ChunkPos pos, const ChunkDifference& difference) {
     ChunkDifference former = store_.difference(pos);
     store_.setDifference(pos, difference);
@@ -112,12 +112,12 @@ bool ClientWorld::isLoading(world::ChunkPos pos) const {
 }
 
 void ClientWorld::showChunk(world::ChunkPos pos, const ChunkDifference& blocks) {
-    showLateChunks();  // they are older
+    showLateChunks();  // older than `blocks`
     const std::vector<world::PlacedBlock> shown = prediction_.takeIn(placedBlocks(pos, blocks));
     if (session_.world().maybeChunkAt(pos))
         show(shown);
     else if (isLoading(pos))
-        mergeInto(late_[pos], blocks);  // its worker may have read the store before
+        mergeInto(late_[pos], blocks);  // the worker may have read the store before this change
 }
 
 void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
@@ -133,7 +133,7 @@ void ClientWorld::showLateChunks() {
     });
 }
 
-// While the connection is gone nothing is sent: what was shown is taken back at once.
+// Without a connection nothing is sent and the edit is reverted at once.
 void ClientWorld::sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed) {
     std::vector<world::PlacedBlock> before;
     for (const game::ChangedBlock& block : changed) before.push_back({block.pos, block.before});
@@ -226,7 +226,7 @@ void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
     const bool isTold = toldView_ && toldView_->center == view.center &&
                         toldView_->viewDistance == view.viewDistance && toldView_->horizon == view.horizon;
     if (isTold) return;
-    // Where it stands goes first: a view is believed only around that.
+    // Move goes before View: the server accepts a view only near the player.
     if (toldPose_ != wirePose(pose)) send_(Move{*(toldPose_ = wirePose(pose))});
     send_(view);
     toldView_ = view;

@@ -1,5 +1,5 @@
-// A server's world in a client: a session whose chunks the client generates and whose edits the server tells.
-// Own edits show at once, and are taken back where the server decides otherwise. Without sockets; on the
+// A server's world on the client: a session whose chunks the client generates and whose edits the server
+// sends. Own edits are applied at once and reverted if the server decides otherwise. Without sockets; on the
 // world's thread.
 #pragma once
 
@@ -24,38 +24,39 @@ namespace terrane::net {
 struct SeenPlayer {
     game::PlayerId id = game::kNoPlayer;
     std::string name;
-    world::Pose pose;          // as told last
-    std::uint64_t moves = 0;   // how often its pose was told
-    std::uint64_t swings = 0;  // how often its arm swung
+    world::Pose pose;          // as received last
+    std::uint64_t moves = 0;   // number of poses received
+    std::uint64_t swings = 0;  // number of arm swings
 };
 
 struct ChatLine {
-    std::string name;  // empty: the server
+    std::string name;  // empty: sent by the server
     std::string text;
 };
 
-// What the server decided on a command that could not be shown at once, or that it refused.
+// The server's decision on a command that was not predicted, or that it refused.
 using Decided = std::variant<game::EditResult, game::BuildOutcome, game::TakenBack>;
 
 class ClientWorld {
   public:
     using Send = std::function<void(const ClientMessage&)>;
-    // The session's store is `store`. Both outlive this. From here on the server decides on the session's
+    // `store` is the session's store. Both outlive this. From here on the server decides on the session's
     // commands (game::Authority).
     ClientWorld(game::Session& session, RemoteStore& store, Send send);
     ~ClientWorld();
     ClientWorld(const ClientWorld&) = delete;
     ClientWorld& operator=(const ClientWorld&) = delete;
 
-    // A message of the server, Joined or after it. Joined again after a cut: all is told again.
+    // Handles Joined and all messages after it. A second Joined, after a lost connection, resets the view:
+    // everything is sent again.
     void onMessage(const ServerMessage& message);
-    // The connection is gone: what the server did not decide on is taken back.
+    // The connection was lost: reverts commands that the server did not decide on.
     void onCut();
 
     void say(const std::string& text);
 
-    // Tells the server where the player is and what it looks at, and gives late changes to chunks that were
-    // being loaded. Call each frame.
+    // Sends the player's pose and view to the server, and applies late changes to chunks that were being
+    // loaded. Call each frame.
     void update(const world::Pose& pose, int viewDistance, int horizon,
                 std::chrono::steady_clock::time_point now);
 
@@ -63,10 +64,10 @@ class ClientWorld {
     const std::map<std::uint16_t, SeenPlayer>& players() const { return players_; }
     const std::optional<PlayerList>& playerList() const { return playerList_; }
 
-    // What came since the last call.
+    // Chat lines and decisions received since the last call.
     std::vector<ChatLine> takeChat();
     std::vector<Decided> takeDecided();
-    // Where the server put the player, where it did not believe a move.
+    // The pose that the server set because it rejected a move.
     std::optional<world::Pose> takeCorrection();
     std::size_t undecidedCount() const { return waiting_.size(); }
 
@@ -98,7 +99,7 @@ class ClientWorld {
     std::optional<Joined> joined_;
     CommandNumber lastCommand_ = 0;
     std::deque<WaitingDecision> waiting_;
-    // Of chunks that changed while they were loaded.
+    // Changes that arrived for chunks while they were being loaded.
     std::unordered_map<world::ChunkPos, ChunkDifference, world::ChunkPosHash> late_;
     bool isConnected_ = false, isViewComplete_ = false;
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <map>
 #include <string>
 #include <unordered_map>
@@ -12,7 +13,7 @@
 namespace terrane::net {
 namespace {
 
-// Ids as the file has them. Types that the file has no id for are none that a session can have.
+// Converts session ids to saved ids. A session has no types without a saved id.
 ChunkDifference withSavedIds(ChunkDifference blocks, const store::BlockIdMap& ids) {
     for (ChangedBlock& block : blocks)
         block.value.id = static_cast<world::BlockId>(ids.toSaved(block.value.id));
@@ -61,10 +62,15 @@ bool isInArea(const LoggedEdit& edit, const EditFilter& filter) {
     });
 }
 
-// A key grows with x first.
+// Keys are ordered by x first.
 KeyRange chunkKeys(const game::ColumnArea& area) {
     const world::ChunkPos low{area.x0 >> 4, world::kMinChunk}, high{area.x1 >> 4, world::kMaxChunk};
     return {store::keyOf(low), store::keyOf(high)};
+}
+
+std::int64_t nowMs() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
 }
 
 std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
@@ -100,7 +106,7 @@ base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, c
         for (std::size_t k = 0; k < edit.after.size(); ++k) {
             const world::BlockPos pos = world::blockPos(edit.chunk, edit.after[k].index);
             if (filter.area && !filter.area->contains(pos)) continue;
-            // From the newest on: the first is what the block was made, the last what it was.
+            // Edits come newest first: the first one seen gives `made`, the last one `before`.
             const auto found = blocks.try_emplace(pos, RolledBack{pos, edit.after[k].value, {}}).first;
             found->second.before = edit.before[k].value;
         }

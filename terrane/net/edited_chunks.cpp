@@ -17,8 +17,8 @@ namespace {
 
 constexpr std::uint64_t kRetryAfter = 40;  // calls of update(): two seconds
 
-// From the generated chunk to the saved one; none where that cannot be read now. What is damaged differs in
-// nothing.
+// Difference between the generated and the saved chunk; no value if the store cannot be read now. A damaged
+// chunk counts as unedited.
 std::optional<ChunkDifference> savedDifference(const EditedChunks::Parts& parts, ChunkPos pos) {
     const store::LoadedChunk loaded = parts.store.load(pos);
     if (loaded.isUnread && !loaded.isOverBudget) return std::nullopt;
@@ -34,7 +34,7 @@ bool EditedChunks::add(ChunkPos chunk) {
     bool isNew = false;
     for (int level = 0; level <= world::kMaxLevel; ++level) {
         const ChunkPos pos{chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
-        if (!positions_[static_cast<std::size_t>(level)].insert(pos).second) break;  // and so all above
+        if (!positions_[static_cast<std::size_t>(level)].insert(pos).second) break;  // the tiles above, too
         isNew = true;
     }
     return isNew;
@@ -46,9 +46,7 @@ std::vector<ChunkPos> EditedChunks::within(ChunkPos middle, int radius) const {
     const auto width = static_cast<std::size_t>(2 * radius + 1);
     if (positions.size() < width * width) {
         for (const ChunkPos pos : positions)
-            if (std::max(std::abs(std::int64_t{pos.x} - middle.x),
-                         std::abs(std::int64_t{pos.y} - middle.y)) <= radius)
-                found.push_back(pos);
+            if (world::chunkDistance(pos, middle) <= radius) found.push_back(pos);
         return found;
     }
     for (const ChunkPos pos : world::chunksWithin(middle, radius))
@@ -97,7 +95,7 @@ void EditedChunks::onTileChanged(ChunkPos tile) {
     const auto found = known_.find(tile);
     if (found == known_.end()) return;
     blockCount_ -= found->second.difference.size();
-    known_.erase(found);  // a job that runs for it finds nobody who waits
+    known_.erase(found);  // the result of a running job is ignored
 }
 
 void EditedChunks::update() {
@@ -134,7 +132,7 @@ void EditedChunks::retryUnread() {
     });
 }
 
-// The half that was not used for the longest time.
+// Evicts the least recently used half.
 void EditedChunks::forgetOld() {
     std::vector<std::uint64_t> uses;
     for (const auto& [pos, known] : known_) uses.push_back(known.used);

@@ -1,6 +1,6 @@
-// Which chunks and tiles of a server's world are edited, and how each differs from what the generator makes:
-// found by workers when first asked for, kept up to date, and forgotten when too many are known. On the
-// server's thread.
+// The edited chunks and tiles of a server's world, and the difference of each from its generated state.
+// Workers compute a difference when it is first requested; it is then kept up to date, and evicted when too
+// many are cached. On the server's thread.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ namespace terrane::net {
 
 class EditedChunks {
   public:
-    // All of it outlives this, but the jobs, which end first.
+    // All of it outlives this; the jobs end before it.
     struct Parts {
         const gen::LevelGenerators& generators;
         store::ReadableStore& store;
@@ -31,41 +31,42 @@ class EditedChunks {
     };
     explicit EditedChunks(const Parts& parts);
 
-    // Chunks of level 0: the tiles above them are edited as well. False where all were so already.
+    // Adds a chunk of level 0 and the tiles above it. Returns false if all were known already.
     bool add(world::ChunkPos chunk);
     std::size_t count(int level) const { return positions_[static_cast<std::size_t>(level)].size(); }
     const std::unordered_set<world::ChunkPos, world::ChunkPosHash>& positions(int level) const {
         return positions_[static_cast<std::size_t>(level)];
     }
-    // Up to `radius` (Chebyshev) around a chunk or tile, in no order.
+    // Edited positions up to `radius` (Chebyshev) around a chunk or tile, unordered.
     std::vector<world::ChunkPos> within(world::ChunkPos middle, int radius) const;
 
-    // The difference as of the last onChanged(). Null where a worker finds it: ask again in a later tick. It
-    // holds until the next call of any function.
+    // The difference as of the last onChanged(); null while a worker computes it: ask again in a later tick.
+    // The pointer is valid until the next call of any function.
     const ChunkDifference* maybeDifference(world::ChunkPos pos);
-    // Blocks of a chunk that is edited are these now.
+    // Applies new block values of an edited chunk.
     void onChanged(world::ChunkPos pos, const ChunkDifference& newer);
     // A tile's row in the store changed.
     void onTileChanged(world::ChunkPos tile);
-    // Blocks of a chunk that the store may lack, to be added to what it has; none without a function.
+    // Sets a function that returns edits of a chunk that the store may lack; they are merged into the stored
+    // state.
     using TailOf = std::function<ChunkDifference(world::ChunkPos)>;
     void setTail(TailOf tailOf) { tailOf_ = std::move(tailOf); }
-    // Takes in what workers found.
+    // Collects the results of workers.
     void update();
 
-    // Blocks of all known differences; about 40 bytes each.
+    // Maximum number of blocks in all cached differences: 4,000,000 × about 40 bytes = 160 MB.
     static constexpr std::size_t kMaxBlocks = 4'000'000;
 
   private:
     struct Known {
-        ChunkDifference difference;  // while it is pending what changed since the job began
+        ChunkDifference difference;  // while pending: changes since the job began
         bool isPending = false;
         std::uint64_t job = 0, used = 0;
     };
     struct Found {
         world::ChunkPos pos;
         std::uint64_t job;
-        std::optional<ChunkDifference> difference;  // none: the store could not be read
+        std::optional<ChunkDifference> difference;  // no value: the store could not be read
     };
     struct Unread {
         world::ChunkPos pos;

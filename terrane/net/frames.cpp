@@ -5,7 +5,7 @@
 namespace terrane::net {
 namespace {
 
-// Seven bits each: 2^28 bytes are more than any message has.
+// 4 digits of 7 bits: 2^28 bytes, more than any message has.
 constexpr std::size_t kMaxDigits = 4;
 
 }  // namespace
@@ -33,6 +33,9 @@ base::Result<std::optional<ByteView>> FrameReader::next() {
     }
     if (length > maxMessage_ || (digits == kMaxDigits && !isWhole))
         return base::fail(base::ErrorCode::Damaged, "a message of more than {} bytes", maxMessage_);
+    // Only the shortest form is valid.
+    if (isWhole && digits > 1 && rest[digits - 1] == std::byte{0})
+        return base::fail(base::ErrorCode::Damaged, "a length that is not in its shortest form");
     if (!isWhole || rest.size() - digits < length) return std::optional<ByteView>();
     begin_ += digits + length;
     return std::optional(rest.subspan(digits, length));

@@ -1,5 +1,5 @@
-// Messages in a stream of bytes: each is a number, how many bytes it has, then the bytes (docs/protocol.md).
-// Plain values; one thread at a time for each object.
+// Message framing in a byte stream: each message is its length as a varint, then its bytes
+// (docs/protocol.md). Plain values; one thread at a time for each object.
 #pragma once
 
 #include <cstddef>
@@ -12,22 +12,22 @@ namespace terrane::net {
 
 void appendFrame(Bytes& stream, ByteView message);
 
-// Takes a stream apart as it comes. It keeps at most one message, and what came after it.
+// Splits a stream into messages as it arrives. Buffers at most one message and the bytes after it.
 class FrameReader {
   public:
-    // Messages of more bytes are an error.
+    // Longer messages are an error.
     explicit FrameReader(std::size_t maxMessage) : maxMessage_(maxMessage) {}
 
     void add(ByteView bytes);
-    // The next message, which holds until the next call of add(); nothing where it is not whole yet. After an
-    // error the stream is of no use.
+    // The next message, valid until the next call of add(); no value while it is incomplete. The stream is
+    // unusable after an error.
     [[nodiscard]] base::Result<std::optional<ByteView>> next();
     std::size_t waitingBytes() const { return bytes_.size() - begin_; }
 
   private:
     std::size_t maxMessage_;
     Bytes bytes_;
-    std::size_t begin_ = 0;  // of what is not taken
+    std::size_t begin_ = 0;  // of the bytes not yet returned
 };
 
 }  // namespace terrane::net

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <utility>
 
+#include "terrane/net/people.h"
 #include "terrane/net/sqlite_edits.h"
 #include "terrane/store/schema.h"
 
@@ -37,9 +38,8 @@ base::Result<History> readHistoryFile(const std::filesystem::path& file, const w
 }
 
 std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name) {
-    const auto isEqual = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
     for (const auto& [id, known] : history.names)
-        if (std::ranges::equal(known, name, isEqual)) return id;
+        if (isSameName(known, name)) return id;
     return std::nullopt;
 }
 

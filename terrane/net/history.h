@@ -1,4 +1,4 @@
-// The history of a world's servers, to be read while they run or not. One thread at a time.
+// Read access to the edit history of a world's servers, also while they run. One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -16,11 +16,11 @@ struct History {
     ForEachEdit forEachEdit;  // as ServerRecords::forEachEdit()
 };
 
-// Of the file of a server. Errors name the file.
+// Opens the history in a server's file. Errors name the file.
 [[nodiscard]] base::Result<History> readHistoryFile(const std::filesystem::path& file,
                                                     const world::BlockRegistry& blocks);
 
-std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name);  // without case
+std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name);  // ignores case
 std::string nameOf(const History& history, game::PlayerId player);  // "the server" for kNoPlayer
 
 }  // namespace terrane::net

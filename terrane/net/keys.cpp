@@ -22,7 +22,7 @@ unsigned char* rawOf(std::span<std::byte> bytes) {
     return reinterpret_cast<unsigned char*>(bytes.data());
 }
 
-// Once, before anything else of the library. It fails only where the system has no random numbers.
+// Must run before any other function of the library. It fails only if the system has no random numbers.
 void startSodium() {
     static const bool isStarted = sodium_init() >= 0;
     if (!isStarted) std::abort();
@@ -48,7 +48,7 @@ base::Result<PlayerKey> writeKey(const std::filesystem::path& file) {
     const int error = errno;
     if (descriptor >= 0) ::close(descriptor);
     if (isWritten) return key;
-    if (descriptor >= 0) ::unlink(file.c_str());  // a part of a key would be none for ever
+    if (descriptor >= 0) ::unlink(file.c_str());  // do not leave a partial key
     return base::fail(base::ErrorCode::Io, "{}: the player's key cannot be written: {}", file.string(),
                       base::systemReason(error));
 }

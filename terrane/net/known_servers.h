@@ -1,5 +1,5 @@
-// The keys of servers that a player was on: a line each, "HOST:PORT KEY". The first time a server is
-// believed; from then on it has to have the same key. Any thread.
+// The keys of servers that a player visited, one "HOST:PORT KEY" per line. A server is trusted on first use;
+// later it must have the same key. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace terrane::net {
 
-// Whether the server has the key that it had before, or none was known: then it is written into the file.
+// Whether the server has its known key. An unknown server's key is added to the file.
 [[nodiscard]] base::Result<bool> isKnownOrNew(const std::filesystem::path& file, const std::string& server,
                                               const std::string& key);
 

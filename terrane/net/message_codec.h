@@ -1,7 +1,7 @@
-// The bytes of a variant of messages, from one description of each: for client_message.cpp and
-// server_message.cpp alone. Any thread.
+// Encodes and decodes a variant of messages from one description of each; for client_message.cpp and
+// server_message.cpp only. Any thread.
 //
-// A description is a function of a wire (WireWriter or WireReader) and a message, const where it is written.
+// A description is a function of a wire (WireWriter or WireReader) and a message, const when it is written.
 #pragma once
 
 #include <concepts>
@@ -17,7 +17,7 @@
 
 namespace terrane::net {
 
-// A message to be read, or a const one to be written.
+// T, or const T when it is written.
 template <class M, class T>
 concept Of = std::same_as<std::remove_const_t<M>, T>;
 
@@ -35,7 +35,7 @@ void emplaceAt(Variant& message, std::size_t index, std::index_sequence<I...>) {
     ((index == I ? void(message.template emplace<I>()) : void()), ...);
 }
 
-// `names`: of the messages, for errors.
+// `names`: names of the message types, for errors.
 template <class Variant, class Describe>
 base::Result<Variant> decodeVariant(ByteView bytes,
                                     std::span<const std::string_view, std::variant_size_v<Variant>> names,
@@ -44,13 +44,13 @@ base::Result<Variant> decodeVariant(ByteView bytes,
     std::uint8_t type = 0;
     wire.fixed(type);
     if (wire.hasFailed()) return base::fail(base::ErrorCode::Damaged, "an empty message");
-    if (type >= names.size())
-        return base::fail(base::ErrorCode::Damaged, "no message has the number {}", type);
+    if (type >= names.size()) return base::fail(base::ErrorCode::Damaged, "unknown message type {}", type);
     Variant message;
     emplaceAt(message, type, std::make_index_sequence<std::variant_size_v<Variant>>());
     std::visit([&](auto& m) { describe(wire, m); }, message);
     if (!wire.isComplete())
-        return base::fail(base::ErrorCode::Damaged, "{} bytes are no message {}", bytes.size(), names[type]);
+        return base::fail(base::ErrorCode::Damaged, "{} bytes are not a valid {} message", bytes.size(),
+                          names[type]);
     return message;
 }
 

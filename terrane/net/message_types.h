@@ -1,4 +1,4 @@
-// What messages of clients and of servers have in common: limits, keys, numbers. Plain values.
+// Definitions shared by client and server messages: limits, keys, numbers. Plain values.
 #pragma once
 
 #include <array>
@@ -23,32 +23,32 @@ constexpr std::size_t kMaxPackNameBytes = 64;  // and of its version
 constexpr std::size_t kMaxPackPart = 196608;   // bytes of a pack in a message
 constexpr std::size_t kMaxAddressBytes = 256;  // of a server
 constexpr std::size_t kServerKeyBytes = 64;    // hexadecimal digits
-// Of a message with its type. A structure of 32 KiB is some 10,000 blocks of a building.
+// Sizes in bytes, including the type byte. A structure of 32 KiB has about 10,000 blocks.
 constexpr std::size_t kMaxStructureWire = 32768;
 constexpr std::size_t kMaxClientMessage = 65536;
 constexpr std::size_t kMaxServerMessage = 262144;
 
 using Nonce = std::array<std::byte, 32>;
 
-// Numbers of a client's commands, in ascending order.
+// Numbers of a client's commands, ascending.
 using CommandNumber = std::uint32_t;
 
-// Why a server does not let a client in, or closes a connection.
+// Why a server refuses a login or closes a connection.
 enum class Refusal : std::uint8_t {
     Version,     // another version of the protocol
-    Name,        // no name, or one that another key has
-    Password,    // wrong
+    Name,        // invalid, or used by another key
+    Password,    // wrong password
     WrongKey,    // the signature does not fit the key
     OtherWorld,  // the client's program generates another world
     Banned,
-    Full,      // as many players as the server takes
-    Disorder,  // a message that is none, or not at this time
-    TooMuch,   // more messages than one player may send
-    TooSlow,   // what the server sends is not read
-    Silent,    // nothing came for too long
-    Replaced,  // the same player came again elsewhere
+    Full,           // the server has its maximum number of players
+    ProtocolError,  // an invalid message, or one that is not allowed at this time
+    TooMuch,        // rate limit exceeded
+    TooSlow,        // the client does not read fast enough
+    Silent,         // no message for too long
+    Replaced,       // the same player logged in from elsewhere
     Kicked,
-    Stopping,  // the server ends
+    Stopping,  // the server shuts down
     Count,
 };
 

@@ -14,9 +14,9 @@ namespace {
 using world::ChunkPos;
 
 constexpr std::uint64_t kTicksPerPoses = 4, kTicksPerAllPoses = 40;
-// Of whom nothing was heard for so long is not there.
+// A player without news for this long is dropped.
 constexpr std::chrono::seconds kForgetAfter{8};
-// Orphaned chunks that are saved in a tick: some milliseconds. So many more are asked for meanwhile.
+// Orphaned chunks saved in a tick, some milliseconds, and requested ahead.
 constexpr std::size_t kOrphans = 8, kOrphansAhead = 32;
 
 }  // namespace
@@ -55,7 +55,7 @@ void takeServers(ServerState& server, std::vector<OtherServer> servers) {
         const auto isItsOwn = [&](const SharingState::Orphans& orphans) {
             return orphans.server == other.number;
         };
-        // It had only stalled: what it changed is its own to save.
+        // It had only stalled: it saves its own changes.
         if (other.isAlive) {
             std::erase_if(sharing.orphans, isItsOwn);
             sharing.forgotten.erase(other.number);
@@ -67,7 +67,7 @@ void takeServers(ServerState& server, std::vector<OtherServer> servers) {
                       other.unsaved.size());
         sharing.orphans.push_back({other.number, sharing.newest, other.unsaved});
     }
-    // One that does not know its own place yet cannot be found.
+    // A server without an address cannot be reached by clients.
     std::erase_if(servers, [](const OtherServer& other) { return !other.isAlive || other.address.empty(); });
     const auto isSame = [](const OtherServer& a, const OtherServer& b) {
         return a.address == b.address && a.key == b.key;
@@ -78,7 +78,7 @@ void takeServers(ServerState& server, std::vector<OtherServer> servers) {
     forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
 }
 
-// Loading a chunk adds the tail, which makes it a changed one that is saved.
+// Loading a chunk applies the tail, which marks it as changed, so that it is saved.
 void saveOrphans(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (sharing.orphans.empty()) return;
@@ -92,7 +92,7 @@ void saveOrphans(ServerState& server) {
         orphans.chunks.pop_back();
     }
     if (!orphans.chunks.empty()) return;
-    // A save that runs may have begun without the last of them.
+    // A running save may have begun before the last chunk was loaded.
     if (!orphans.savedBy) orphans.savedBy = sharing.savesBegun + 1;
     if (sharing.savesDone < *orphans.savedBy || sharing.ownSaved < orphans.newest) return;
     sharing.shared->forgetServer(orphans.server);

@@ -1,5 +1,5 @@
-// The other servers of a shared world: their players, where they are reached, and what servers that are gone
-// left to save. On the server's thread.
+// The other servers of a shared world: their players and addresses, and the unsaved chunks of servers that
+// are gone. On the server's thread.
 #pragma once
 
 #include <vector>
@@ -9,13 +9,13 @@
 namespace terrane::net {
 
 void takePoses(ServerState& server, const SharedNews& news);
-// Tells them where own players are, some times a second.
+// Sends the poses of own players to the other servers a few times per second.
 void tellPosesIfDue(ServerState& server);
-// All others that are there, or gone without saving. Tells clients of a change.
+// Takes the list of all other servers that run, or stopped without saving. Tells clients of changes.
 void takeServers(ServerState& server, std::vector<OtherServer> servers);
-// Loads and saves chunks that a server which is gone changed and did not save.
+// Loads and saves the chunks that a stopped server changed and did not save.
 void saveOrphans(ServerState& server);
-// As a client is told.
+// The list of servers as sent to clients.
 Servers otherServers(const ServerState& server);
 
 }  // namespace terrane::net

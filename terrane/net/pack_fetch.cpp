@@ -3,8 +3,8 @@
 namespace terrane::net {
 
 std::optional<AskPack> nextPart(const PackFetch& fetch) {
-    if (fetch.wanted.empty()) return std::nullopt;
-    return AskPack{fetch.wanted.back(), static_cast<std::uint32_t>(fetch.archive.size())};
+    if (fetch.missing.empty()) return std::nullopt;
+    return AskPack{fetch.missing.back(), static_cast<std::uint32_t>(fetch.archive.size())};
 }
 
 base::Result<bool> takePart(PackFetch& fetch, const PackPart& part) {

@@ -1,5 +1,5 @@
-// Content packs that a client lacks, asked for part by part between WorldOffer and Proof. Plain data; on the
-// link's thread.
+// Download of missing content packs, part by part, between WorldOffer and Proof. Plain data; on the link's
+// thread.
 #pragma once
 
 #include <optional>
@@ -12,15 +12,15 @@ namespace terrane::net {
 
 struct PackFetch {
     WorldOffer offer;
-    std::vector<std::uint8_t> wanted;  // numbers in offer.packs, the next one last
-    Bytes archive;                     // of the next one, as far as it came
+    std::vector<std::uint8_t> missing;  // indices into offer.packs, the next one last
+    Bytes archive;                      // bytes received of the next one
 };
 
-// The message that asks for the next part; none where all packs came.
+// The request for the next part; no value once all packs are complete.
 std::optional<AskPack> nextPart(const PackFetch& fetch);
 
-// Takes the part that was asked for: an error where it is another one, or more than the pack was said to
-// have. True: the archive is complete, and the caller takes it and removes the pack from `wanted`.
+// Appends the requested part. Fails for another part, or more bytes than the offer announced. Returns true
+// once the archive is complete: then the caller takes it and removes the pack from `missing`.
 [[nodiscard]] base::Result<bool> takePart(PackFetch& fetch, const PackPart& part);
 
 }  // namespace terrane::net

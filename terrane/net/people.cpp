@@ -11,16 +11,6 @@
 #include "terrane/net/wire.h"
 
 namespace terrane::net {
-namespace {
-
-std::string lower(std::string_view name) {
-    std::string text(name);
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-    return text;
-}
-
-}  // namespace
 
 bool isName(std::string_view name) {
     return !name.empty() && name.size() <= kMaxNameBytes && isPlainText(name) && name.front() != ' ' &&
@@ -30,6 +20,11 @@ bool isName(std::string_view name) {
 std::string nameRule() {
     return fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends",
                        kMaxNameBytes);
+}
+
+bool isSameName(std::string_view a, std::string_view b) {
+    const auto folded = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+    return std::ranges::equal(a, b, {}, folded, folded);
 }
 
 base::Result<People> People::read(ServerRecords& records) {
@@ -58,7 +53,7 @@ const KnownPlayer* People::byKey(const PublicKey& key) const {
 
 const KnownPlayer* People::byName(std::string_view name) const {
     const auto found =
-        std::ranges::find_if(players_, [&](const auto& p) { return lower(p.second.name) == lower(name); });
+        std::ranges::find_if(players_, [&](const auto& p) { return isSameName(p.second.name, name); });
     return found == players_.end() ? nullptr : &found->second;
 }
 
@@ -78,7 +73,7 @@ void People::learn(const KnownPlayer& player) {
 
 void People::learnClaims(const std::vector<game::Claim>& claims) {
     claims_ = {};
-    for (const game::Claim& claim : claims) (void)claims_.add(claim);  // one that is no claim is none here
+    for (const game::Claim& claim : claims) (void)claims_.add(claim);  // invalid claims are dropped
 }
 
 void People::forget(game::PlayerId id) {

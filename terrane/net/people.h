@@ -1,5 +1,5 @@
-// Everybody who ever played on a server, with what it keeps of them, and the claims: in memory, and written
-// to the server's records as it changes. On the server's thread.
+// All known players of a server and the claims: kept in memory, and written to the server's records when they
+// change. On the server's thread.
 #pragma once
 
 #include <cstddef>
@@ -14,30 +14,32 @@
 
 namespace terrane::net {
 
-// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without spaces at its ends. Lines of the console
-// name everybody: it has no quotation mark, and "*", who is anybody there, is none.
+// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without leading or trailing spaces. It contains
+// no quotation mark, which quotes console arguments, and is not "*", which stands for all players there.
 bool isName(std::string_view name);
-std::string nameRule();  // as a sentence
+std::string nameRule();  // the rule above, as text for the player
+// Whether two names are equal, ignoring ASCII case.
+bool isSameName(std::string_view a, std::string_view b);
 
 class People {
   public:
-    // All of the records, which it keeps.
+    // Reads all players and claims. Keeps a reference to `records`.
     [[nodiscard]] static base::Result<People> read(ServerRecords& records);
 
-    // Null where nobody has it. Names are compared without case, as far as letters of ASCII go. Pointers
-    // hold.
+    // Null if there is no such player. Names are compared ignoring ASCII case. The pointers stay valid until
+    // forget().
     const KnownPlayer* byId(game::PlayerId id) const;
     const KnownPlayer* byKey(const PublicKey& key) const;
     const KnownPlayer* byName(std::string_view name) const;
 
-    // `key` and `name` are new here. Without a number it is the next one.
+    // Adds a player. `key` and `name` must be unknown. kNoPlayer as number assigns the next one.
     const KnownPlayer& add(const PublicKey& key, const std::string& name, game::Role role,
                            game::PlayerId number = game::kNoPlayer);
-    // What another server wrote: nothing is written here.
+    // Takes over changes made by another server; does not write to the records.
     void learn(const KnownPlayer& player);
     void learnClaims(const std::vector<game::Claim>& claims);
     void forget(game::PlayerId id);
-    // Of somebody who is known.
+    // `id` must be a known player.
     void setName(game::PlayerId id, const std::string& name);
     void setRole(game::PlayerId id, game::Role role);
     void setPose(game::PlayerId id, const world::Pose& pose);

@@ -30,7 +30,7 @@ std::vector<world::PlacedBlock> Prediction::settle(std::uint32_t number) {
         settled.push_back({entry.first, std::move(entry.second.server)});
         return true;
     });
-    std::ranges::sort(settled, {}, &world::PlacedBlock::pos);  // not in the order of a hash table
+    std::ranges::sort(settled, {}, &world::PlacedBlock::pos);  // independent of the hash table's order
     return settled;
 }
 

@@ -1,6 +1,5 @@
-// A client shows its own edits at once, and takes back what the server decides otherwise. This remembers
-// which blocks are shown ahead of the server, and what the server says is there. Plain bookkeeping; the
-// world's thread.
+// Client-side prediction: remembers which blocks show an own edit that the server has not decided yet, and
+// the server's value of them. Plain bookkeeping; the world's thread.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +13,26 @@ namespace terrane::net {
 
 class Prediction {
   public:
-    // The client applied its command `number`, which is larger than all before. `before`: the blocks that it
-    // changed, with what they were.
+    // The client applied command `number`, larger than all before. `before`: the changed blocks with their
+    // previous values.
     void predict(std::uint32_t number, std::span<const world::PlacedBlock> before);
 
-    // The server says what blocks are. Gives those of them that no command is ahead of: they are to be shown.
+    // Takes block values from the server. Returns the blocks without a pending command: they are to be shown.
     [[nodiscard]] std::vector<world::PlacedBlock> takeIn(std::span<const world::PlacedBlock> blocks);
 
-    // The server decided on all commands up to `number`, and told what they changed. Gives the blocks that
-    // these commands alone were ahead of, as the server has them.
+    // The server decided on all commands up to `number` and sent their changes. Returns the blocks without
+    // further pending commands, with the server's values.
     [[nodiscard]] std::vector<world::PlacedBlock> settle(std::uint32_t number);
-    // No command will be decided any more, as the connection is gone. Gives all blocks as the server had them
-    // last.
+    // The connection was lost: no pending command will be decided. Returns all pending blocks with the
+    // server's last values.
     [[nodiscard]] std::vector<world::PlacedBlock> settleAll();
 
-    std::size_t blockCount() const { return ahead_.size(); }  // shown ahead of the server
+    std::size_t blockCount() const { return ahead_.size(); }  // with pending commands
 
   private:
     struct Ahead {
-        world::BlockValue server;  // what the server has there
-        std::uint32_t last = 0;    // the newest command that changed it
+        world::BlockValue server;  // the server's value
+        std::uint32_t last = 0;    // newest command that changed the block
     };
     std::unordered_map<world::BlockPos, Ahead, world::BlockPosHash> ahead_;
 };

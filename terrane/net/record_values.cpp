@@ -8,7 +8,7 @@
 namespace terrane::net {
 namespace {
 
-// Nothing where some word is no number.
+// No value if a word is not a number.
 std::optional<std::vector<game::PlayerId>> membersFrom(std::string_view text) {
     std::vector<game::PlayerId> members;
     while (!text.empty()) {

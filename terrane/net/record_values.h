@@ -1,4 +1,5 @@
-// Players and claims as tables keep them. Plain values and functions, for the records of servers.
+// Table rows of players and claims, and their conversion. Plain values and functions, for the records of
+// servers.
 #pragma once
 
 #include <array>
@@ -18,7 +19,7 @@ struct PlayerRow {
     std::int64_t role = 0;
     std::string_view pose, ban;  // empty: none
 };
-// Nothing where the row makes no sense.
+// No value if the row is invalid.
 std::optional<KnownPlayer> knownPlayer(const PlayerRow& row);
 
 struct ClaimRow {
@@ -29,10 +30,10 @@ struct ClaimRow {
 };
 std::optional<game::Claim> claimOf(const ClaimRow& row);
 
-// "3 7 12".
+// Ids separated by spaces: "3 7 12".
 std::string membersText(const std::vector<game::PlayerId>& members);
 
-// kNoPlayer and kLocalPlayer are nobody's.
+// First id of a server's player; kNoPlayer and kLocalPlayer are reserved.
 constexpr game::PlayerId kFirstPlayer = game::kLocalPlayer + 1;
 
 }  // namespace terrane::net

@@ -9,7 +9,7 @@
 namespace terrane::net {
 namespace {
 
-// Edits that wait to be written at a time.
+// Edits queued before each flush.
 constexpr std::size_t kEditsAtOnce = 2000;
 
 base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_t after) {
@@ -42,7 +42,7 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
     if (!players) return tl::unexpected(players.error());
     const auto known = to.players();
     if (!known) return tl::unexpected(known.error());
-    // A copy that goes on may have people and claims as they were when it was ended.
+    // A resumed copy may have outdated players and claims.
     for (const KnownPlayer& player : *players) {
         if (std::ranges::none_of(*known, [&](const KnownPlayer& other) { return other.id == player.id; }))
             to.addPlayer(player);

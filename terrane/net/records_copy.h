@@ -1,5 +1,5 @@
-// Copies what servers keep beside a world, with the numbers that players and edits have: into records that
-// are empty, or hold the beginning of the same. Blocks until all is durable.
+// Copies a server's records, keeping the numbers of players and edits, into records that are empty or hold
+// the beginning of the same history. Blocks until all is durable.
 #pragma once
 
 #include "terrane/net/server_records.h"
@@ -11,8 +11,8 @@ struct RecordsCopied {
     std::int64_t edits = 0;
 };
 
-// An error where the world's store lacks edits of the history, which only a server adds; Incompatible where
-// `to` ends with another history.
+// Fails if the world's store lacks edits of the history, which only a server can add, and with
+// ErrorCode::Incompatible if `to` has a different history.
 [[nodiscard]] base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to);
 
 }  // namespace terrane::net

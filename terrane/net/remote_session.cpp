@@ -15,7 +15,7 @@ base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const wor
         client = worldFingerprint(own, *graph, blocks);
     }
     const std::string difference = differenceOf(offer.world, client);
-    // Without a generator here nothing but the difference is said, whatever the server claims.
+    // If the generator is missing here, report only the difference, not other errors.
     if (!graph && difference.empty()) return tl::unexpected(graph.error());
     if (!difference.empty()) return base::fail(base::ErrorCode::Incompatible, "{}", difference);
     return gen::Generator(std::move(*graph), own.seed);

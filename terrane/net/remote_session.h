@@ -1,4 +1,4 @@
-// Whether a client can play in the world that a server offers, and what its session is made of. Any thread.
+// Checks whether a client can play in an offered world, and makes the parts of its session. Any thread.
 #pragma once
 
 #include <memory>
@@ -10,18 +10,18 @@
 
 namespace terrane::net {
 
-// The generator of the world that is offered. Where this program makes another world the error is one line
-// that says what differs. `generators`: those that this program has.
+// The generator of the offered world. If this program generates another world, the error says in one line how
+// they differ. `generators`: the generators of this program.
 [[nodiscard]] base::Result<gen::Generator> offeredGenerator(
     const WorldOffer& offer, const world::BlockRegistry& blocks,
     const gen::GeneratorCatalogue& generators = gen::builtInGenerators());
 
-// The session's store is told by ClientWorld; it lives as long as the session.
+// `store` is owned by `parts`, then by the session; ClientWorld updates it.
 struct RemoteSessionParts {
     game::SessionParts parts;
     RemoteStore* store = nullptr;
 };
-// After offeredGenerator().
+// Call after offeredGenerator() succeeded.
 [[nodiscard]] base::Result<RemoteSessionParts> remoteSessionParts(
     const store::WorldIdentity& identity, std::shared_ptr<const world::BlockRegistry> blocks,
     unsigned threads, const gen::GeneratorCatalogue& generators = gen::builtInGenerators());

@@ -1,6 +1,6 @@
-// The store of a world on a server: chunks are what the generator makes, with the differences that the server
-// told. It saves nothing, as the server does: what other stores promise of saving is not promised here. Any
-// thread may call everything.
+// The client's store of a world on a server: generated chunks with the differences that the server sent. It
+// saves nothing, since the server does: the guarantees of ChunkStore about saving do not hold. Any thread may
+// call everything.
 #pragma once
 
 #include <map>
@@ -17,15 +17,15 @@ namespace terrane::net {
 
 class RemoteStore : public store::ChunkStore {
   public:
-    // The generators are its own: a session's are made with the session, after its store.
+    // Has its own generators: those of the session are made later.
     RemoteStore(store::WorldIdentity identity, gen::LevelGenerators generators);
 
-    // What the server tells of a chunk or tile: in place of what was known, or besides.
+    // Replaces or extends the difference of a chunk or tile, as the server sent it.
     void setDifference(world::ChunkPos pos, ChunkDifference difference);
     void addDifference(world::ChunkPos pos, std::span<const ChangedBlock> newer);
-    // Empty where nothing is known, or nothing differs.
+    // Empty if nothing is known or nothing differs.
     ChunkDifference difference(world::ChunkPos pos) const;
-    std::size_t blockCount() const;  // of all differences
+    std::size_t blockCount() const;  // in all differences
 
     store::LoadedChunk load(world::ChunkPos pos) override;
     bool contains(world::ChunkPos pos) override;
@@ -37,7 +37,7 @@ class RemoteStore : public store::ChunkStore {
     store::SaveNumber setMetadata(std::string_view name, std::string value) override;
     [[nodiscard]] base::Result<void> flush() override { return {}; }
     store::SaveStatus status() override { return {}; }
-    // Tiles come from the server as well.
+    // Tiles come from the server; nothing is derived here.
     void setDerivedRows(store::DerivedRows rows) override;
     [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
     bool isPersistent() const override { return false; }
@@ -46,7 +46,7 @@ class RemoteStore : public store::ChunkStore {
     store::WorldIdentity identity_;
     gen::LevelGenerators generators_;
     mutable std::mutex mutex_;
-    std::unordered_map<world::ChunkPos, ChunkDifference, world::ChunkPosHash> differences_;  // none is empty
+    std::unordered_map<world::ChunkPos, ChunkDifference, world::ChunkPosHash> differences_;  // none empty
     std::map<std::string, std::string, std::less<>> metadata_;
 };
 

@@ -18,7 +18,7 @@
 namespace terrane::net {
 namespace {
 
-// How often the chunks where time passes are looked for.
+// Interval of the search for chunks in which time passes.
 constexpr std::uint64_t kTicksPerLiveChunks = 40;
 
 void noteEdits(ServerState& server, std::span<const world::BlockEdit> edits) {
@@ -34,8 +34,8 @@ bool hasState(const world::Chunk& chunk) {
     return false;
 }
 
-// Time passes in edited chunks near players: what the generator makes is at rest. They and their neighbors,
-// into which liquids flow, stay loaded.
+// Time passes in edited chunks near players; generated blocks are at rest. These chunks and their neighbors,
+// into which liquids may flow, stay loaded.
 void findLiveChunks(ServerState& server) {
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> live;
     forEachPlaying(server, [&](const ServerClient& client) {
@@ -52,10 +52,10 @@ void findLiveChunks(ServerState& server) {
             if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
     }
     std::ranges::sort(server.liveChunks);
-    wantRegions(server, server.liveChunks);
+    requestRegions(server, server.liveChunks);
 }
 
-// Where this server lets time pass.
+// Chunks in which this server lets time pass.
 std::vector<world::ChunkPos> growingChunks(const ServerState& server) {
     std::vector<world::ChunkPos> chunks;
     std::ranges::copy_if(server.liveChunks, std::back_inserter(chunks),
@@ -134,7 +134,7 @@ void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
     if (!client->buckets.messages.take(1, server.now))
         return refuse(server, *client, Refusal::TooMuch, "too many messages");
     auto message = decodeClientMessage(bytes);
-    if (!message) return refuse(server, *client, Refusal::Disorder, message.error().message);
+    if (!message) return refuse(server, *client, Refusal::ProtocolError, message.error().message);
     client->heardAt = server.now;
     if (client->stage == ServerClient::Stage::Playing)
         onPlayerMessage(server, *client, std::move(*message));
@@ -144,7 +144,7 @@ void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
 
 void onNonsense(ServerState& server, ConnectionId id, const std::string& what, Time now) {
     server.now = std::max(server.now, now);
-    if (ServerClient* client = clientOf(server, id)) refuse(server, *client, Refusal::Disorder, what);
+    if (ServerClient* client = clientOf(server, id)) refuse(server, *client, Refusal::ProtocolError, what);
 }
 
 void onClosed(ServerState& server, ConnectionId id, Time now) {
@@ -159,8 +159,8 @@ void tick(ServerState& server, Time now) {
     takeNews(server);
     tellChangedBlocks(server);
     updateLogins(server);
-    // Here and below no change waits to be told, so that chunks may go. Twice, as a chunk that is not in the
-    // store takes two jobs, and a command waits for it.
+    // At both calls of update() no change waits to be sent, so chunks may be unloaded. It runs twice because
+    // a chunk that is not in the store takes two jobs while a command waits for it.
     server.session.pipeline().update(server.now);
     completeLoaded(server);
     runCommands(server);

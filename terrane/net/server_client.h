@@ -1,5 +1,5 @@
-// One connection as the server knows it: who it is, what it may do, what it sees, what waits for it. Plain
-// data, on the server's thread.
+// The server's state of one connection: identity, permissions, view, queued data. Plain data, on the server's
+// thread.
 #pragma once
 
 #include <chrono>
@@ -20,7 +20,7 @@ namespace terrane::net {
 using Time = std::chrono::steady_clock::time_point;
 using ConnectionId = std::uint64_t;  // ascending
 
-// What a client may do, beyond which it waits or is sent away.
+// Rate limits of a client; beyond them its requests wait or it is disconnected.
 struct ClientBuckets {
     base::TokenBucket messages{120, 400};
     base::TokenBucket blocks{20000, 131072};  // of Fill and Place
@@ -33,33 +33,33 @@ struct ClientBuckets {
     explicit ClientBuckets(double maxSpeed) : blocksAway(maxSpeed, 2 * maxSpeed) {}
 };
 
-// Fill or Place.
+// A Fill or Place message.
 struct Build {
     CommandNumber number = 0;
     game::BuildChange change;
 };
 struct WaitingCommand {
     std::variant<Edit, Build, TakeBack> command;
-    std::uint64_t since = 0;  // tick: a server that stalls lets nobody wait in vain
+    std::uint64_t since = 0;  // tick number: time in which the server stalls does not count
 };
-// A decision that is told once it is in the file.
+// A decision that is sent once its edits are durable.
 struct Decision {
     std::uint64_t write = 0;  // ServerRecords::durable(); 0: nothing was written
     Done done;
-    // What it becomes where another server was first with one of its blocks.
+    // Result to send if another server changed one of the blocks first.
     std::uint8_t resultIfRefused = 0;
 };
 
-// Of a player who left: its steps to undo are kept for a while, and what it may do does not begin anew.
+// State of a player who left: undo steps are kept for a while, and rate limits continue on return.
 struct FormerClient {
     Time at;
     ClientBuckets buckets;
 };
 
-// Where a client connects from.
+// The network address of a client.
 struct ClientAddress {
-    std::string shown;    // in the log
-    std::string network;  // by which limits count: base::networkOf()
+    std::string shown;    // for the log
+    std::string network;  // key of the limits per address: base::networkOf()
     bool isOwnMachine = false;
 };
 
@@ -79,29 +79,29 @@ struct ServerClient {
     // From Login on.
     std::string name;
     PublicKey key{};
-    std::vector<std::uint32_t> sentOfPacks;  // bytes of each, by its number in the offer
-    int packParts = 0;                       // that were sent
+    std::vector<std::uint32_t> sentOfPacks;  // bytes sent of each pack, by index in the offer
+    int packParts = 0;                       // parts sent
 
-    // Of who plays.
+    // While playing.
     game::PlayerId player = game::kNoPlayer;
     game::Role role = game::Role::Player;
     WirePose pose;
     std::uint64_t swungTick = 0;
-    std::optional<Time> builtAt;  // of its last edit
+    std::optional<Time> builtAt;  // time of the last edit
     std::optional<std::chrono::milliseconds> latency;
     Sight sight;
     std::deque<WaitingCommand> commands;
-    std::size_t waitingBytes = 0;  // of data of blocks in them
+    std::size_t waitingBytes = 0;  // block entity data in `commands`
     std::deque<Decision> decisions;
 
-    // What it sees (server_view.h).
-    std::optional<View> view, askedView;                            // the latter from the next tick on
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> told;  // chunks and tiles
-    std::vector<world::ChunkPos> toTell;                            // the nearest last
+    // View (server_view.h).
+    std::optional<View> view, askedView;                            // asked: for the next tick
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> told;  // chunks and tiles known to the client
+    std::vector<world::ChunkPos> toTell;                            // to send, the nearest last
     bool owesViewComplete = false;
 
     Bytes outgoing;          // frames
-    std::size_t unsent = 0;  // bytes that the transport has and could not send yet
+    std::size_t unsent = 0;  // bytes passed to the transport and not sent yet
 };
 
 }  // namespace terrane::net

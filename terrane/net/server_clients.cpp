@@ -30,12 +30,14 @@ void say(ServerClient& client, const std::string& text) {
     for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
+Clock clockOf(const ServerState& server) {
+    const game::DayClock& clock = server.session.clock;
+    return {clock.timeDay, 1 / (60 * clock.dayMinutes)};
+}
+
 void setTimeHere(ServerState& server, double timeDay) {
-    game::DayClock& clock = server.session.clock;
-    clock.timeDay = timeDay;
-    forEachPlaying(server, [&](ServerClient& client) {
-        send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
-    });
+    server.session.clock.timeDay = timeDay;
+    forEachPlaying(server, [&](ServerClient& client) { send(client, clockOf(server)); });
 }
 
 void sayHere(ServerState& server, const std::string& name, const std::string& text) {
@@ -59,6 +61,10 @@ void refuse(ServerState& server, ServerClient& client, Refusal why, const std::s
                   reason);
     leave(server, client);
     client.stage = ServerClient::Stage::Closed;
+}
+
+std::string banText(const std::string& reason) {
+    return "you are banned from this server: " + reason;
 }
 
 void leave(ServerState& server, ServerClient& client) {

@@ -1,4 +1,4 @@
-// What is said to clients, and how they leave. On the server's thread.
+// Messages to clients, and disconnecting them. On the server's thread.
 #pragma once
 
 #include <string>
@@ -7,30 +7,34 @@
 
 namespace terrane::net {
 
-// Puts a message into the client's outgoing bytes; nothing for one that is sent away.
+// Appends a message to the client's outgoing bytes; drops it if the client is being disconnected.
 void send(ServerClient& client, const ServerMessage& message);
-// A message that is encoded once for several clients.
+// Sends a message that was encoded once for several clients.
 void sendEncoded(ServerClient& client, ByteView message);
 
-// Lines to one player, or to all who play. No name: the server speaks. Any bytes may be in them; what a
-// message cannot have is escaped, and long lines are cut.
+// Sends lines of chat to one player; the sender is the server. `text` may contain any bytes: what a message
+// cannot contain is escaped, and long lines are cut.
 void say(ServerClient& client, const std::string& text);
-// The time of day on this server.
+// The time of day, as sent to clients.
+Clock clockOf(const ServerState& server);
+// Sets the time of day on this server and tells its players.
 void setTimeHere(ServerState& server, double timeDay);
-// To the players of this server alone, and to those of all.
+// Sends chat lines to the players of this server, or of all servers. An empty name means the server.
 void sayHere(ServerState& server, const std::string& name, const std::string& text);
 void sayToAll(ServerState& server, const std::string& name, const std::string& text);
 
-// Tells the client why (any bytes), and sends it away: nothing that it says counts any more.
+// Sends Refused with the reason (any bytes) and disconnects the client; its further messages are ignored.
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);
-// It plays no longer: its place is kept, others hear of it.
+// The message for a banned player.
+std::string banText(const std::string& reason);
+// Ends the client's play: stores its position and tells other players.
 void leave(ServerState& server, ServerClient& client);
 
-// Null where nobody of that number or name plays.
+// Null if no such player is playing.
 ServerClient* playingClient(ServerState& server, game::PlayerId player);
 ServerClient* playingClient(ServerState& server, std::string_view name);
 
-// use(ServerClient&) for each who plays.
+// Calls use(ServerClient&) for each playing client.
 template <class Use>
 void forEachPlaying(ServerState& server, Use use) {
     for (auto& [id, client] : server.clients)

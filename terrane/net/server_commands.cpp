@@ -11,23 +11,24 @@ namespace terrane::net {
 namespace {
 
 constexpr std::size_t kMaxWaitingCommands = 512;
-// Of data of blocks in them: an edit has up to 32 KiB.
+// Block entity data in waiting commands; an edit has up to 32 KiB.
 constexpr std::size_t kMaxWaitingBytes = 1 << 20;
-// A command whose chunks do not come runs without them, and is refused by the session.
+// A command whose chunks are not loaded after this time runs anyway; the session refuses it.
 constexpr std::uint64_t kMaxWaitTicks = 60;
-// Of one command: a line of 65,536 blocks would touch 12,000.
+// Chunks of one command; a line of 65,536 blocks would touch 12,000.
 constexpr int kMaxChunks = 1024;
-// Blocks beside a changed one may change with it: what it held, a fence's arms. None does so far away.
+// Neighbors of a changed block may change with it, such as attached blocks and the arms of fences. All are
+// nearer than this.
 constexpr std::int32_t kBlocksBeside = 8;
-// Decided, but not yet on the disk: while it hangs no more commands run.
+// Decisions that are not durable yet; beyond this no more commands run.
 constexpr std::size_t kMaxUntold = 1024;
-// A structure is taken apart before it is known how large it is: it counts as so many edits.
+// A structure is decoded before its size is known: it counts as this many edits.
 constexpr double kEditsOfPlace = 30;
-// Data of blocks in a chunk: it is saved, and told, in one piece.
+// Block entity data in one chunk, which is saved and sent in one piece.
 constexpr std::size_t kMaxChunkData = 1 << 20;
-// Of data of its blocks, as steps to undo keep it.
+// Block entity data of a placed structure, which the undo steps keep.
 constexpr std::size_t kMaxPlacedData = 64 << 10;
-// After an edit the chunks around a player are loaded, as it will go on.
+// After an edit, the chunks around the player are loaded for this time, since more edits are likely.
 constexpr std::chrono::seconds kLoadsAround{20};
 constexpr std::chrono::milliseconds kLoadAroundEvery{1000};
 
@@ -47,12 +48,12 @@ std::int32_t chunkAt(std::int32_t block, std::int32_t away) {
     return static_cast<std::int32_t>((std::int64_t{block} + away) >> 4);
 }
 
-// Asks for the chunks that the box and what is beside it touch. Whether all are there, or they are too many
-// to wait for.
+// Requests the chunks that the box and its neighbor blocks touch. Returns whether all are loaded, or there
+// are too many to wait for.
 bool areLoaded(ServerState& server, const world::BlockBox& box) {
     const std::int32_t lowX = chunkAt(box.low.x, -kBlocksBeside), highX = chunkAt(box.high.x, kBlocksBeside);
     const std::int32_t lowY = chunkAt(box.low.y, -kBlocksBeside), highY = chunkAt(box.high.y, kBlocksBeside);
-    // Either alone is at most 2^28 chunks.
+    // Each is at most 2^28 chunks.
     const std::int64_t width = highX - lowX + 1, depth = highY - lowY + 1;
     if (width * depth > kMaxChunks) return true;
     bool all = true;
@@ -75,13 +76,13 @@ bool isKnown(const ServerState& server, world::BlockId id) {
     return id < server.session.blocks().types().size();
 }
 
-// What a block of the type keeps as data: anything else is but a load on disks and lines.
+// Whether `data` is valid block entity data for the type: other data is only a load on disk and network.
 bool keepsData(const world::BlockType& type, const world::BlockEntityData& data) {
     if (world::holdsText(type)) return world::decodeSign(data).has_value();
     return type.slots > 0 && data.size() <= kMaxBlockData && world::decodeInventory(data, type.slots);
 }
 
-// Leaves data where a block keeps such.
+// Removes invalid block entity data.
 void dropOtherData(world::Structure& structure, const world::BlockRegistry& blocks) {
     const std::vector<world::BlockValue> values = world::paletteValues(structure, blocks);
     std::erase_if(structure.data, [&](const world::StructureData& data) {
@@ -89,7 +90,7 @@ void dropOtherData(world::Structure& structure, const world::BlockRegistry& bloc
     });
 }
 
-// Whether each loaded chunk that the box touches has room for so much more data.
+// Whether each loaded chunk that the box touches has room for `bytes` more of block entity data.
 bool hasRoom(const ServerState& server, const world::BlockBox& box, std::size_t bytes) {
     const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
     for (std::int32_t y = low.y; y <= high.y; ++y)
@@ -100,7 +101,7 @@ bool hasRoom(const ServerState& server, const world::BlockBox& box, std::size_t 
     return true;
 }
 
-// Blocks of no type cannot be saved.
+// Rejects unknown block types, which cannot be saved, and invalid or too much data.
 bool isSensible(const ServerState& server, const Edit& edit) {
     if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(server, block->id);
     const auto* data = std::get_if<world::SetEntityData>(&edit.change);
@@ -148,7 +149,7 @@ Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
             static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
 }
 
-// Whether a command has the chunks that it needs, which are asked for, or the session will refuse it anyway.
+// Whether the chunks of a command, which are requested, are loaded, or the session will refuse it anyway.
 bool isReady(ServerState& server, const ServerClient& client, const world::BlockBox& box) {
     const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
     return !isNear || areLoaded(server, box);
@@ -169,7 +170,7 @@ bool isReady(ServerState& server, const ServerClient& client, const TakeBack& ta
     return all;
 }
 
-// Another server was first: an edit met another block than expected, the others may be tried again.
+// Result if another server was first: Conflict for an edit, NotLoaded for others, which may be tried again.
 std::uint8_t refusedResult(const WaitingCommand& command) {
     if (std::holds_alternative<Edit>(command.command))
         return static_cast<std::uint8_t>(game::EditResult::Conflict);
@@ -197,7 +198,7 @@ void runOf(ServerState& server, ServerClient& client) {
         const auto ready = [&](const auto& command) { return isReady(server, client, command); };
         if (!waitedLong && !std::visit(ready, next.command)) return;
         if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
-        // How many blocks it is about is known afterwards.
+        // The number of blocks is known only afterwards.
         if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, server.now))
             return;
         client.waitingBytes -= dataBytes(next);
@@ -206,7 +207,7 @@ void runOf(ServerState& server, ServerClient& client) {
     }
 }
 
-// Who built a moment ago goes on beside that.
+// Loads the chunks around a player who edited recently.
 void loadAround(ServerState& server, const ServerClient& client) {
     if (!client.builtAt || server.now - *client.builtAt > kLoadsAround) return;
     for (const world::ChunkPos pos : world::chunksWithin(world::chunkOf(poseOf(client.pose).position), 1))
@@ -219,7 +220,7 @@ void takeCommand(ServerState& server, ServerClient& client, WaitingCommand comma
     client.waitingBytes += dataBytes(command);
     if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
         return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
-    // Its chunks are asked for now, and may be there by the next tick but one.
+    // Requests its chunks now: they may be loaded by the next tick but one.
     if (!std::holds_alternative<TakeBack>(command.command))
         std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
     client.commands.push_back(std::move(command));

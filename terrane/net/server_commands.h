@@ -1,6 +1,5 @@
-// What players do to blocks: their commands wait until the chunks are loaded, run in their order through the
-// session, which checks them, and are decided on once the history has what they changed. On the server's
-// thread.
+// Commands of players that change blocks. A command waits until its chunks are loaded, runs in order through
+// the session, which checks it, and is answered once its edits are in the history. On the server's thread.
 #pragma once
 
 #include "terrane/net/server_state.h"
@@ -8,11 +7,11 @@
 namespace terrane::net {
 
 void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command);
-// What is no structure changes nothing.
+// An invalid structure changes nothing.
 void takePlace(ServerState& server, ServerClient& client, const Place& place);
-// Runs what can run. In each tick.
+// Runs the commands that are ready. Call in each tick.
 void runCommands(ServerState& server);
-// Tells what became of commands, as far as their changes are durable. After clients were told of the changes.
+// Sends the results of commands whose changes are durable. Call after the changes were sent.
 void tellDecisions(ServerState& server);
 
 }  // namespace terrane::net

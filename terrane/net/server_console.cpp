@@ -1,7 +1,6 @@
 #include "terrane/net/server_console.h"
 
 #include <charconv>
-#include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
@@ -18,7 +17,7 @@ using Words = std::span<const std::string>;
 
 struct ConsoleCommand {
     std::string_view name, arguments, help;
-    std::size_t least, most;  // how many arguments
+    std::size_t least, most;  // number of arguments
     std::string (*run)(ServerState&, Words);
 };
 
@@ -79,7 +78,7 @@ std::string ban(ServerState& server, Words words) {
     if (reason.empty()) reason = "no reason given";
     server.people.setBan(player->id, reason);
     if (ServerClient* client = playingClient(server, player->id))
-        refuse(server, *client, Refusal::Banned, "you are banned from this server: " + reason);
+        refuse(server, *client, Refusal::Banned, banText(reason));
     return player->name + " is banned";
 }
 
@@ -114,7 +113,7 @@ std::string makeGuest(ServerState& server, Words words) {
     return setRole(server, words[0], game::Role::Guest, "a guest, who changes no blocks,");
 }
 
-// Four numbers; corners in any order.
+// Parses two corners, in any order.
 std::optional<game::ColumnArea> areaFrom(Words words) {
     std::array<std::int32_t, 4> v{};
     for (std::size_t k = 0; k < 4; ++k) {
@@ -170,9 +169,7 @@ std::string rollbackLine(ServerState& server, Words words) {
     const auto minutes = numberFrom<double>(words[1]);
     if (!minutes || !(*minutes > 0) || *minutes > 1e8)
         return fmt::format("{} is no number of minutes", words[1]);
-    const auto now = std::chrono::duration_cast<std::chrono::milliseconds>(
-        std::chrono::system_clock::now().time_since_epoch());
-    filter.sinceMs = now.count() - static_cast<std::int64_t>(*minutes * 60000);
+    filter.sinceMs = nowMs() - static_cast<std::int64_t>(*minutes * 60000);
     if (words.size() == 6) {
         filter.area = areaFrom(words.subspan(2));
         if (!filter.area) return "the corners are four whole numbers: X0 Y0 X1 Y1";

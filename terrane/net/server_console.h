@@ -1,4 +1,4 @@
-// Commands of a server's console, which operators can give in the chat as well, behind a slash: say, kick,
+// Commands of the server console, which operators can also give in the chat with a leading slash: say, kick,
 // ban, op, claim, rollback, stop and others. On the server's thread.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace terrane::net {
 
-// Runs a line, and gives the answer: one or more lines, without a newline at the end. Words are separated by
-// spaces; those with spaces stand between double quotes.
+// Runs a line and returns the answer: one or more lines without a final newline. Arguments are separated by
+// spaces; double quotes enclose arguments that contain spaces.
 std::string runConsoleLine(ServerState& server, std::string_view line);
 
-// A line a command.
+// One line per command.
 std::string consoleHelp();
 
 }  // namespace terrane::net

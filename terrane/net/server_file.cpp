@@ -40,7 +40,7 @@ base::Result<void> makeTables(store::Database& database) {
     return transaction->commit();
 }
 
-// Makes the tables of an empty file; refuses what is not a server's file.
+// Creates the tables in an empty file; refuses files of another kind or format.
 base::Result<void> prepareTables(store::Database& database) {
     const auto tables = database.queryNumber("SELECT count(*) FROM sqlite_schema");
     if (!tables) return tl::unexpected(tables.error());
@@ -57,7 +57,7 @@ base::Result<void> prepareTables(store::Database& database) {
     return {};
 }
 
-// Names of types that the file has not seen are added.
+// Adds block types that are new to the file.
 base::Result<store::BlockIdMap> mapBlocks(store::Database& database, const world::BlockRegistry& blocks) {
     const auto names = store::readBlockNames(database);
     if (!names) return tl::unexpected(names.error());
@@ -135,9 +135,9 @@ std::string ServerFile::problem() const {
 
 base::Result<void> ServerFile::flush() {
     std::unique_lock lock(mutex_);
-    const std::uint64_t wanted = queued_, before = attempts_;
-    written_.wait(lock, [&] { return durable_ >= wanted || (attempts_ > before && !problem_.empty()); });
-    if (durable_ >= wanted) return {};
+    const std::uint64_t goal = queued_, before = attempts_;
+    written_.wait(lock, [&] { return durable_ >= goal || (attempts_ > before && !problem_.empty()); });
+    if (durable_ >= goal) return {};
     return base::fail(base::ErrorCode::Io, "{}", problem_);
 }
 
@@ -149,7 +149,7 @@ base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
     return transaction->commit();
 }
 
-// What failed stays and is tried again; at the end it is tried once.
+// Failed writes are kept and tried again, at the end once.
 void ServerFile::run() {
     std::vector<Write> writes;
     std::unique_lock lock(mutex_);

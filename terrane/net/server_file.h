@@ -1,9 +1,8 @@
-// The file that a server keeps beside a world, NAME.server.sqlite: who plays there, claims, and the history
-// of edits (sqlite_records.h). The world's own file has the same format with and without it.
+// A server's file beside the world's, NAME.server.sqlite: players, claims, and the edit history
+// (sqlite_records.h). The format of the world's file does not depend on it.
 //
-// Writes are collected and made durable together, on a thread of its own, about as soon as the disk can: a
-// command is acknowledged when it is durable. Functions are for one thread, the server's, but where said
-// otherwise.
+// Writes are collected and committed together by a thread of this class, about as fast as the disk allows: a
+// command is acknowledged when it is durable. Functions are for the server's thread unless stated otherwise.
 #pragma once
 
 #include <condition_variable>
@@ -22,30 +21,30 @@
 
 namespace terrane::net {
 
-// The file's path for a world's: "a/home.sqlite" gives "a/home.server.sqlite".
+// The file's path for a world's path: "a/home.sqlite" gives "a/home.server.sqlite".
 std::filesystem::path serverFilePath(const std::filesystem::path& world);
 
 class ServerFile {
   public:
-    // Made where it is not there. Errors name the file.
+    // Opens the file, creating it if needed. Errors name the file.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerFile>> open(const std::filesystem::path& path,
                                                                         const world::BlockRegistry& blocks);
-    ~ServerFile();  // writes what waits
+    ~ServerFile();  // writes all queued writes
     ServerFile(const ServerFile&) = delete;
     ServerFile& operator=(const ServerFile&) = delete;
 
-    // Called with the writer's connection, in a transaction, once or, where writing fails, again.
+    // Called with the writer's connection, inside a transaction; called again if writing failed.
     using Write = std::function<base::Result<void>(store::Database&)>;
-    // The number of the write; they are made in their order. Returns at once.
+    // Queues a write and returns its number; writes run in order. Does not block.
     std::uint64_t write(Write write);
-    // All writes up to this number survive the end of the program, and of the power. Any thread.
+    // All writes up to this number survive the end of the program and a power failure. Any thread.
     std::uint64_t durable() const;
-    // Why the last attempt to write failed; empty after one that did not. Any thread.
+    // Why the last attempt to write failed; empty if it succeeded. Any thread.
     std::string problem() const;
-    // Blocks until all writes so far are durable, or one attempt has failed.
+    // Blocks until all queued writes are durable, or an attempt failed.
     [[nodiscard]] base::Result<void> flush();
 
-    // A connection to read by, which sees what is durable.
+    // A read-only connection, which sees the durable state.
     store::Database& reader() { return reader_; }
     const store::BlockIdMap& ids() const { return ids_; }
 
@@ -60,7 +59,7 @@ class ServerFile {
     base::Result<void> writeAll(const std::vector<Write>& writes);
 
     store::FileLock lock_;
-    store::Database writer_;  // of the thread
+    store::Database writer_;  // used by thread_
     store::Database reader_;
     store::BlockIdMap ids_;
 

@@ -1,6 +1,5 @@
 #include "terrane/net/server_history.h"
 
-#include <chrono>
 #include <map>
 
 #include "terrane/base/log.h"
@@ -10,15 +9,10 @@
 namespace terrane::net {
 namespace {
 
-// Of a roll-back, in a tick: some milliseconds.
+// Chunks of a rollback per tick: some milliseconds.
 constexpr std::size_t kRollbackChunks = 8;
 
-std::int64_t millisecondsNow() {
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
-}
-
-// Nothing waits for other servers any more.
+// Waits until all own edits are decided among the servers.
 base::Result<void> decideAll(ServerState& server) {
     if (!server.sharing.shared) return {};
     auto flushed = server.records.flush();
@@ -30,7 +24,7 @@ base::Result<void> decideAll(ServerState& server) {
 
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
     ServerHistory& history = server.history;
-    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, millisecondsNow(), changes);
+    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, nowMs(), changes);
     if (edits.empty()) return;
     if (!server.sharing.shared) history.newest = edits.back().number;
     history.lastWrite = server.records.append(edits);
@@ -82,7 +76,7 @@ void keepSaving(ServerState& server) {
 }
 
 base::Result<void> saveEverything(ServerState& server) {
-    // A roll-back that has begun ends.
+    // Finishes running rollbacks.
     while (!server.rollbacks.empty()) {
         (void)server.session.pipeline().chunkAt(server.rollbacks.front().chunk);
         completeLoaded(server);
@@ -104,14 +98,15 @@ base::Result<void> saveEverything(ServerState& server) {
 }
 
 base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter) {
-    // The reader sees what is durable.
+    // The reader sees only durable edits.
     if (auto flushed = server.records.flush(); !flushed) return tl::unexpected(flushed.error());
-    const auto forEachEdit = [&](const EditFilter& wanted, EditOrder order, const UseEdit& use) {
-        return server.records.forEachEdit(wanted, order, use);
+    const auto forEachEdit = [&](const EditFilter& selected, EditOrder order, const UseEdit& use) {
+        return server.records.forEachEdit(selected, order, use);
     };
     auto plan = rollback(forEachEdit, filter);
     if (!plan) return tl::unexpected(plan.error());
-    // A part has a block once: others may wait that roll back the same ones.
+    // Within a plan each block occurs once; parts of an earlier rollback may contain the same chunk and stay
+    // separate.
     const std::size_t first = server.rollbacks.size();
     for (RolledBack& block : *plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);
@@ -124,7 +119,7 @@ base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& f
 
 void continueRollbacks(ServerState& server) {
     game::Session& session = server.session;
-    // The next ones are loaded meanwhile.
+    // Loads the chunks of the next parts ahead.
     for (std::size_t k = 0; k < std::min(server.rollbacks.size(), 4 * kRollbackChunks); ++k)
         (void)session.pipeline().maybeLoadChunkAt(server.rollbacks[k].chunk);
     for (std::size_t k = 0; k < kRollbackChunks && !server.rollbacks.empty(); ++k) {

@@ -1,5 +1,5 @@
-// Keeps the history of edits, and the world's own file behind it: what the history has is brought back after
-// a crash, so that no decision that a client heard of is lost. On the server's thread.
+// Records the edit history and saves the world's store after it: after a crash the history restores what the
+// store lacks, so no acknowledged decision is lost. On the server's thread.
 #pragma once
 
 #include <chrono>
@@ -9,23 +9,24 @@
 
 namespace terrane::net {
 
-// A player's command, or a roll-back (game::kNoPlayer), changed these blocks.
+// Logs the changes of a player's command, or of a rollback (game::kNoPlayer).
 void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes);
 
-// The number of the world's newest edit, of all servers of it.
+// Number of the world's newest edit, across all its servers.
 std::int64_t newestEdit(const ServerState& server);
 
-// Edits that the world's file lacks are made again. Before anybody plays; blocks.
+// Applies edits that the world's store lacks. Call before players join; blocks.
 [[nodiscard]] base::Result<void> restoreEdits(ServerState& server);
 
 constexpr std::chrono::seconds kHistorySaveEvery{5};
-// Every few seconds edited chunks go to the store; once they are there the history notes it. In each tick.
+// Sends edited chunks to the store every kHistorySaveEvery, and notes in the history once they are saved.
+// Call in each tick.
 void keepSaving(ServerState& server);
-// All that changed is in both files. Blocks.
+// Saves all changes to the store and the records. Blocks.
 [[nodiscard]] base::Result<void> saveEverything(ServerState& server);
 
-// Takes back edits of players, where the blocks are still what those made them; goes on for some ticks. How
-// many blocks it is about.
+// Reverts the selected edits where the blocks still have the edited value; runs over several ticks. Returns
+// the number of blocks to check.
 [[nodiscard]] base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter);
 void continueRollbacks(ServerState& server);
 

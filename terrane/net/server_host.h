@@ -1,4 +1,4 @@
-// A world opened for a server: its session, the server's records, the people, and the server's state.
+// A world opened for a server: session, records, players, and server state.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace terrane::net {
 
-// They refer to each other: destroyed in reverse order.
+// Members refer to earlier ones: destroyed in reverse order.
 struct ServerHost {
     std::unique_ptr<game::Session> session;
     std::unique_ptr<ServerRecords> records;
@@ -17,14 +17,14 @@ struct ServerHost {
     std::unique_ptr<ServerState> state;
 };
 
-// The generators that the world may have, and its packs.
+// The generators available to the world, and its content packs.
 struct ServerContent {
     gen::GeneratorCatalogue generators = gen::builtInGenerators();
     std::vector<OfferedPack> packs = {};
 };
 
-// Ready for players. `parts`: of the world; `records`: of the same world; `program`: its name and version.
-// Takes up to a second, and what it takes to bring back edits after a crash.
+// Opens a server that is ready for players. `parts`, `records`: of the same world; `program`: its name and
+// version. Takes up to a second, and longer after a crash to restore edits.
 [[nodiscard]] base::Result<ServerHost> openServerHost(game::SessionParts parts,
                                                       std::unique_ptr<ServerRecords> records,
                                                       const ServerSettings& settings,

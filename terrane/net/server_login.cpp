@@ -18,7 +18,7 @@ using Stage = ServerClient::Stage;
 
 constexpr std::size_t kMaxWaitingPasswords = 32;
 constexpr std::ptrdiff_t kMaxPasswordsOfAddress = 4;
-// Whoever has more addresses than this is not held up by a limit for each.
+// Bounds the memory of the limits per address; beyond it they are reset.
 constexpr std::size_t kMaxAddresses = 4096;
 
 void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
@@ -31,14 +31,10 @@ void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
     send(client, Greeting{server.program, client.nonce, !server.passwordHash.empty()});
 }
 
-std::string banText(const KnownPlayer& player) {
-    return "you are banned from this server: " + player.ban;
-}
-
-// Why the player may not come in, by what the server knows of it.
+// Refuses the login if the ban, the name or a player limit forbids it.
 void refuseStranger(ServerState& server, ServerClient& client) {
     const KnownPlayer* known = server.people.byKey(client.key);
-    if (known && !known->ban.empty()) return refuse(server, client, Refusal::Banned, banText(*known));
+    if (known && !known->ban.empty()) return refuse(server, client, Refusal::Banned, banText(known->ban));
     const KnownPlayer* named = server.people.byName(client.name);
     if (named && named != known)
         return refuse(server, client, Refusal::Name,
@@ -77,7 +73,7 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
     refuseStranger(server, client);
     if (client.stage == Stage::Closed) return;
     if (server.passwordHash.empty()) return offerWorld(server, client);
-    // Who is gone waits no longer.
+    // Drop entries of clients that are gone.
     std::erase_if(server.passwordQueue, [&](const WaitingPassword& waiting) {
         const auto found = server.clients.find(waiting.client);
         return found == server.clients.end() || found->second.stage != Stage::Password;
@@ -114,7 +110,7 @@ void finishPasswordCheck(ServerState& server) {
     refuse(server, found->second, Refusal::Password, "the password is wrong");
 }
 
-// On the highest block of a column around the spawn.
+// On top of a random column around the spawn.
 world::Pose newcomersPose(const ServerState& server) {
     const int radius = server.settings.spawnRadius;
     if (radius == 0) return server.spawn;
@@ -139,7 +135,7 @@ void replaceFormer(ServerState& server, const KnownPlayer& player) {
         refuse(server, *former, Refusal::Replaced, "you joined again elsewhere");
 }
 
-// Each new player is a row that is kept for ever.
+// Rate limit for new players: each adds a permanent row to the records.
 bool mayComeNew(ServerState& server, const ClientAddress& address) {
     if (address.isOwnMachine) return true;
     if (server.newPlayers.size() >= kMaxAddresses) server.newPlayers.clear();
@@ -148,7 +144,7 @@ bool mayComeNew(ServerState& server, const ClientAddress& address) {
         .first->second.take(1, server.now);
 }
 
-// The player's row, made where it is new here, with the name that it has now.
+// The player's row with its current name, added for a new player.
 const KnownPlayer& rowOf(ServerState& server, const ServerClient& client, game::PlayerId newNumber) {
     const KnownPlayer* known = server.people.byKey(client.key);
     if (!known) known = &server.people.add(client.key, client.name, server.settings.newcomers, newNumber);
@@ -156,7 +152,7 @@ const KnownPlayer& rowOf(ServerState& server, const ServerClient& client, game::
     return *known;
 }
 
-// What the player may do goes on from where it left.
+// Rate limits continue from the player's last session.
 bool mayJoinAgain(ServerState& server, ServerClient& client, game::PlayerId player) {
     const auto left = server.left.find(player);
     if (left != server.left.end()) client.buckets = left->second.buckets;
@@ -165,7 +161,7 @@ bool mayJoinAgain(ServerState& server, ServerClient& client, game::PlayerId play
     return may;
 }
 
-// Who comes from a server that is gone goes on where it was seen last.
+// A player whose server stopped continues at the last position seen on it.
 world::Pose lastPose(const ServerState& server, const KnownPlayer& player) {
     const auto elsewhere = server.sharing.players.find(player.id);
     if (elsewhere != server.sharing.players.end()) return poseOf(elsewhere->second.at.pose);
@@ -194,15 +190,14 @@ void join(ServerState& server, ServerClient& client) {
     server.session.permissions.roles[player.id] = player.role;
     send(client, Joined{player.id, player.role, static_cast<std::uint8_t>(server.settings.maxViewDistance),
                         client.pose});
-    const game::DayClock& clock = server.session.clock;
-    send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+    send(client, clockOf(server));
     base::logInfo("{} joined from {}", client.name, client.address.shown);
     sayToAll(server, {}, client.name + " joined");
     if (!server.sharing.servers.empty()) send(client, otherServers(server));
     if (!server.settings.welcome.empty()) say(client, server.settings.welcome);
 }
 
-// Others may have come meanwhile: the checks of Login are made again.
+// Other players may have joined since Login: its checks are repeated.
 void onProof(ServerState& server, ServerClient& client, const Proof& proof) {
     if (proof.digests != server.digests)
         return refuse(server, client, Refusal::OtherWorld,
@@ -233,7 +228,7 @@ void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessa
     if (const auto* ask = std::get_if<AskPack>(&message); ask && client.stage == Stage::Proof)
         return onAskPack(server, client, *ask);
     if (proof && client.stage == Stage::Proof) return onProof(server, client, *proof);
-    refuse(server, client, Refusal::Disorder,
+    refuse(server, client, Refusal::ProtocolError,
            fmt::format("the message {} does not come at this time", nameOf(message)));
 }
 

@@ -1,4 +1,4 @@
-// How a connection becomes a player: Hello, Login, Proof (docs/protocol.md), each answered or refused. On the
+// The login of a connection: Hello, Login, Proof (docs/protocol.md), each answered or refused. On the
 // server's thread.
 #pragma once
 
@@ -6,12 +6,12 @@
 
 namespace terrane::net {
 
-// What the server offers its world by. Generates the sample chunks: up to 0.3 s.
+// Prepares the data of WorldOffer. Generates the sample chunks: up to 0.3 s.
 void prepareLogin(ServerState& server, std::uint64_t random);
 
-// A message of a client that does not play yet.
+// Handles a message of a client that is not playing yet.
 void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessage& message);
-// Passwords that were compared; who took too long. In each tick.
+// Finishes password checks and refuses logins that took too long. Call in each tick.
 void updateLogins(ServerState& server);
 
 }  // namespace terrane::net

@@ -12,7 +12,6 @@
 #include <chrono>
 #include <cstdio>
 #include <istream>
-#include <optional>
 #include <string>
 
 #include "terrane/base/log.h"
@@ -27,13 +26,13 @@ namespace {
 namespace asio = boost::asio;
 
 constexpr std::size_t kMaxConsoleLine = 4096;
-// At the end clients have so long to read that the server stops.
+// Time for clients to read that the server stops.
 constexpr std::chrono::seconds kStopTime{2};
 constexpr std::chrono::milliseconds kLeastListening{5};
-// After a stall ticks are left out rather than made up for.
+// After a longer stall, ticks are skipped instead of made up for.
 constexpr int kMaxTicksBehind = 4;
 
-// Standard input, where the system can wait for it: a terminal or a pipe, no file.
+// Reads lines of standard input if it can be waited for: a terminal or pipe, not a file.
 class Console {
   public:
     Console(asio::io_context& context, ServerState& server) : server_(server), input_(context) {
@@ -61,7 +60,7 @@ class Console {
         if (isTooLong && !skipsLine_)
             base::logError("a line of more than {} bytes is no command", kMaxConsoleLine);
         if (!isTooLong && !skipsLine_) run(line);
-        skipsLine_ = isTooLong;  // the rest of it is none, either
+        skipsLine_ = isTooLong;  // ignore the rest of the line, too
         read();
     }
     void run(const std::string& line) {
@@ -72,7 +71,7 @@ class Console {
             base::printLine("{}", std::string_view(answer).substr(at, end - at));
             at = end + 1;
         }
-        std::fflush(stdout);  // it may be a pipe, at whose end somebody waits
+        std::fflush(stdout);  // a reader may wait at the other end of a pipe
     }
 
     ServerState& server_;
@@ -99,8 +98,7 @@ void sendGoodbye(asio::io_context& context, ServerSockets& sockets) {
 base::Result<void> runServer(asio::io_context& context, ServerState& server, ServerSockets& sockets,
                              const ServerLoop& loop) {
     const base::StopSignals signals;
-    std::optional<Console> console;
-    if (loop.readsConsole) console.emplace(context, server);
+    Console console(context, server);
     Time next = std::chrono::steady_clock::now();
     while (!server.isStopping && !signals.stopAsked() && !(loop.stopAsked && loop.stopAsked())) {
         const Time start = std::chrono::steady_clock::now();
@@ -109,7 +107,7 @@ base::Result<void> runServer(asio::io_context& context, ServerState& server, Ser
         if (loop.onTick) loop.onTick(millisecondsSince(start));
         next = std::max(next + kServerTick, start - kMaxTicksBehind * kServerTick);
         context.restart();
-        // Where ticks take longer than they may, clients are heard all the same.
+        // Even if ticks take too long, read messages of clients for a while.
         context.run_until(std::max(next, std::chrono::steady_clock::now() + kLeastListening));
     }
     sockets.stopListening();

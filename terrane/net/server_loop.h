@@ -1,4 +1,4 @@
-// The loop of a server: ticks, its console, and a clean end. On the server's thread.
+// The main loop of a server: ticks, console, clean shutdown. On the server's thread.
 #pragma once
 
 #include <functional>
@@ -8,13 +8,12 @@
 namespace terrane::net {
 
 struct ServerLoop {
-    bool readsConsole = true;                              // lines of standard input
-    std::function<bool()> stopAsked = {};                  // asked in each tick; may be empty
-    std::function<void(double milliseconds)> onTick = {};  // how long each took; may be empty
+    std::function<bool()> stopAsked = {};                  // called in each tick; may be empty
+    std::function<void(double milliseconds)> onTick = {};  // duration of each tick; may be empty
 };
 
-// Runs the server until the console, a signal or `stopAsked` ends it; then everybody is sent away, and all is
-// saved.
+// Runs the server until the console, a signal or `stopAsked` stops it; then disconnects all players and saves
+// everything.
 [[nodiscard]] base::Result<void> runServer(boost::asio::io_context& context, ServerState& server,
                                            ServerSockets& sockets, const ServerLoop& loop);
 

@@ -94,7 +94,8 @@ void describe(auto& wire, Of<Disappears> auto& m) {
     wire.number(m.slot);
 }
 
-// Who looks about often stands: a byte says whether the player moves, and whether it swings its arm.
+// A player who looks around often stands still: a byte of flags says whether the position changed and whether
+// the arm swings.
 template <class Wire>
 void describeChange(Wire& wire, auto& change) {
     constexpr std::uint8_t kMoves = 1, kSwings = 2;

@@ -1,8 +1,8 @@
-// What a server says to a client: plain values, and their bytes. docs/protocol.md describes each message to
-// the byte. Any thread.
+// Messages from a server to a client: plain values, and their encoding. docs/protocol.md describes each
+// message to the byte. Any thread.
 //
-// A message is a byte that says which it is, its index in the variant below, then its fields. Messages are
-// never taken from the middle of a variant: another protocol has another version.
+// A message is a byte with its type, the index in the variant below, followed by its fields. The variant's
+// order is part of the protocol: changing it requires a new protocol version.
 #pragma once
 
 #include <string>
@@ -25,7 +25,8 @@ struct Greeting {
     Nonce nonce{};  // of this connection
     bool needsPassword = false;
 };
-// A content pack of the world. `hash`: SHA-256 of its contents (docs/protocol.md); `bytes`: of the archive.
+// A content pack of the world. `hash`: SHA-256 of its contents (docs/protocol.md); `bytes`: size of the
+// archive.
 struct PackOffer {
     std::string name, version;
     std::array<std::byte, 32> hash{};
@@ -45,32 +46,32 @@ struct Joined {
     WirePose pose;  // where the player was when it left
 };
 struct Refused {
-    Refusal why = Refusal::Disorder;
+    Refusal why = Refusal::ProtocolError;
     std::string reason;  // one line for the player
 };
-// The difference of a chunk from the generator's, or of a tile of a higher level. It comes in parts: the
-// first replaces what the client knew.
+// The difference of a chunk, or of a tile of a higher level, from its generated state. Sent in parts: the
+// first replaces the previous difference.
 struct ChunkEdits {
     world::ChunkPos chunk;
     bool isFirst = true;
     ChunkDifference blocks;
 };
-// Blocks that changed since.
+// Blocks that changed since ChunkEdits.
 struct BlocksChanged {
     world::ChunkPos chunk;
     ChunkDifference blocks;
 };
-// All edits in view came, up to here.
+// All edits in the view around `center` were sent.
 struct ViewComplete {
     world::ChunkPos center;
 };
-// What became of a command. It is in the server's file: no crash loses it.
+// The result of a command. Its edits are durable on the server.
 struct Done {
     CommandNumber number = 0;
     std::uint8_t result = 0;  // game::EditResult, BuildOutcome::Result or TakenBack::Outcome, by the command
-    std::uint32_t changed = 0, kept = 0;  // blocks, of what is no edit
+    std::uint32_t changed = 0, kept = 0;  // blocks; 0 for Edit
 };
-// A player comes in sight. `slot` stands for it in Poses until it is gone.
+// A player comes into sight. `slot` identifies it in Poses until Disappears.
 struct Appears {
     std::uint16_t slot = 0;
     game::PlayerId player = 0;
@@ -83,7 +84,7 @@ struct Disappears {
 struct Poses {
     std::vector<PoseChange> changes;
 };
-// A line of chat, or of the server (no name).
+// A line of chat; without a name it is from the server.
 struct Said {
     std::string name, text;
 };
@@ -91,7 +92,7 @@ struct Clock {
     double timeDay = 0;  // 0 to 1
     double daysASecond = 0;
 };
-// The player stands elsewhere than it said.
+// Sets the player's pose after a rejected move.
 struct Corrected {
     WirePose pose;
 };
@@ -101,20 +102,20 @@ struct Ping {
 struct ListedPlayer {
     std::string name;
     game::Role role = game::Role::Player;
-    std::uint16_t latencyMs = 0;  // 65535: that and more
+    std::uint16_t latencyMs = 0;  // 65535: that or more
 };
 struct PlayerList {
     std::vector<ListedPlayer> players;
 };
-// What the player may do from here on.
+// The player's role from now on.
 struct RoleChanged {
     game::Role role = game::Role::Player;
 };
 
-// Other servers of the same world: where else to go when this one is gone.
+// Other servers of the same world, to connect to if this one stops.
 struct Servers {
     struct Place {
-        std::string address, key;  // "host:port"; by which it is known
+        std::string address, key;  // "host:port"; hash of its public key
     };
     std::vector<Place> places;
 };
@@ -131,7 +132,7 @@ using ServerMessage = std::variant<Greeting, WorldOffer, Joined, Refused, ChunkE
                                    Ping, PlayerList, RoleChanged, Servers, PackPart>;
 
 Bytes encode(const ServerMessage& message);
-// Any bytes may be given: what is no message is an error that names the one it should be.
+// Accepts any bytes. The error for an invalid message names the type that it claims to be.
 [[nodiscard]] base::Result<ServerMessage> decodeServerMessage(ByteView bytes);
 
 }  // namespace terrane::net

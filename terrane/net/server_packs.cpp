@@ -15,8 +15,10 @@ void onAskPack(ServerState& server, ServerClient& client, const AskPack& ask) {
     client.sentOfPacks.resize(server.packs.size());
     const bool isNext = ask.number < server.packs.size() && ask.offset == client.sentOfPacks[ask.number] &&
                         ask.offset < server.packs[ask.number].archive->size();
-    if (!isNext) return refuse(server, client, Refusal::Disorder, "this part of a pack is not the next one");
-    // Clients ask when the last part has come; memory for who does not read stays bounded.
+    if (!isNext)
+        return refuse(server, client, Refusal::ProtocolError, "this part of a pack is not the next one");
+    // Clients request a part after the previous one arrived; this bounds the memory for clients that do not
+    // read.
     if (client.outgoing.size() + client.unsent > kMaxUnsentParts * kMaxPackPart)
         return refuse(server, client, Refusal::TooSlow, "parts of packs were asked for that are not read");
     const Bytes& archive = *server.packs[ask.number].archive;
@@ -27,7 +29,7 @@ void onAskPack(ServerState& server, ServerClient& client, const AskPack& ask) {
     ++client.packParts;
 }
 
-// A part a second is the slowest that is waited for; then the client loads what it got.
+// Allows a second for each part, plus time to load the packs.
 std::chrono::milliseconds timeForPacks(const ServerClient& client) {
     return client.packParts == 0 ? std::chrono::seconds(0) : std::chrono::seconds(20 + client.packParts);
 }

@@ -1,4 +1,4 @@
-// The content packs of a server's world, which clients may lack. On the server's thread.
+// The content packs of a server's world, sent to clients that lack them. On the server's thread.
 #pragma once
 
 #include <memory>
@@ -7,11 +7,11 @@
 
 namespace terrane::net {
 
-// Answers with the part that the client asks for. Each pack is sent once to a connection, from its beginning
-// to its end; whoever asks in another order is sent away.
+// Sends the requested part. Each pack is sent once per connection, from beginning to end; a request out of
+// order is refused.
 void onAskPack(ServerState& server, ServerClient& client, const AskPack& ask);
 
-// How much longer than ServerSettings::loginWithin the login of a client may take, which gets packs.
+// Login time of a client that downloads packs, in addition to ServerSettings::loginWithin.
 std::chrono::milliseconds timeForPacks(const ServerClient& client);
 
 }  // namespace terrane::net

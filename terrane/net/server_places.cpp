@@ -19,7 +19,7 @@ store::SaveNumber changeHere(ServerState& server, const PlaceChange& change) {
     return game::savePlaces(server.session.store(), places);
 }
 
-// Here, and on the other servers of the world.
+// Changes a place here and on the other servers of the world.
 void change(ServerState& server, const PlaceChange& change) {
     const store::SaveNumber save = changeHere(server, change);
     if (server.sharing.shared) server.sharing.untoldPlaces.push_back({save, change});

@@ -1,5 +1,5 @@
-// Places with names, in the world's metadata: maps show them (terrane/web). Players name where they stand,
-// operators any place. On the server's thread.
+// Named places in the world's metadata, shown on maps (terrane/web). Players mark their own position,
+// operators any position. On the server's thread.
 #pragma once
 
 #include <string>
@@ -10,22 +10,23 @@
 
 namespace terrane::net {
 
-// Each answers with a line for who asked. Servers of the same world hear of it.
+// Each returns a line for the player who asked. Other servers of the world are told.
 //
-// A place of that name moves where `mayMove`; else the name is taken.
+// markPlace() moves an existing place if `mayMove`; otherwise the name is taken.
 std::string markPlace(ServerState& server, std::string_view name, const world::Pose& pose, bool mayMove);
 std::string unmarkPlace(ServerState& server, std::string_view name);
 std::string placeList(ServerState& server);
 
-// A player says "/mark NAME". Guests may not; operators alone move what has a name.
+// The chat command "/mark NAME". Guests may not use it; only operators may move an existing place.
 std::string markHere(ServerState& server, const ServerClient& client, std::string_view name);
 
-// As another server did.
+// Applies a change of another server.
 void applyPlaceChange(ServerState& server, const PlaceChange& change);
-// Takes all names of places that the world's store has now: changes of other servers may have been missed.
-// Own ones that wait to be saved are newer.
+// Replaces all places by those of the world's store, since changes of other servers may have been missed. Own
+// changes that wait to be saved are kept.
 void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places);
-// Tells other servers of own changes once the store has them: who misses that finds them there.
+// Tells other servers of own changes once the store has them, so a server that misses the message finds them
+// there.
 void tellSavedPlaces(ServerState& server);
 
 }  // namespace terrane::net

@@ -1,7 +1,6 @@
 #include "terrane/net/server_players.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -14,15 +13,9 @@ namespace terrane::net {
 namespace {
 
 constexpr std::uint64_t kTicksPerPing = 100, kTicksPerClock = 200;
-// How far from where it stands a client may look: it has moved meanwhile.
+// Maximum distance in chunks between a client's position and the center of its view, since it may have moved
+// meanwhile.
 constexpr int kViewAway = 4;
-
-double distanceBlocks(const WirePose& a, const WirePose& b) {
-    const auto between = [](std::int64_t u, std::int64_t v) {
-        return static_cast<double>(u - v) / kPoseSteps;
-    };
-    return std::hypot(between(a.x, b.x), between(a.y, b.y), between(a.z, b.z));
-}
 
 bool isInWorld(const WirePose& pose) {
     return world::isInWorld(world::chunkOf(poseOf(pose).position));
@@ -30,7 +23,7 @@ bool isInWorld(const WirePose& pose) {
 
 void onMove(ServerState& server, ServerClient& client, const Move& move) {
     const bool isFree = client.role == game::Role::Operator;
-    const double blocks = distanceBlocks(client.pose, move.pose);
+    const double blocks = distanceBetween(client.pose, move.pose);
     if (!isInWorld(move.pose) || (!isFree && !client.buckets.blocksAway.take(blocks, server.now)))
         return send(client, Corrected{client.pose});
     client.pose = move.pose;
@@ -39,10 +32,8 @@ void onMove(ServerState& server, ServerClient& client, const Move& move) {
 
 void onView(ServerClient& client, const View& view) {
     const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
-    const auto away = std::max(std::abs(std::int64_t{own.x} - view.center.x),
-                               std::abs(std::int64_t{own.y} - view.center.y));
-    // A client that was corrected looks elsewhere until it hears of it.
-    if (away <= kViewAway) client.askedView = view;
+    // A corrected client asks for a distant view until Corrected arrives.
+    if (world::chunkDistance(own, view.center) <= kViewAway) client.askedView = view;
 }
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
@@ -56,7 +47,7 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (message.text.starts_with(kMark))
         return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
     if (client.role != game::Role::Operator) return say(client, "only operators give commands");
-    // Not what stands behind it, which may be a password.
+    // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
     say(client, runConsoleLine(server, message.text.substr(1)));
 }
@@ -78,7 +69,7 @@ void onAskPlayers(ServerState& server, ServerClient& client) {
     send(client, list);
 }
 
-// Milliseconds of the server's clock, as Ping has them.
+// The server's clock in milliseconds, modulo 2^32, for Ping.
 std::uint32_t pingTime(Time now) {
     const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
     return static_cast<std::uint32_t>(since.count());
@@ -114,7 +105,7 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
         return;
     }
     if (std::holds_alternative<Leave>(message)) return leave(server, client);
-    refuse(server, client, Refusal::Disorder,
+    refuse(server, client, Refusal::ProtocolError,
            fmt::format("the message {} does not come at this time", nameOf(message)));
 }
 
@@ -126,20 +117,18 @@ void tellSight(ServerState& server) {
     for (const auto& [id, other] : server.sharing.players)
         if (!server.playing.contains(id)) players.push_back(other.at);
     const PlayerGrid grid(players);
-    // Half of the clients in each tick: what is sent is spread over time.
+    // Updates half of the clients in each tick, to spread the traffic over time.
     forEachPlaying(server, [&](ServerClient& client) {
         if ((server.tick + client.id) % kTicksPerSight == 0) tellSightTo(server, client, grid);
     });
 }
 
 void keepInTouch(ServerState& server) {
-    const game::DayClock& clock = server.session.clock;
     forEachPlaying(server, [&](ServerClient& client) {
         if (server.now - client.heardAt > server.settings.silentAfter)
             return refuse(server, client, Refusal::Silent, "nothing was heard of you for too long");
         if ((server.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(server.now)});
-        if ((server.tick + client.id) % kTicksPerClock == 0)
-            send(client, Clock{clock.timeDay, 1 / (60 * clock.dayMinutes)});
+        if ((server.tick + client.id) % kTicksPerClock == 0) send(client, clockOf(server));
         if (client.outgoing.size() + client.unsent > server.settings.maxUnsentBytes)
             refuse(server, client, Refusal::TooSlow, "your connection is too slow for what the server tells");
     });

@@ -1,4 +1,4 @@
-// What players say and do besides changing blocks: they move, look, talk and are seen by others. On the
+// Messages of players other than block changes: movement, view, chat, visibility of other players. On the
 // server's thread.
 #pragma once
 
@@ -6,12 +6,12 @@
 
 namespace terrane::net {
 
-// A message of a client that plays.
+// Handles a message of a playing client.
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message);
 
-// Who appears, moves and is gone, to all. In each tick.
+// Tells all players who appears, moves and disappears. Call in each tick.
 void tellSight(ServerState& server);
-// The time, questions whether clients are there, and those who do not answer. In each tick.
+// Sends the time and pings; disconnects clients that do not answer. Call in each tick.
 void keepInTouch(ServerState& server);
 
 }  // namespace terrane::net

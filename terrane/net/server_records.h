@@ -1,9 +1,8 @@
-// What a server keeps beside its world: who plays there, claims, small texts, and the history of edits.
-// SqliteRecords keeps it in a file beside the world's.
+// A server's records beside its world: players, claims, small texts, and the edit history. SqliteRecords
+// stores them in a file beside the world's.
 //
-// Writes are collected and made durable together, on a thread of the records, about as soon as the disk can:
-// a command is acknowledged when it is durable. Functions are for one thread, the server's, but where said
-// otherwise.
+// Writes are collected and committed together by a thread of the records, about as fast as the disk allows: a
+// command is acknowledged when it is durable. Functions are for the server's thread unless stated otherwise.
 #pragma once
 
 #include <cstdint>
@@ -23,11 +22,11 @@ struct KnownPlayer {
     PublicKey key{};
     std::string name;
     game::Role role = game::Role::Player;
-    std::optional<world::Pose> pose;  // where it left
-    std::string ban;                  // the reason; empty: none
+    std::optional<world::Pose> pose;  // at the last logout
+    std::string ban;                  // the reason; empty: not banned
 };
 
-// What is new of a player; what is not given stays.
+// Changes of a player; fields without a value stay.
 struct PlayerChange {
     std::optional<std::string> name = {};
     std::optional<game::Role> role = {};
@@ -40,42 +39,42 @@ struct HistoryEnds {
     std::int64_t saved = 0;   // all edits up to this one are in the world's own store
 };
 
-// In texts: the hash of the password; empty: none is needed.
+// Name of the text with the hash of the server's password; empty: no password.
 inline constexpr const char* kPasswordText = "password";
 
 class SharedWorld;  // shared_world.h
 
 class ServerRecords {
   public:
-    virtual ~ServerRecords() = default;  // writes what waits
+    virtual ~ServerRecords() = default;  // writes all queued writes
 
-    // Read from what is durable; these wait. Rows that make no sense are an error.
+    // Read the durable state; these block. Invalid rows are an error.
     [[nodiscard]] virtual base::Result<std::vector<KnownPlayer>> players() = 0;
     [[nodiscard]] virtual base::Result<std::vector<game::Claim>> claims() = 0;
-    // Empty where there is none.
+    // Empty if there is no such text.
     [[nodiscard]] virtual base::Result<std::string> text(const std::string& name) = 0;
     [[nodiscard]] virtual base::Result<HistoryEnds> historyEnds() = 0;
     [[nodiscard]] virtual base::Result<void> forEachEdit(const EditFilter& filter, EditOrder order,
                                                          const UseEdit& use) = 0;
 
-    // Each returns at once. Writes have numbers in ascending order, and are made in this order.
+    // These queue a write and do not block. Writes have ascending numbers and run in this order.
     virtual void addPlayer(const KnownPlayer& player) = 0;
     virtual void changePlayer(game::PlayerId id, const PlayerChange& change) = 0;
     virtual void addClaim(const game::Claim& claim) = 0;
     virtual void removeClaim(const std::string& name) = 0;
     virtual void setText(const std::string& name, const std::string& text) = 0;
-    // What one command changed; gives the number of the write.
+    // Appends the edits of one command; returns the number of the write.
     virtual std::uint64_t append(const std::vector<LoggedEdit>& edits) = 0;
     virtual void setSavedEdit(std::int64_t number) = 0;
 
-    // All writes up to this number survive the end of the program, and of the power. Any thread.
+    // All writes up to this number survive the end of the program and a power failure. Any thread.
     virtual std::uint64_t durable() const = 0;
-    // Why the last attempt to write failed; empty after one that did not. Any thread.
+    // Why the last attempt to write failed; empty if it succeeded. Any thread.
     virtual std::string problem() const = 0;
-    // Blocks until all writes so far are durable, or one attempt has failed.
+    // Blocks until all queued writes are durable, or an attempt failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
 
-    // Null where one server has the records for itself.
+    // Null if the records are not shared between servers.
     virtual SharedWorld* shared() { return nullptr; }
 };
 

@@ -1,4 +1,4 @@
-// What the owner of a server decides. Plain values.
+// Settings of a server. Plain values.
 #pragma once
 
 #include <chrono>
@@ -11,20 +11,20 @@
 namespace terrane::net {
 
 struct ServerSettings {
-    std::string welcome;  // a line for who joins; empty: none
+    std::string welcome;  // a line sent to players who join; empty: none
     std::size_t maxPlayers = 100;
-    int maxViewDistance = 32;                   // chunks around a player whose edits it is told
-    std::size_t maxPlayersOfAddress = 20;       // at a time, this machine's own apart
-    double newPlayersPerHour = 100;             // of one address, but for this machine's own
-    double maxSpeed = 120;                      // blocks a second; flying takes 60, falling 78
-    int spawnRadius = 0;                        // newcomers appear so many blocks around the spawn
-    game::Role newcomers = game::Role::Player;  // Guest: they look and talk
+    int maxViewDistance = 32;                   // radius in chunks in which a player receives edits
+    std::size_t maxPlayersOfAddress = 20;       // at a time, except from this machine
+    double newPlayersPerHour = 100;             // per address, except from this machine
+    double maxSpeed = 120;                      // blocks per second; flying has 60, falling 78
+    int spawnRadius = 0;                        // blocks around the spawn where new players appear
+    game::Role newcomers = game::Role::Player;  // Guest: may look and chat only
     double dayMinutes = 20;
     std::size_t maxFillBlocks = 65536;         // in one command
-    std::size_t maxUnsentBytes = 4 << 20;      // of a client that does not read
-    std::chrono::seconds loginWithin{10};      // from the connection to the world
-    std::chrono::seconds silentAfter{20};      // nothing came from a player
-    std::chrono::seconds keepHistoryFor{600};  // of undo, of a player who left
+    std::size_t maxUnsentBytes = 4 << 20;      // for a client that does not read
+    std::chrono::seconds loginWithin{10};      // from connecting to joining
+    std::chrono::seconds silentAfter{20};      // time without a message of a player
+    std::chrono::seconds keepHistoryFor{600};  // undo steps of a player who left
 };
 
 }  // namespace terrane::net

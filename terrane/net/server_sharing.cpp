@@ -23,7 +23,7 @@ void addToTail(SharingState& sharing, ChunkPos chunk, std::int64_t number, const
     sharing.tail[chunk].push_back({number, after});
 }
 
-// What the store may lack of a chunk.
+// The edits of a chunk that the store may lack.
 ChunkDifference tailOf(const SharingState& sharing, ChunkPos pos) {
     ChunkDifference blocks;
     const auto found = sharing.tail.find(pos);
@@ -36,7 +36,7 @@ void noteUnsaved(ServerState& server, ChunkPos chunk, std::int64_t number) {
     if (server.session.pipeline().isUnsaved(chunk)) server.sharing.firstUnsaved.try_emplace(chunk, number);
 }
 
-// An edit of another server. Own ones of the same blocks that are not decided will be refused.
+// Applies an edit of another server. Own undecided edits of the same blocks will be refused.
 void applyOther(ServerState& server, const LoggedEdit& edit) {
     SharingState& sharing = server.sharing;
     addToTail(sharing, edit.chunk, edit.number, edit.after);
@@ -49,7 +49,7 @@ void applyOther(ServerState& server, const LoggedEdit& edit) {
     noteUnsaved(server, edit.chunk, edit.number);
 }
 
-// One write fewer changes the edit's blocks.
+// One undecided write fewer changes the edit's blocks.
 void settle(SharingState& sharing, const LoggedEdit& edit) {
     for (const ChangedBlock& block : edit.after) {
         const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
@@ -71,7 +71,7 @@ void accept(ServerState& server, const std::vector<LoggedEdit>& edits, std::int6
     }
 }
 
-// Its blocks become what the history says. Later own writes that were made on top of it will be refused as
+// Reverts a refused write to the values of the history. Later own writes on top of it will be refused as
 // well.
 void takeBack(ServerState& server, const std::vector<LoggedEdit>& edits) {
     SharingState& sharing = server.sharing;
@@ -96,8 +96,8 @@ void applyDecision(ServerState& server, const WriteDecision& decision) {
     server.sharing.refused.insert(decision.write);
 }
 
-// Edits up to `saved` are in the store: whoever reads a chunk from now on finds them there. What was read
-// before may still be on its way from a worker.
+// Drops edits that the store has. A chunk that was read before they were saved may still be on its way from a
+// worker, so they are kept for kKeepTail.
 void dropTail(ServerState& server, std::int64_t nowSaved) {
     SharingState& sharing = server.sharing;
     const Time now = server.now;
@@ -127,8 +127,7 @@ void takePeople(ServerState& server, const SharedNews& news) {
             client->role = player.role;
             send(*client, RoleChanged{player.role});
         }
-        if (client && !player.ban.empty())
-            refuse(server, *client, Refusal::Banned, "you are banned from this server: " + player.ban);
+        if (client && !player.ban.empty()) refuse(server, *client, Refusal::Banned, banText(player.ban));
     }
     for (const game::PlayerId id : news.refused) {
         if (ServerClient* client = playingClient(server, id))
@@ -157,7 +156,7 @@ base::Result<void> beginSharing(ServerState& server) {
     sharing.saved = ends->saved;
     sharing.ownSaved = ends->newest;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
-        if (edit.number > sharing.newest) return {};  // it will be told
+        if (edit.number > sharing.newest) return {};  // takeNews() will deliver it
         addToTail(sharing, edit.chunk, edit.number, edit.after);
         server.edited.add(edit.chunk);
         return {};
@@ -215,7 +214,7 @@ void completeLoaded(ServerState& server) {
     for (const ChunkPos pos : server.session.pipeline().takeLoaded()) {
         const auto found = sharing.tail.find(pos);
         if (found == sharing.tail.end()) continue;
-        // Mostly the store has them.
+        // Usually the loaded chunk already has these values.
         ChunkDifference blocks = tailOf(sharing, pos);
         std::erase_if(blocks, [&](const ChangedBlock& block) {
             return world::blockValue(server.session.world(), world::blockPos(pos, block.index)) ==
@@ -230,7 +229,7 @@ void completeLoaded(ServerState& server) {
 void keepSharing(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
-    sharing.refused.clear();  // whoever is still there was told
+    sharing.refused.clear();  // players still connected were told
     tellPosesIfDue(server);
     saveOrphans(server);
     tellSavedPlaces(server);
@@ -263,11 +262,11 @@ bool mayGrow(const ServerState& server, ChunkPos chunk) {
     return !server.sharing.shared || server.sharing.shared->mayGrow(regionOf(chunk));
 }
 
-void wantRegions(ServerState& server, std::span<const ChunkPos> chunks) {
+void requestRegions(ServerState& server, std::span<const ChunkPos> chunks) {
     if (!server.sharing.shared) return;
     std::set<Region> regions;
     for (const ChunkPos chunk : chunks) regions.insert(regionOf(chunk));
-    server.sharing.shared->wantRegions({regions.begin(), regions.end()});
+    server.sharing.shared->requestRegions({regions.begin(), regions.end()});
 }
 
 }  // namespace terrane::net

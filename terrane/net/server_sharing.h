@@ -1,10 +1,10 @@
-// Several servers of one world, as one of them sees it: own edits that are not decided yet, those of others,
-// players and time elsewhere (shared_world.h). Nothing happens where the records are this server's alone. On
-// the server's thread.
+// The state of a server that shares its world with others (shared_world.h): own edits that are not decided
+// yet, edits of other servers, their players and time. Does nothing if the records are not shared. On the
+// server's thread.
 //
-// The store of the world is behind the history: what it lacks is the tail, which is kept here and added to
-// each chunk that is loaded. A chunk is saved by the servers that have changes in it, once all of its edits
-// are decided.
+// The world's store is behind the history: the edits that it lacks are the tail, which is kept here and
+// applied to each chunk that is loaded. A chunk is saved by the servers that have changes in it, once all of
+// its edits are decided.
 #pragma once
 
 #include <deque>
@@ -27,28 +27,29 @@ struct ServerState;
 struct SharingState {
     SharedWorld* shared = nullptr;  // null: nothing is shared
 
-    // Own writes that are not decided, with the blocks as the history has them without these.
+    // Own undecided writes, and the values of their blocks in the history without these writes.
     std::map<std::uint64_t, std::vector<LoggedEdit>> undecided;
     struct Settled {
         world::BlockValue value;
-        int undecided = 0;  // own writes that change the block
+        int undecided = 0;  // number of own undecided writes that change the block
     };
     std::unordered_map<world::BlockPos, Settled, world::BlockPosHash> settled;
-    // How many own writes of a chunk are. The pipeline looks here to its end, which is after the server's.
+    // Number of own undecided writes per chunk. The pipeline reads it until it ends, which is after the
+    // server.
     using ChunkCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
     std::shared_ptr<ChunkCounts> undecidedChunks = std::make_shared<ChunkCounts>();
-    std::set<std::uint64_t> refused;  // writes; whoever made them is not told yet
+    std::set<std::uint64_t> refused;  // numbers of writes whose players are not told yet
 
-    // Edits that the store may lack, in ascending order.
+    // Edits that the store may lack, ascending.
     struct TailEdit {
         std::int64_t number = 0;
         ChunkDifference after;
     };
     std::unordered_map<world::ChunkPos, std::vector<TailEdit>, world::ChunkPosHash> tail;
-    std::int64_t newest = 0, saved = 0;                 // edits: heard of; in the store, of all servers
-    std::deque<std::pair<Time, std::int64_t>> savedAt;  // what `saved` was, for chunks that are being loaded
-    std::int64_t ownSaved = 0;                          // up to this one none waits here to be saved
-    std::unordered_map<world::ChunkPos, std::int64_t, world::ChunkPosHash> firstUnsaved;  // edit of a chunk
+    std::int64_t newest = 0, saved = 0;                 // edit numbers: newest known; saved by all servers
+    std::deque<std::pair<Time, std::int64_t>> savedAt;  // history of `saved`, for chunks being loaded
+    std::int64_t ownSaved = 0;                          // all edits up to this one are saved by this server
+    std::unordered_map<world::ChunkPos, std::int64_t, world::ChunkPosHash> firstUnsaved;  // number of an edit
 
     struct OtherAt {
         PlayerAt at;
@@ -56,35 +57,35 @@ struct SharingState {
     };
     std::unordered_map<game::PlayerId, OtherAt> players;  // on other servers
     std::unordered_map<game::PlayerId, WirePose> toldPoses;
-    std::vector<OtherServer> servers;  // that are there
-    // Servers that are gone without saving: what they left is loaded, some chunks a tick, and saved.
+    std::vector<OtherServer> servers;  // that run
+    // Servers that stopped without saving: their unsaved chunks are loaded, a few per tick, and saved.
     struct Orphans {
         std::int64_t server = 0, newest = 0;
-        std::vector<world::ChunkPos> chunks;        // that are not loaded yet
-        std::optional<std::uint64_t> savedBy = {};  // the save that has all of them
+        std::vector<world::ChunkPos> chunks;        // not loaded yet
+        std::optional<std::uint64_t> savedBy = {};  // number of the save that includes all of them
     };
     std::deque<Orphans> orphans;
-    std::set<std::int64_t> forgotten;  // servers whose orphans are saved; lists of servers may come later
+    std::set<std::int64_t> forgotten;  // servers whose orphans are saved; they may still be listed
     std::uint64_t savesBegun = 0, savesDone = 0;
-    std::deque<std::pair<store::SaveNumber, PlaceChange>> untoldPlaces;  // own, that wait to be saved
+    std::deque<std::pair<store::SaveNumber, PlaceChange>> untoldPlaces;  // own changes, not saved yet
     Time nextState{};
 };
 
-// Once, before anybody plays.
+// Call once, before players join.
 [[nodiscard]] base::Result<void> beginSharing(ServerState& server);
-// An own write, after append().
+// Call after append() of an own write.
 void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits);
-// What others did, at the beginning of each tick.
+// Applies the changes of other servers. Call at the beginning of each tick.
 void takeNews(ServerState& server);
-// After each update of the pipeline: adds the tail to chunks that were loaded.
+// Applies the tail to loaded chunks. Call after each update of the pipeline.
 void completeLoaded(ServerState& server);
-// Tells others of players and of this server, and lets go of what is saved. In each tick.
+// Tells other servers of players and of this server's state. Call in each tick.
 void keepSharing(ServerState& server);
-// Saves, and notes what is saved; in place of keepSaving().
+// Replaces keepSaving() for a shared world: saves, and notes what is saved.
 void keepSharedSaved(ServerState& server);
-// Whether time may pass in a chunk here.
+// Whether time may pass in a chunk on this server.
 bool mayGrow(const ServerState& server, world::ChunkPos chunk);
-// Of the chunks that live here: the leases that are wanted.
-void wantRegions(ServerState& server, std::span<const world::ChunkPos> chunks);
+// Requests the leases of the regions of `chunks`, in which time passes on this server.
+void requestRegions(ServerState& server, std::span<const world::ChunkPos> chunks);
 
 }  // namespace terrane::net

@@ -23,7 +23,7 @@ using Tcp = asio::ip::tcp;
 using SocketError = boost::system::error_code;
 
 constexpr std::size_t kReadBytes = 4096;
-// A client that is sent away has so long to read why.
+// Time for a refused client to read the reason.
 constexpr std::chrono::seconds kClosingTime{2};
 
 }  // namespace
@@ -36,11 +36,11 @@ struct ServerConnection {
     Tcp::socket socket;
     ClientAddress address;
     Time openedAt;
-    std::optional<asio::ssl::stream<Tcp::socket&>> stream;  // once the first bytes are there
+    std::optional<asio::ssl::stream<Tcp::socket&>> stream;  // once the first bytes arrived
     FrameReader reader{kMaxClientMessage};
     std::array<std::byte, kReadBytes> input;
     Bytes sending;
-    bool isOpened = false;  // the server knows it
+    bool isOpened = false;  // onOpened() was called
     std::optional<Time> closingSince;
 };
 using ConnectionPtr = std::shared_ptr<ServerConnection>;
@@ -104,7 +104,7 @@ void ServerSockets::Impl::accept() {
     isAccepting = true;
     acceptor.async_accept([this, self = shared_from_this()](const SocketError& error, Tcp::socket socket) {
         isAccepting = false;
-        if (error) return;  // no more files, as it may be: the next tick tries again
+        if (error) return;  // e.g. out of file descriptors: the next tick tries again
         addConnection(std::move(socket));
         accept();
     });
@@ -115,7 +115,7 @@ bool ServerSockets::Impl::isAt(const ServerConnection& connection, ServerClient:
     return found != server.clients.end() && found->second.stage == stage;
 }
 
-// Of the address that has most, the oldest goes.
+// Closes the oldest connection of the address with the most pending ones.
 void ServerSockets::Impl::makeRoom() {
     std::map<std::string_view, std::vector<ConnectionPtr>> pending;
     std::size_t count = 0;
@@ -140,7 +140,7 @@ void ServerSockets::Impl::addConnection(Tcp::socket socket) {
     waitForClient(connection);
 }
 
-// A connection that says nothing costs a socket and no more.
+// A connection that sends nothing costs only a socket.
 void ServerSockets::Impl::waitForClient(const ConnectionPtr& connection) {
     connection->socket.async_wait(Tcp::socket::wait_read,
                                   [this, self = shared_from_this(), connection](const SocketError& error) {
@@ -184,7 +184,7 @@ void ServerSockets::Impl::takeFrames(const ConnectionPtr& connection, std::size_
         if (!*frame) break;
         onMessage(server, connection->id, **frame, now);
     }
-    // Answers of the login do not wait for the tick.
+    // Login answers are sent without waiting for the tick.
     if (!plays(*connection)) flush(connection);
 }
 
@@ -197,8 +197,8 @@ void ServerSockets::Impl::flush(const ConnectionPtr& connection) {
         client.unsent = connection->sending.size();
         return send(connection);
     }
-    // What it still says is read and dropped until it closes: closed at once the system would reset the
-    // connection, and the client might never read why.
+    // Further input is read and dropped until the client closes: if this side closed at once, the system
+    // would reset the connection and the client might never read the reason.
     if (client.stage != ServerClient::Stage::Closed) return;
     SocketError ignored;
     connection->socket.shutdown(Tcp::socket::shutdown_send, ignored);

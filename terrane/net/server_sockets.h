@@ -1,5 +1,6 @@
-// Puts a server on a network: TCP with TLS 1.3, and messages as frames. Connections that are no players are
-// few and short: whoever opens many loses the oldest ones. On the server's thread, which runs the context.
+// Connects a server to a network: TCP with TLS 1.3, carrying frames. The number and duration of connections
+// that do not play are limited: an address that opens many loses its oldest ones. On the server's thread,
+// which runs the context.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +18,15 @@ class io_context;
 namespace terrane::net {
 
 struct ListenAddress {
-    std::string address = "::";  // all addresses, of IPv4 too
-    std::uint16_t port = 25560;  // 0: one that is free
+    std::string address = "::";  // all addresses, including IPv4
+    std::uint16_t port = 25560;  // 0: any free port
 };
-// Connections that do not play yet.
+// Maximum number of connections that do not play yet.
 constexpr std::size_t kMaxPendingConnections = 256;
 
 class ServerSockets {
   public:
-    // Listens from here on. The server and the context outlive this; `keyFile`: tls.h.
+    // Starts to listen. The server and the context outlive this; `keyFile`: see tls.h.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerSockets>> open(
         boost::asio::io_context& context, ServerState& server, const ListenAddress& address,
         const std::filesystem::path& keyFile);
@@ -34,7 +35,8 @@ class ServerSockets {
     std::uint16_t port() const;
     std::string key() const;  // SHA-256 of the server's public key, in hexadecimal digits
 
-    // Sends what the server has for its clients, and closes connections that it ended. After each tick.
+    // Sends the outgoing bytes of all clients, and closes connections that the server ended. Call after each
+    // tick.
     void flush();
     void stopListening();
     std::size_t connectionCount() const;
@@ -42,7 +44,7 @@ class ServerSockets {
   private:
     struct Impl;
     explicit ServerSockets(std::shared_ptr<Impl> impl);
-    std::shared_ptr<Impl> impl_;  // what the context runs last may come after this
+    std::shared_ptr<Impl> impl_;  // the context's last handlers may outlive this
 };
 
 }  // namespace terrane::net

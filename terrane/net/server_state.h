@@ -1,5 +1,5 @@
-// All that a server has while it runs: plain data, without sockets. server.h drives it, server_*.h work on
-// it, each on one subject. On the server's thread.
+// The state of a running server: plain data, without sockets. server.h drives it; each server_*.h works on
+// one part of it. On the server's thread.
 #pragma once
 
 #include <chrono>
@@ -28,13 +28,13 @@ namespace terrane::net {
 
 constexpr std::chrono::milliseconds kServerTick{50};
 
-// A content pack of the world, as clients that lack it get it.
+// A content pack of the world, as sent to clients that lack it.
 struct OfferedPack {
     PackOffer offer;
     std::shared_ptr<const Bytes> archive;
 };
 
-// What a server is made of; everything outlives it.
+// The parts of a server; all of them outlive it.
 struct ServerParts {
     game::Session& session;
     ServerRecords& records;
@@ -44,26 +44,27 @@ struct ServerParts {
     std::vector<OfferedPack> packs = {};
 };
 
-// Tiles that the store's thread wrote.
+// Tiles written by the store's thread.
 struct WrittenTiles {
     std::mutex mutex;
     std::vector<world::ChunkPos> tiles;
 };
 
-// How far the world's own file is behind the history.
+// Progress of saving edits to the world's store. `newest` and `saved` are 0 if the world is shared: see
+// newestEdit() and SharingState.
 struct ServerHistory {
-    std::int64_t newest = 0;      // number of an edit
-    std::uint64_t lastWrite = 0;  // of that edit; ServerRecords::durable()
-    std::int64_t saved = 0;       // all edits up to this one are in the world's file
+    std::int64_t newest = 0;      // number of the newest edit
+    std::uint64_t lastWrite = 0;  // number of the last write; see ServerRecords::durable()
+    std::int64_t saved = 0;       // all edits up to this one are in the store
     struct SavePoint {
         std::int64_t edit = 0;
         store::SaveNumber save = 0;
     };
-    std::optional<SavePoint> saving;  // the store has it, and writes
+    std::optional<SavePoint> saving;  // being written by the store
     Time nextSave{};
 };
 
-// A roll-back that goes on tick by tick, for the chunks have to be loaded.
+// A rollback in one chunk. Rollbacks run over several ticks, since their chunks must be loaded.
 struct RollbackPart {
     world::ChunkPos chunk;
     std::vector<RolledBack> blocks;
@@ -73,7 +74,7 @@ struct WaitingPassword {
     ConnectionId client = 0;
     std::string password;
 };
-// A password that a worker compares.
+// A password check on a worker.
 struct PasswordCheck {
     ConnectionId client = 0;
     base::JobHandle job;
@@ -101,11 +102,11 @@ struct ServerState {
     SamplePositions samples{};
     SampleDigests digests{};
     world::Pose spawn;
-    std::string passwordHash;  // empty: none is needed
+    std::string passwordHash;  // empty: no password
 
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
-    std::map<std::string, base::TokenBucket> newPlayers;  // of a network, since it had its last
+    std::map<std::string, base::TokenBucket> newPlayers;  // by network address, since its last new player
     std::unordered_map<game::PlayerId, FormerClient> left;
     std::uint64_t tick = 0;
     Time now{};
@@ -115,17 +116,17 @@ struct ServerState {
     ServerHistory history;
     SharingState sharing;
     std::shared_ptr<WrittenTiles> writtenTiles = std::make_shared<WrittenTiles>();
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> tilesToTell;  // they changed
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> tilesToTell;  // changed tiles
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow
     std::deque<RollbackPart> rollbacks;
     std::optional<PasswordCheck> passwordCheck;
     std::deque<WaitingPassword> passwordQueue;
     bool isStopping = false;
-    // Told of chunks whose blocks changed, and of tiles of the store that changed with them; for maps. May be
+    // Called with chunks whose blocks changed, and with stored tiles that changed with them; for maps. May be
     // empty.
     std::function<void(std::span<const world::ChunkPos>)> onChanged;
 
-    base::JobSystem jobs{1};  // for differences and passwords; ends before what they use
+    base::JobSystem jobs{1};  // for differences and passwords; destroyed first
 };
 
 }  // namespace terrane::net

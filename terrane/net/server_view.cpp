@@ -1,7 +1,6 @@
 #include "terrane/net/server_view.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <utility>
 
 #include "terrane/net/server_clients.h"
@@ -12,25 +11,21 @@ namespace {
 
 using world::ChunkPos;
 
-// Where so many bytes wait to be sent, edits wait, too.
+// No more differences are sent to a client with this many unsent bytes.
 constexpr std::size_t kUnsentBytes = 64 << 10;
-// Differences that workers find for a client at a time.
+// Maximum number of differences being computed for a client.
 constexpr std::size_t kLooksAhead = 16;
-// A tile under work changes each time that the world is saved; it is told again after so many ticks.
+// A tile with ongoing edits changes each time that the world is saved; it is sent again at this interval.
 constexpr std::uint64_t kTicksPerTileChange = 200;
-
-std::int64_t distance(ChunkPos a, ChunkPos b) {
-    return std::max(std::abs(std::int64_t{a.x} - b.x), std::abs(std::int64_t{a.y} - b.y));
-}
 
 ChunkPos above(ChunkPos chunk, int level) {
     return {chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
 }
 
-// Whether the client is to know a chunk or tile. `more`: chunks or tiles that it keeps beyond those.
+// Whether the client needs a chunk or tile. `more`: margin in chunks or tiles.
 bool isInView(const View& view, ChunkPos pos, int more = 0) {
-    const std::int64_t away = distance(pos, above(view.center, pos.level));
-    // One more than is visible, as meshes look at their neighbors.
+    const std::int64_t away = world::chunkDistance(pos, above(view.center, pos.level));
+    // One chunk more than is visible, since meshes depend on their neighbors.
     if (pos.level == 0) return away <= view.viewDistance + 1 + more;
     const std::int64_t horizon = (view.horizon >> pos.level) + 1;
     return away >= kNearestTile - more && away <= std::min<std::int64_t>(kFarthestTile, horizon) + more;
@@ -41,7 +36,7 @@ int topLevelOf(const View& view) {
     return stream::coarsestLevel({.horizon = view.horizon, .detail = stream::kMinDetail});
 }
 
-// In blocks of level 0, from the middle of the view.
+// Squared distance from the center of the view, in chunks of level 0.
 double orderOf(const View& view, ChunkPos pos) {
     const double width = 1 << pos.level;
     const double x = (pos.x + 0.5) * width - view.center.x, y = (pos.y + 0.5) * width - view.center.y;
@@ -56,7 +51,7 @@ void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& d
     }
 }
 
-// The client looks at another part of the world.
+// Sets the client's view and collects the edited chunks and tiles to send.
 void setClientView(ServerState& server, ServerClient& client, const View& view) {
     client.view = view;
     client.view->viewDistance =
@@ -75,7 +70,7 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
     client.owesViewComplete = true;
 }
 
-// Tells the nearest that are known, until the client has enough to read.
+// Sends the nearest available differences until the client's buffer is full.
 void tellView(ServerState& server, ServerClient& client) {
     std::size_t pending = 0;
     for (std::size_t k = client.toTell.size(); k-- > 0 && pending < kLooksAhead;) {
@@ -95,7 +90,7 @@ void tellView(ServerState& server, ServerClient& client) {
     send(client, ViewComplete{client.view->center});
 }
 
-// A tile that changed is told to all who see it.
+// Sends changed tiles to all clients that see them.
 void tellChangedTiles(ServerState& server) {
     if (server.tick % kTicksPerTileChange != 0) return;
     for (const ChunkPos tile : server.tilesToTell) {
@@ -145,8 +140,8 @@ void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks
         messages.push_back(
             encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
     forEachPlaying(server, [&](ServerClient& client) {
-        // Who does not know the chunk yet is told all of it soon. Who knows it has it to its end, though it
-        // may have left the view.
+        // A client that lacks the chunk will get all of it soon. A client that has it gets every change, even
+        // after the chunk left its view.
         if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
         if (!client.told.contains(pos)) return;
         for (const Bytes& message : messages) sendEncoded(client, message);

@@ -1,13 +1,12 @@
 #include "terrane/net/sight.h"
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 namespace terrane::net {
 namespace {
 
-// As wide as one sees: what is near lies in 3 × 3 cells.
+// Cells as wide as the sight: all players in sight lie in 3 × 3 cells.
 constexpr std::int64_t kCellSteps = static_cast<std::int64_t>(kLostBlocks * kPoseSteps);
 
 std::int64_t cellOf(std::int64_t steps) {
@@ -18,13 +17,7 @@ std::uint64_t keyOf(std::int64_t cellX, std::int64_t cellY) {
     return static_cast<std::uint64_t>(cellX) << 32 | static_cast<std::uint32_t>(cellY);
 }
 
-double distanceBetween(const WirePose& a, const WirePose& b) {
-    const auto dx = static_cast<double>(a.x - b.x), dy = static_cast<double>(a.y - b.y),
-               dz = static_cast<double>(a.z - b.z);
-    return std::sqrt(dx * dx + dy * dy + dz * dz) / kPoseSteps;
-}
-
-// In the steps of PoseChange.
+// Converts to the units of PoseChange.
 std::uint8_t coarseYaw(const WirePose& pose) {
     return static_cast<std::uint8_t>(pose.yaw >> 8);
 }

@@ -1,5 +1,5 @@
-// Which other players a client sees, and when it is told how they moved: near ones often, far ones rarely,
-// those that stand still never. Plain bookkeeping on the server's thread; it sends nothing itself.
+// Decides which other players a client sees, and when it is told how they moved: near ones often, far ones
+// rarely, players that stand still never. Plain bookkeeping on the server's thread; it sends nothing itself.
 #pragma once
 
 #include <cstdint>
@@ -13,15 +13,15 @@
 
 namespace terrane::net {
 
-// Blocks. A player appears within the first and disappears beyond the second, so that nobody at the edge
-// comes and goes.
+// In blocks. A player appears within the first distance and disappears beyond the second; the hysteresis
+// prevents flicker at the edge.
 constexpr double kSightBlocks = 256, kLostBlocks = 288;
-// The nearest count.
+// Only the nearest players are seen.
 constexpr std::size_t kMaxSeen = 128;
 
-// A player's place is told so many ticks after the last time at the latest, by its distance. Ticks are 50 ms:
-// within 24 blocks what one sees is at most 100 ms old on the server, at the edge of sight a second.
-constexpr std::uint64_t kTicksPerSight = 2;  // how often a client's sight is updated
+// Maximum number of ticks between two poses of a moving player, by its distance. With ticks of 50 ms, a pose
+// is at most 100 ms old on the server within 24 blocks, and a second at the edge of sight.
+constexpr std::uint64_t kTicksPerSight = 2;  // interval of Sight::update()
 constexpr std::uint64_t ticksBetweenPoses(double distanceBlocks) {
     return distanceBlocks < 24 ? 2 : distanceBlocks < 64 ? 4 : distanceBlocks < 128 ? 10 : 20;
 }
@@ -29,10 +29,10 @@ constexpr std::uint64_t ticksBetweenPoses(double distanceBlocks) {
 struct PlayerAt {
     game::PlayerId id = game::kNoPlayer;
     WirePose pose;
-    std::uint64_t swungTick = 0;  // of its last edit; 0: none
+    std::uint64_t swungTick = 0;  // tick of the last edit; 0: none
 };
 
-// All players by place, so that those around a point are found without looking at all. Made anew each tick.
+// All players in a spatial hash grid, to find those near a point. Rebuilt each tick.
 class PlayerGrid {
   public:
     explicit PlayerGrid(std::span<const PlayerAt> players);
@@ -41,14 +41,14 @@ class PlayerGrid {
         const PlayerAt* player = nullptr;
         double distance = 0;  // blocks
     };
-    // Up to kMaxSeen others within kLostBlocks, the nearest first; of equally far ones the lower number.
+    // Up to kMaxSeen other players within kLostBlocks, nearest first; ties by lower id.
     std::vector<Near> around(const PlayerAt& center) const;
 
   private:
     std::unordered_map<std::uint64_t, std::vector<const PlayerAt*>> cells_;
 };
 
-// What a client is told.
+// Changes to send to a client.
 struct SightChanges {
     struct Appeared {
         std::uint16_t slot = 0;
@@ -59,7 +59,7 @@ struct SightChanges {
     std::vector<PoseChange> poses;
 };
 
-// Of one client: whom it sees, and what it was told of each.
+// The players that one client sees, and the last pose sent of each.
 class Sight {
   public:
     SightChanges update(std::uint64_t tick, std::span<const PlayerGrid::Near> around);

@@ -1,4 +1,4 @@
-// The history in the file of a server, for its server and for who reads it besides.
+// Reads the edit history in a server's file; for its server and for other readers.
 #pragma once
 
 #include "terrane/net/edit_log.h"
@@ -6,7 +6,7 @@
 
 namespace terrane::net {
 
-// As ServerRecords::forEachEdit().
+// See ServerRecords::forEachEdit().
 [[nodiscard]] base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
                                              const EditFilter& filter, EditOrder order, const UseEdit& use);
 

@@ -14,7 +14,7 @@ namespace {
 using store::Database;
 using store::Statement;
 
-constexpr const char* kSaved = "saved";  // in the table `state`
+constexpr const char* kSaved = "saved";  // a name in the table `state`
 
 tl::unexpected<base::Error> damaged(const Database& database, std::string_view what) {
     return base::fail(base::ErrorCode::Damaged, "{}: damaged: {}", database.path(), what);
@@ -154,7 +154,7 @@ void SqliteRecords::setText(const std::string& name, const std::string& text) {
 
 namespace {
 
-// As a row of the table `edits`.
+// A row of the table `edits`.
 struct EncodedEdit {
     std::int64_t number, timeMs, player, chunk;
     Bytes blocks;

@@ -1,4 +1,4 @@
-// A server's records in a file of its own (server_file.h). One server at a time has it.
+// Records in a server's file (server_file.h), used by one server at a time.
 #pragma once
 
 #include <memory>
@@ -10,7 +10,7 @@ namespace terrane::net {
 
 class SqliteRecords : public ServerRecords {
   public:
-    // As ServerFile::open().
+    // See ServerFile::open().
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteRecords>> open(
         const std::filesystem::path& path, const world::BlockRegistry& blocks);
     explicit SqliteRecords(std::unique_ptr<ServerFile> file) : file_(std::move(file)) {}

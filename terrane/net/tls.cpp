@@ -23,7 +23,7 @@ struct Free {
 using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, Free<X509_free>>;
 
-constexpr long kYears = 100;  // nobody looks at the end: clients remember the key
+constexpr long kYears = 100;  // expiry is not checked: clients remember the key
 
 Certificate certificateFor(EVP_PKEY* key) {
     Certificate certificate(X509_new());
@@ -40,7 +40,7 @@ Certificate certificateFor(EVP_PKEY* key) {
     return isSigned ? std::move(certificate) : nullptr;
 }
 
-// Key and certificate in one file, which nobody else can read at any time.
+// Creates a file with key and certificate, never readable by others.
 base::Result<void> makeKeyFile(const std::filesystem::path& file) {
     const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
     const Certificate certificate = key ? certificateFor(key.get()) : nullptr;
@@ -54,7 +54,7 @@ base::Result<void> makeKeyFile(const std::filesystem::path& file) {
     if (!out && descriptor >= 0) ::close(descriptor);
     const bool isClosed = out && std::fclose(out) == 0;
     if (isWritten && isClosed) return {};
-    if (descriptor >= 0) ::unlink(file.c_str());  // a part of a key would be none for ever
+    if (descriptor >= 0) ::unlink(file.c_str());  // do not leave a partial key
     return base::fail(base::ErrorCode::Io, "{}: the server's key cannot be written: {}", file.string(),
                       base::systemReason(error));
 }
@@ -71,7 +71,7 @@ std::string keyOf(X509* certificate) {
     return isHashed ? fmt::format("{:02x}", fmt::join(hash, "")) : std::string();
 }
 
-// Connections are many and mostly idle: they keep no buffers meanwhile.
+// Many connections are idle: release their buffers meanwhile.
 void prepareContext(ssl::context& context) {
     SSL_CTX_set_min_proto_version(context.native_handle(), TLS1_3_VERSION);
     SSL_CTX_set_mode(context.native_handle(), SSL_MODE_RELEASE_BUFFERS);

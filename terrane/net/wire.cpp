@@ -11,7 +11,7 @@ bool isPlainText(std::string_view text) {
 std::string plainText(std::string_view text, std::size_t maxBytes) {
     std::string line = base::printable(text);
     if (line.size() <= maxBytes) return line;
-    // Not in the middle of a character.
+    // Cut at a character boundary.
     std::size_t end = maxBytes;
     while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
     line.resize(end);
@@ -32,11 +32,11 @@ std::uint64_t WireReader::varint() {
     std::uint64_t value = 0;
     for (int k = 0; k < kMaxVarintBytes; ++k) {
         const auto byte = bytes_.number<std::uint8_t>();
-        // Ten bytes have room for 70 bits.
+        // Ten bytes have 70 bits: the last one may only hold bit 63.
         if (k == kMaxVarintBytes - 1 && byte > 1) break;
         value |= std::uint64_t{byte & 0x7Fu} << (7 * k);
         if (byte < 0x80) {
-            require(byte != 0 || k == 0);  // one number has one form
+            require(byte != 0 || k == 0);  // only the shortest form is valid
             return hasFailed() ? 0 : value;
         }
     }

@@ -1,9 +1,8 @@
-// Numbers, texts and bytes of messages (docs/protocol.md). WireWriter appends them; WireReader has the same
-// functions and takes them apart. So one template describes a message for both ways (message_codec.h).
+// Reads and writes the values of messages (docs/protocol.md). WireWriter and WireReader have the same
+// functions, so one template describes a message in both directions (message_codec.h).
 //
-// A reader takes any bytes: at the first that does not fit it stops, gives zeros from there on and remembers.
-// It allocates no more than a few times the bytes that it is given. Plain classes; one thread at a time for
-// each object.
+// A reader accepts any bytes: after the first invalid value it fails and returns zeros. It allocates no more
+// than a few times its input. Plain classes; one thread at a time for each object.
 #pragma once
 
 #include <array>
@@ -23,10 +22,10 @@ namespace terrane::net {
 using store::Bytes;
 using store::ByteView;
 
-// Seven bits a byte, lowest first; the highest bit says that more follow. 64 bits take 10 bytes.
+// Varint: seven bits per byte, lowest first; the highest bit says that more follow. 64 bits take 10 bytes.
 constexpr int kMaxVarintBytes = 10;
 
-// 0, -1, 1, -2, … as 0, 1, 2, 3, …: numbers near zero are short.
+// Maps 0, -1, 1, -2, … to 0, 1, 2, 3, …, so that numbers near zero are short.
 constexpr std::uint64_t zigzag(std::int64_t value) {
     return static_cast<std::uint64_t>(value) << 1 ^ static_cast<std::uint64_t>(value >> 63);
 }
@@ -34,9 +33,9 @@ constexpr std::int64_t unzigzag(std::uint64_t value) {
     return static_cast<std::int64_t>(value >> 1 ^ (0 - (value & 1)));
 }
 
-// Whether it is UTF-8 without characters that end or reorder lines (base/printable.h).
+// Whether the text is UTF-8 without characters that end or reorder lines (base/printable.h).
 bool isPlainText(std::string_view text);
-// Any text as one that a message can have, its end cut off where it is too long.
+// Escapes any text so that isPlainText() holds, and cuts it to `maxBytes` at a character.
 std::string plainText(std::string_view text, std::size_t maxBytes);
 
 class WireWriter {
@@ -45,7 +44,7 @@ class WireWriter {
 
     explicit WireWriter(Bytes& bytes) : bytes_(bytes) {}
 
-    // As many bytes as the type has.
+    // As many bytes as the type has, little-endian.
     template <class T>
     void fixed(const T& value) {
         store::appendNumber(bytes_, value);
@@ -63,7 +62,7 @@ class WireWriter {
     void array(const std::array<std::byte, N>& value) {
         store::append(bytes_, value);
     }
-    // A count, then so many values, each written by `each`.
+    // A count, then the values, each written by `each`.
     template <class T, class Each>
     void list(const std::vector<T>& values, std::size_t /*maxCount*/, Each each) {
         number(values.size());
@@ -93,7 +92,7 @@ class WireReader {
     void fixed(T& value) {
         value = bytes_.number<T>();
     }
-    // Too large for the type: no number.
+    // Fails if the number is too large for the type.
     template <class T>
     void number(T& value) {
         static_assert(std::is_unsigned_v<T>);
@@ -125,7 +124,7 @@ class WireReader {
     void list(std::vector<T>& values, std::size_t maxCount, Each each) {
         values.clear();
         const std::uint64_t count = varint();
-        // Every value takes a byte or more: who tells more values than there are bytes left lies.
+        // Every value takes at least a byte: larger counts are invalid.
         require(count <= maxCount && count <= bytes_.rest().size());
         for (std::uint64_t k = 0; k < count && !hasFailed(); ++k) each(values.emplace_back());
     }
@@ -135,13 +134,13 @@ class WireReader {
         flag(has);
         if (has) each(value.emplace());
     }
-    // What a message must hold besides; where it does not, it is no message.
+    // An additional condition for a valid message.
     void require(bool holds) { isWrong_ |= !holds; }
-    // Whatever follows belongs to the message.
+    // Skips all remaining bytes.
     void ignoreRest() { bytes_.take(bytes_.rest().size()); }
 
     bool hasFailed() const { return isWrong_ || bytes_.isPastEnd(); }
-    // All was read, and all of it was right.
+    // Whether all bytes were read and valid.
     bool isComplete() const { return !hasFailed() && bytes_.rest().empty(); }
 
   private:

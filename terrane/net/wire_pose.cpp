@@ -22,6 +22,12 @@ WirePose wirePose(const world::Pose& pose) {
             static_cast<std::int16_t>(std::lround(up))};
 }
 
+double distanceBetween(const WirePose& a, const WirePose& b) {
+    const auto dx = static_cast<double>(a.x - b.x), dy = static_cast<double>(a.y - b.y),
+               dz = static_cast<double>(a.z - b.z);
+    return std::sqrt(dx * dx + dy * dy + dz * dz) / kPoseSteps;
+}
+
 world::Pose poseOf(const WirePose& pose) {
     const auto blocks = [](std::int64_t v) { return static_cast<double>(v) / kPoseSteps; };
     return {{blocks(pose.x), blocks(pose.y), blocks(pose.z)},

@@ -1,5 +1,5 @@
-// Places as they travel: of chunks, and where players are: positions in steps of 1/64 block, directions in
-// steps of 1/65536 turn, those of other players in 1/256 turn. Plain values and functions; any thread.
+// Wire formats of chunk positions and poses: positions in steps of 1/64 block, directions in 1/65536 turn,
+// those of other players in 1/256 turn. Plain values and functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -10,11 +10,11 @@
 
 namespace terrane::net {
 
-constexpr double kPoseSteps = 64;                                 // a block
+constexpr double kPoseSteps = 64;                                 // steps per block
 constexpr std::int64_t kMaxPosePosition = std::int64_t{1} << 37;  // in steps, either way
-constexpr int kPitchStep = 258;  // of WirePose::pitch for one of PoseChange::pitch
+constexpr int kPitchStep = 258;  // units of WirePose::pitch per unit of PoseChange::pitch
 
-// A pose of a player. Position in steps; blocks are at most 2^31 away, so that it fits 38 bits.
+// A player's pose. Position in steps; blocks are at most 2^31 away, so it fits 38 bits.
 struct WirePose {
     std::int64_t x = 0, y = 0, z = 0;
     std::uint16_t yaw = 0;   // 65536 a turn
@@ -29,18 +29,20 @@ inline bool isInRange(const WirePose& pose) {
 
 WirePose wirePose(const world::Pose& pose);
 world::Pose poseOf(const WirePose& pose);
+// In blocks.
+double distanceBetween(const WirePose& a, const WirePose& b);
 
-// How another player in sight moved since what was told of it before.
+// Movement of another player since its last transmitted pose.
 struct PoseChange {
     std::uint16_t slot = 0;
-    std::int64_t dx = 0, dy = 0, dz = 0;  // in steps of kPoseSteps: both may have come from afar
+    std::int64_t dx = 0, dy = 0, dz = 0;  // in steps; may be large after teleports
     std::uint8_t yaw = 0;                 // 256 a turn
     std::int8_t pitch = 0;                // 127 for straight up
     bool swings = false;                  // broke or placed a block since
     bool operator==(const PoseChange&) const = default;
 };
 
-// Level as a byte, then x and y as integers: a chunk of the world.
+// A chunk position: level as a byte, then x and y as integers.
 template <class Wire, class Pos>
 void describeChunkPos(Wire& wire, Pos& pos) {
     wire.fixed(pos.level);

@@ -1,5 +1,5 @@
-// Whether two programs make the same world: the server tells what its world follows from, the client compares
-// that with its own and proves it by digests of chunks that the server chose. Any thread.
+// Checks that two programs generate the same world: the client compares the server's fingerprint with its
+// own, and proves it by digests of chunks that the server chose. Any thread.
 #pragma once
 
 #include <array>
@@ -23,21 +23,20 @@ struct WorldFingerprint {
 WorldFingerprint worldFingerprint(const store::WorldIdentity& identity, const gen::GeneratorGraph& graph,
                                   const world::BlockRegistry& blocks);
 
-// Of names in the order of ids, and of what blocks do: ids mean the same in two programs whose hashes are
-// equal, and edits have the same effects.
+// Hash of the block names in the order of ids, and of the blocks' behavior: with equal hashes, ids have the
+// same meaning and edits the same effects in both programs.
 std::uint64_t blocksHash(const world::BlockRegistry& blocks);
 
-// One line that says what of two worlds differs; empty where nothing does.
+// One line that describes the difference of two worlds; empty if there is none.
 std::string differenceOf(const WorldFingerprint& server, const WorldFingerprint& client);
 
-// Eight: one that is equal by chance, such as open sea, proves little. To make them takes 12 ms of the
-// overworld and 190 to 310 ms of the continents, where each lies among rivers of its own (one core, measured
-// once).
+// Several chunks, since one may be equal by chance, such as open sea. Generating eight takes 12 ms for the
+// overworld and 190 to 310 ms for the continents, where each needs its own rivers (one core, measured once).
 constexpr std::size_t kSampleChunks = 8;
 using SamplePositions = std::array<world::ChunkPos, kSampleChunks>;
 using SampleDigests = std::array<std::uint64_t, kSampleChunks>;
 
-// Anywhere within 2^20 chunks of the middle, others for each `random`.
+// Positions within 2^20 chunks of the origin, which depend on `random`.
 SamplePositions samplePositions(std::uint64_t random);
 // xxHash64 of the chunk's blocks, 65,536 × 16 bits in the order of their index.
 std::uint64_t chunkDigest(const world::Chunk& chunk);

@@ -1,9 +1,9 @@
-// Who was first: decides which edits of one server are accepted, by what it knew when it made them. A plain
-// class, for the thread that writes the history.
+// Conflict detection: decides which edits of a server are accepted, from the events that it had received
+// before. A plain class, for the thread that writes the history.
 //
-// What a server hears (edits of others, refusals of its own) has numbers in the order in which it hears it.
-// An own edit was made after the server had heard up to some number, its basis. It is refused where one of
-// its blocks became another one by something that it had not heard.
+// Events that a server receives (edits of others, refusals of its own) are numbered in this order. The basis
+// of an own edit is the number of the last event received before it. The edit is refused if an event after
+// its basis changed one of its blocks.
 #pragma once
 
 #include <cstdint>
@@ -17,19 +17,20 @@ namespace terrane::net_postgres {
 
 class HistoryOrder {
   public:
-    // The next thing that the server hears: it changes these blocks. Gives its number.
+    // Adds the next event, which changes these blocks. Returns its number.
     std::uint64_t hear(std::span<const world::BlockPos> blocks);
     std::uint64_t heard() const { return heard_; }
 
     bool isAccepted(std::span<const world::BlockPos> blocks, std::uint64_t basis) const;
 
-    // No edit with a lower basis will come.
+    // Drops events up to `basis`: no edit with a lower basis will follow.
     void forget(std::uint64_t basis);
     std::size_t size() const { return changedBy_.size(); }
 
   private:
     std::uint64_t heard_ = 0;
-    std::unordered_map<world::BlockPos, std::uint64_t, world::BlockPosHash> changedBy_;  // the last one
+    // Number of the last event that changed each block.
+    std::unordered_map<world::BlockPos, std::uint64_t, world::BlockPosHash> changedBy_;
 };
 
 std::vector<world::BlockPos> blocksOf(const net::LoggedEdit& edit);

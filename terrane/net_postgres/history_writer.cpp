@@ -26,7 +26,7 @@ constexpr Statement kAppend = {
     "unnest($1::bigint[], $2::bigint[], $3::bigint[], $4::bigint[], $5::bigint[], $6::bytea[])"};
 constexpr Statement kSetNewest = {"UPDATE history SET newest = $1"};
 constexpr Statement kHasPlayer = {"SELECT EXISTS (SELECT 1 FROM players WHERE id = $1 AND key = $2)"};
-// Whatever the database's default is: what is read under the lock has to be what others committed before.
+// Independent of the database's default: reads under the lock must see what others committed before.
 constexpr const char* kBegin = "BEGIN ISOLATION LEVEL READ COMMITTED";
 constexpr Statement kNotify = {"SELECT pg_notify($1, $2)"};
 
@@ -36,8 +36,8 @@ Command notifyCommand(const std::string& channel, std::int64_t server, const Not
     return {&kNotify, Parameters().text(channel).text(noteText(server, note))};
 }
 
-// Own ones were told when they were written, but for those of a batch whose transaction was cut off at its
-// end: now it is known that it is there.
+// Own edits were reported when they were written, except those of a batch whose connection broke during
+// COMMIT: a row of it proves that it was committed.
 void HistoryWriter::readRow(const Rows& rows, int row, const std::string& shown, Heard& heard) {
     if (rows.number(row, 0) <= seen_) return;
     seen_ = rows.number(row, 0);
@@ -78,7 +78,7 @@ HistoryWriter::Attempt HistoryWriter::decide(const std::vector<QueuedWrite>& bat
         if (write.edits.empty()) continue;
         const bool isAccepted = order_.isAccepted(write.blocks, write.basis);
         attempt.decisions.push_back({write.number, isAccepted, attempt.newest + 1});
-        // What was made on top of it is refused, too.
+        // Edits on top of a refused one are refused, too.
         attempt.heard.push_back(isAccepted ? 0 : order_.hear(write.blocks));
         if (!isAccepted) continue;
         attempt.newest += static_cast<std::int64_t>(write.edits.size());
@@ -92,7 +92,7 @@ base::Result<void> HistoryWriter::send(Connection& connection, const std::vector
     std::vector<std::int64_t> numbers, times, players, chunks, writes;
     std::vector<store::Bytes> blocks;
     std::vector<Command> commands;
-    std::vector<std::pair<std::size_t, game::PlayerId>> added;  // which command tells whether who is there
+    std::vector<std::pair<std::size_t, game::PlayerId>> added;  // index of the checking command, player
     auto decision = attempt.decisions.begin();
     for (const QueuedWrite& write : batch) {
         commands.insert(commands.end(), write.commands.begin(), write.commands.end());
@@ -149,7 +149,7 @@ void HistoryWriter::refuse(const QueuedWrite& write, Heard& heard) {
     heard.isWritten = true;
 }
 
-// A transaction whose end was cut off, and which has not ended, holds the lock until it has.
+// An earlier transaction that was cut off and still runs holds the lock until it ends.
 base::Result<void> HistoryWriter::write(Connection& connection, const std::vector<QueuedWrite>& batch,
                                         Heard& heard) {
     if (auto begun = connection.execute(kBegin); !begun) return begun;

@@ -1,5 +1,5 @@
-// Appends a server's writes to the records in PostgreSQL, each batch in one transaction, and reads what other
-// servers appended. For the thread that writes.
+// Appends a server's writes to the records in PostgreSQL, one transaction per batch, and reads edits appended
+// by other servers. For the thread that writes.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace terrane::net_postgres {
 
-// An edit as a row.
+// A row of the table `edits`.
 struct EditToWrite {
     std::int64_t timeMs = 0, player = 0, chunk = 0;
     net::Bytes blocks;
@@ -21,14 +21,14 @@ struct EditToWrite {
 
 struct QueuedWrite {
     std::uint64_t number = 0;
-    // Edits of one command, and the blocks that they change: all of it is accepted or nothing.
+    // Edits of one command and the blocks that they change; accepted or refused as a whole.
     std::vector<EditToWrite> edits;
     std::vector<world::BlockPos> blocks;
     std::uint64_t basis = 0;  // HistoryOrder
-    // Or anything else, with what the other servers are told of it.
+    // Alternatively other commands, and a note for the other servers.
     std::vector<store_postgres::Command> commands;
     std::optional<Note> note;
-    // The commands add this player: where it is not there after them, another one has the name.
+    // The player added by the commands; if it is missing afterwards, another player has the name.
     struct Added {
         game::PlayerId id = game::kNoPlayer;
         net::PublicKey key{};
@@ -36,48 +36,48 @@ struct QueuedWrite {
     std::optional<Added> added = {};
 };
 
-// What the server is to hear.
+// An event for the server.
 struct HeardEvent {
     net::HistoryEvent event;
-    std::uint64_t heard =
-        0;  // its number (HistoryOrder); 0: it changes nothing that the server does not know
+    // Event number (HistoryOrder); 0 if the server already has the change.
+    std::uint64_t heard = 0;
 };
 struct Heard {
     std::vector<HeardEvent> events;
     std::vector<game::PlayerId> refused;  // players
-    bool isWritten = false;               // the batch that write() was given, now or before
+    bool isWritten = false;               // the batch of write() is committed
 };
 
 class HistoryWriter {
   public:
-    // All edits up to `seen` are known. The address and the ids outlive it.
+    // All edits up to `seen` are known. `address` and `ids` outlive this.
     HistoryWriter(const store_postgres::Address& address, const store::BlockIdMap& ids, std::string channel,
                   std::int64_t server, std::int64_t seen)
         : address_(address), ids_(ids), channel_(std::move(channel)), server_(server), seen_(seen) {}
 
-    // The edits that others appended since. Those of `heard` that were read before an error count.
+    // Reads edits that others appended since the last call. After an error, the edits in `heard` are valid.
     [[nodiscard]] base::Result<void> readOthers(store_postgres::Connection& connection, Heard& heard);
-    // All of the batch, or nothing. Where it failed, the batch may be in the database all the same: it is
-    // written again, before any other, unless readOthers() said meanwhile that it is there.
+    // Writes all of the batch or nothing. After an error, the batch may have been committed: call again with
+    // the same batch, unless readOthers() set `heard.isWritten` meanwhile.
     [[nodiscard]] base::Result<void> write(store_postgres::Connection& connection,
                                            const std::vector<QueuedWrite>& batch, Heard& heard);
 
-    // Gives a write up that the database will never take.
+    // Refuses a write that the database rejects permanently.
     void refuse(const QueuedWrite& write, Heard& heard);
 
     std::int64_t seen() const { return seen_; }
-    std::int64_t newestOwn() const { return newestOwn_; }  // edit of this server; 0: none
-    // No write with a lower basis will come.
+    std::int64_t newestOwn() const { return newestOwn_; }  // newest edit of this server; 0: none
+    // No write with a lower basis will follow.
     void forget(std::uint64_t basis) { order_.forget(basis); }
 
   private:
-    // A batch on its way: it may be in the database although the connection broke.
+    // A batch in transit: it may be committed although the connection broke.
     struct Attempt {
         std::vector<net::WriteDecision> decisions;
-        std::vector<std::uint64_t> heard;  // of each decision
+        std::vector<std::uint64_t> heard;  // event number of each decision
         std::vector<game::PlayerId> refused;
-        std::int64_t newest = 0;  // of the history, with it
-        bool hasEdits = false;    // that are accepted
+        std::int64_t newest = 0;  // newest edit of the history, including the batch
+        bool hasEdits = false;    // any accepted edits
     };
     base::Result<std::int64_t> lockHistory(store_postgres::Connection& connection);
     Attempt decide(const std::vector<QueuedWrite>& batch, std::int64_t newest);
@@ -94,7 +94,7 @@ class HistoryWriter {
     std::optional<Attempt> unsure_;
 };
 
-// Tells all servers something, now.
+// A command that sends a note to all servers.
 store_postgres::Command notifyCommand(const std::string& channel, std::int64_t server, const Note& note);
 
 }  // namespace terrane::net_postgres

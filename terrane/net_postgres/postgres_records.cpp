@@ -1,4 +1,4 @@
-// What the server's thread calls. records_thread.cpp is the other one.
+// Functions called by the server's thread; records_thread.cpp has those of the other thread.
 #include "terrane/net_postgres/postgres_records.h"
 
 #include <sys/eventfd.h>
@@ -19,8 +19,8 @@ namespace {
 using store_postgres::Connection;
 using store_postgres::Parameters;
 
-// That wait to be sent. More are dropped, as while the database is away for long: lines of chat, times and
-// far tiles are not told then. Where players are is told again, and not kept while the database is away.
+// Maximum number of unsent notes. More are dropped, as while the database is unreachable for long: then chat
+// lines, times and tiles are lost. Poses are sent again, and not queued while the database is unreachable.
 constexpr std::size_t kMaxNotes = 4096;
 
 }  // namespace
@@ -206,9 +206,9 @@ std::string PostgresRecords::problem() const {
 
 base::Result<void> PostgresRecords::flush() {
     std::unique_lock lock(mutex_);
-    const std::uint64_t wanted = queued_, before = attempts_;
-    written_.wait(lock, [&] { return committed_ >= wanted || (attempts_ > before && !problem_.empty()); });
-    if (committed_ >= wanted) return {};
+    const std::uint64_t goal = queued_, before = attempts_;
+    written_.wait(lock, [&] { return committed_ >= goal || (attempts_ > before && !problem_.empty()); });
+    if (committed_ >= goal) return {};
     return base::fail(base::ErrorCode::Io, "{}", problem_);
 }
 
@@ -277,9 +277,9 @@ void PostgresRecords::tellState(int players, std::int64_t saved) {
     state_.players = players;
     state_.saved = saved;
 }
-void PostgresRecords::wantRegions(std::vector<net::Region> regions) {
+void PostgresRecords::requestRegions(std::vector<net::Region> regions) {
     const std::lock_guard lock(mutex_);
-    wanted_ = {regions.begin(), regions.end()};
+    requestedRegions_ = {regions.begin(), regions.end()};
 }
 bool PostgresRecords::mayGrow(net::Region region) const {
     const std::lock_guard lock(mutex_);

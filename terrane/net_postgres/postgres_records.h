@@ -1,4 +1,4 @@
-// A server's records in PostgreSQL, shared by all servers of the world. A thread of its own writes and
+// A server's records in PostgreSQL, shared by all servers of the world. A thread of this class writes and
 // listens.
 #pragma once
 
@@ -19,20 +19,20 @@
 
 namespace terrane::net_postgres {
 
-// The history of a world, which may be served meanwhile.
+// Reads the edit history of a world, also while servers run.
 [[nodiscard]] base::Result<net::History> readHistory(const store_postgres::Address& address,
                                                      const world::BlockRegistry& blocks);
 
 class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
   public:
-    // Of a world that is there, opened with WorldSharing::Servers. The server is among those of the world
-    // until it ends.
+    // Opens the records of an existing world that is open with WorldSharing::Servers. Registers the server
+    // until this is destroyed.
     [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> open(
         const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
-    // To read players, claims, texts and edits, and nothing else: changes nothing in the database.
+    // Opens for reading players, claims, texts and edits only; changes nothing in the database.
     [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> openToRead(
         const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
-    ~PostgresRecords() override;  // writes what waits, if it can within some seconds
+    ~PostgresRecords() override;  // writes queued writes, waiting up to 10 s
     PostgresRecords(const PostgresRecords&) = delete;
     PostgresRecords& operator=(const PostgresRecords&) = delete;
 
@@ -48,14 +48,14 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void removeClaim(const std::string& name) override;
     void setText(const std::string& name, const std::string& text) override;
     std::uint64_t append(const std::vector<net::LoggedEdit>& edits) override;
-    void setSavedEdit(std::int64_t number) override;  // for copies: servers say tellState()
-    // Decided, and told by takeNews().
+    void setSavedEdit(std::int64_t number) override;  // for copies: servers call tellState()
+    // The last write that is decided and was reported by takeNews().
     std::uint64_t durable() const override;
     std::string problem() const override;
     [[nodiscard]] base::Result<void> flush() override;
     net::SharedWorld* shared() override { return this; }
 
-    // Where players find the server, once that is known.
+    // Sets the address at which players reach the server.
     void tellAddress(const std::string& address, const std::string& key);
 
     net::SharedNews takeNews() override;
@@ -68,7 +68,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void tellLeft(game::PlayerId player) override;
     game::PlayerId takePlayerNumber() override;
     void tellState(int players, std::int64_t saved) override;
-    void wantRegions(std::vector<net::Region> regions) override;
+    void requestRegions(std::vector<net::Region> regions) override;
     bool mayGrow(net::Region region) const override;
 
     void forgetServer(std::int64_t server) override;
@@ -81,7 +81,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     std::uint64_t queue(QueuedWrite write);
     void tell(const Note& note);
     void wake();
-    // Of the thread.
+    // On thread_.
     void run();
     void waitForWork();
     base::Result<void> work();
@@ -98,33 +98,33 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     base::Result<void> reservePlayerNumbers();
     void hand(Heard heard);
 
-    store_postgres::ConnectionPool pool_;  // for what the server's thread waits for
+    store_postgres::ConnectionPool pool_;  // for blocking calls of the server's thread
     store_postgres::WorldContents contents_;
     ServerName name_;
     std::string channel_;
     std::int64_t server_ = 0;
     int wakeSocket_ = -1;  // an eventfd
 
-    // Of the thread.
+    // Used by thread_ only.
     std::optional<store_postgres::Connection> connection_;
     std::unique_ptr<HistoryWriter> writer_;
     std::vector<QueuedWrite> batch_;  // being written
-    std::size_t oneByOne_ = 0;        // so many writes are tried by themselves
+    std::size_t oneByOne_ = 0;        // number of writes to try one at a time
     std::vector<store_postgres::Notification> notices_;
     bool mustLookUp_ = false;  // notes were missed
     Clock::time_point nextLook_{}, nextBeat_{};
-    std::map<std::int64_t, std::vector<world::ChunkPos>> gone_;  // servers, with what they did not save
+    std::map<std::int64_t, std::vector<world::ChunkPos>> gone_;  // stopped servers and their unsaved chunks
 
-    mutable std::mutex mutex_;  // of all below
+    mutable std::mutex mutex_;  // guards all members below
     std::condition_variable written_;
     std::deque<QueuedWrite> queue_;
     std::deque<Note> notes_;  // to be sent
     std::uint64_t queued_ = 0, committed_ = 0, told_ = 0;
     std::uint64_t attempts_ = 0;
-    std::uint64_t basis_ = 0, heard_ = 0;  // what the server was told; what is in news_
+    std::uint64_t basis_ = 0, heard_ = 0;  // last event reported to the server; last event in news_
     net::SharedNews news_;
     std::vector<game::PlayerId> numbers_;  // for new players
-    std::set<net::Region> wanted_, leased_;
+    std::set<net::Region> requestedRegions_, leased_;
     Clock::time_point leasedUntil_{};
     ServerBeat state_;
     std::string problem_;

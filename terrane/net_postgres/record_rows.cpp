@@ -25,7 +25,7 @@ constexpr Statement kClaims = {"SELECT name, x0, y0, x1, y1, owner, members FROM
 constexpr Statement kText = {"SELECT value FROM texts WHERE name = $1"};
 constexpr Statement kPlaces = {"SELECT value FROM settings WHERE name = $1"};
 constexpr Statement kEnds = {"SELECT newest, saved FROM history"};
-// $1 to $8: numbers, player (below 0: any), times, chunks, how many.
+// $1, $2: range of numbers; $3: player, negative for any; $4, $5: times; $6, $7: chunks; $8: limit.
 constexpr Statement kEditsUp = {
     "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
     "player = $3) AND time >= $4 AND time < $5 AND chunk BETWEEN $6 AND $7 ORDER BY number LIMIT $8"};
@@ -54,7 +54,7 @@ constexpr Statement kJoined = {
 constexpr Statement kElsewhere = {"SELECT player FROM online WHERE server <> $1"};
 constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
 constexpr Statement kSetSaved = {"UPDATE history SET saved = least(newest, greatest(saved, $1))"};
-// Those who come by themselves have a number of the sequence; those who are copied may have a higher one.
+// New players take a number from the sequence; copied players may have a higher one.
 constexpr Statement kSkipNumber = {
     "SELECT setval('player_numbers', $1) FROM player_numbers WHERE last_value < $1"};
 constexpr Statement kNumbers = {"SELECT nextval('player_numbers') FROM generate_series(1, $1)"};

@@ -1,5 +1,4 @@
-// The thread of PostgresRecords: writes what is queued, hears what other servers do, says that the server is
-// there.
+// The thread of PostgresRecords: writes queued writes, listens to other servers, sends heartbeats.
 #include <poll.h>
 #include <unistd.h>
 
@@ -18,15 +17,15 @@ namespace {
 using store_postgres::Command;
 using store_postgres::Connection;
 
-// Notifications come at once. What one misses is looked up: edits each second, all else after a broken
-// connection.
+// Notifications arrive at once. Missed ones are made up for by queries: edits each second, all else after a
+// broken connection.
 constexpr std::chrono::milliseconds kLookEvery{1000}, kBeatEvery{1000}, kTryAgain{200};
 constexpr std::size_t kMaxBatch = 4096;
 constexpr std::size_t kNotesAtOnce = 256;
-// A lease is used for less than it lasts: it began when the database had it.
+// A lease is used for less time than it lasts, since it began when the database granted it.
 constexpr std::chrono::seconds kLeaseUsed{kGoneSeconds - 2};
 constexpr std::size_t kPlayerNumbers = 64;
-// At the end, where the database does not answer.
+// Limit for writing the queue at the end if the database does not answer.
 constexpr std::chrono::seconds kLastAttempts{10};
 
 }  // namespace
@@ -49,7 +48,7 @@ void PostgresRecords::run() {
         lock.unlock();
         if (!done) std::this_thread::sleep_for(kTryAgain);
     }
-    // A server that has not saved all stays in the list: others save what it changed.
+    // A server with unsaved edits stays in the list: others save its chunks.
     const bool hasSaved = state_.saved >= writer_->newestOwn();
     if (hasSaved && connection_ && connection_->isUsable())
         (void)removeServer(*connection_, server_, state_.saved);
@@ -63,7 +62,7 @@ void PostgresRecords::waitForWork() {
         const std::lock_guard lock(mutex_);
         if (isEnding_ || !queue_.empty() || !notes_.empty()) return;
     }
-    // What came with an answer does not wake poll().
+    // Notifications that arrived with a result do not wake poll().
     if (connection_) keepNotices();
     if (batch_.empty() && notices_.empty() && left > 0)
         ::poll(sockets, std::size(sockets), static_cast<int>(left));
@@ -76,14 +75,15 @@ base::Result<void> PostgresRecords::work() {
     Heard heard;
     auto done = takeNotes(heard);
     if (done) done = writeQueued(heard);
-    hand(std::move(heard));  // what was heard before an error, too
+    hand(std::move(heard));  // also events before an error
     if (!done) return done;
     if (auto reserved = reservePlayerNumbers(); !reserved) return reserved;
     if (auto sent = sendNotes(); !sent) return sent;
     return beatIfDue();
 }
 
-// With the locks of a server: who plays alone or makes the world anew waits until this one has ended.
+// Takes the locks of a server: a program that plays alone or regenerates the world waits until this server
+// ends.
 base::Result<void> PostgresRecords::connect() {
     if (!connection_ || !connection_->isUsable()) {
         auto connection = store_postgres::reconnect(pool_.address(), store::WorldSharing::Servers, contents_);
@@ -96,7 +96,8 @@ base::Result<void> PostgresRecords::connect() {
     return mustLookUp_ ? lookUp() : base::Result<void>();
 }
 
-// All that notes tell of people. What is queued here is newer: its own note tells it once more.
+// Reads everything that notes report about players. Changes queued here are newer: their own notes report
+// them again.
 base::Result<void> PostgresRecords::lookUp() {
     auto players = readPlayers(*connection_);
     if (!players) return tl::unexpected(players.error());
@@ -114,7 +115,7 @@ base::Result<void> PostgresRecords::lookUp() {
     news_.claims = std::move(*claims);
     news_.passwordHash = std::move(*hash);
     news_.allPlaces = std::move(*places);
-    news_.places.clear();  // heard before
+    news_.places.clear();  // older than allPlaces
     const auto joinsHere = [&](game::PlayerId player) {
         const auto isJoin = [&](const QueuedWrite& write) {
             const auto* joined = write.note ? std::get_if<JoinedNote>(&*write.note) : nullptr;
@@ -141,7 +142,8 @@ base::Result<void> PostgresRecords::takeNotes(Heard& heard) {
     bool hasEdits = Clock::now() >= nextLook_;
     for (const store_postgres::Notification& notice : std::exchange(notices_, {})) {
         const auto read = readNote(notice.payload);
-        // An own change may have been made before another one's was heard, and be the newer one.
+        // Own notes about rows are read as well: an own change may be newer than one heard from another
+        // server.
         if (!read || (read->server == server_ && !isOfRows(read->note))) continue;
         if (auto taken = takeNote(read->note, hasEdits); !taken) {
             mustLookUp_ = true;
@@ -186,7 +188,7 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
     return {};
 }
 
-// What failed is written first, and alone: nothing is added to it.
+// A failed batch is written again unchanged before anything else.
 base::Result<void> PostgresRecords::writeQueued(Heard& heard) {
     if (heard.isWritten) return {};
     if (batch_.empty()) {
@@ -200,7 +202,7 @@ base::Result<void> PostgresRecords::writeQueued(Heard& heard) {
     if (batch_.empty()) return {};
     auto done = writer_->write(*connection_, batch_, heard);
     if (done || done.error().code != base::ErrorCode::Failed) return done;
-    // The database is there, and does not take this. Which of it, one by one tells; that one is given up.
+    // The database rejects the batch: find the rejected write by trying one at a time, and refuse it.
     base::logError("{}; {}", done.error().message,
                    batch_.size() > 1 ? "it is tried one by one" : "it is given up");
     if (batch_.size() == 1) {
@@ -214,7 +216,7 @@ base::Result<void> PostgresRecords::writeQueued(Heard& heard) {
     return {};
 }
 
-// The server hears all of it at once.
+// Passes all events to the server's thread at once.
 void PostgresRecords::hand(Heard heard) {
     const std::lock_guard lock(mutex_);
     for (HeardEvent& event : heard.events) {
@@ -229,7 +231,7 @@ void PostgresRecords::hand(Heard heard) {
         committed_ = std::max(committed_, batch_.back().number);
         batch_.clear();
     }
-    // Writes that wait were made with at least this in mind.
+    // Queued writes have at least this basis.
     const std::uint64_t basis = queue_.empty() ? basis_ : std::min(basis_, queue_.front().basis);
     if (batch_.empty()) writer_->forget(basis);
 }
@@ -259,7 +261,7 @@ base::Result<void> PostgresRecords::beatIfDue() {
         const std::lock_guard lock(mutex_);
         state = state_;
         name = name_;
-        state.regions = {wanted_.begin(), wanted_.end()};
+        state.regions = {requestedRegions_.begin(), requestedRegions_.end()};
     }
     auto answer = beat(*connection_, name, state);
     if (!answer) return tl::unexpected(answer.error());
@@ -273,7 +275,7 @@ base::Result<void> PostgresRecords::beatIfDue() {
     return {};
 }
 
-// Looked up once; the server may hear of it later than this.
+// Queried once per server; its death may be reported to the server's thread later.
 base::Result<void> PostgresRecords::findUnsaved(std::vector<net::OtherServer>& others) {
     std::erase_if(gone_, [&](const auto& entry) {
         return std::ranges::none_of(others, [&](const auto& other) { return other.number == entry.first; });
@@ -303,7 +305,7 @@ base::Result<void> PostgresRecords::reservePlayerNumbers() {
     auto numbers = takePlayerNumbers(*connection_, kPlayerNumbers);
     if (!numbers) return tl::unexpected(numbers.error());
     const std::lock_guard lock(mutex_);
-    // From the back the lowest first.
+    // Numbers are taken from the back, the lowest first.
     numbers_.insert(numbers_.begin(), numbers->rbegin(), numbers->rend());
     return {};
 }

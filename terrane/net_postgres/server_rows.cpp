@@ -23,14 +23,14 @@ constexpr Statement kRemoveLeases = {"DELETE FROM growth_leases WHERE server = $
 constexpr Statement kForgetServer = {
     "WITH gone AS (DELETE FROM servers WHERE number = $1 AND seen < clock_timestamp() - $2 * interval '1 "
     "second' RETURNING number) DELETE FROM growth_leases USING gone WHERE server = gone.number"};
-// Only where it rises: who appends edits writes the row, too.
+// Updates the row only if the value rises, since appends write the row, too.
 constexpr Statement kRaiseSaved = {
     "WITH now AS (SELECT coalesce((SELECT min(saved) FROM servers), $1) AS saved) "
     "UPDATE history SET saved = least(newest, now.saved) FROM now WHERE history.saved < least(newest, "
     "now.saved)"};
 constexpr Statement kSaved = {"SELECT saved FROM history"};
 constexpr Statement kOtherServers = {
-    "SELECT number, name, address, key, players::bigint, "
+    "SELECT number, name, address, key, "
     "seen > clock_timestamp() - $2 * interval '1 second' FROM servers WHERE number <> $1 ORDER BY number"};
 constexpr Statement kLease = {
     "INSERT INTO growth_leases (region, server, until) SELECT region, $2, clock_timestamp() + $3 * interval "
@@ -85,7 +85,7 @@ base::Result<BeatAnswer> beat(Connection& connection, const ServerName& name, co
     for (int row = 0; row < others.count(); ++row)
         answer.others.push_back({others.number(row, 0), std::string(others.text(row, 1)),
                                  std::string(others.text(row, 2)), std::string(others.text(row, 3)),
-                                 static_cast<int>(others.number(row, 4)), others.number(row, 5) != 0});
+                                 others.number(row, 4) != 0});
     for (int row = 0; row < (*rows)[5].count(); ++row) answer.regions.push_back((*rows)[5].number(row, 0));
     return answer;
 }

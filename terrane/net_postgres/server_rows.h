@@ -1,4 +1,4 @@
-// The servers of a world, where their players are, and which of them lets time pass where: rows in
+// The servers of a world, their players, and the leases of regions in which a server lets time pass: rows in
 // PostgreSQL. For the thread that writes.
 #pragma once
 
@@ -11,38 +11,38 @@
 
 namespace terrane::net_postgres {
 
-// A server that was not heard of for so long is gone.
+// A server without a heartbeat for this long is gone.
 constexpr int kGoneSeconds = 8;
 
 struct ServerName {
     std::string name, address, key;
 };
 
-// The new server's number; it has nothing to save.
+// Adds a server and returns its number; it has nothing to save.
 [[nodiscard]] base::Result<std::int64_t> addServer(store_postgres::Connection& connection,
                                                    const ServerName& name);
-// Its row, its players and leases go, at its end. `saved`: up to this edit it has nothing to save.
+// Removes the server's row, players and leases when it ends. `saved`: all its edits up to this one are saved.
 [[nodiscard]] base::Result<void> removeServer(store_postgres::Connection& connection, std::int64_t server,
                                               std::int64_t saved);
 
-// The same of another server, unless it is heard of again.
+// The same for another server, unless it has a recent heartbeat.
 store_postgres::Command forgetServerCommand(std::int64_t server);
 
 struct ServerBeat {
     std::int64_t server = 0, saved = 0;
     int players = 0;
-    std::vector<net::Region> regions;  // that it wants to let time pass in
+    std::vector<net::Region> regions;  // requested regions
 };
 struct BeatAnswer {
-    std::int64_t saved = 0;  // of all servers
+    std::int64_t saved = 0;  // minimum over all servers
     std::vector<net::OtherServer> others;
-    std::vector<net::Region> regions;  // that it has for kGoneSeconds
+    std::vector<net::Region> regions;  // leased for kGoneSeconds
 };
-// Says that the server is there, and looks what others are.
+// Sends a heartbeat and reads the state of the other servers.
 [[nodiscard]] base::Result<BeatAnswer> beat(store_postgres::Connection& connection, const ServerName& name,
                                             const ServerBeat& state);
 
-// Chunks whose edits are in the history alone.
+// Chunks of the server whose edits are only in the history.
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> unsavedChunks(store_postgres::Connection& connection,
                                                                        std::int64_t server);
 

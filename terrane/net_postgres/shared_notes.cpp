@@ -12,7 +12,7 @@ namespace {
 
 constexpr char kHexDigits[] = "0123456789abcdef";
 
-// Reads and writes are one description each (net/wire.h).
+// One description for reading and writing each type (net/wire.h).
 template <class Wire, class N>
 void describe(Wire& wire, N& note) {
     using T = std::remove_const_t<N>;

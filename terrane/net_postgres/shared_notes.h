@@ -1,5 +1,5 @@
-// What servers tell each other through NOTIFY: a line of text each, of at most 8,000 bytes (PostgreSQL's
-// limit). A server's number, then a letter and hexadecimal digits. Plain values and functions.
+// Notes that servers send each other through NOTIFY: one line of text of at most 8,000 bytes (PostgreSQL's
+// limit): the server's number, a letter for the type, hexadecimal digits. Plain values and functions.
 #pragma once
 
 #include <string>
@@ -11,7 +11,7 @@
 
 namespace terrane::net_postgres {
 
-struct EditsNote {};   // the history is longer
+struct EditsNote {};   // edits were appended
 struct ClaimsNote {};  // claims changed
 struct PlayerNote {    // a player's row is new or changed
     game::PlayerId player = 0;
@@ -34,18 +34,18 @@ struct TilesNote {
 struct PlaceNote {
     net::PlaceChange change;
 };
-struct PasswordNote {};                      // it is another one, or none
-constexpr double kTimeSteps = 4294967296.0;  // a day
-struct TimeNote {                            // somebody set the time of day
+struct PasswordNote {};                      // the password changed or was removed
+constexpr double kTimeSteps = 4294967296.0;  // steps per day
+struct TimeNote {                            // the time of day was set
     std::uint32_t timeDay = 0;               // in steps of kTimeSteps
 };
 using Note = std::variant<EditsNote, ClaimsNote, PlayerNote, JoinedNote, LeftNote, LineNote, PosesNote,
                           TilesNote, PasswordNote, TimeNote, PlaceNote>;
 
-// At most so many fit one note.
+// Maximum counts that fit one note.
 constexpr std::size_t kMaxPosesInNote = 120, kMaxTilesInNote = 300;
 
-// It says that rows of people changed, and to look at them.
+// Whether the note reports changed rows of players, claims or the password, which must be read.
 bool isOfRows(const Note& note);
 
 std::string noteText(std::int64_t server, const Note& note);
@@ -53,7 +53,7 @@ struct ReadNote {
     std::int64_t server = 0;
     Note note;
 };
-// Nothing where it is no note: anybody with a role in the database can send one.
+// No value if the text is not a valid note: any role of the database can send one.
 std::optional<ReadNote> readNote(std::string_view text);
 
 }  // namespace terrane::net_postgres

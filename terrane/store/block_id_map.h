@@ -1,5 +1,5 @@
-// Which numbers stand for which block types in a save, and which in this session. Saves name their types: a
-// build with other blocks, or the same in another order, reads an old world correctly.
+// Maps block ids of a save to ids of the session and back. A save names its block types, so a build with
+// other blocks, or another order of blocks, reads it correctly.
 //
 // Immutable once made; shared by all threads.
 #pragma once
@@ -22,10 +22,10 @@ class BlockIdMap {
   public:
     static constexpr std::uint32_t kNone = 0xFFFF'FFFF;
 
-    // `saved` is what the save has so far, none of its ids or names twice. Types of the registry that it
-    // lacks get ids that it does not use. Names the registry lacks become the session ids behind the
-    // registry's last, for which BlockRegistry::type gives "missing": they are drawn, and go back under their
-    // own id. An error where more than 65,536 types are needed.
+    // `saved`: the names of the save, without duplicate ids or names. Types of the registry that the save
+    // lacks get unused ids. Names that the registry lacks get session ids after the registry's last one, for
+    // which BlockRegistry::type returns "missing": they are drawn, and saved with their own id. Fails if more
+    // than 65,536 types are needed.
     [[nodiscard]] static base::Result<BlockIdMap> make(const world::BlockRegistry& registry,
                                                        const std::vector<SavedName>& saved);
 
@@ -34,7 +34,7 @@ class BlockIdMap {
         return at(toSaved_, session);
     }  // kNone: no such type
 
-    const std::vector<SavedName>& names() const { return names_; }        // all, those to be added last
+    const std::vector<SavedName>& names() const { return names_; }        // all names, the added ones last
     const std::vector<SavedName>& added() const { return added_; }        // to be written into the save
     const std::vector<std::string>& unknown() const { return unknown_; }  // names the registry lacks
 

@@ -1,5 +1,5 @@
-// Little-endian numbers in byte strings, as the saved forms have them. Reading is bounds-checked: past the
-// end it gives zeros and remembers, so that a reader asks once, at the end of a part.
+// Little-endian numbers in byte strings, as saved. Reading is bounds-checked: past the end it returns zeros
+// and sets a flag, so that a reader needs one check per part.
 #pragma once
 
 #include <bit>
@@ -38,13 +38,13 @@ class ByteReader {
         return value;
     }
 
-    // Fills `target`, or leaves it as it is where fewer bytes are left.
+    // Fills `target`, or leaves it unchanged if fewer bytes are left.
     void copyTo(std::span<std::byte> target) {
         const ByteView part = take(target.size());
         if (!part.empty()) std::memcpy(target.data(), part.data(), part.size());
     }
 
-    // The next `count` bytes, or none where fewer are left.
+    // The next `count` bytes, or none if fewer are left.
     ByteView take(std::size_t count) {
         if (count > rest_.size()) {
             isPastEnd_ = true;
@@ -57,7 +57,7 @@ class ByteReader {
     }
 
     ByteView rest() const { return rest_; }
-    bool isPastEnd() const { return isPastEnd_; }  // some read wanted more than there was
+    bool isPastEnd() const { return isPastEnd_; }  // a read requested more than was left
 
   private:
     ByteView rest_;

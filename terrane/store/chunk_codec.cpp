@@ -16,10 +16,10 @@ namespace {
 using world::Section;
 using Value = Section::Value;
 
-// A checksum of all that follows it, the version, the length before compression; then a zstd frame.
+// Checksum of everything after it, version, uncompressed size; then a zstd frame.
 constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t) + sizeof(std::uint32_t);
 
-// Of an encoded chunk: of all that follows the checksum itself.
+// Checksum of an encoded chunk, over everything after the checksum itself.
 std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
     const ByteView rest = bytes.subspan(sizeof(std::uint64_t));
     return XXH64(rest.data(), rest.size(), seed);
@@ -29,7 +29,7 @@ constexpr std::size_t wordCount(int bits) {
     return static_cast<std::size_t>(world::kBlocksPerSection * bits / 64);
 }
 
-// Writes values through a function from a value to what stands for it, or to BlockIdMap::kNone.
+// Writes sections. `Map` maps a value to its saved value, or to BlockIdMap::kNone.
 template <class Map>
 class SectionWriter {
   public:
@@ -51,7 +51,7 @@ class SectionWriter {
         for (const Value v : values) value(v);
     }
 
-    std::optional<Value> unmapped() const { return unmapped_; }  // a value that nothing stands for
+    std::optional<Value> unmapped() const { return unmapped_; }  // a value without a saved value
 
   private:
     void value(Value v) {
@@ -71,7 +71,7 @@ base::Result<void> appendBlockEntityData(Bytes& out, const world::Chunk& chunk,
                                          std::span<const world::BlockIndex> large) {
     std::size_t totalBytes = 0;
     for (const world::BlockIndex i : large) totalBytes += chunk.blockEntityData(i)->size();
-    constexpr std::size_t kMaxBytes = kMaxChunkBytes - (2u << 20);  // sections and lengths take the rest
+    constexpr std::size_t kMaxBytes = kMaxChunkBytes - (2u << 20);  // the rest is for sections and lengths
     if (totalBytes > kMaxBytes)
         return base::fail("the chunk has {} bytes of block entity data, a save keeps at most {}", totalBytes,
                           kMaxBytes);
@@ -148,7 +148,7 @@ base::Result<Section> readSection(ByteReader& reader, SectionHead head) {
     return std::move(*section);
 }
 
-// From saved ids to those of the session.
+// Reads a section and maps saved ids to session ids.
 base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const BlockIdMap& ids) {
     std::optional<Value> unnamed;
     const auto map = [&](Value& id) {
@@ -266,7 +266,7 @@ base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, st
     std::unique_lock<std::mutex> alone;
     if (budget && plainBytes > kKeptBytes) {
         alone = budget->lockLargeChunks();
-        // All but the sections will be held. Nothing is decompressed only to be refused.
+        // Everything except the sections will be held: check the budget before decompressing.
         if (!budget->hasRoomFor(plainBytes - kKeptBytes)) return overBudget(*budget);
     }
     Scratch scratch;

@@ -1,7 +1,7 @@
-// The number of a chunk in the tables of a save: its primary key, (level, x, y) in one integer. SQLite finds
-// a row by such a key in one tree; with three columns it needs a second tree, or tables without row ids,
-// which cut chunks of about 750 bytes in two (measured: saving takes 1.3 to 1.9 times as long, or loading 1.4
-// times and a file 1.4 times as large).
+// The primary key of a chunk in the tables of a save: (level, x, y) in one integer. SQLite finds a row by an
+// integer key in one B-tree; three columns need a second tree, or tables without row ids, which split chunks
+// of about 750 bytes (measured: saving takes 1.3 to 1.9 times as long, or loading 1.4 times as long and a
+// file is 1.4 times as large).
 #pragma once
 
 #include <cstdint>
@@ -10,9 +10,10 @@
 
 namespace terrane::store {
 
-constexpr int kLevelShift = 56, kXShift = 28;  // 4 bits of the level, then x and y from 0 in 28 bits each
+// 4 bits of level, 28 bits each of x and y, offset from kMinChunk.
+constexpr int kLevelShift = 56, kXShift = 28;
 
-// Keys of level 0 are from 0 to below this one.
+// Keys of level 0 are in [0, kFirstTileKey).
 constexpr std::int64_t kFirstTileKey = std::int64_t{1} << kLevelShift;
 
 constexpr std::int64_t keyOf(world::ChunkPos pos) {
@@ -20,7 +21,7 @@ constexpr std::int64_t keyOf(world::ChunkPos pos) {
            (std::int64_t{pos.y} - world::kMinChunk);
 }
 
-// What no position has the number of gives a position outside the world.
+// An invalid key gives a position outside the world.
 constexpr world::ChunkPos posOf(std::int64_t key) {
     constexpr std::int64_t kEnd = std::int64_t{world::kMaxLevel + 1} << kLevelShift;
     if (key < 0 || key >= kEnd) return {world::kMaxChunk + 1, world::kMaxChunk + 1, 0};
@@ -30,8 +31,8 @@ constexpr world::ChunkPos posOf(std::int64_t key) {
             static_cast<std::uint8_t>(key >> kLevelShift)};
 }
 
-// What the checksum of a chunk begins with, so that it covers the key and the origin of its row too. Of saves
-// of formats 1 and 2 it is kFormerSeed.
+// Seed of a chunk's checksum, which therefore also covers the key and origin of its row. Saves of formats 1
+// and 2 use kFormerSeed.
 constexpr std::uint64_t checksumSeed(world::ChunkPos pos, bool isEdited) {
     return static_cast<std::uint64_t>(keyOf(pos)) * 2 + (isEdited ? 1 : 0);
 }

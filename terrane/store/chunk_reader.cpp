@@ -49,7 +49,7 @@ std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t form
 
 namespace {
 
-// Of columns data and origin.
+// Reads the columns data and origin.
 StoredChunk storedChunk(const Statement& row, world::ChunkPos pos, std::int64_t format) {
     std::string problem = rowProblem(row, 0, 1);
     const ByteView data = row.blob(0);
@@ -74,7 +74,7 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
     std::vector<world::ChunkPos> edited;
     const auto take = [&](const Statement& row) -> base::Result<void> {
         const world::ChunkPos pos = posOf(row.number(0));
-        // Pages that lead back to themselves would give rows without end.
+        // A cycle of damaged pages would return rows forever.
         if (!edited.empty() && keyOf(pos) <= keyOf(edited.back()))
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
                               database.path());
@@ -173,12 +173,12 @@ void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
         for (std::size_t k = 0; k < positions.size(); ++k) take(k, tl::unexpected(connection.error()));
         return;
     }
-    // A transaction that cannot begin makes it slower, not wrong.
+    // Without a transaction the reads are slower, but correct.
     const bool hasBegun = (*connection)->begin.run().has_value();
     for (std::size_t k = 0; k < positions.size(); ++k)
         take(k, readRow((*connection)->select, positions[k], format_));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
-    // One that cannot end goes with its connection.
+    // If the transaction cannot end, drop the connection.
     if (hasEnded) giveBack(std::move(*connection));
 }
 

@@ -1,5 +1,4 @@
-// Reads chunks of an open save on any number of threads: each uses a connection of its own for the moment,
-// and leaves it for the next.
+// Reads chunks of an open save on any number of threads, with a pool of connections.
 #pragma once
 
 #include <functional>
@@ -20,11 +19,11 @@ namespace terrane::store {
 struct StoredChunk {
     Bytes data;
     Provenance provenance = Provenance::Generated;
-    std::string problem;     // what is wrong with the row beside its data; empty where nothing is
+    std::string problem;     // error in the row's columns; empty if none
     std::uint64_t seed = 0;  // of its checksum
 };
 
-// Of the data of rows in memory at once, and one row more.
+// Limit of row data in memory at once, exceeded by at most one row.
 constexpr std::size_t kBytesOfRows = std::size_t{8} << 20;
 
 struct KeyedRow {
@@ -32,39 +31,39 @@ struct KeyedRow {
     StoredChunk row;
 };
 
-// Nothing where the save has no chunk; an error where the file is damaged.
+// No value if the save has no such chunk; an error if the file is damaged.
 using StoredRow = base::Result<std::optional<StoredChunk>>;
 
-// By a statement that selects data and origin of the key ?1, of a save of this format.
+// Reads one row with a statement that selects data and origin of the key ?1. `format`: of the save.
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format);
 
-// With what the checksum of a row begins, whose origin has the type that it should.
+// Seed of a row's checksum; `origin` has a valid type.
 std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format);
 
-// What is wrong with the types of a row; empty where nothing is.
+// Error in the types or the origin of a row; empty if none.
 std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
 
-// As ReadableStore::editedChunks().
+// See ReadableStore::editedChunks().
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database);
 
-// The chunk of a row, or what is wrong with it, without the file and the position.
+// Decodes the chunk of a row, or reports its error without file and position.
 LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget& budget);
 
 class ChunkReader {
   public:
-    // `format`: of the save.
+    // `format`: the save's format.
     ChunkReader(std::filesystem::path path, OpenMode mode, std::int64_t format)
         : path_(std::move(path)), mode_(mode), format_(format) {}
 
     // Any thread.
     [[nodiscard]] StoredRow read(world::ChunkPos pos);
-    // All as they were at one moment, in one transaction. Hands on each with its number in `positions` before
-    // it reads the next: together they may be large.
+    // Reads all in one transaction, as of one moment. Passes each to `take` with its index in `positions`
+    // before reading the next, since together they may be large.
     void readMany(std::span<const world::ChunkPos> positions,
                   const std::function<void(std::size_t, StoredRow)>& take);
     [[nodiscard]] base::Result<bool> contains(world::ChunkPos pos);
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks();
-    // As ReadableRows::rowsAfter().
+    // See ReadableRows::rowsAfter().
     [[nodiscard]] base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key, std::size_t count);
     [[nodiscard]] base::Result<std::uint64_t> rowCount();
 

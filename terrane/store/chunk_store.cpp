@@ -2,6 +2,11 @@
 
 namespace terrane::store {
 
+LoadedChunk loadedCopy(const world::ChunkPtr& chunk, Provenance provenance) {
+    if (!chunk) return {};
+    return {LoadedChunk::State::Present, std::make_shared<world::Chunk>(*chunk), provenance, {}};
+}
+
 std::string nameOf(world::ChunkPos pos) {
     std::string name = fmt::format("chunk {},{}", pos.x, pos.y);
     if (pos.level > 0) name += fmt::format(" of level {}", pos.level);

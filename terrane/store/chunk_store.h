@@ -1,6 +1,6 @@
-// Where chunks and what belongs to a world are kept between sessions. SqliteStore keeps them in a file,
-// MemoryStore until the program ends, OverlayStore in memory over what another store has. open_world.h opens
-// the one for a location. All of these pass the tests of tests/store/chunk_store_contract_test.cpp.
+// Interface of the stores that keep chunks and metadata of a world between sessions. SqliteStore keeps them
+// in a file, MemoryStore until the program ends, OverlayStore in memory over another store. open_world.h
+// opens the store for a location. All of them pass the tests of tests/store/chunk_store_contract_test.cpp.
 //
 // Any thread may call everything.
 #pragma once
@@ -22,48 +22,52 @@
 namespace terrane::store {
 
 enum class Provenance : std::uint8_t {
-    Generated,  // the generator makes the same again
+    Generated,  // can be generated again
     Edited,
 };
+// The values of the column `origin` in SQL and in checksumSeed().
+static_assert(static_cast<int>(Provenance::Generated) == 0 && static_cast<int>(Provenance::Edited) == 1);
 
 struct LoadedChunk {
     enum class State : std::uint8_t {
-        Absent,   // never saved: to be generated
-        Present,  // `chunk` is it
-        Damaged,  // `problem` says why. What the save had is kept aside: to be generated.
+        Absent,   // never saved: must be generated
+        Present,  // in `chunk`
+        Damaged,  // see `problem`; the row is quarantined: must be generated
     };
     State state = State::Absent;
-    std::shared_ptr<world::Chunk> chunk;  // the caller's alone, to change as it likes
+    std::shared_ptr<world::Chunk> chunk;  // owned by the caller, who may change it
     Provenance provenance = Provenance::Generated;
     std::string problem;
-    // Of a damaged one: it may be whole, but could not be read now. What the save had stays where it is.
+    // If damaged: the row could not be read now and may be intact. It stays in place.
     bool isUnread = false;
-    bool isOverBudget = false;  // and why: SaveLimits::entityBytes
+    bool isOverBudget = false;  // unread because of SaveLimits::entityBytes
 };
 
-// "chunk 5,-6", of higher levels "chunk 5,-6 of level 2".
+// A copy of the chunk as load() returns it; Absent for null.
+LoadedChunk loadedCopy(const world::ChunkPtr& chunk, Provenance provenance);
+
+// "chunk 5,-6"; at higher levels "chunk 5,-6 of level 2".
 std::string nameOf(world::ChunkPos pos);
 
-// Of `positions`, those of which nothing is stored, or what is stored is damaged: to be generated. `stored`:
-// what loadMany() gave of them. One over the budget of memory counts as damaged, and stays as it is. Io where
-// one could not be read for another reason: it may be there, and a generated one would not be saved.
+// The `positions` that must be generated, because nothing is stored or the stored row is damaged. `stored`:
+// the results of loadMany(). A chunk over the memory budget counts as damaged; its row stays. Returns Io if a
+// chunk could not be read for another reason: it may exist, and a generated one would not be saved.
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
                                                                    std::span<const LoadedChunk> stored);
 
-// A world to be read.
+// Read access to a world.
 class ReadableStore {
   public:
     virtual ~ReadableStore() = default;
 
-    // Blocks for about 50 µs, over a network for milliseconds: read and decoded on the calling thread. Sees
-    // what was saved before, durable or not.
+    // Blocks for about 50 µs, over a network for milliseconds: reads and decodes on the calling thread. Sees
+    // all earlier saves, durable or not.
     virtual LoadedChunk load(world::ChunkPos pos) = 0;
-    // As load() of each, in the order of `positions`. A job loads its chunks by one call: a store answers all
-    // of them in one transaction, or one round trip over a network.
+    // Same as load() of each, in the order of `positions`, but in one transaction, or one round trip over a
+    // network. A job loads its chunks with one call.
     virtual std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions);
-    virtual bool contains(world::ChunkPos pos) = 0;  // as load() tells, without reading the chunk
-    // The edited chunks of level 0, in the order of x and y, without those that wait to be saved. Looks at
-    // every row of a file.
+    virtual bool contains(world::ChunkPos pos) = 0;  // whether load() finds a row; does not read the chunk
+    // The edited chunks of level 0, ordered by x, then y, without unsaved ones. Scans all rows of a file.
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
 
     // Small texts by name, for example the player's position.
@@ -75,38 +79,38 @@ class ReadableStore {
 using SaveNumber = std::uint64_t;
 
 struct SaveStatus {
-    SaveNumber queued = 0;      // the last one asked for
-    SaveNumber durable = 0;     // it and all before it survive the end of the program, and of the power
+    SaveNumber queued = 0;      // the newest save
+    SaveNumber durable = 0;     // it and all earlier ones survive a program or power failure
     std::size_t waiting = 0;    // chunks not durable yet
-    std::string problem;        // why the last attempt to write failed; empty after one that did not
-    double failingSeconds = 0;  // since the first attempt that failed
+    std::string problem;        // why the last write failed; empty if it succeeded
+    double failingSeconds = 0;  // since the first failed attempt
 };
 
-// The destructor writes what waits.
+// The destructor writes all queued saves.
 class ChunkStore : public ReadableStore {
   public:
-    // Takes the snapshot and returns at once; a newer one of the same position replaces an older one that
-    // waits. A generated chunk never replaces an edited one.
+    // Queues the snapshot without blocking; it replaces a queued older one of the same position. A generated
+    // chunk never replaces an edited one.
     virtual SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) = 0;
 
-    // Saved in the same order as chunks. What identity() is read from (seed, generator, generator_version)
-    // and kDerivedRowsMark cannot be set: that is logged as an error, and nothing changes.
+    // Saved in order with chunks. The metadata of identity() (seed, generator, generator_version) and
+    // kDerivedRowsMark cannot be set: an attempt is logged as an error and changes nothing.
     virtual SaveNumber setMetadata(std::string_view name, std::string value) = 0;
 
-    // Blocks until all saves so far are durable, or one attempt to write them has failed.
+    // Blocks until all queued saves are durable, or an attempt to write failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
     virtual SaveStatus status() = 0;
 
-    // From now on these rows are written with the edited chunks that they follow from, in one transaction.
-    // Empty functions: none. Returns when no function given before runs any more.
+    // From now on, derived rows are written in one transaction with the edited chunks that they depend on.
+    // Empty functions disable this. Returns when no previous function is running any more.
     virtual void setDerivedRows(DerivedRows rows) = 0;
     // Deletes all rows of levels above 0 and derives them again from all edited chunks, in one transaction,
-    // on the calling thread; written() is not called. Saves wait meanwhile. What `rules` names becomes the
-    // value of kDerivedRowsMark. setDerivedRows() comes first.
+    // on the calling thread; written() is not called. Saves wait meanwhile. Sets kDerivedRowsMark to `rules`.
+    // Call setDerivedRows() first.
     [[nodiscard]] virtual base::Result<void> deriveAll(std::string_view rules) = 0;
 
-    // For a world that several servers write: what is saved from now on has all edits of their history up to
-    // this one, and an older snapshot that comes late never replaces a newer one. Others ignore it.
+    // For a world that several servers write: later saves include all edits of their history up to this one;
+    // a late older snapshot never replaces a newer one. Other stores ignore it.
     virtual void setVersion(std::int64_t /*newestEdit*/) {}
 
     virtual bool isPersistent() const = 0;  // false: all is lost when the program ends

@@ -21,7 +21,7 @@ fs::path companion(const fs::path& path, const char* ending) {
 }
 
 bool hasContent(const fs::path& path) {
-    std::error_code ignored;  // what cannot be looked at counts as not there
+    std::error_code ignored;  // an inaccessible file counts as missing
     const auto size = fs::file_size(path, ignored);
     return !ignored && size > 0;
 }
@@ -35,8 +35,8 @@ base::Result<void> checkOrdinary(const fs::path& path) {
                       path.string());
 }
 
-// A journal that is one of several ends with the name of a file that lists all (SQLite's file format, section
-// 3: "The Super-Journal File"), a checksum, and these bytes. A save has one file alone.
+// A journal of several files ends with the name of a file that lists all (SQLite's file format, section 3:
+// "The Super-Journal File"), a checksum, and these bytes. A save is a single file.
 bool namesAnother(const fs::path& journal) {
     constexpr std::array<unsigned char, 8> kMagic = {0xd9, 0xd5, 0x05, 0xf9, 0x20, 0xa1, 0x63, 0xd7};
     std::ifstream file(journal, std::ios::binary);
@@ -64,7 +64,7 @@ bool hasLog(const fs::path& path) {
 }
 
 bool hasJournal(const fs::path& path) {
-    // SQLite plays back no journal that begins with 0, and leaves it there.
+    // SQLite ignores a journal that begins with 0 and leaves it there.
     return std::ifstream(companion(path, "-journal"), std::ios::binary).get() > 0;
 }
 

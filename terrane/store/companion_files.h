@@ -1,6 +1,5 @@
-// The files beside a save: SQLite's log, its index and its journal, and the lock of this program. Like the
-// save they may come from anybody, so they are looked at before anything opens them. Called while a save is
-// opened; any thread.
+// The files beside a save: SQLite's log, index and journal, and this program's lock. Like the save they are
+// untrusted, so they are checked before anything opens them. Called while a save is opened; any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,20 +8,21 @@
 
 namespace terrane::store {
 
-// The save's path without symbolic links, so that its lock and its log are the same for all who open it; what
-// is not there yet has its folder's. An error where hard links give the save several names.
+// The save's path without symbolic links, so that all programs use the same lock and log; for a missing file,
+// its folder is resolved. Fails if hard links give the save several names.
 [[nodiscard]] base::Result<std::filesystem::path> ownPath(const std::filesystem::path& path);
 
-// Committed transactions that have not reached the file itself: a program was killed, or is writing.
+// Whether the log has committed transactions that are not in the file itself: a program was killed or is
+// writing.
 bool hasLog(const std::filesystem::path& path);
-// What a transaction that was cut short has to be undone with. Only making a save leaves one.
+// Whether a journal to undo an interrupted transaction exists. Only creating a save leaves one.
 bool hasJournal(const std::filesystem::path& path);
 
-// A program that had written was killed, which leaves its lock and its log, but the log is gone.
+// Whether a writing program was killed, leaving its lock and log, and the log is now missing.
 bool hasLostLog(const std::filesystem::path& path);
 
-// An error where one of them is a link or no ordinary file, and where the journal names another file: SQLite
-// would delete that one.
+// Fails if one of them is a link or not a regular file, or if the journal names another file, which SQLite
+// would delete.
 [[nodiscard]] base::Result<void> checkCompanions(const std::filesystem::path& path);
 
 }  // namespace terrane::store

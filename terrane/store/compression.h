@@ -1,5 +1,5 @@
-// zstd with a context for each thread, made once: a context takes longer to make than a chunk to compress.
-// Any thread may call.
+// zstd with one context per thread: creating a context takes longer than compressing a chunk. Any thread may
+// call.
 #pragma once
 
 #include "terrane/base/result.h"
@@ -7,10 +7,10 @@
 
 namespace terrane::store {
 
-// Appends one zstd frame to `out`. The same bytes give the same frame (with one version of zstd).
+// Appends one zstd frame to `out`. Deterministic for one version of zstd.
 void appendCompressed(Bytes& out, ByteView bytes);
 
-// Fills `target` from one frame, which must hold exactly that many bytes.
+// Decompresses one frame, which must fill `target` exactly.
 [[nodiscard]] base::Result<void> decompress(ByteView frame, std::span<std::byte> target);
 
 }  // namespace terrane::store

@@ -8,12 +8,12 @@
 namespace terrane::store {
 namespace {
 
-// Whether the highest bit of b is higher than that of a.
+// Whether the highest set bit of b is above that of a.
 constexpr bool isHigherBit(std::uint32_t a, std::uint32_t b) {
     return a < b && a < (a ^ b);
 }
 
-// The order of a Z-curve: the chunks below a tile follow each other, so most tiles are derived once.
+// Z-order: the chunks below a tile are contiguous, so most tiles are derived once.
 bool isBeforeOnCurve(world::ChunkPos a, world::ChunkPos b) {
     const auto fromZero = [](std::int32_t c) { return static_cast<std::uint32_t>(c - world::kMinChunk); };
     const std::uint32_t dx = fromZero(a.x) ^ fromZero(b.x), dy = fromZero(a.y) ^ fromZero(b.y);

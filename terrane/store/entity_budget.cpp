@@ -5,7 +5,7 @@
 namespace terrane::store {
 namespace {
 
-// Around the data of one block: the vector, the count of its owners, the chunk's slot, the allocator's part.
+// Overhead per block: the vector, its reference count, the chunk's slot, the allocator.
 constexpr std::size_t kOverheadBytes = 128;
 
 }  // namespace

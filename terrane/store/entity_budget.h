@@ -1,7 +1,7 @@
-// How much block entity data of a store's chunks may be in memory at once. It compresses without a bound, so
-// a small file could ask for all memory; sections of blocks cannot, a chunk's take 256 KiB at most. Counts
-// from reading a chunk until nobody holds the data: copies of chunks share it. Any thread may call; the data
-// may outlive the budget.
+// Limits the block entity data of a store's chunks in memory. Its compression ratio is unbounded, so a small
+// file could exhaust memory; the sections of a chunk take 256 KiB at most. Data counts from reading a chunk
+// until its last owner is gone; copies of chunks share it. Any thread may call; the data may outlive the
+// budget.
 #pragma once
 
 #include <atomic>
@@ -22,15 +22,15 @@ class EntityBudget {
     explicit EntityBudget(std::size_t maxBytes = kEntityBudgetBytes)
         : maxBytes_(maxBytes), used_(std::make_shared<std::atomic<std::size_t>>(0)) {}
 
-    // Null where there is no room.
+    // Null if there is no room.
     world::BlockEntityDataPtr hold(world::BlockEntityData data);
     bool hasRoomFor(std::size_t bytes) const { return bytes <= maxBytes_ && *used_ <= maxBytes_ - bytes; }
-    // True the first time: one message tells of all chunks that find no room.
+    // True the first time, so that one message is logged for all refused chunks.
     bool isFirstRefusal() { return !hasRefused_.exchange(true); }
     std::size_t usedBytes() const { return *used_; }
     std::size_t maxBytes() const { return maxBytes_; }
 
-    // While this is held no other large chunk is decompressed: up to 64 MiB each.
+    // While the lock is held, no other large chunk is decompressed: up to 64 MiB each.
     std::unique_lock<std::mutex> lockLargeChunks() { return std::unique_lock(largeChunks_); }
 
   private:
@@ -40,7 +40,7 @@ class EntityBudget {
     std::atomic<bool> hasRefused_ = false;
 };
 
-// A copy of the bytes, by the budget where there is one; OutOfResources where it has no room.
+// Copies the bytes, charged to the budget if there is one; OutOfResources if it has no room.
 [[nodiscard]] base::Result<world::BlockEntityDataPtr> holdData(ByteView bytes, EntityBudget* budget);
 [[nodiscard]] tl::unexpected<base::Error> overBudget(const EntityBudget& budget);
 

@@ -14,7 +14,7 @@
 namespace terrane::store {
 namespace {
 
-// The process that took the lock last.
+// " (process N)" of the last process that took the lock, or empty.
 std::string ownerOf(int descriptor) {
     std::array<char, 16> text{};
     const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
@@ -23,7 +23,7 @@ std::string ownerOf(int descriptor) {
     return size > 0 && count > 0 ? " (process " + std::string(text.data(), count) + ")" : "";
 }
 
-// For messages and for the check: without it they tell less.
+// Errors are ignored: the file is only read for messages and for the check of logs.
 void writeOwner(int descriptor, bool hasLog) {
     std::array<char, 32> text{};
     const int size = std::snprintf(text.data(), text.size(), hasLog ? "%d %s" : "%d", ::getpid(), kLogWord);
@@ -31,13 +31,13 @@ void writeOwner(int descriptor, bool hasLog) {
         (void)!::pwrite(descriptor, text.data(), static_cast<std::size_t>(size), 0);
 }
 
-// A file with this one name: what is written to it changes no other.
+// Whether it is a regular file with a single name, so that writing changes no other file.
 bool isOrdinary(int descriptor) {
     struct stat opened {};
     return ::fstat(descriptor, &opened) == 0 && S_ISREG(opened.st_mode) && opened.st_nlink <= 1;
 }
 
-// False where the file was removed by the lock's last owner after it was opened here.
+// False if the lock's last owner removed the file after it was opened here.
 bool isStillThere(int descriptor, const std::filesystem::path& file) {
     struct stat opened {
     }, there{};
@@ -45,7 +45,8 @@ bool isStillThere(int descriptor, const std::filesystem::path& file) {
            opened.st_ino == there.st_ino && opened.st_dev == there.st_dev;
 }
 
-// -1, with errno: the lock's file cannot be made or opened. Who may not write can still see who does.
+// Returns -1 with errno if the file cannot be created or opened. Without write permission a shared lock opens
+// it read-only.
 int openLockFile(const std::filesystem::path& file, FileLock::Kind kind) {
     constexpr int kFlags = O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK;
     const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | kFlags, 0644);
@@ -74,7 +75,7 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
         }
         if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {
             const int error = errno;
-            lock.file_.clear();  // it is another's to remove
+            lock.file_.clear();  // the other program removes it
             if (error != EWOULDBLOCK)
                 return base::fail(base::ErrorCode::Io, "{}: cannot be locked: {}", path.string(),
                                   base::systemReason(error));
@@ -117,8 +118,8 @@ void FileLock::setHasLog(bool hasLog) {
 
 void FileLock::release() {
     if (descriptor_ < 0) return;
-    // Removed only by who has it alone: others may share it. What a killed program noted there stays until
-    // the save is opened for writing.
+    // Removed only by the last owner, since others may share it. A killed program's notes stay until the save
+    // is opened for writing.
     struct stat status {};
     const bool isOwn =
         kind_ == Kind::Exclusive || (::fstat(descriptor_, &status) == 0 && status.st_size == 0);

@@ -1,7 +1,7 @@
-// Keeps other programs from a save. The lock is a file beside it, removed at the end; a program that is
-// killed leaves the file but not the lock. The file holds the program's process number and, where the save's
-// last transactions may be in the log alone, the word "log", which readers leave there. Not a lock on the
-// save itself: closing any handle of a file would end the locks that SQLite has on it.
+// Locks a save against other programs. The lock is a file beside it, removed at the end; a killed program
+// leaves the file but not the lock. The file holds the program's process id and, if the save's last
+// transactions may only be in the log, the word "log", which readers keep. The save itself is not locked:
+// closing any handle of a file would release SQLite's locks on it.
 //
 // Any thread may acquire one; a lock is used by one thread at a time.
 #pragma once
@@ -19,16 +19,15 @@ class FileLock {
   public:
     enum class Kind { Exclusive, Shared };
 
-    // Does not wait. The error names `path`, what is locked, and the program that has it. A shared lock needs
-    // no right to write. Where its file is missing and cannot be made, nobody writes now: what is returned
-    // locks nothing, and does not keep out who comes later.
+    // Does not wait. The error names `path` and the program that holds the lock. A shared lock needs no write
+    // permission. If its file is missing and cannot be created, no program is writing: the returned object
+    // locks nothing and does not block later programs.
     [[nodiscard]] static base::Result<FileLock> acquire(const std::filesystem::path& path, Kind kind);
     ~FileLock();
     FileLock(FileLock&& other) noexcept;
     FileLock& operator=(FileLock&& other) noexcept;
 
-    // Notes in the lock's file that a log belongs to the save, or none any more: that is on the disk when
-    // this returns. Of an exclusive lock.
+    // Notes in the lock's file whether the save has a log; durable on return. For an exclusive lock.
     void setHasLog(bool hasLog);
 
   private:

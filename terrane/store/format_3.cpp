@@ -14,11 +14,11 @@ namespace {
 
 struct Row {
     std::int64_t key = 0;
-    Bytes data;  // empty: not to be changed
+    Bytes data;  // empty: unchanged
 };
 
-// The first row at or behind a key, with its new checksum. A row whose old one is wrong keeps it, and is
-// damaged in format 3 too.
+// The first row at or after a key, with its new checksum. A row with a wrong checksum keeps it, so it is
+// damaged in format 3, too.
 base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
     select.bind(1, from);
     const auto isThere = select.step();
@@ -37,7 +37,7 @@ base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
     return row;
 }
 
-// By keys and not by one statement over all rows, since rows change meanwhile.
+// Iterates by key, not by one statement over all rows, since rows change meanwhile.
 base::Result<void> sealChunks(Database& database) {
     auto select =
         database.prepare("SELECT key, origin, data FROM chunks WHERE key >= ?1 ORDER BY key LIMIT 1");

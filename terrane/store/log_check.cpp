@@ -42,10 +42,10 @@ bool isPageSize(std::uint32_t bytes) {
     return bytes >= kMinPage && bytes <= kMaxPage && (bytes & (bytes - 1)) == 0;
 }
 
-// Frames of this log, by their salts: what a log held before it was begun again has others.
+// Frames of this log, identified by their salts: frames from before a restart of the log have others.
 struct Frames {
-    std::size_t whole = 0;          // from the first on
-    std::size_t commitsBehind = 0;  // behind the first broken one
+    std::size_t whole = 0;          // intact frames from the first on
+    std::size_t commitsBehind = 0;  // commits after the first broken frame
     bool isBroken = false;
 };
 
@@ -77,8 +77,8 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
     const std::uint32_t magic = wordAt(header, 0), pageBytes = wordAt(header, 8);
     Checksum sum{.isBigEndian = (magic & 1) != 0};
     sum.add(LogBytes(header).first(24));
-    // SQLite syncs the header before it writes the first frame: a power loss before that leaves it torn, and
-    // no transaction behind it.
+    // SQLite syncs the header before it writes the first frame: a power failure before that leaves a torn
+    // header and no transactions.
     const bool isWhole = (magic & ~1u) == kLogMagic && isPageSize(pageBytes) && sum.isAt(header, 24);
     if (!isWhole) {
         return {
@@ -87,8 +87,8 @@ std::vector<std::string> logProblems(const std::filesystem::path& save) {
     }
     const Frames frames = readFrames(log, header, sum, pageBytes);
     if (frames.commitsBehind == 0) return {};
-    // Each transaction is on the disk before the next one is written. Of the last one the power may have left
-    // a part.
+    // Each transaction is on disk before the next one is written; only the last one may be partial after a
+    // power failure.
     const std::string lost = frames.commitsBehind == 1
                                  ? "the last transaction is lost, unless it was never finished"
                                  : fmt::format("{} transactions are lost", frames.commitsBehind);

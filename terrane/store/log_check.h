@@ -1,6 +1,6 @@
-// Whether the log beside a save (SQLite's write-ahead log) is whole. SQLite takes a log up to its first
-// broken frame and passes over the rest in silence: transactions that were committed would be gone. Called
-// while the save is open to read and nobody writes; any thread.
+// Checks the log beside a save (SQLite's write-ahead log). SQLite reads a log up to its first broken frame
+// and ignores the rest silently: committed transactions would be lost. Called while the save is open for
+// reading and nobody writes; any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace terrane::store {
 
-// What is wrong with it, a line each. Nothing where the log is whole, empty or not there. Reads the log once,
-// a frame at a time.
+// Errors of the log, one line each; empty if it is intact, empty or missing. Reads the log once, frame by
+// frame.
 std::vector<std::string> logProblems(const std::filesystem::path& save);
 
 }  // namespace terrane::store

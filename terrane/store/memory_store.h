@@ -1,4 +1,4 @@
-// A world that is kept until the program ends.
+// A store in memory, kept until the program ends.
 #pragma once
 
 #include "terrane/store/overlay_store.h"

@@ -12,7 +12,7 @@ using base::ErrorCode;
 
 constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version";
 
-// Messages name the table of the file, "settings".
+// Error messages call metadata "settings", like the table in the file.
 base::Result<std::string> textOf(const Metadata& metadata, const char* name, const std::string& where) {
     const auto found = metadata.find(name);
     if (found != metadata.end()) return found->second;

@@ -1,4 +1,4 @@
-// The metadata of a world that stores write themselves, and its identity as texts. Used by the stores.
+// World metadata that stores write themselves, and the world's identity as text. Used by the stores.
 #pragma once
 
 #include <cstddef>
@@ -10,22 +10,23 @@
 
 namespace terrane::store {
 
-// A save has no more: names of settings and of blocks, how many settings, and all their names and values.
+// Limits of a save: bytes of a name (settings and blocks), number of settings, bytes of all setting names and
+// values.
 constexpr std::size_t kMaxNameBytes = 1024, kMaxMetadata = 4096, kMaxMetadataBytes = std::size_t{16} << 20;
 
 using Metadata = std::map<std::string, std::string, std::less<>>;
 
-// Whether stores alone write it: a world's identity, by creating and regenerating a world, kDerivedRowsMark
-// and kChecksum.
+// Whether only stores write it: the world's identity, when a world is created or regenerated,
+// kDerivedRowsMark and kChecksum.
 bool isReserved(std::string_view name);
 
-// Whether a save keeps the metadata with this value too. The store's own rows count.
+// Whether the metadata, with this value, fits the limits. The store's own rows count.
 bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value);
 
 // The metadata of a new world.
 Metadata metadataOf(const WorldIdentity& identity);
 
-// An error that names `where`, if one is missing or no number.
+// Fails, naming `where`, if an entry is missing or not a number.
 [[nodiscard]] base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where);
 
 }  // namespace terrane::store

@@ -26,7 +26,7 @@ std::optional<std::uint64_t> checksumFrom(std::string_view text) {
     std::uint64_t value = 0;
     const char* end = text.data() + text.size();
     const auto [next, error] = std::from_chars(text.data(), end, value);
-    // One number has one form.
+    // Only the canonical form is valid.
     const bool isSame = error == std::errc() && next == end && std::to_string(value) == text;
     return isSame ? std::optional(value) : std::nullopt;
 }

@@ -1,5 +1,5 @@
-// Whether the files of an open save are still the ones that its names lead to: what is written into a file
-// that was deleted or replaced is lost. Used by the connection that writes, on its thread.
+// Checks that the files of an open save are still at their paths: data written into a deleted or replaced
+// file is lost. Used by the writing connection, on its thread.
 #pragma once
 
 #include <sys/types.h>
@@ -18,16 +18,16 @@ struct FileIdentity {
     bool operator==(const FileIdentity&) const = default;
 };
 
-// Nothing where no file has this name.
+// No value if there is no such file.
 std::optional<FileIdentity> identityOf(const std::filesystem::path& path);
 
-// The save and its log, as they were when this was made.
+// The identities of the save and its log at construction.
 class OpenFiles {
   public:
-    // `path`: of a save that is open, whose log exists.
+    // `path`: an open save whose log exists.
     explicit OpenFiles(const std::filesystem::path& path);
 
-    // NotFound, with what to do, where a file was deleted, moved or replaced. Good again once it is back.
+    // NotFound, with advice, if a file was deleted, moved or replaced. Succeeds again once it is back.
     [[nodiscard]] base::Result<void> check() const;
 
   private:

@@ -21,7 +21,7 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
     SaveAccess access;
     access.create = request.create;
     access.decide = [&](const WorldIdentity& saved) {
-        return compareWorld(saved, request.wanted, request.versionOf, path.string());
+        return compareWorld(saved, request.world, request.versionOf, path.string());
     };
     auto store = SqliteStore::open(path, blocks, access, request.limits);
     if (!store) return tl::unexpected(store.error());
@@ -29,7 +29,7 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
     return std::move(*store);
 }
 
-// Saves by name in the working directory were the only ones up to version 0.1.
+// Up to version 0.1, named saves were in the working directory only.
 void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
     if (location.kind != WorldLocation::Kind::Name || path.is_absolute()) return;
     if (const auto folder = dataFolder(savePlaces()))
@@ -50,13 +50,13 @@ StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& r
                      const std::string& where) {
     if (auto whole = requireWhole(*saved, where); !whole) return tl::unexpected(whole.error());
     WorldIdentity identity = saved->identity();
-    const auto by = compareWorld(identity, request.wanted, request.versionOf, where);
+    const auto by = compareWorld(identity, request.world, request.versionOf, where);
     if (!by) return tl::unexpected(by.error());
     if (by->chunks == Regenerate::None)
         return std::make_unique<OverlayStore>(std::move(saved), request.limits);
     if (by->chunks == Regenerate::AllButEdited)
         return base::fail(base::ErrorCode::Unsupported,
-                          "{}: cannot be written, so its edits cannot be kept in a world made anew", where);
+                          "{}: cannot be written, so its edits cannot be kept in a regenerated world", where);
     identity.generatorVersion = by->generatorVersion;
     return std::make_unique<MemoryStore>(std::move(identity), request.limits);
 }

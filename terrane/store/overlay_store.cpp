@@ -7,20 +7,12 @@
 #include "terrane/store/metadata.h"
 
 namespace terrane::store {
-namespace {
-
-LoadedChunk copyOf(const world::ChunkPtr& chunk, Provenance provenance) {
-    if (!chunk) return {};
-    return {LoadedChunk::State::Present, std::make_shared<world::Chunk>(*chunk), provenance, {}};
-}
-
-}  // namespace
 
 OverlayStore::OverlayStore(std::unique_ptr<ReadableStore> below, SaveLimits limits)
     : below_(std::move(below)),
       queue_(std::make_unique<SaveQueue>([this](const SaveBatch& batch) { return write(batch); }, limits)) {}
 
-// Nobody can load what would still be derived.
+// Disables deriving: nobody can load its rows any more.
 OverlayStore::~OverlayStore() {
     OverlayStore::setDerivedRows({});
 }
@@ -36,7 +28,7 @@ LoadedChunk OverlayStore::load(world::ChunkPos pos) {
     return std::move(OverlayStore::loadMany(std::span(&pos, 1)).front());
 }
 
-// The queue first: what is no longer in it is in the rows.
+// Looks in the queue first: chunks that have left it are in the rows.
 std::vector<LoadedChunk> OverlayStore::loadMany(std::span<const world::ChunkPos> positions) {
     const auto waiting = queue_->findMany(positions);
     std::vector<LoadedChunk> loaded(positions.size());
@@ -45,7 +37,7 @@ std::vector<LoadedChunk> OverlayStore::loadMany(std::span<const world::ChunkPos>
     for (std::size_t k = 0; k < positions.size(); ++k) {
         if (waiting[k] && waiting[k]->provenance == Provenance::Edited) continue;
         if (const auto row = find(positions[k])) {
-            loaded[k] = copyOf(row->chunk, row->provenance);
+            loaded[k] = loadedCopy(row->chunk, row->provenance);
         } else {
             missing.push_back(k);
             missingPositions.push_back(positions[k]);
@@ -57,7 +49,7 @@ std::vector<LoadedChunk> OverlayStore::loadMany(std::span<const world::ChunkPos>
     }
     for (std::size_t k = 0; k < positions.size(); ++k)
         if (waiting[k] && loaded[k].provenance == Provenance::Generated)
-            loaded[k] = copyOf(waiting[k]->chunk, waiting[k]->provenance);
+            loaded[k] = loadedCopy(waiting[k]->chunk, waiting[k]->provenance);
     return loaded;
 }
 

@@ -1,5 +1,5 @@
-// Changes in memory over a store that stays as it is: for playing without saving, and for commands that must
-// not change a world. MemoryStore is one over an empty world.
+// Keeps changes in memory over a store that is not changed: for playing without saving, and for commands that
+// must not change a world. MemoryStore is an overlay over an empty world.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ class OverlayStore : public ChunkStore {
     explicit OverlayStore(std::unique_ptr<ReadableStore> below, SaveLimits limits = {});
     ~OverlayStore() override;
 
-    // What is not saved here comes from below.
+    // Loads from `below_` if nothing was saved here.
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
@@ -27,7 +27,7 @@ class OverlayStore : public ChunkStore {
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
     [[nodiscard]] base::Result<void> flush() override { return queue_->flush(); }
-    SaveStatus status() override { return queue_->status(); }  // "durable" as far as memory is
+    SaveStatus status() override { return queue_->status(); }  // durable means: in memory
     void setDerivedRows(DerivedRows rows) override;
     [[nodiscard]] base::Result<void> deriveAll(std::string_view rules) override;
     const WorldIdentity& identity() const override { return below_->identity(); }
@@ -35,21 +35,21 @@ class OverlayStore : public ChunkStore {
 
   private:
     struct Row {
-        world::ChunkPtr chunk;  // null: what is below is hidden
+        world::ChunkPtr chunk;  // null: hides the row below
         Provenance provenance = Provenance::Generated;
     };
-    std::optional<Row> find(world::ChunkPos pos);  // nothing: what is below counts
+    std::optional<Row> find(world::ChunkPos pos);  // no value: the row below counts
     world::ChunkPtr editedChunk(world::ChunkPos pos);
     base::Result<void> write(const SaveBatch& batch);
 
     std::unique_ptr<ReadableStore> below_;
     std::mutex writeMutex_;  // held while a batch is derived and written
     DerivedRows derivedRows_;
-    std::mutex mutex_;  // of the following, which change under both mutexes
+    std::mutex mutex_;  // guards the members below, which change under both mutexes
     std::unordered_map<world::ChunkPos, Row, world::ChunkPosHash> rows_;
-    bool hidesTiles_ = false;                                                  // of all levels above 0 below
-    std::map<std::string, std::optional<std::string>, std::less<>> metadata_;  // nothing: hidden
-    std::unique_ptr<SaveQueue> queue_;                                         // ends first
+    bool hidesTiles_ = false;                                                  // all rows of levels above 0
+    std::map<std::string, std::optional<std::string>, std::less<>> metadata_;  // no value: hidden
+    std::unique_ptr<SaveQueue> queue_;                                         // destroyed first
 };
 
 }  // namespace terrane::store

@@ -24,18 +24,14 @@ QueuedStore::QueuedStore(std::unique_ptr<ChunkRows> rows, const SaveLimits& limi
 namespace {
 
 LoadedChunk copyOf(const WaitingChunk& waiting) {
-    LoadedChunk loaded;
-    loaded.state = LoadedChunk::State::Present;
-    loaded.chunk = std::make_shared<world::Chunk>(*waiting.chunk);
-    loaded.provenance = waiting.provenance;
-    return loaded;
+    return loadedCopy(waiting.chunk, waiting.provenance);
 }
 
 bool isEdited(const std::optional<WaitingChunk>& waiting) {
     return waiting && waiting->provenance == Provenance::Edited;
 }
 
-// Whether the waiting chunk takes the place of what is stored: a generated one never replaces an edited one.
+// Whether the queued chunk replaces the stored one: a generated chunk never replaces an edited one.
 bool hides(const std::optional<WaitingChunk>& waiting, const LoadedChunk& stored) {
     const bool isEditedRow =
         stored.state == LoadedChunk::State::Present && stored.provenance == Provenance::Edited;
@@ -90,7 +86,8 @@ LoadedChunk QueuedStore::load(world::ChunkPos pos) {
     return hides(waiting, stored) ? copyOf(*waiting) : std::move(stored);
 }
 
-// The queue first: what is no longer in it is in the file, and in the transaction that reads it.
+// Looks in the queue first: chunks that have left it are in the file, and visible to the transaction that
+// reads it.
 std::vector<LoadedChunk> QueuedStore::loadMany(std::span<const world::ChunkPos> positions) {
     TERRANE_ZONE("load chunks");
     const auto waiting = queue_->findMany(positions);

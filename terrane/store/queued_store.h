@@ -1,5 +1,5 @@
-// A store whose rows are in a database: saves wait in a SaveQueue, loads run on the thread that asks. What
-// kind of database it is, ChunkRows knows: SqliteStore is one of a file.
+// A store whose rows are in a database: saves are queued in a SaveQueue, loads run on the calling thread.
+// ChunkRows implements the kind of database; SqliteStore uses a file.
 #pragma once
 
 #include <atomic>
@@ -17,30 +17,30 @@
 
 namespace terrane::store {
 
-// The rows that follow from a batch.
+// The derived rows of a batch.
 struct DerivedBatch {
     std::vector<ChunkRow> rows;
-    bool isComplete = true;  // false: derived rows are missing now, so kDerivedRowsMark goes
+    bool isComplete = true;  // false: derived rows are missing, so kDerivedRowsMark is removed
 };
 
 using ReadRow = std::function<StoredRow(world::ChunkPos)>;
-// Derives them from the batch's edited chunks by what `read` finds: the database as it is without the batch.
+// Derives rows from the batch's edited chunks. `read` reads the database without the batch.
 using DeriveBatch =
     std::function<base::Result<DerivedBatch>(const std::vector<ChunkRow>& edited, const ReadRow& read)>;
 
-// What is written into a world as it is, in one transaction.
+// Changes to be written unchecked, in one transaction.
 struct RowChanges {
     std::vector<KeyedRow> rows;
     std::vector<std::int64_t> deleted;  // keys
-    Metadata metadata;                  // reserved names, too
+    Metadata metadata;                  // may have reserved names
 };
 
-// The rows of a world in a database, to be read.
+// Read access to the rows of a world in a database.
 class ReadableRows {
   public:
     virtual ~ReadableRows() = default;
 
-    // As they were when the world was opened. `name` is for messages: the file, or the database.
+    // State when the world was opened. `name`: the file or database, for messages.
     virtual const std::string& name() const = 0;
     virtual const WorldIdentity& identity() const = 0;
     virtual const Metadata& metadata() const = 0;
@@ -48,15 +48,14 @@ class ReadableRows {
 
     // Any thread.
     [[nodiscard]] virtual StoredRow read(world::ChunkPos pos) = 0;
-    // Hands on each with its number in `positions` before it reads many more. Up to 256 are as they were at
-    // one moment.
+    // Passes each row with its index in `positions` to `take` before reading many more. Up to 256 rows are
+    // consistent.
     using TakeRow = std::function<void(std::size_t, StoredRow)>;
     virtual void readMany(std::span<const world::ChunkPos> positions, const TakeRow& take) = 0;
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;
-    // As ReadableStore::editedChunks().
+    // See ReadableStore::editedChunks().
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
-    // The next rows in the order of keys, of all levels: at most `count`, and no more once they have
-    // kBytesOfRows. None at the end.
+    // The next rows by key, of all levels: at most `count`, and no more after kBytesOfRows. Empty at the end.
     [[nodiscard]] virtual base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key,
                                                                         std::size_t count) = 0;
     [[nodiscard]] virtual base::Result<std::uint64_t> rowCount() = 0;
@@ -64,19 +63,19 @@ class ReadableRows {
 
 class ChunkRows : public ReadableRows {
   public:
-    // One thread at a time. The batch and what follows from it, in one transaction. What the chunks of
-    // `unread` replace is put aside first. False: the world lost kDerivedRowsMark. `derive` may be called
-    // again where a transaction is tried again.
+    // Writes the batch and its derived rows in one transaction. Rows in `unread` are quarantined before they
+    // are replaced. Returns false if the world lost kDerivedRowsMark. `derive` may be called again if the
+    // transaction is retried. One thread at a time.
     [[nodiscard]] virtual base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                                                    const DeriveBatch& derive) = 0;
-    // As ChunkStore::deriveAll().
+    // See ChunkStore::deriveAll().
     [[nodiscard]] virtual base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                                        EntityBudget& budget) = 0;
-    // For copies of worlds (world_copy.h). Nothing is checked or derived.
+    // For copies of worlds (world_copy.h). Checks and derives nothing.
     [[nodiscard]] virtual base::Result<void> change(const RowChanges& changes) = 0;
 };
 
-// What DerivedRows::derive() reads of a database, and what goes wrong meanwhile.
+// Reads a database for DerivedRows::derive(), and records errors.
 class SavedRows {
   public:
     SavedRows(ReadRow read, const BlockIdMap& ids, EntityBudget& budget)
@@ -88,7 +87,7 @@ class SavedRows {
     }
 
     bool metDamage() const { return metDamage_; }
-    // What could not be read: rows that were derived are not to be written. Damage is no problem.
+    // The first read error; then the derived rows must not be written. Damaged rows are not an error.
     const base::Result<void>& result() const { return result_; }
 
   private:
@@ -109,7 +108,7 @@ class QueuedStore : public ChunkStore {
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
         return rows_->editedChunks();
     }
-    // A chunk with more block entity data than a save keeps (62 MiB) is reported and left out.
+    // A chunk with more block entity data than a save keeps (62 MiB) is reported and not saved.
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     std::optional<std::string> metadata(std::string_view name) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
@@ -135,10 +134,10 @@ class QueuedStore : public ChunkStore {
     std::mutex metadataMutex_;
     Metadata metadata_;
     std::mutex unreadMutex_;
-    ChunkPosSet unread_;     // reading these failed last: what is there is not known
+    ChunkPosSet unread_;     // positions whose last read failed, so their rows are unknown
     std::mutex writeMutex_;  // held while a batch is derived and written
     DerivedRows derivedRows_;
-    std::unique_ptr<SaveQueue> queue_;  // ends first
+    std::unique_ptr<SaveQueue> queue_;  // destroyed first
 };
 
 }  // namespace terrane::store

@@ -1,4 +1,4 @@
-// A world in a database that is read and left as it is.
+// A read-only store of a world in a database.
 #pragma once
 
 #include <memory>

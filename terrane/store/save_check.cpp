@@ -15,12 +15,12 @@
 namespace terrane::store {
 namespace {
 
-constexpr int kMaxFileProblems = 20;  // one broken page brings many
+constexpr int kMaxFileProblems = 20;  // one broken page causes many
 constexpr std::size_t kMaxListed = 1000;
 
-// Each line is a problem of its own. Only after all rows were read without an error: what is wrong with the
-// trees of pages, such as a page that is its own ancestor, stops that, while this walks on without an end to
-// its stack.
+// Each line is a separate problem. Runs only after all rows were read without an error: integrity_check
+// recurses without a limit through damaged page trees, such as a page that is its own ancestor, where reading
+// rows stops.
 base::Result<void> checkPages(Database& database, CheckReport& report) {
     const auto take = [&](const Statement& row) -> base::Result<void> {
         if (row.text(0) == "ok") return {};
@@ -40,8 +40,8 @@ std::string problemOf(const Statement& row, const SaveFile& file) {
     return chunk ? "" : chunk.error().message;
 }
 
-// Calls a function with each row, which is ordered by its first column, a number. Where a page stands in two
-// places, rows come twice, or without end: they are out of order then.
+// Calls `visit` for each row, ordered by its first column, a number. A page with two parents repeats rows,
+// perhaps forever: then they are out of order.
 template <class Visit>
 base::Result<void> forEachRowInOrder(Database& database, std::string_view sql, Visit visit) {
     std::optional<std::int64_t> last;
@@ -80,7 +80,7 @@ base::Result<void> countQuarantined(Database& database, CheckReport& report) {
     return forEachRowInOrder(database, "SELECT number FROM quarantine ORDER BY number", count);
 }
 
-// The index by name, which reading blocks does not use.
+// Checks the index by name, which reading the blocks does not use.
 base::Result<void> checkIndex(Database& database) {
     std::optional<std::string> last;
     const auto compare = [&](const Statement& row) -> base::Result<void> {
@@ -95,7 +95,7 @@ base::Result<void> checkIndex(Database& database) {
                       compare);
 }
 
-// What stops one check is damage too, and does not stop the others.
+// Reports an error that stops one check as damage; the other checks continue.
 bool isGood(CheckReport& report, const base::Result<void>& checked) {
     if (!checked) report.fileProblems.push_back(checked.error().message);
     return checked.has_value();
@@ -137,7 +137,7 @@ base::Result<CheckReport> checkSave(const std::filesystem::path& path, const wor
         report.fileProblems.push_back(file.error().message);
         return report;
     }
-    measure();  // neither shrinks while the transaction reads them
+    measure();  // the files do not shrink during the transaction
     report.inUse = file->inUse;
     report.format = file->format;
     report.identity = file->identity;

@@ -27,7 +27,7 @@ using base::ErrorCode;
 namespace fs = std::filesystem;
 
 bool isPresent(const fs::path& path) {
-    std::error_code ignored;  // what cannot be looked at counts as not there
+    std::error_code ignored;  // an inaccessible file counts as missing
     return fs::exists(path, ignored);
 }
 
@@ -37,8 +37,8 @@ std::uint32_t bigEndian(const unsigned char* bytes, int count) {
     return value;
 }
 
-// SQLite notices a file that lost its end only when it reads there. (File format, section 1.3: the page size
-// is at 16, the number of pages at 28.)
+// SQLite notices a truncated file only when it reads there. (File format, section 1.3: page size at offset
+// 16, number of pages at 28.)
 base::Result<void> checkLength(const fs::path& path, std::uintmax_t sizeBytes) {
     unsigned char header[100] = {};
     std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(header), sizeof header);
@@ -49,7 +49,7 @@ base::Result<void> checkLength(const fs::path& path, std::uintmax_t sizeBytes) {
                       sizeBytes, expected);
 }
 
-// True where there is a file with something in it that may be a save.
+// True if there is a non-empty file that may be a save.
 base::Result<bool> checkFile(const fs::path& path) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
@@ -59,7 +59,7 @@ base::Result<bool> checkFile(const fs::path& path) {
     const std::uintmax_t size = fs::file_size(path, error);
     if (error) return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), error.message());
     if (size == 0) return false;
-    if (hasJournal(path)) return true;  // what was cut short is undone first: the file may be anything
+    if (hasJournal(path)) return true;  // SQLite undoes the interrupted change first: skip the checks below
     std::ifstream file(path, std::ios::binary);
     if (!file)
         return base::fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), base::systemReason(errno));
@@ -76,7 +76,7 @@ tl::unexpected<base::Error> notASave(const fs::path& path) {
     return base::fail(ErrorCode::NotFound, "{}: there is no such file", path.string());
 }
 
-// "a.sqlite" gives "a.backup-1.sqlite", or the first number that is free.
+// "a.sqlite" gives "a.backup-1.sqlite", or the next unused number.
 fs::path backupPath(const fs::path& path, const std::string& word) {
     for (int number = 1;; ++number) {
         fs::path backup = path.parent_path() / fmt::format("{}.{}-{}{}", path.stem().string(), word, number,
@@ -116,10 +116,10 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
     return {};
 }
 
-// Chunks that go by this, and what tells that tiles are there.
+// Deletes the chunks to be regenerated and the mark of tiles.
 base::Result<void> deleteRegenerated(Database& database, const Regeneration& by) {
-    // Tiles follow from generated chunks too, also where they have the mark of edits. Row by row (WHERE):
-    // SQLite frees whole trees by recursion, however deep a broken file makes them.
+    // Tiles also depend on generated chunks, even if marked as edited. WHERE deletes row by row: otherwise
+    // SQLite frees whole trees recursively, however deep a damaged file makes them.
     const std::string sql = by.chunks == Regenerate::All
                                 ? "DELETE FROM chunks WHERE true; DELETE FROM quarantine WHERE true;"
                                 : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
@@ -131,7 +131,7 @@ base::Result<void> deleteRegenerated(Database& database, const Regeneration& by)
     return metadata->put("generator_version", std::to_string(by.generatorVersion));
 }
 
-// A copy that is wanted is made before anything is deleted.
+// Makes the backup copy, if requested, before deleting anything.
 base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
     const fs::path backup = by.keepsCopy ? backupPath(path, "backup") : fs::path();
     if (by.keepsCopy)
@@ -146,7 +146,7 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
     return {};
 }
 
-// Settings and names of blocks, by their checksum.
+// Reads settings and block names, and verifies their checksum.
 base::Result<std::vector<SavedName>> readNamed(SaveFile& file) {
     auto metadata = readMetadata(file.database);
     if (!metadata) return tl::unexpected(metadata.error());
@@ -179,7 +179,7 @@ base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& regi
     return {};
 }
 
-// Where another program left the checksum to this one.
+// Fills in the checksum if another program cleared it.
 base::Result<void> addMissingChecksum(SaveFile& file) {
     const auto names = readNamed(file);
     if (!names) return tl::unexpected(names.error());
@@ -203,7 +203,7 @@ void reportUnknown(const SaveFile& file) {
                      file.database.path(), names.size(), names.front());
 }
 
-// Of a save that is read as it is.
+// Reads the format of a save that is opened for reading.
 base::Result<void> readFormat(SaveFile& file) {
     const auto version = file.database.queryNumber("PRAGMA user_version");
     if (!version) return tl::unexpected(version.error());
@@ -213,7 +213,7 @@ base::Result<void> readFormat(SaveFile& file) {
                       file.format);
 }
 
-// What keeps others from writing, or who writes.
+// A shared lock, or the program that writes.
 struct ReadLock {
     std::optional<FileLock> lock;
     std::string inUse;
@@ -225,7 +225,7 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
     if (lock) {
         reading.lock = std::move(*lock);
     } else if (lock.error().code == ErrorCode::Busy) {
-        reading.inUse = lock.error().message.substr(path.string().size() + 2);  // behind "path: "
+        reading.inUse = lock.error().message.substr(path.string().size() + 2);  // after "path: "
     } else {
         return tl::unexpected(lock.error());
     }
@@ -238,7 +238,7 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
                       path.string());
 }
 
-// A save of a format that is known, with what its metadata and names of blocks are read from.
+// Opens a save of a supported format for reading.
 base::Result<SaveFile> openReadable(const fs::path& name) {
     const auto own = ownPath(name);
     if (!own) return tl::unexpected(own.error());
@@ -249,7 +249,7 @@ base::Result<SaveFile> openReadable(const fs::path& name) {
     if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
     auto lock = lockToRead(path);
     if (!lock) return tl::unexpected(lock.error());
-    // Without a log nothing needs to be made beside the file, which may be impossible.
+    // Without a log no files have to be created beside the save, which may be impossible.
     const OpenMode mode = hasLog(path) || !lock->inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
     auto database = Database::open(path, mode);
     if (!database) return tl::unexpected(database.error());
@@ -270,7 +270,7 @@ bool isWritable(const fs::path& path) {
         return ::faccessat(AT_FDCWD, p.c_str(), W_OK, AT_EACCESS) == 0;
     };
     if (isPresent(path) && !can(path)) return false;
-    // Of the folders that are to be made the first that is there counts.
+    // Check the nearest existing parent folder.
     fs::path folder = fs::absolute(path).parent_path();
     while (!isPresent(folder) && folder.has_relative_path()) folder = folder.parent_path();
     return can(folder);
@@ -295,7 +295,7 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
 
     SaveFile file{std::move(*lock), std::move(*database)};
     if (auto done = makeCurrent(file, path, access); !done) return tl::unexpected(done.error());
-    // After the tables: a new file is never seen without them. Each commit waits for the disk.
+    // After the tables, so that a new file is never seen without them. Each commit waits for the disk.
     const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
     if (!set) return tl::unexpected(set.error());
     if (auto done = addMissingChecksum(file); !done) return tl::unexpected(done.error());

@@ -9,8 +9,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kMaxWorldName = 100;  // file systems take 255, some of it for endings
-
 std::string environment(const char* name) {
     const char* value = std::getenv(name);
     return value ? value : "";
@@ -24,10 +22,10 @@ base::Result<void> checkSaveName(std::string_view name) {
         return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
     };
     if (name.empty()) return base::fail(base::ErrorCode::BadInput, "\"\": the name of a save is empty");
-    if (name.size() > kMaxWorldName)
+    if (name.size() > kMaxSaveName)
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save has {} bytes, expected at most {}", name, name.size(),
-                          kMaxWorldName);
+                          kMaxSaveName);
     if (std::any_of(name.begin(), name.end(), isForbidden))
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: the name of a save has neither slashes nor control characters", name);
@@ -42,7 +40,7 @@ SavePlaces savePlaces() {
 }
 
 base::Result<fs::path> dataFolder(const SavePlaces& places) {
-    // The XDG specification has relative values ignored.
+    // The XDG specification says to ignore relative paths.
     if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane";
     if (fs::path(places.home).is_absolute()) return fs::path(places.home) / ".local/share/terrane";
     return base::fail(base::ErrorCode::NotFound,

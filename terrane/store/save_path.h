@@ -1,5 +1,5 @@
-// Where the save of a name lies. Called by programs while they start; reads the environment, which no thread
-// may change meanwhile.
+// Paths of saves by name. Called by programs while they start; reads the environment, which no thread may
+// change meanwhile.
 #pragma once
 
 #include <filesystem>
@@ -10,26 +10,27 @@
 
 namespace terrane::store {
 
-// What the place depends on. Texts are empty where the environment does not have them.
+// The inputs of the paths. Strings are empty if the environment lacks them.
 struct SavePlaces {
     std::string xdgDataHome;                // $XDG_DATA_HOME
     std::string home;                       // $HOME
     std::filesystem::path former = "save";  // folder of saves up to version 0.1, below the working directory
 };
 
-// Of this process.
+// The values of this process.
 SavePlaces savePlaces();
 
-// Where Terrane keeps what players make: $XDG_DATA_HOME/terrane, or $HOME/.local/share/terrane where that
-// variable is no absolute path. Absolute; may not exist. An error where neither variable is set.
+// The folder of players' worlds and other files: $XDG_DATA_HOME/terrane, or $HOME/.local/share/terrane if
+// that variable is not an absolute path. Absolute; may not exist. Fails if neither variable is set.
 [[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SavePlaces& places);
 
-// An error for a name that cannot be a file's: empty, longer than 100 bytes, with a slash or a control
-// character, or with a dot or a space in front.
+constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, including extensions
+// Fails for a name that cannot be a file name: empty, longer than 100 bytes, with a slash or a control
+// character, or with a leading dot or space.
 [[nodiscard]] base::Result<void> checkSaveName(std::string_view name);
 
-// NAME.sqlite in the data folder. A save that only the former folder has is found there: the path is then
-// relative. Errors of checkSaveName(). Makes no folders.
+// NAME.sqlite in the data folder, or in the former folder if it exists only there; then the path is relative.
+// Errors of checkSaveName(). Creates no folders.
 [[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
 
 }  // namespace terrane::store

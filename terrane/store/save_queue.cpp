@@ -11,18 +11,18 @@
 namespace terrane::store {
 namespace {
 
-// The newer one counts, but for a generated chunk after an edited one.
+// The newer chunk replaces the older one, except a generated chunk after an edited one.
 void put(WaitingChunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
     const auto [entry, isNew] = chunks.try_emplace(pos, newer);
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
 
-// Short enough to need no memory.
+// Short enough for the small string optimization.
 base::Error noMemory() {
     return {base::ErrorCode::OutOfResources, "no memory"};
 }
 
-// What writing threw is a failure like others: the queue's thread goes on.
+// An exception counts as a failed write, so that the queue's thread continues.
 base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch& batch) noexcept {
     try {
         try {
@@ -37,7 +37,7 @@ base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch&
     }
 }
 
-// Metadata by name. A damaged row is not lost: it stays in the file, to be found again.
+// Description of a lost batch, metadata by name. A damaged row is not lost: it stays in the file.
 std::string listOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
     for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
@@ -144,9 +144,9 @@ base::Result<void> SaveQueue::flush() {
     std::unique_lock lock(mutex_);
     const SaveNumber goal = queued_;
     if (durable_ >= goal) return {};
-    // An attempt that runs already may have begun without the last saves.
+    // A running attempt may have begun without the last saves.
     const std::uint64_t attempt = attempts_ + 1;
-    wantedAttempts_ = std::max(wantedAttempts_, attempt);
+    requestedAttempts_ = std::max(requestedAttempts_, attempt);
     wake_.notify_all();
     if (limits_.clock) writeOnce(lock, false);
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
@@ -166,9 +166,9 @@ SaveStatus SaveQueue::status() {
     return status;
 }
 
-// After a failure the number of chunks no longer counts, or a full disk would be tried again at each save.
+// After a failure the number of chunks is ignored, so that a full disk is not retried at each save.
 bool SaveQueue::isDue() const {
-    if (isEnding_ || wantedAttempts_ > attempts_) return true;
+    if (isEnding_ || requestedAttempts_ > attempts_) return true;
     return (waiting_.chunks.size() >= limits_.chunks && problem_.message.empty()) || now() >= due_;
 }
 
@@ -210,8 +210,8 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
         durable_ = goal;
         writing_ = {};
     } else {
-        // Who waits for flush() is told there; what the last attempt loses is told by the destructor.
-        if (problem_.message.empty() && wantedAttempts_ < attempts_ && !isLast)
+        // flush() reports the problem itself; the destructor reports the losses of the last attempt.
+        if (problem_.message.empty() && requestedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
                            kTryAgainDelays * static_cast<double>(limits_.delay.count()) / 1000,
                            contentOf(writing_));
@@ -223,7 +223,7 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     written_.notify_all();
 }
 
-// What came meanwhile is newer. Needs no memory, which may be what writing failed for.
+// Saves queued meanwhile are newer. Allocates no memory, since writing may have failed for lack of it.
 void SaveQueue::takeBack(SaveBatch failed) {
     for (auto& [pos, newer] : waiting_.chunks) {
         const auto older = failed.chunks.find(pos);

@@ -1,5 +1,5 @@
-// Collects what is to be saved and writes it in batches on a thread of its own. What failed to be written,
-// because the disk is full for example, stays and is tried again. Any thread may call everything.
+// Collects saves and writes them in batches on its own thread. Failed writes, for example because the disk is
+// full, are kept and tried again. Any thread may call everything.
 #pragma once
 
 #include <chrono>
@@ -28,7 +28,7 @@ struct WaitingChunk {
     std::int64_t version = 0;  // ChunkStore::setVersion()
 };
 
-// A row that is no chunk: to be moved aside if it still has the same bytes.
+// A row that is not a valid chunk: it is quarantined if it still has the same bytes.
 struct DamagedRow {
     world::ChunkPos pos;
     std::uint64_t hash = 0;  // hashOfRow() of its data, which may be large
@@ -37,7 +37,7 @@ struct DamagedRow {
 
 std::uint64_t hashOfRow(ByteView data);
 
-// The order of the keys in a store.
+// The order of keys in a store.
 struct KeyOrder {
     bool operator()(world::ChunkPos a, world::ChunkPos b) const {
         return std::tie(a.level, a.x, a.y) < std::tie(b.level, b.x, b.y);
@@ -46,7 +46,7 @@ struct KeyOrder {
 
 using ChunkPosSet = std::set<world::ChunkPos, KeyOrder>;
 
-// Sorted by key: pages of a file are filled one after the other.
+// Sorted by key, so that pages of a file are filled one after the other.
 using WaitingChunks = std::map<world::ChunkPos, WaitingChunk, KeyOrder>;
 std::vector<ChunkRow> editedOf(const WaitingChunks& chunks);  // of level 0
 
@@ -58,8 +58,8 @@ struct SaveBatch {
     bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
 };
 
-// A clock that a test sets, for queues without a thread: they write when writeIfDue() is called, by flush()
-// and at the end, on the calling thread. Outlives its queue.
+// A clock set by tests, for queues without a thread: they write on the calling thread, in writeIfDue(),
+// flush() and the destructor. Outlives its queue.
 struct ManualClock {
     std::chrono::steady_clock::time_point now{};
     std::function<void()> writeIfDue;  // of the queue that has the clock
@@ -68,22 +68,23 @@ struct ManualClock {
 constexpr int kTryAgainDelays = 2;
 
 struct SaveLimits {
-    // What is waiting is written after this time, or as soon as there are this many chunks of about 10 KB.
-    // What failed is tried again after kTryAgainDelays of it.
+    // Queued saves are written after this time, or once there are this many chunks of about 10 KB. A failed
+    // write is retried after kTryAgainDelays times this time.
     std::chrono::milliseconds delay{1000};
     std::size_t chunks = 1024;
-    // Of chunks that were loaded and are still held. What goes beyond stays in the save.
+    // Maximum block entity data of loaded chunks that are still held. A chunk beyond it is not loaded and
+    // stays in the save.
     std::size_t entityBytes = kEntityBudgetBytes;
-    ManualClock* clock = nullptr;  // null: the queue has a thread and the system's clock
+    ManualClock* clock = nullptr;  // null: the queue has a thread and uses the system's clock
 };
 
 class SaveQueue {
   public:
-    // Makes all of a batch durable, or nothing of it. Called on the queue's thread, never twice at a time.
+    // Makes all of a batch durable, or nothing of it. Called on the queue's thread, never concurrently.
     using WriteBatch = std::function<base::Result<void>(const SaveBatch&)>;
 
     SaveQueue(WriteBatch write, SaveLimits limits);
-    ~SaveQueue();  // writes what waits; what fails now is lost, which is logged unless flush() told it
+    ~SaveQueue();  // writes queued saves; failures are lost, and logged unless flush() reported them
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 
@@ -91,10 +92,10 @@ class SaveQueue {
     SaveNumber add(const std::string& name, std::string value);
     void add(DamagedRow row);
 
-    std::optional<WaitingChunk> find(world::ChunkPos pos);  // waiting or being written
-    // In the order of `positions`, all at one moment.
+    std::optional<WaitingChunk> find(world::ChunkPos pos);  // queued or being written
+    // In the order of `positions`, as of one moment.
     std::vector<std::optional<WaitingChunk>> findMany(std::span<const world::ChunkPos> positions);
-    [[nodiscard]] base::Result<void> flush();  // as ChunkStore::flush()
+    [[nodiscard]] base::Result<void> flush();  // see ChunkStore::flush()
     SaveStatus status();
 
   private:
@@ -116,12 +117,12 @@ class SaveQueue {
     std::condition_variable wake_, written_;
     SaveBatch waiting_, writing_;
     SaveNumber queued_ = 0, durable_ = 0;
-    Clock::time_point due_ = Clock::time_point::max();  // when what waits must be written
-    std::uint64_t attempts_ = 0, wantedAttempts_ = 0;   // begun and asked for by flush
-    std::uint64_t finished_ = 0;                        // attempts
-    base::Error problem_;             // of the last attempt; no message where it did not fail
-    Clock::time_point failingSince_;  // while there is a problem
-    bool isProblemTold_ = false;      // by flush(), and nothing was added since
+    Clock::time_point due_ = Clock::time_point::max();    // deadline of the queued saves
+    std::uint64_t attempts_ = 0, requestedAttempts_ = 0;  // begun; requested by flush
+    std::uint64_t finished_ = 0;                          // attempts
+    base::Error problem_;                                 // of the last attempt; no message if it succeeded
+    Clock::time_point failingSince_;                      // while there is a problem
+    bool isProblemTold_ = false;                          // reported by flush(), and nothing was added since
     bool isEnding_ = false;
     std::thread thread_;  // none with a ManualClock
 };

@@ -21,7 +21,7 @@ base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
     return {};
 }
 
-// Of blocks and settings.
+// Checks a name of a block or setting.
 base::Result<void> checkName(const Database& database, const Statement& row, int column) {
     const bool isText = row.type(column) == ColumnType::Text;  // text() changes the type
     const std::string_view name = row.text(column);
@@ -30,7 +30,7 @@ base::Result<void> checkName(const Database& database, const Statement& row, int
                       database.path(), name.substr(0, 64), kMaxNameBytes);
 }
 
-// Each step from the save's format to `current`.
+// The migrations from the save's format to `current`.
 base::Result<std::vector<Migration>> findWay(Database& database, std::span<const Migration> steps,
                                              std::int64_t current) {
     const auto version = database.queryNumber("PRAGMA user_version");
@@ -62,7 +62,7 @@ base::Result<void> runSteps(Database& database, const std::vector<Migration>& wa
 }  // namespace
 
 std::span<const Migration> migrations() {
-    // 1 to 2: keys have a level. Those of level 0 are as they were; a program of format 1 must not take
+    // 1 to 2: keys include a level. Keys of level 0 are unchanged; a program of format 1 must not take the
     // others for damage. 2 to 3: checksums cover more.
     static constexpr Migration kSteps[] = {{1, ""}, {2, "", addChecksums}};
     return kSteps;
@@ -103,7 +103,7 @@ base::Result<void> migrate(Database& database, std::span<const Migration> steps,
     if (auto copied = database.backUpTo(backup); !copied) return copied;
     auto migrated = runSteps(database, *way, current);
     if (!migrated) {
-        // The save is as it was. Each further attempt would leave one more copy of it.
+        // The save is unchanged. Otherwise each attempt would leave another copy.
         std::error_code ignored;
         std::filesystem::remove(backup, ignored);
     }

@@ -35,7 +35,7 @@ bool isBlank(char c) {
     return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\f';
 }
 
-// The length of the token at the start: a name or number, something in quotes, or one other character.
+// The length of the token at the start: a name or number, a quoted text, or another single character.
 std::size_t tokenLength(std::string_view sql) {
     constexpr std::string_view kOpening = "\"'`[", kClosing = "\"'`]";
     if (const std::size_t quote = kOpening.find(sql.front()); quote != std::string_view::npos) {
@@ -46,7 +46,7 @@ std::size_t tokenLength(std::string_view sql) {
     return std::max<std::size_t>(static_cast<std::size_t>(end - sql.begin()), 1);
 }
 
-// A quoted name that needs no quotes is the name. Texts in '' stay what they are.
+// Removes unnecessary quotes of a name. Texts in '' are unchanged.
 std::string normalizedToken(std::string_view token) {
     const char quote = token.front();
     const bool isQuotedName = quote == '"' || quote == '`' || quote == '[';
@@ -61,7 +61,7 @@ struct SchemaObject {
     std::string type, name, table, sql;
 };
 
-// As SQLite keeps them: UNIQUE is an index without SQL.
+// As stored by SQLite: UNIQUE is an index without SQL.
 const std::array<SchemaObject, 5>& expectedObjects() {
     static const std::array<SchemaObject, 5> objects = [] {
         std::array<SchemaObject, 5> made = {{{"table", "settings", "settings", ""},
@@ -80,7 +80,7 @@ const std::array<SchemaObject, 5>& expectedObjects() {
     return objects;
 }
 
-// What a format calls the thing that is named, in a message.
+// Name of an object in messages, shortened.
 std::string titleOf(std::string_view type, std::string_view name) {
     constexpr std::size_t kMaxShown = 64;
     return fmt::format("the {} \"{}\"{}", type, name.substr(0, kMaxShown),
@@ -117,7 +117,7 @@ class SchemaComparison {
   private:
     const std::string& path_;
     std::set<std::string> seen_;
-    std::set<std::int64_t> roots_;  // the pages where they begin: no two the same
+    std::set<std::int64_t> roots_;  // root pages, all different
 };
 
 }  // namespace

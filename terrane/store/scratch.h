@@ -1,15 +1,14 @@
-// A thread's memory for a chunk before compression, kept from one chunk to the next.
+// Per-thread scratch memory for uncompressed chunks.
 #pragma once
 
 #include "terrane/store/bytes.h"
 
 namespace terrane::store {
 
-// Beyond this a thread's memory for uncompressed chunks is given back. Sections take 9 KB on average, 0.5 MiB
-// at most.
+// A thread frees scratch memory beyond this. Sections take 9 KB on average, 0.5 MiB at most.
 constexpr std::size_t kKeptBytes = 1u << 20;
 
-// One thread's memory for a chunk before compression, empty. Of one such at a time.
+// The calling thread's scratch memory, empty. At most one per thread at a time.
 class Scratch {
   public:
     Scratch() { memory().clear(); }

@@ -10,11 +10,11 @@
 namespace terrane::store {
 namespace {
 
-// How long a statement waits for another connection. Terrane's own programs keep each other out by the lock;
-// what can still be in the way after this time is a program that does not know it, such as sqlite3.
+// Time that a statement waits for another connection. Terrane's own programs use the lock; after this time
+// only a program without it, such as sqlite3, can still block.
 constexpr int kBusyMilliseconds = 10000;
 
-// What a user can do something about, in plain words; SQLite's own words for the rest.
+// Plain messages for errors that a user can act on; SQLite's messages for the rest.
 std::string describe(int code, const char* message) {
     switch (code & 0xFF) {
         case SQLITE_FULL:
@@ -35,8 +35,8 @@ std::string describe(int code, const char* message) {
         case SQLITE_CANTOPEN:
             return "cannot be opened";
         case SQLITE_IOERR:
-            // The index of the log is mapped: what fails there is address space or memory, SQLite does not
-            // say which.
+            // The index of the log is memory-mapped: an error there means that address space or memory is
+            // short; SQLite does not say which.
             if (code == SQLITE_IOERR_SHMMAP || code == SQLITE_IOERR_NOMEM) return "out of memory";
             return fmt::format("reading or writing failed (SQLite code {})", code);
         default:
@@ -72,10 +72,9 @@ tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) 
     return base::fail(codeOf(code), "{}: {}", path, describe(code, sqlite3_errmsg(database)));
 }
 
-// "file:" and the path with what means something in a URI escaped.
+// "file:" and the path, with characters that are special in a URI escaped.
 std::string uriOf(const std::filesystem::path& path, bool isImmutable) {
-    std::string uri =
-        path.is_absolute() ? "file://" : "file:";  // "//" ends with an authority, which is empty
+    std::string uri = path.is_absolute() ? "file://" : "file:";  // "//" starts an authority, which is empty
     for (const char c : path.string()) {
         if (c == '?' || c == '#' || c == '%') {
             uri += fmt::format("%{:02x}", static_cast<unsigned char>(c));
@@ -106,7 +105,7 @@ void Statement::Finalize::operator()(sqlite3_stmt* statement) const {
     sqlite3_finalize(statement);
 }
 
-// What was bound before stays bound then.
+// After a failure the previous value stays bound.
 void Statement::noteBound(int code) {
     assert((code == SQLITE_OK || code == SQLITE_NOMEM) && "the statement has this parameter and was reset");
     if (code != SQLITE_OK) isUnbound_ = true;
@@ -122,7 +121,7 @@ void Statement::bind(int parameter, std::string_view text) {
 }
 
 void Statement::bind(int parameter, ByteView blob) {
-    // A null pointer would bind NULL, and nothing equals NULL.
+    // A null pointer would bind NULL, which equals nothing.
     noteBound(blob.empty() ? sqlite3_bind_zeroblob(statement_.get(), parameter, 0)
                            : sqlite3_bind_blob64(statement_.get(), parameter, blob.data(), blob.size(),
                                                  SQLITE_TRANSIENT));
@@ -197,7 +196,7 @@ base::Result<Database> Database::open(const std::filesystem::path& path, OpenMod
     return result;
 }
 
-// The file itself names a size of the cache: it could be all memory. A program gets by with 2 MB.
+// The file itself sets the size of the cache, which could be all memory. 2 MB are enough.
 base::Result<void> Database::loadSchema() {
     constexpr int kThousandSteps = 5;  // the schema of a save takes about 100 steps
     const StepLimit limit(database_.get(), kThousandSteps);
@@ -209,7 +208,7 @@ base::Result<void> Database::execute(const std::string& sql) {
     return failure(path(), database_.get());
 }
 
-// Some errors, as of a full disk, have rolled back by themselves: then there is nothing left to do.
+// Fails if an error, such as a full disk, already rolled back: then there is nothing left to do.
 void Database::rollBack() noexcept {
     sqlite3_exec(database_.get(), "ROLLBACK", nullptr, nullptr, nullptr);
 }
@@ -252,14 +251,14 @@ base::Result<void> Database::copyTo(const std::filesystem::path& target, const C
         const int left = sqlite3_backup_remaining(backup), all = sqlite3_backup_pagecount(backup);
         isWanted = !progress || progress(1 - static_cast<double>(left) / std::max(all, 1));
     }
-    // The result of finish() is that of the steps; the reason is kept by the target.
+    // The result of finish() is that of the steps; the target has the reason.
     if (sqlite3_backup_finish(backup) != SQLITE_OK) return failure(copy->path(), to);
     if (!isWanted) return base::fail("{}: the copy was cancelled", copy->path());
     return {};
 }
 
 base::Result<Transaction> Transaction::begin(Database& database) {
-    // A rollback for which there was no memory is made up for.
+    // Repeats a rollback that failed for lack of memory.
     if (sqlite3_get_autocommit(database.database_.get()) == 0) database.rollBack();
     if (auto begun = database.execute("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
     return Transaction(database);

@@ -1,6 +1,5 @@
-// SQLite's connections and statements as owners of what they hold. Errors read "path: what is wrong".
-// A connection and its statements are used by one thread at a time, and trust nothing in the file
-// (sqlite_guard.h).
+// RAII wrappers of SQLite's connections and statements. Errors read "path: what is wrong". A connection and
+// its statements are used by one thread at a time, and trust nothing in the file (sqlite_guard.h).
 #pragma once
 
 #include <cstdint>
@@ -20,25 +19,24 @@ struct sqlite3_stmt;
 
 namespace terrane::store {
 
-// A column's type is what a schema says, and may be another one in a file of somebody else.
+// The actual type of a value, which in an untrusted file may differ from the schema.
 enum class ColumnType : std::uint8_t { Integer, Real, Text, Blob, Null };
 
 class Statement {
   public:
-    // Parameters count from 1. Blobs and texts are copied; where there is no memory for one, the next step()
-    // fails.
+    // Parameters count from 1. Blobs and texts are copied; if memory is short, the next step() fails.
     void bind(int parameter, std::int64_t value);
     void bind(int parameter, std::string_view text);
     void bind(int parameter, ByteView blob);
 
-    // True where a row is there to read, false at the end.
+    // True if there is a row to read, false at the end.
     [[nodiscard]] base::Result<bool> step();
-    // Runs to the end, then reset.
+    // Runs to the end, then resets.
     [[nodiscard]] base::Result<void> run();
-    void reset();  // ready to be bound and stepped again; ends what it reads from the file
+    void reset();  // ready to be bound and stepped again; ends reading
 
-    // Of the row; columns count from 0. Views hold until the next step or reset.
-    ColumnType type(int column) const;  // asked for first: the others change it
+    // Values of the row; columns count from 0. Views are valid until the next step or reset.
+    ColumnType type(int column) const;  // call first: the functions below change the type
     std::int64_t number(int column) const;
     std::string_view text(int column) const;
     ByteView blob(int column) const;
@@ -52,32 +50,31 @@ class Statement {
     void noteBound(int code);
 
     std::unique_ptr<sqlite3_stmt, Finalize> statement_;
-    bool isUnbound_ = false;   // a parameter, for lack of memory
+    bool isUnbound_ = false;   // a parameter could not be bound for lack of memory
     const std::string* path_;  // the database's
 };
 
 enum class OpenMode {
-    Create,     // made where it is not there
-    ReadWrite,  // must be there
-    ReadOnly,   // as others see it while they write
-    Immutable,  // nobody writes; no files are made beside it
+    Create,     // created if missing
+    ReadWrite,  // must exist
+    ReadOnly,   // others may write
+    Immutable,  // nobody writes; creates no files beside it
 };
 
-// Called while a database is copied, with the share that is done; false ends the copy.
+// Called while a database is copied, with the fraction done; false cancels the copy.
 using CopyProgress = std::function<bool(double share)>;
 
 class Database {
   public:
     [[nodiscard]] static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);
 
-    // Statements that give no rows; several are separated by semicolons.
+    // Runs statements that return no rows; several are separated by semicolons.
     [[nodiscard]] base::Result<void> execute(const std::string& sql);
-    // Must not outlive the database.
+    // The statement must not outlive the database.
     [[nodiscard]] base::Result<Statement> prepare(std::string_view sql);
-    // The first column of the first row; nothing where there is no row.
+    // The first column of the first row; no value if there is no row.
     [[nodiscard]] base::Result<std::optional<std::int64_t>> queryNumber(std::string_view sql);
-    // Copies everything into a new file, also while others read and write. What a failed copy leaves is
-    // removed.
+    // Copies everything into a new file, also while others read and write. A failed copy is removed.
     [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target,
                                               const CopyProgress& progress = {});
 
@@ -97,7 +94,7 @@ class Database {
     std::unique_ptr<sqlite3, Close> database_;
 };
 
-// Calls visit(const Statement&) for each row of a query, which gives a base::Result<void>: an error ends it.
+// Calls visit(const Statement&) for each row of a query; it returns a base::Result<void>, and an error stops.
 template <class Visit>
 [[nodiscard]] base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
     auto select = database.prepare(sql);

@@ -13,7 +13,7 @@ void guardConnection(sqlite3* database) {
         {SQLITE_DBCONFIG_DQS_DDL, 0},        {SQLITE_DBCONFIG_DQS_DML, 0},
     };
     for (const auto& [setting, value] : kSettings) sqlite3_db_config(database, setting, value, nullptr);
-    // The largest of what saves and the statements of this module need, with room. 0 would mean no limit to
+    // Maximum of what saves and the statements of this module need, with a margin. 0 would mean no limit for
     // some of them.
     constexpr std::pair<int, int> kLimits[] = {
         {SQLITE_LIMIT_LENGTH, kMaxValueBytes},

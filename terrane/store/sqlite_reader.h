@@ -1,5 +1,5 @@
-// A world in a SQLite file that is read and left as it is, also where it cannot be written. While another
-// program plays it, what that has saved last is read.
+// A read-only store of a world in a SQLite file, which need not be writable. While another program plays the
+// world, its last saved state is read.
 #pragma once
 
 #include <filesystem>
@@ -12,7 +12,7 @@ namespace terrane::store {
 
 class SqliteReader : public RowsReader {
   public:
-    // As openToRead().
+    // See openToRead().
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteReader>> open(
         const std::filesystem::path& path, const world::BlockRegistry& registry,
         const SaveLimits& limits = {});
@@ -21,7 +21,7 @@ class SqliteReader : public RowsReader {
     using RowsReader::RowsReader;
 };
 
-// The rows alone, for a copy.
+// Only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<ReadableRows>> openSqliteToRead(
     const std::filesystem::path& path, const world::BlockRegistry& registry);
 

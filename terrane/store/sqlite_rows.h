@@ -1,4 +1,4 @@
-// The rows of an open save as readers and writers of its file have them. Included by sqlite_*.cpp.
+// The rows of an open save, shared by readers and writers of its file. Included by sqlite_*.cpp.
 #pragma once
 
 #include <utility>

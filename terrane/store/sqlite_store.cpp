@@ -18,12 +18,12 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
         return rows;
     }
     using SqliteReadRows::SqliteReadRows;
-    // When nothing is written any more. Closing the file takes its log.
+    // Runs after the last write. Closing the file removes its log.
     ~SqliteRows() override {
         if (file_.lock) file_.lock->setHasLog(false);
     }
 
-    // Rows are derived before the transaction begins, and read what is in the file by other connections.
+    // Rows are derived before the transaction begins, from reads of the file through other connections.
     base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                              const DeriveBatch& derive) override {
         const auto derived =

@@ -1,4 +1,4 @@
-// A world in one SQLite file, held by one program at a time. docs/file-format.md describes the file.
+// A world in one SQLite file, used by one program at a time. docs/file-format.md describes the file.
 #pragma once
 
 #include <filesystem>
@@ -20,7 +20,7 @@ class SqliteStore : public QueuedStore {
     using QueuedStore::QueuedStore;
 };
 
-// The rows alone, for a copy.
+// Only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
                                                                       const world::BlockRegistry& registry,
                                                                       const SaveAccess& access);

@@ -16,7 +16,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
         "INSERT INTO chunks (key, origin, data) VALUES (?1, ?2, ?3) ON CONFLICT (key) DO UPDATE "
         "SET origin = excluded.origin, data = excluded.data WHERE excluded.origin <> 0 OR origin = 0",
         "DELETE FROM chunks WHERE key = ?1",
-        // In a file of somebody else data may be a text or NULL.
+        // In an untrusted file data may be a text or NULL.
         "INSERT INTO quarantine (key, reason, data) SELECT key, ?2, coalesce(data, x'') FROM chunks WHERE "
         "key = ?1",
         "INSERT INTO quarantine (key, reason, data) VALUES (?1, ?2, x'')"};
@@ -31,16 +31,16 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     if (!metadata) return tl::unexpected(metadata.error());
     auto next = made.begin();
     const auto take = [&] { return std::move(*next++); };
-    // Braces initialize in their order: that of the texts above.
+    // Braces evaluate in order, which is that of kStatements.
     return std::unique_ptr<SqliteWriter>(
         new SqliteWriter(file, Statements{take(), take(), take(), take(), take()}, std::move(*metadata)));
 }
 
-// The log may still have what failed. Behind a smaller transaction it would look like a damaged one, so the
-// log is emptied first. Where that fails too, saving comes before.
+// The log may still have frames of a failed transaction. After a smaller transaction they would look like
+// damage, so the log is emptied first. If that fails, saving has priority.
 base::Result<Transaction> SqliteWriter::begin() {
     if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-    hasFailed_ = true;  // until it is committed, also where something throws
+    hasFailed_ = true;  // until the commit, also if an exception is thrown
     return Transaction::begin(file_.database);
 }
 
@@ -67,7 +67,7 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     if (auto done = file_.database.execute(deletion); !done) return done;
     auto edited = readEditedChunks(file_.database);
     if (!edited) return tl::unexpected(edited.error());
-    // By the connection that writes: it sees what the transaction has written so far.
+    // Reads through the writing connection, which sees the transaction's changes.
     SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
                     file_.ids, budget);
     auto derived =
@@ -101,7 +101,7 @@ base::Result<void> SqliteWriter::change(const RowChanges& changes) {
     return commit(*transaction);
 }
 
-// A log that has a transaction will be missed where it is gone.
+// Notes that the log has transactions, so that its loss is detected.
 base::Result<void> SqliteWriter::commit(Transaction& transaction) {
     if (auto there = files_.check(); !there) return there;
     auto done = transaction.commit();
@@ -158,15 +158,14 @@ base::Result<void> SqliteWriter::putAside(world::ChunkPos pos, std::string_view 
     use_.quarantineAll.bind(2, reason);
     auto done = use_.quarantineAll.run();
     if (done || done.error().code != base::ErrorCode::Damaged) return done;
-    // Longer than a chunk can be: no program reads it. That it was there is noted.
+    // Too long to be read by any program: only record that it existed.
     use_.noteQuarantine.bind(1, keyOf(pos));
     use_.noteQuarantine.bind(2, std::string_view(done.error().message));
     if (auto noted = use_.noteQuarantine.run(); !noted) return noted;
     return deleteRow(pos);
 }
 
-// What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody
-// has tried to load it.
+// Checks a row before it is overwritten: a damaged one is quarantined even if nobody tried to load it.
 base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
     use_.selectChunk.bind(1, keyOf(pos));
     const auto row = use_.selectChunk.step();

@@ -15,16 +15,16 @@ namespace terrane::store {
 
 class SqliteWriter {
   public:
-    // Keeps the file.
+    // Keeps a reference to `file`.
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file);
 
-    // As ChunkRows::write(). An error, and nothing is written, where the save was deleted or replaced.
+    // See ChunkRows::write(). Fails and writes nothing if the save was deleted or replaced.
     [[nodiscard]] base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                                            const DerivedBatch& derived);
-    // As ChunkStore::deriveAll().
+    // See ChunkStore::deriveAll().
     [[nodiscard]] base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                                EntityBudget& budget);
-    // As ChunkRows::change().
+    // See ChunkRows::change().
     [[nodiscard]] base::Result<void> change(const RowChanges& changes);
 
   private:
@@ -51,8 +51,8 @@ class SqliteWriter {
     OpenFiles files_;
     Statements use_;
     MetadataTable metadata_;
-    bool isComplete_ = true;  // of the transaction that runs
-    bool hasFailed_ = false;  // the last one
+    bool isComplete_ = true;  // derived rows of the running transaction are complete
+    bool hasFailed_ = false;  // the last transaction failed
 };
 
 }  // namespace terrane::store

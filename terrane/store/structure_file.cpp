@@ -9,6 +9,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/store/compression.h"
+#include "terrane/store/save_path.h"
 
 namespace terrane::store {
 namespace {
@@ -17,15 +18,14 @@ namespace fs = std::filesystem;
 using world::Structure;
 using world::StructureBlock;
 
-// "TerrStru", in the order of bytes.
+// "TerrStru" in little-endian byte order.
 constexpr std::uint64_t kStructureMagic = 0x7572745372726554;
-constexpr std::size_t kChecksumEnd = 2 * sizeof(std::uint64_t);  // the checksum is of all that follows
+constexpr std::size_t kChecksumEnd = 2 * sizeof(std::uint64_t);  // the checksum covers everything after it
 constexpr std::size_t kStructureHeaderBytes = kChecksumEnd + sizeof(std::uint8_t) + sizeof(std::uint32_t);
-// A frame of what does not compress is a little larger than that.
+// A frame of incompressible data is slightly larger than the data.
 constexpr std::size_t kMaxFileBytes = kMaxStructureBytes + (1u << 20);
 constexpr std::string_view kEnding = ".structure";
-constexpr std::size_t kMaxFileName = 100;        // file systems take 255, some of it for endings
-constexpr std::size_t kMaxBlockNameBytes = 255;  // a length of one byte
+constexpr std::size_t kMaxBlockNameBytes = 255;  // the length is one byte
 
 auto damagedStructure(const std::string& what) {
     return base::fail(base::ErrorCode::Damaged, "{}", what);
@@ -64,7 +64,7 @@ base::Result<void> checkLimits(const Structure& s) {
     return {};
 }
 
-// The width of a cell is one byte, or two where the palette has more than 256 entries.
+// A cell is one byte, or two if the palette has more than 256 entries.
 template <class Cell>
 void appendCells(Bytes& out, const Structure& structure) {
     for (const std::uint32_t cell : structure.cells) appendNumber(out, static_cast<Cell>(cell));
@@ -207,24 +207,18 @@ base::Result<Structure> decodeStructure(ByteView bytes) {
 }
 
 base::Result<fs::path> structurePath(const fs::path& folder, std::string_view name) {
-    const auto isForbidden = [](char c) {
-        const auto byte = static_cast<unsigned char>(c);
-        return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
-    };
-    const bool isName = !name.empty() && name.size() <= kMaxFileName && name.front() != '.' &&
-                        name.front() != ' ' && std::ranges::none_of(name, isForbidden);
-    if (!isName)
+    if (!checkSaveName(name))
         return base::fail(base::ErrorCode::BadInput,
                           "{:?}: a name has 1 to {} bytes, neither slashes nor control characters, and no "
                           "dot or space in front",
-                          name, kMaxFileName);
+                          name, kMaxSaveName);
     return folder / (std::string(name) + std::string(kEnding));
 }
 
 base::Result<void> writeStructure(const fs::path& file, const Structure& structure) {
     const auto bytes = encodeStructure(structure);
     if (!bytes) return base::fail(bytes.error().code, "{}: {}", file.string(), bytes.error().message);
-    std::error_code ignored;  // writing tells
+    std::error_code ignored;  // writeFile() reports the error
     fs::create_directories(file.parent_path(), ignored);
     return base::writeFile(file, {reinterpret_cast<const char*>(bytes->data()), bytes->size()});
 }

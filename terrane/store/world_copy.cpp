@@ -25,7 +25,7 @@ std::string unfinished(std::int64_t lastKey) {
     return std::string(kUnfinishedCopy) + std::to_string(lastKey);
 }
 
-// The last key that an unfinished copy has; nothing where the mark says otherwise.
+// The last key of an unfinished copy; no value for other marks.
 std::optional<std::int64_t> lastKeyOf(std::string_view mark) {
     if (!mark.starts_with(kUnfinishedCopy)) return std::nullopt;
     mark.remove_prefix(kUnfinishedCopy.size());
@@ -42,7 +42,7 @@ std::string problemOf(const KeyedRow& row) {
     return good ? std::string() : good.error().message;
 }
 
-// The next rows of a world that are chunks; others are counted.
+// Reads the next valid rows of a world; counts invalid ones.
 base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int64_t& key, bool& isEnd,
                                                   CopyReport& report) {
     auto rows = world.rowsAfter(key, kRowsAtOnce);
@@ -64,7 +64,7 @@ base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int6
     return rows;
 }
 
-// Goes through the rows of a world in groups.
+// Iterates over the rows of a world in groups.
 class RowWalk {
   public:
     RowWalk(ReadableRows& world, CopyReport& report) : world_(world), report_(report) {}
@@ -140,7 +140,7 @@ class Copy {
         return {};
     }
 
-    // Whether both have the same rows. What differs is changed.
+    // Whether both have the same rows; corrects differences.
     base::Result<bool> compare() {
         report_.rows = report_.bytes = report_.damaged = 0;
         base::Digest digest;
@@ -190,7 +190,7 @@ class Copy {
         return done;
     }
 
-    // The settings come last, with the mark that all tiles are there, if they are.
+    // The settings are written last, with the mark of tiles if no row was left out.
     RowChanges ending() const {
         RowChanges changes;
         changes.metadata = from_.metadata();
@@ -241,7 +241,7 @@ base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     if (!hasNames(to.ids(), from.ids().names()))
         return base::fail(ErrorCode::Incompatible, "{}: its names of blocks are not those of {}", to.name(),
                           from.name());
-    // From now on it is known what it is, also where nothing more is written.
+    // Marks it as a copy even if nothing else gets written.
     if (isEmpty) {
         RowChanges begun;
         begun.metadata.emplace(kCopyMark, unfinished(kBeforeAll));

@@ -1,4 +1,4 @@
-// Which world a store holds, against the world that a program wants. Plain values and functions, for any
+// Compares the world of a store with the world that a program requests. Plain values and functions, for any
 // thread.
 #pragma once
 
@@ -14,8 +14,8 @@
 
 namespace terrane::store {
 
-// What a world's generated chunks follow from. It never changes during the life of a save, but for the
-// version, when the world is regenerated.
+// The inputs that determine a world's generated chunks. They never change during the life of a save, except
+// the version, when the world is regenerated.
 struct WorldIdentity {
     std::uint64_t seed = 0;
     std::string generator;
@@ -24,53 +24,54 @@ struct WorldIdentity {
     bool operator==(const WorldIdentity&) const = default;
 };
 
-// Which chunks of a world are made anew by the program's version of its generator.
+// Chunks to regenerate with the program's version of the generator.
 enum class Regenerate : std::uint8_t {
     None,
-    AllButEdited,  // chunks with edits stay as they are: beside them the ground may have steps
+    AllButEdited,  // edited chunks stay; the terrain may have steps at their borders
     All,           // edits are lost
 };
 
-// What the player asks for. What is not given is taken from the world that is there.
-struct WantedWorld {
+// The world that a player requests. Fields without a value are taken from the existing world.
+struct RequestedWorld {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
     Regenerate regenerate = Regenerate::None;
-    // Who works on a generator: where it has another version now, chunks without edits are made anew, and no
-    // copy is kept.
+    // For the development of generators: if the generator's version differs, chunks without edits are
+    // regenerated, and no backup is kept.
     bool followsGenerator = false;
 };
 
-// What is to be done with a world that is taken: by which version of its generator it goes on.
+// Decision on an existing world: chunks to regenerate and the generator version to continue with.
 struct Regeneration {
     Regenerate chunks = Regenerate::None;
     int generatorVersion = 0;
     bool keepsCopy = true;
 };
 
-// The version that the program has of a generator; 0: the program does not have it.
+// The program's version of a generator; 0 if it lacks the generator.
 using GeneratorVersionOf = std::function<int(std::string_view generator)>;
 
-// What is done with a world where it is opened to be written.
+// Options for opening a world for writing.
 struct SaveAccess {
-    // Made, where it is not there. Nothing: it must be there.
+    // Creates the world with this identity if it does not exist. No value: it must exist.
     std::optional<WorldIdentity> create;
-    // Of a world that is made: the ids and names of another one, whose rows it will get.
+    // For a new world: ids and names of another world whose rows it will get.
     std::vector<SavedName> blockNames = {};
-    // What of a save that is there is regenerated, after a copy beside it, from what it is; an error to
-    // leave it alone. Empty: it is taken as it is.
+    // Decides from the identity of an existing save what is regenerated, after a backup beside it; an error
+    // leaves it alone. Empty: nothing is regenerated.
     std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
 };
 
-// An error that says in one line how they differ and names `where`, unless they are equal: chunks of two
-// generators do not fit together.
-[[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& wanted,
+// Fails with one line that names `where` and the difference, unless both are equal: chunks of two generators
+// do not fit together.
+[[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& requested,
                                              const std::string& where);
 
-// Whether a saved world is the one that is wanted, and what is to be regenerated. An error where it is
-// another world, or where the program lacks its generator, or has another version of it and the world is not
-// to be regenerated.
-[[nodiscard]] base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const WantedWorld& wanted,
+// Checks a saved world against the requested one, and decides what to regenerate. Fails if it is another
+// world, if the program lacks its generator, or if the versions differ and the world is not to be
+// regenerated.
+[[nodiscard]] base::Result<Regeneration> compareWorld(const WorldIdentity& saved,
+                                                      const RequestedWorld& requested,
                                                       const GeneratorVersionOf& versionOf,
                                                       const std::string& where);
 

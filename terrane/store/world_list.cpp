@@ -20,7 +20,7 @@ constexpr std::string_view kSaveEnding = ".sqlite";
 constexpr std::size_t kMaxListed = 1000;
 
 bool isPresent(const fs::path& path) {
-    std::error_code ignored;  // what cannot be looked at counts as not there
+    std::error_code ignored;  // an inaccessible file counts as missing
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
@@ -40,7 +40,7 @@ fs::file_time_type lastWritten(const fs::path& save) {
     return last;
 }
 
-// The reason without the path, which the entry has.
+// The error without the path, which the entry has.
 std::string reasonOf(const base::Error& error, const fs::path& path) {
     const std::string prefix = path.string() + ": ";
     return error.message.starts_with(prefix) ? error.message.substr(prefix.size()) : error.message;
@@ -63,7 +63,7 @@ WorldEntry entryOf(const fs::path& path, const world::BlockRegistry& blocks) {
     return entry;
 }
 
-// A world's own file: renaming or deleting a link would surprise whoever made it.
+// The regular file of a world; links are neither renamed nor deleted.
 base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
     if (auto good = checkSaveName(name); !good) return tl::unexpected(good.error());
     fs::path path = worldFile(folder, name);
@@ -80,7 +80,7 @@ base::Result<fs::path> newFile(const fs::path& folder, std::string_view name) {
     if (auto good = checkWorldName(name); !good) return tl::unexpected(good.error());
     fs::path path = worldFile(folder, name);
     if (isPresent(path)) return base::fail(ErrorCode::BadInput, "there is a world \"{}\" already", name);
-    for (const char* ending : {"-wal", "-journal"})  // SQLite would take them for the new file's
+    for (const char* ending : {"-wal", "-journal"})  // SQLite would use them for the new file
         if (isPresent(beside(path, ending)))
             return base::fail(ErrorCode::BadInput, "{}: left by another world, delete it first",
                               beside(path, ending).string());
@@ -94,7 +94,7 @@ base::Result<void> move(const fs::path& from, const fs::path& to) {
     return base::fail(ErrorCode::Io, "{}: cannot be renamed: {}", from.string(), error.message());
 }
 
-// Puts what is in the log into the file, so that the file is all.
+// Checkpoints the log into the file, so that the file is complete.
 base::Result<void> endLog(const fs::path& path) {
     if (auto checked = checkCompanions(path); !checked) return checked;
     if (!hasLog(path) && !hasJournal(path)) return {};
@@ -106,7 +106,7 @@ base::Result<void> endLog(const fs::path& path) {
 }
 
 void moveThumbnail(const fs::path& from, const fs::path& to) {
-    std::error_code ignored;  // a list without a picture is no loss
+    std::error_code ignored;  // a missing thumbnail is harmless
     fs::rename(thumbnailOf(from), thumbnailOf(to), ignored);
 }
 
@@ -129,15 +129,15 @@ fs::path thumbnailOf(const fs::path& save) {
     return fs::path(save).replace_extension(".png");
 }
 
-std::string freeWorldName(const fs::path& folder, std::string_view wanted) {
-    constexpr std::size_t kRoom = 88;  // of the 100 bytes of a name, with a number behind it
-    std::size_t bytes = std::min(wanted.size(), kRoom);
-    if (bytes < wanted.size())  // between letters of UTF-8
-        while (bytes > 0 && (static_cast<unsigned char>(wanted[bytes]) & 0xC0) == 0x80) --bytes;
-    const std::string stem(wanted.substr(0, bytes));
+std::string freeWorldName(const fs::path& folder, std::string_view name) {
+    constexpr std::size_t kRoom = 88;  // of 100 bytes, the rest for a number
+    std::size_t bytes = std::min(name.size(), kRoom);
+    if (bytes < name.size())  // at a UTF-8 character boundary
+        while (bytes > 0 && (static_cast<unsigned char>(name[bytes]) & 0xC0) == 0x80) --bytes;
+    const std::string stem(name.substr(0, bytes));
     for (int number = 1;; ++number) {
-        std::string name = number == 1 ? stem : fmt::format("{} {}", stem, number);
-        if (!isPresent(worldFile(folder, name))) return name;
+        std::string unused = number == 1 ? stem : fmt::format("{} {}", stem, number);
+        if (!isPresent(worldFile(folder, unused))) return unused;
     }
 }
 
@@ -178,7 +178,7 @@ base::Result<void> deleteWorld(const fs::path& folder, std::string_view name) {
     if (!path) return tl::unexpected(path.error());
     const auto lock = FileLock::acquire(*path, FileLock::Kind::Exclusive);
     if (!lock) return tl::unexpected(lock.error());
-    // The save itself comes last: a log without its save would be taken for that of the next one of the name.
+    // The save itself goes last: a log without its save would be applied to the next save of that name.
     for (const fs::path& file : {beside(*path, "-wal"), beside(*path, "-shm"), beside(*path, "-journal"),
                                  thumbnailOf(*path), *path}) {
         std::error_code error;
@@ -199,7 +199,7 @@ base::Result<void> copyWorld(const fs::path& folder, const WorldCopy& copy,
     if (!lock) return tl::unexpected(lock.error());
     auto source = openToRead(from, blocks);
     if (!source) return tl::unexpected(source.error());
-    // Under another name until it is whole, so that no list shows half of it.
+    // Under another name until it is complete, so that no list shows a partial copy.
     const fs::path part = beside(*to, ".part");
     std::error_code ignored;
     fs::remove(part, ignored);

@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::string_view kSchemeEnd = "://";
 
-// A URL, or nearly one, of a database: what is misspelled may hold a password, and is no name of a file.
+// Whether the text looks like a database URL, even a misspelled one: it may hold a password and must not
+// become a file name.
 bool isMeantAsDatabase(std::string_view text) {
     constexpr std::string_view kStart = "postgres";
     const auto isSame = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };

@@ -1,4 +1,4 @@
-// Where a world is kept, as the player names it. A plain value, for any thread.
+// The location of a world as given by the player. A plain value, for any thread.
 #pragma once
 
 #include <cstdint>
@@ -22,11 +22,10 @@ struct WorldLocation {
 // "a://b" is a URL, "a/b" and "b.sqlite" are files, everything else is a name.
 WorldLocation worldLocation(std::string text);
 
-// The file that a name or a file stands for, whether it is there or not. An error for what cannot be the name
-// of a save, and for a URL, which is no file.
+// The file of a name or path, whether it exists or not. Fails for an invalid save name, and for a URL.
 [[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
 
-// Bytes on disk of the file and of what SQLite has not moved into it yet; 0 where there is none.
+// Bytes on disk of the file and its log; 0 if there is none.
 [[nodiscard]] std::uintmax_t bytesOnDisk(const WorldLocation& location);
 
 }  // namespace terrane::store

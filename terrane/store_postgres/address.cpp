@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::string_view kSchemes[] = {"postgresql://", "postgres://"};
 constexpr std::string_view kSchemaParameter = "schema=";
-constexpr std::size_t kMaxSchemaBytes = 63;  // of a name in PostgreSQL
+constexpr std::size_t kMaxSchemaBytes = 63;  // limit of names in PostgreSQL
 
 struct FreeOptions {
     void operator()(PQconninfoOption* options) const { PQconninfoFree(options); }
@@ -43,20 +43,20 @@ std::string withoutPercents(std::string_view text) {
     return plain;
 }
 
-// A password with "/" or "@" that is not percent-coded: libpq takes parts of it for host, port and database,
-// which messages show.
+// Whether a password has "/" or "@" without percent-encoding: libpq takes parts of it for host, port and
+// database, which messages show.
 bool isMisread(const Options& options, std::string_view url) {
     const auto has = [&](const char* keyword, char c, std::size_t from) {
         return valueOf(options, keyword).find(c, from) != std::string::npos;
     };
     if (valueOf(options, "port").find_first_not_of("0123456789,") != std::string::npos) return true;
-    if (has("host", '@', 1)) return true;  // the first byte: a socket without a file
+    if (has("host", '@', 1)) return true;  // a leading @ is an abstract socket
     const std::size_t path = url.find('/', url.find("//") + 2);
     return path != std::string_view::npos && has("dbname", '@', 0) &&
            url.find('@', path) != std::string_view::npos;
 }
 
-// Takes the schema out of the URL's parameters.
+// Removes the schema from the URL's parameters and returns it.
 std::string takeSchema(std::string& url) {
     const std::size_t question = url.find('?');
     if (question == std::string::npos) return std::string(kDefaultSchema);
@@ -98,14 +98,14 @@ bool isPostgresUrl(std::string_view text) {
 base::Result<Address> addressOf(const std::string& url) {
     Address address{url, {}, {}};
     address.schema = takeSchema(address.url);
-    // PostgreSQL takes "$user" for the name of the user, also in quotes.
+    // PostgreSQL replaces "$user" by the user's name, also in quotes.
     if (address.schema.empty() || address.schema.size() > kMaxSchemaBytes || address.schema == "$user" ||
         address.schema.find('\0') != std::string::npos)
         return base::fail(base::ErrorCode::BadInput, "postgresql://…: a schema has a name of 1 to {} bytes",
                           kMaxSchemaBytes);
     char* problem = nullptr;
     const Options given(PQconninfoParse(address.url.c_str(), &problem));
-    PQfreemem(problem);  // it repeats the text, a password included
+    PQfreemem(problem);  // contains the text, including the password
     if (!given || isMisread(given, address.url))
         return base::fail(base::ErrorCode::BadInput,
                           "postgresql://…: not a URL of a database: "

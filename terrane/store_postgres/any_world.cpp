@@ -17,7 +17,7 @@ bool isPostgres(const store::WorldLocation& location) {
     return location.kind == store::WorldLocation::Kind::Url && isPostgresUrl(location.text);
 }
 
-// One of two functions: of a database's address, or of a file's path.
+// Calls `ofDatabase` with a database's address, or `ofFile` with a file's path.
 template <class OfDatabase, class OfFile>
 auto open(const store::WorldLocation& location, OfDatabase ofDatabase, OfFile ofFile)
     -> decltype(ofFile(std::filesystem::path())) {
@@ -43,10 +43,10 @@ StoreResult openDatabase(const Address& address, const world::BlockRegistry& blo
     store::SaveAccess access;
     access.create = request.create;
     access.decide = [&](const store::WorldIdentity& saved) {
-        return store::compareWorld(saved, request.wanted, request.versionOf, address.shown);
+        return store::compareWorld(saved, request.world, request.versionOf, address.shown);
     };
     RetryTimes times;
-    // What cannot be read is made anew, and what was built there is lost to players: they rather wait.
+    // Unreadable chunks would be regenerated and their edits hidden from players: rather wait.
     if (request.sharing != store::WorldSharing::Generating) times.reading = std::chrono::minutes(10);
     auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits, times);
     if (!store) return tl::unexpected(store.error());

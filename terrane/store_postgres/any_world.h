@@ -1,5 +1,5 @@
-// Worlds at any location, files and databases: what programs open, check and copy them by. A build without
-// libpq knows files alone, and gives Unsupported for URLs. Any thread.
+// Opens, checks and copies worlds at any location, files and databases. A build without libpq supports only
+// files and returns Unsupported for URLs. Any thread.
 #pragma once
 
 #include <memory>
@@ -10,19 +10,19 @@
 
 namespace terrane::store_postgres {
 
-// A location for messages: of a URL neither user nor password.
+// A location for messages: a URL without user and password.
 std::string shownOf(const store::WorldLocation& location);
 
-// As store::openWorld(), which it calls for names and files.
+// See store::openWorld(), which it calls for names and files.
 [[nodiscard]] base::Result<std::unique_ptr<store::ChunkStore>> openAnyWorld(
     const store::WorldLocation& location, const world::BlockRegistry& blocks,
     const store::WorldRequest& request);
 
-// As store::checkSave(). Of a database the tables alone are looked at: its own files are PostgreSQL's.
+// See store::checkSave(). In a database only the tables are checked, not PostgreSQL's files.
 [[nodiscard]] base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,
                                                              const world::BlockRegistry& blocks);
 
-// The metadata of a world that is there. Errors as opening it to read gives them.
+// The metadata of an existing world. Errors as opening it for reading.
 [[nodiscard]] base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location);
 
 // The rows of a world, for a copy (store/world_copy.h).

@@ -1,4 +1,4 @@
-// In a build without libpq.
+// For builds without libpq.
 #include "terrane/store/save_file.h"
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"

@@ -13,7 +13,7 @@ namespace {
 
 using base::ErrorCode;
 
-// What a URL can say otherwise. A network that is silent for half a minute is broken.
+// Defaults that a URL can override. A network without traffic for half a minute counts as broken.
 struct Setting {
     const char *name, *value;
 };
@@ -26,7 +26,7 @@ constexpr Setting kDefaults[] = {
     {"tcp_user_timeout", "30000"},
 };
 
-// PostgreSQL's binary forms are big-endian.
+// PostgreSQL's binary formats are big-endian.
 std::int64_t signedNumber(const char* bytes, int size) {
     if (size != 1 && size != 2 && size != 4 && size != 8) return 0;
     std::uint64_t value = bytes[0] < 0 ? ~std::uint64_t{0} : 0;
@@ -34,7 +34,7 @@ std::int64_t signedNumber(const char* bytes, int size) {
     return std::bit_cast<std::int64_t>(value);
 }
 
-// Of several lines, one for each address of a server: that of a server which answered, or the first.
+// libpq reports one line per address of a server: selects that of a server that answered, or else the first.
 std::string_view lineOfServer(std::string_view text) {
     const std::size_t fatal = text.find("FATAL:");
     if (fatal == std::string_view::npos) return text;
@@ -42,7 +42,7 @@ std::string_view lineOfServer(std::string_view text) {
     return end == std::string_view::npos ? text : text.substr(end + 1);
 }
 
-// The first line of what libpq says, without "ERROR:" before it and hints behind.
+// The first line of libpq's message, without "ERROR:".
 std::string firstLine(std::string_view text) {
     text = text.substr(0, text.find('\n'));
     for (const std::string_view word : {"ERROR:", "FATAL:", "PANIC:"})
@@ -54,7 +54,7 @@ std::string firstLine(std::string_view text) {
 
 constexpr std::string_view kDiskFull = "53100", kReadOnly = "25006";
 
-// By SQLSTATE (PostgreSQL's documentation, appendix A).
+// Maps SQLSTATE (PostgreSQL's documentation, appendix A).
 ErrorCode codeOf(std::string_view state) {
     const std::string_view category = state.substr(0, 2);
     if (category == "08" || category == "57" || category == "40" || state == "53300") return ErrorCode::Io;
@@ -66,8 +66,7 @@ ErrorCode codeOf(std::string_view state) {
     return ErrorCode::Failed;
 }
 
-// What a server says while a connection is made has no SQLSTATE. A server that is there and answers in other
-// words than these is tried again.
+// Errors while connecting have no SQLSTATE. Unknown messages of a server count as Io, which is retried.
 ErrorCode codeOfConnecting(std::string_view message) {
     const auto says = [&](std::string_view words) { return message.find(words) != std::string_view::npos; };
     if (says("password authentication failed") || says("no password supplied") || says("pg_hba.conf") ||
@@ -79,10 +78,10 @@ ErrorCode codeOfConnecting(std::string_view message) {
     return ErrorCode::Io;
 }
 
-// What the server says besides, which libpq would print.
+// Drops notices, which libpq would print.
 void ignoreNotice(void*, const PGresult*) {}
 
-// Also what the server does about a program that stands still or is gone: others wait for its locks.
+// Also makes the server end stalled or vanished connections, since others wait for their locks.
 constexpr Statement kSetUp = {
     "SELECT set_config('search_path', $1, false), set_config('client_min_messages', 'warning', false), "
     "set_config('synchronous_commit', CASE WHEN current_setting('synchronous_commit') = 'off' THEN 'on' "
@@ -165,19 +164,19 @@ base::Error Connection::errorOf(const pg_result* result) const {
     return {code, fmt::format("{}: {}", shown_, message.empty() ? "the connection is lost" : message)};
 }
 
-// An error without SQLSTATE is libpq's own. It can come before the state of the connection tells that it is
-// broken: where writing failed, and the last words of the server wait to be read.
+// An error without SQLSTATE comes from libpq. It can precede the broken state of the connection, if writing
+// failed and the server's last message is still unread.
 base::Error Connection::failureOf(const pg_result* result) {
     base::Error error = errorOf(result);
     const char* state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
-    // A server that does not write any more: another one may have taken its place.
+    // A read-only server: another one may have become the primary.
     if (state && state == kReadOnly) connection_ = nullptr;
     if (state) return error;
     connection_ = nullptr;
     return {ErrorCode::Io, std::move(error.message)};
 }
 
-// Prepared statements have names for the length of a connection.
+// Name of a prepared statement, valid for the connection's lifetime.
 std::string Connection::nameOf(const Statement& statement) const {
     return fmt::format("s{:x}", reinterpret_cast<std::uintptr_t>(&statement));
 }
@@ -186,7 +185,7 @@ bool Connection::isUsable() const {
     return connection_ && PQstatus(connection_.get()) == CONNECTION_OK;
 }
 
-// Queues a statement, and before it what prepares it. Notes what each will answer.
+// Queues a statement, and before it its preparation if needed. Records the kind of each result in `prepares`.
 bool Connection::send(const Queued& queued, std::vector<const Statement*>& prepares) {
     PGconn* raw = connection_.get();
     const Statement* statement = queued.statement;
@@ -214,7 +213,7 @@ bool Connection::send(const Queued& queued, std::vector<const Statement*>& prepa
 base::Result<void> Connection::collect(std::vector<Rows>& rows) {
     PGconn* raw = connection_.get();
     base::Result<void> done;
-    int nothing = 0;  // how often in a row: once between two statements, for ever where it broke
+    int nothing = 0;  // consecutive nulls: one between statements, endless if broken
     for (bool isEnd = false; !isEnd && isUsable() && nothing < 2;) {
         PGresult* result = PQgetResult(raw);
         nothing = result ? 0 : nothing + 1;
@@ -243,19 +242,19 @@ base::Result<std::vector<Rows>> Connection::runQueued(std::span<const Queued> qu
     PGconn* raw = connection_.get();
     if (!isUsable()) return base::fail(ErrorCode::Io, "{}: the connection is lost", shown_);
     if (!PQenterPipelineMode(raw)) return tl::unexpected(errorOf(nullptr));
-    std::vector<const Statement*> prepares;  // of each result; null: it is an answer
+    std::vector<const Statement*> prepares;  // for each result; null: result of a query
     bool isSent = true;
     for (const Queued& queued : queue) isSent = isSent && send(queued, prepares);
     isSent = isSent && PQpipelineSync(raw) != 0;
     if (!isSent) {
         base::Error error = errorOf(nullptr);
-        connection_ = nullptr;  // what it has half sent cannot be taken back
+        connection_ = nullptr;  // a partial send cannot be undone
         return tl::unexpected(std::move(error));
     }
     std::vector<Rows> results, answers;
     const auto done = collect(results);
     if (isUsable()) PQexitPipelineMode(raw);
-    // Also of a transaction that failed later: it does not take them back.
+    // Prepared statements survive a failed transaction.
     for (std::size_t k = 0; k < std::min(results.size(), prepares.size()); ++k) {
         if (prepares[k])
             prepared_.insert(prepares[k]);

@@ -22,7 +22,7 @@ struct pg_result;
 
 namespace terrane::store_postgres {
 
-// Text that stays where it is for the life of the program: a connection prepares it once.
+// SQL with static storage duration and a stable address: a connection prepares each statement once.
 struct Statement {
     const char* sql;
 };
@@ -32,15 +32,15 @@ struct Command {
     Parameters parameters = {};
 };
 
-// What a statement gave. Columns count from 0; a value of another type than asked for reads as 0 or empty.
+// Result of a statement. Columns count from 0; a value of another type reads as 0 or empty.
 class Rows {
   public:
     Rows() = default;
     explicit Rows(pg_result* result);
     int count() const;
-    std::int64_t affected() const;  // rows that were inserted, changed or deleted
+    std::int64_t affected() const;  // inserted, changed or deleted rows
     bool isNull(int row, int column) const;
-    std::int64_t number(int row, int column) const;  // of 2, 4 or 8 bytes; of a boolean 0 or 1
+    std::int64_t number(int row, int column) const;  // of 2, 4 or 8 bytes; a boolean is 0 or 1
     std::string_view text(int row, int column) const;
     ByteView bytes(int row, int column) const;
 
@@ -51,35 +51,34 @@ class Rows {
     std::unique_ptr<pg_result, Free> result_;
 };
 
-// A message of NOTIFY.
+// A message sent by NOTIFY.
 struct Notification {
     std::string channel, payload;
 };
 
 class Connection {
   public:
-    // Sets what all connections have: the schema as the only place of tables, UTF-8, durable commits.
-    // NotFound where there is no such host or database, Io where no server answers, Refused where the
-    // password is wrong.
+    // Opens a connection that only looks up tables in the schema, uses UTF-8 and commits durably. NotFound if
+    // there is no such host or database, Io if no server answers, Refused if the password is wrong.
     [[nodiscard]] static base::Result<Connection> open(const Address& address);
 
     [[nodiscard]] base::Result<Rows> run(const Statement& statement, const Parameters& parameters = {});
-    // All in one round trip (pipeline mode); outside of a transaction as one of their own: all or nothing.
+    // Runs all in one round trip (pipeline mode); outside of a transaction all or nothing.
     [[nodiscard]] base::Result<std::vector<Rows>> runAll(std::span<const Command> commands);
-    // The same where nobody asks for the rows.
+    // The same without results.
     [[nodiscard]] base::Result<void> change(const Statement& statement, const Parameters& parameters = {});
     [[nodiscard]] base::Result<void> changeAll(std::span<const Command> commands);
-    // One statement or several without parameters, as text.
+    // Runs one or more statements without parameters, as text.
     [[nodiscard]] base::Result<void> execute(const std::string& sql);
 
-    // A name as SQL has it, quoted.
+    // A quoted SQL identifier.
     std::string quoted(std::string_view name) const;
 
-    // False: it is broken, and a new one is needed.
+    // False if the connection is broken and must be replaced.
     bool isUsable() const;
     const std::string& shown() const { return shown_; }
     int socket() const;
-    // What came of NOTIFY since the last call, without waiting. Empty and not isUsable() where it broke.
+    // Notifications since the last call, without waiting. If the connection broke: empty, and not isUsable().
     std::vector<Notification> notifications();
 
   private:
@@ -103,7 +102,7 @@ class Connection {
     std::set<const Statement*> prepared_;
 };
 
-// Runs `action`, which gives a base::Result, in a transaction, which is undone where it fails.
+// Runs `action`, which returns a base::Result, in a transaction; rolls back if it fails.
 template <class Do>
 [[nodiscard]] std::invoke_result_t<Do> inTransaction(Connection& connection, Do action) {
     if (auto begun = connection.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
@@ -116,7 +115,7 @@ template <class Do>
     return done;
 }
 
-// Whether it makes sense to try again with a new connection: the server restarts, or the network broke.
+// Whether a retry with a new connection makes sense: the server restarts, or the network broke.
 bool isPassing(const base::Error& error);
 
 }  // namespace terrane::store_postgres

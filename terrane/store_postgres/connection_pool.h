@@ -1,5 +1,5 @@
-// Connections to one database for many threads: each takes one for the moment. What fails because the server
-// restarts or the network breaks is tried again, after longer and longer pauses.
+// A pool of connections to one database for many threads. Operations that fail because the server restarts or
+// the network breaks are retried with growing pauses.
 #pragma once
 
 #include <chrono>
@@ -13,8 +13,8 @@
 
 namespace terrane::store_postgres {
 
-// The pauses between attempts, which double, and how long it is tried at all: what a queue writes it tries
-// again later, what is read is needed now.
+// Pauses between attempts, which double, and the total time of attempts: `total` for writing, which a queue
+// retries later, `reading` for reads, whose result is needed now.
 struct RetryTimes {
     std::chrono::milliseconds first{50}, longest{2000}, total{30000}, reading = total;
 };
@@ -26,7 +26,7 @@ class ConnectionPool {
 
     const Address& address() const { return address_; }
 
-    // Runs `use`, which reads, with a connection of its own, again while isPassing(). Any thread.
+    // Runs `use`, which reads, with its own connection, again while isPassing(). Any thread.
     template <class T>
     [[nodiscard]] base::Result<T> run(const std::function<base::Result<T>(Connection&)>& use) {
         return retryFor<T>(times_.reading, [&]() -> base::Result<T> {
@@ -38,7 +38,7 @@ class ConnectionPool {
         });
     }
 
-    // The same without a connection, for writing.
+    // Retries an attempt to write, which has its own connection.
     template <class T>
     [[nodiscard]] base::Result<T> retry(const std::function<base::Result<T>()>& attempt) {
         return retryFor<T>(times_.total, attempt);
@@ -58,7 +58,7 @@ class ConnectionPool {
     }
 
     base::Result<Connection> take();
-    void giveBack(Connection connection);  // a broken one takes the idle ones with it, which are as old
+    void giveBack(Connection connection);  // if it is broken, drops the idle ones, too
 
     Address address_;
     RetryTimes times_;

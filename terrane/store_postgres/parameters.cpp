@@ -18,7 +18,7 @@ enum : std::uint32_t {
     kInt8Array = 1016,
 };
 
-// PostgreSQL's binary forms are big-endian.
+// PostgreSQL's binary formats are big-endian.
 template <class T>
 std::string bigEndian(T value) {
     std::string bytes(sizeof value, '\0');
@@ -27,7 +27,7 @@ std::string bigEndian(T value) {
     return bytes;
 }
 
-// An array of one dimension without NULLs: dimensions, flags, the type, then length and lower bound.
+// Header of a one-dimensional array without NULLs: dimensions, flags, type, then length and lower bound.
 std::string arrayHead(std::uint32_t type, std::size_t count) {
     return bigEndian(std::int32_t{1}) + bigEndian(std::int32_t{0}) + bigEndian(type) +
            bigEndian(static_cast<std::int32_t>(count)) + bigEndian(std::int32_t{1});

@@ -1,4 +1,4 @@
-// Parameters of statements in PostgreSQL's binary forms. Plain values; any thread.
+// Parameters of statements in PostgreSQL's binary formats. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,14 +14,14 @@ namespace terrane::store_postgres {
 using store::Bytes;
 using store::ByteView;
 
-// Values of $1, $2, … in their binary forms.
+// Values of $1, $2, … in binary format.
 class Parameters {
   public:
     Parameters& number(std::int64_t value);   // bigint
     Parameters& integer(std::int32_t value);  // integer
     Parameters& text(std::string_view value);
     Parameters& bytes(ByteView value);  // copied
-    // Arrays of one dimension.
+    // One-dimensional arrays.
     Parameters& numbers(std::span<const std::int64_t> values);  // bigint[]
     Parameters& smallNumbers(std::span<const std::int16_t> values);
     Parameters& texts(std::span<const std::string> values);

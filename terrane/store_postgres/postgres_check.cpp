@@ -57,7 +57,7 @@ base::Result<store::CheckReport> checkDatabase(const Address& address, const wor
     report.format = world->contents.format;
     report.identity = world->contents.identity;
     report.unknownBlocks = world->contents.ids.unknown();
-    // One moment for all statements.
+    // One snapshot for all statements.
     const auto begun =
         world->connection.execute("BEGIN TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY");
     if (!begun) return tl::unexpected(begun.error());

@@ -1,5 +1,5 @@
-// Looks through a whole world in PostgreSQL for damage, changing nothing, as it is at one moment. Any thread;
-// it runs for as long as reading all of it takes.
+// Checks a whole world in PostgreSQL for damage, as of one moment, without changing it. Any thread; takes as
+// long as reading all of it.
 #pragma once
 
 #include "terrane/store/save_check.h"
@@ -7,7 +7,7 @@
 
 namespace terrane::store_postgres {
 
-// As store::checkSave(). A world whose settings are damaged is a report with that one problem.
+// See store::checkSave(). If the settings are damaged, the report only has that problem.
 [[nodiscard]] base::Result<store::CheckReport> checkDatabase(const Address& address,
                                                              const world::BlockRegistry& blocks);
 

@@ -12,11 +12,12 @@ using store::StoredChunk;
 using store::StoredRow;
 using world::ChunkPos;
 
-// Longer ones are no chunks, and are not fetched.
+// Longer data is not a valid chunk and is not fetched.
 #define TERRANE_CHUNK_DATA "CASE WHEN octet_length(data) <= 68157440 THEN data END"  // 65 MiB
+static_assert(store::kMaxChunkBytes + (1u << 20) == 68157440, "a chunk and the overhead of its zstd frame");
 
 constexpr Statement kRead = {"SELECT " TERRANE_CHUNK_DATA ", origin FROM chunks WHERE key = $1"};
-// Longer rows are fetched one by one: all of a call's are in memory at once.
+// Longer rows are fetched one by one, since all rows of a call are in memory at once.
 constexpr Statement kReadMany = {
     "SELECT key, CASE WHEN octet_length(data) <= 262144 THEN data END, origin FROM chunks WHERE key = ANY "
     "($1)"};
@@ -32,8 +33,9 @@ constexpr Statement kContains = {"SELECT EXISTS (SELECT 1 FROM chunks WHERE key 
 constexpr Statement kEdited = {
     "SELECT key FROM chunks WHERE origin = 1 AND key >= 0 AND key < $1 ORDER BY key"};
 
-// Fetched at once: about 2 MB, as rows are 1 to 10 KB, and never more than 64 MiB.
+// Rows per query: about 2 MB for rows of 1 to 10 KB, at most 64 MiB.
 constexpr std::size_t kRowsAtOnce = 256;
+static_assert(kRowsAtOnce * 262144 == (64u << 20), "the limit of data in kReadMany");
 
 }  // namespace
 

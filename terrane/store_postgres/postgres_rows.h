@@ -1,4 +1,4 @@
-// The rows of a world in PostgreSQL, as a store uses them.
+// Reads the rows of a world in PostgreSQL.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 namespace terrane::store_postgres {
 
-// Reads on any number of threads, each by a connection of the pool for the moment.
+// Reads on any number of threads, through connections of the pool.
 class ChunkQueries {
   public:
     explicit ChunkQueries(ConnectionPool& pool) : pool_(pool) {}
@@ -25,16 +25,16 @@ class ChunkQueries {
     ConnectionPool& pool_;
 };
 
-// By one connection: what its transaction sees.
+// Reads through one connection, inside its transaction.
 [[nodiscard]] store::StoredRow readRow(Connection& connection, world::ChunkPos pos);
-// Those that are there, in no order: all of them in memory at once.
+// The existing rows, unordered, all in memory at once.
 [[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRows(Connection& connection,
                                                                   std::span<const std::int64_t> keys);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Connection& connection);
-// As store::ReadableRows::rowsAfter().
+// See store::ReadableRows::rowsAfter().
 [[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection,
                                                                        std::int64_t key, std::size_t count);
-// The row that the columns from `column` on have: data, origin.
+// Reads data and origin from the columns `column` and `column` + 1.
 store::StoredChunk storedChunk(const Rows& rows, int row, int column, world::ChunkPos pos);
 
 }  // namespace terrane::store_postgres

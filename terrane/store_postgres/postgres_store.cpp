@@ -10,7 +10,7 @@ namespace {
 
 using world::ChunkPos;
 
-// What readers and writers have in common; `Base` is store::ReadableRows or store::ChunkRows.
+// Shared by readers and writers; `Base` is store::ReadableRows or store::ChunkRows.
 template <class Base>
 class PostgresReadRows : public Base {
   public:

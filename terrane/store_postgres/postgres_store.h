@@ -1,5 +1,5 @@
-// A world in a PostgreSQL database, which several programs may share (WorldSharing). docs/scale.md tells how
-// to set one up and what it costs.
+// A world in a PostgreSQL database, which several programs may share (WorldSharing). docs/scale.md describes
+// setup and costs.
 #pragma once
 
 #include <memory>
@@ -13,7 +13,7 @@ namespace terrane::store_postgres {
 
 class PostgresStore : public store::QueuedStore {
   public:
-    // As store::SqliteStore::open().
+    // See store::SqliteStore::open().
     [[nodiscard]] static base::Result<std::unique_ptr<PostgresStore>> open(
         const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
         store::WorldSharing sharing = store::WorldSharing::Alone, const store::SaveLimits& limits = {},
@@ -23,12 +23,12 @@ class PostgresStore : public store::QueuedStore {
     using QueuedStore::QueuedStore;
 };
 
-// Reads a world and leaves it as it is.
+// Opens a world for reading.
 [[nodiscard]] base::Result<std::unique_ptr<store::ReadableStore>> openReader(
     const Address& address, const world::BlockRegistry& blocks, const store::SaveLimits& limits = {},
     RetryTimes times = {});
 
-// The rows alone, for a copy.
+// Only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<store::ChunkRows>> openRows(
     const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
     store::WorldSharing sharing = store::WorldSharing::Alone, RetryTimes times = {});

@@ -21,13 +21,14 @@ using store::StoredRow;
 using store::WaitingChunks;
 using world::ChunkPos;
 
-// Tiles are derived from what is there, so the last one is right.
+// Tiles are always replaced, since they are derived from the current chunks.
 constexpr Statement kPutChunks = {
     "INSERT INTO chunks (key, origin, data, version) SELECT * FROM unnest($1::bigint[], $2::smallint[], "
     "$3::bytea[], $4::bigint[]) ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = "
     "excluded.data, "
     "version = excluded.version WHERE (excluded.origin <> 0 OR chunks.origin = 0) AND "
-    "(excluded.version >= chunks.version OR chunks.key >= 72057594037927936)"};  // 2^56
+    "(excluded.version >= chunks.version OR chunks.key >= 72057594037927936)"};
+static_assert(store::kFirstTileKey == 72057594037927936);
 constexpr Statement kNewer = {
     "SELECT key FROM chunks JOIN unnest($1::bigint[], $2::bigint[]) AS batch(k, v) ON key = k WHERE version "
     "> v"};
@@ -40,10 +41,10 @@ constexpr Statement kPutAside = {
     "INSERT INTO quarantine (key, reason, data) SELECT key, $2, data FROM gone"};
 constexpr Statement kDeleteTiles = {"DELETE FROM chunks WHERE key >= $1"};
 
-// Of data in one statement, and rows that are looked at together.
+// Bytes of data per statement, and rows checked together.
 constexpr std::size_t kBytesAtOnce = 8 << 20, kKeysAtOnce = 64;
 
-// PostgreSQL keeps text that is UTF-8 without zeros.
+// PostgreSQL stores text in UTF-8 without zero bytes.
 bool isText(std::string_view text) {
     return text.find('\0') == std::string_view::npos && base::isUtf8(text);
 }
@@ -78,7 +79,8 @@ base::Result<void> PostgresWriter::deriveAll(const store::DerivedRows& rows, std
     return inTransaction<void>([&] { return deriveRows(rows, rules, budget); });
 }
 
-// Tiles follow from chunks of several servers: who derives some holds the lock, and sees what others wrote.
+// Tiles are derived from chunks of several servers: the lock serializes this, so that each server sees the
+// rows of the others.
 base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
                                               const store::DeriveBatch& derive) {
     isComplete_ = true;
@@ -93,7 +95,7 @@ base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, con
     isComplete_ = derived->isComplete;
     for (const store::DamagedRow& row : batch.damaged)
         if (auto done = quarantine(row); !done) return tl::unexpected(done.error());
-    // A newer row of another server stays, whatever could not be read before.
+    // A newer row of another server stays, even if it could not be read before.
     for (const ChunkPos pos : unread)
         if (chunks->contains(pos))
             if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
@@ -160,7 +162,7 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
     return commands.empty() ? base::Result<void>() : connection_.changeAll(commands);
 }
 
-// The batch without chunks of which another server has written a newer snapshot.
+// The batch without chunks that are older than the row of another server.
 base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch& batch) {
     WaitingChunks chunks = batch.chunks;
     std::vector<std::int64_t> keys, versions;
@@ -175,7 +177,7 @@ base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch&
     return chunks;
 }
 
-// Rows in the order of their keys, so that two writers wait for each other, and not in a circle.
+// Writes rows in key order, so that two writers cannot deadlock.
 base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
     std::vector<std::int64_t> keys, versions;
     for (const auto& [pos, chunk] : chunks) keys.push_back(store::keyOf(pos));
@@ -241,8 +243,7 @@ base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
     return putAside(row.pos, row.reason);
 }
 
-// What is there is looked at before it is overwritten: a row that was damaged is kept, also where nobody has
-// tried to load it.
+// Checks rows before they are overwritten: damaged ones are quarantined even if nobody tried to load them.
 base::Result<void> PostgresWriter::putAsideDamaged(std::span<const std::int64_t> keys) {
     for (; !keys.empty(); keys = keys.subspan(std::min(kKeysAtOnce, keys.size()))) {
         const auto rows = readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size())));

@@ -1,5 +1,5 @@
-// Writes batches and derived rows into a world in PostgreSQL, each call in one transaction, by the connection
-// that holds the world's locks. Used by one thread at a time.
+// Writes batches and derived rows into a world in PostgreSQL, each call in one transaction, through the
+// connection that holds the world's locks. Used by one thread at a time.
 #pragma once
 
 #include <optional>
@@ -12,8 +12,8 @@ namespace terrane::store_postgres {
 
 class PostgresWriter {
   public:
-    // Keeps the pool, whose times say how long it is tried again, and the contents. `connection` has the
-    // locks of `sharing`; a new one takes its place where it is lost.
+    // Keeps references to the pool, whose times limit retries, and to the contents. `connection` has the
+    // locks of `sharing`; it is replaced if it is lost.
     PostgresWriter(ConnectionPool& pool, const WorldContents& contents, Connection connection,
                    store::WorldSharing sharing)
         : pool_(pool), contents_(contents), connection_(std::move(connection)), sharing_(sharing) {}
@@ -21,8 +21,7 @@ class PostgresWriter {
     PostgresWriter(const PostgresWriter&) = delete;
     PostgresWriter& operator=(const PostgresWriter&) = delete;
 
-    // As store::ChunkRows. A transaction that was cut off at its very end is written again: the rows are the
-    // same.
+    // See store::ChunkRows. A transaction whose COMMIT was cut off is repeated with the same rows.
     [[nodiscard]] base::Result<bool> write(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
                                            const store::DeriveBatch& derive);
     [[nodiscard]] base::Result<void> deriveAll(const store::DerivedRows& rows, std::string_view rules,
@@ -49,7 +48,7 @@ class PostgresWriter {
     const WorldContents& contents_;
     Connection connection_;
     store::WorldSharing sharing_;
-    bool isComplete_ = true;  // of the transaction that runs
+    bool isComplete_ = true;  // derived rows of the running transaction are complete
 };
 
 }  // namespace terrane::store_postgres

@@ -7,8 +7,8 @@ namespace {
 
 using base::ErrorCode;
 
-// Data of chunks is compressed already. Rows up to a page stay in one place, which spares loading a look into
-// another table. `version`: the row has all edits of the history up to this one.
+// Chunk data is already compressed. Rows up to a page are stored inline, which saves a lookup in another
+// table. `version`: the row includes all edits of the history up to this one.
 constexpr const char* kWorldTables = R"(
 CREATE TABLE terrane_format (format integer NOT NULL);
 CREATE TABLE settings (name text COLLATE "C" PRIMARY KEY, value text NOT NULL);
@@ -21,8 +21,8 @@ CREATE TABLE quarantine (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY,
     reason text NOT NULL, data bytea NOT NULL);
 )";
 
-// The queue of `terrane work`. Jobs are squares of chunks, by area and place. state: 0 waiting, 1 done, 2
-// cancelled; one that is worked on waits with a lease.
+// The queue of `terrane work`. Jobs are squares of chunks, ordered by area and place. state: 0 waiting, 1
+// done, 2 cancelled; a job in progress is waiting with a lease.
 constexpr const char* kWorkTables = R"(
 CREATE TABLE work_state (is_paused boolean NOT NULL);
 INSERT INTO work_state VALUES (false);
@@ -37,9 +37,9 @@ CREATE TABLE workers (number bigint GENERATED ALWAYS AS IDENTITY PRIMARY KEY, na
     chunks bigint NOT NULL DEFAULT 0, rate double precision NOT NULL DEFAULT 0, job bigint);
 )";
 
-// Of servers. `edits` is the history, numbered without gaps in the order in which edits were accepted;
-// `write` says which of its server's writes an edit is. Up to history.saved all are in `chunks`;
-// history.openings counts who had the world for itself.
+// Tables of servers. `edits` is the history, numbered without gaps in the order of acceptance; `write` is the
+// number of the server's write that the edit belongs to. Edits up to history.saved are in `chunks`;
+// history.openings counts exclusive openings and regenerations.
 constexpr const char* kServerTables = R"(
 CREATE TABLE texts (name text PRIMARY KEY, value text NOT NULL);
 CREATE SEQUENCE player_numbers MINVALUE 2;
@@ -63,7 +63,7 @@ CREATE TABLE growth_leases (region bigint PRIMARY KEY, server bigint NOT NULL, u
 
 constexpr const char* kSteps[] = {kWorldTables, kWorkTables, kServerTables};
 
-// What the program reads and writes by type.
+// Columns whose types the program relies on.
 struct Column {
     const char *table, *column, *type;
 };
@@ -95,7 +95,7 @@ constexpr Column kColumns[] = {
     {"servers", "number", "bigint"},
 };
 
-// A schema that the user may not use is none to current_schema().
+// current_schema() is NULL for a schema that the user may not use.
 constexpr Statement kCountTables = {
     "SELECT count(*), count(*) FILTER (WHERE relname = 'terrane_format' AND relkind = 'r'), "
     "current_schema() IS NULL AND EXISTS (SELECT 1 FROM pg_namespace WHERE nspname = "
@@ -104,7 +104,7 @@ constexpr Statement kCountTables = {
     "AND relkind IN ('r', 'p', 'v', 'm', 'f')"};
 constexpr Statement kCountSchemas = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
 constexpr Statement kFormat = {"SELECT format::bigint FROM terrane_format"};
-// Not of information_schema, which leaves out what the user has no right to.
+// Not from information_schema, which omits columns without privileges.
 constexpr Statement kColumnTypes = {
     "SELECT relname::text, attname::text, format_type(atttypid, NULL) FROM pg_attribute "
     "JOIN pg_class ON pg_class.oid = attrelid WHERE relkind IN ('r', 'p') AND attnum > 0 AND NOT "
@@ -144,7 +144,7 @@ base::Result<void> migrateInTransaction(Connection& connection, const std::strin
     const auto schemas = connection.run(kCountSchemas, Parameters().text(schema));
     if (!schemas) return tl::unexpected(schemas.error());
     std::string sql;
-    // Not "IF NOT EXISTS", which needs the right to make some.
+    // Not "IF NOT EXISTS", which requires the privilege to create schemas.
     if (schemas->number(0, 0) == 0) sql += fmt::format("CREATE SCHEMA {};", connection.quoted(schema));
     for (const char* step : steps.subspan(static_cast<std::size_t>(from))) sql += step;
     sql += fmt::format("DELETE FROM terrane_format; INSERT INTO terrane_format VALUES ({})", steps.size());

@@ -1,5 +1,4 @@
-// The tables of a world in PostgreSQL, and the way from older formats to this one. Called while a world is
-// opened.
+// The tables of a world in PostgreSQL, and migrations from older formats. Called while a world is opened.
 #pragma once
 
 #include <span>
@@ -8,8 +7,8 @@
 
 namespace terrane::store_postgres {
 
-// SQL that leads from a format to the next. A new world is format 0 and takes all of them. Never changed
-// after a release, only added to.
+// SQL that migrates each format to the next. A new world has format 0 and takes all steps. Released steps are
+// never changed.
 std::span<const char* const> formatSteps();
 inline int newestFormat() {
     return static_cast<int>(formatSteps().size());
@@ -20,19 +19,19 @@ inline constexpr Statement kPutSetting = {
     "ON CONFLICT (name) DO UPDATE SET value = excluded.value"};
 inline constexpr Statement kRemoveSetting = {"DELETE FROM settings WHERE name = $1"};
 
-// The format of the world that the connection's schema holds; 0: there is no schema, or nothing in it.
-// Incompatible where the schema holds other tables, or a format newer than `newest`.
+// The format of the world in the connection's schema; 0 if the schema is missing or empty. Incompatible if
+// the schema holds other tables, or a format newer than `newest`.
 [[nodiscard]] base::Result<int> formatOf(Connection& connection, int newest = newestFormat());
 
-// Makes the schema and brings its tables to the newest format, in a transaction of the caller.
+// Creates the schema if needed and migrates its tables to the newest format, in the caller's transaction.
 [[nodiscard]] base::Result<void> migrateInTransaction(Connection& connection, const std::string& schema,
                                                       int from,
                                                       std::span<const char* const> steps = formatSteps());
-// The same in one of its own.
+// The same in its own transaction.
 [[nodiscard]] base::Result<void> migrate(Connection& connection, const std::string& schema, int from,
                                          std::span<const char* const> steps = formatSteps());
 
-// Incompatible where a table lacks a column, or has it by another type.
+// Incompatible if a column is missing or has another type.
 [[nodiscard]] base::Result<void> checkColumns(Connection& connection);
 
 }  // namespace terrane::store_postgres

@@ -6,7 +6,7 @@
 namespace terrane::store_postgres {
 namespace {
 
-// Of one area; whole squares have 2^30 chunks.
+// Maximum per area: 2^20 squares of 2^10 chunks.
 constexpr std::int64_t kMaxJobs = 1 << 20;
 
 constexpr Statement kHasArea = {
@@ -65,7 +65,7 @@ Parameters parametersOf(const world::ChunkArea& area) {
     return Parameters().integer(area.x0).integer(area.y0).integer(area.x1).integer(area.y1);
 }
 
-// Squares as columns of a table. They lie on a grid of the world's, so that areas that overlap share them.
+// Squares as table columns. They are aligned to a grid of the world, so overlapping areas share them.
 struct JobColumns {
     std::vector<std::int64_t> place, x0, y0, x1, y1;
 };
@@ -89,7 +89,7 @@ JobColumns jobsOf(const world::ChunkArea& area, JobOrder order) {
     return jobs;
 }
 
-// Within a transaction.
+// Runs inside a transaction.
 base::Result<bool> addAreaLocked(Connection& connection, const world::ChunkArea& area, JobOrder order) {
     if (auto locked = connection.change(kLockAreas); !locked) return tl::unexpected(locked.error());
     const auto there = connection.run(kHasArea, parametersOf(area));
@@ -111,8 +111,8 @@ base::Result<bool> addAreaLocked(Connection& connection, const world::ChunkArea&
 
 }  // namespace
 
-// Ring by ring: the ring at distance r begins at (2r - 1)² and has 8 r squares, counted around from its lower
-// left corner.
+// Ring by ring: the ring at distance r starts at index (2r - 1)² and has 8 r squares, counted
+// counterclockwise from its lower left corner.
 std::int64_t spiralPlace(std::int64_t x, std::int64_t y) {
     const std::int64_t r = std::max(std::abs(x), std::abs(y));
     if (r == 0) return 0;
@@ -201,7 +201,7 @@ base::Result<WorkStatus> workStatus(Connection& connection) {
                             static_cast<double>(workers->number(row, 2)) / 1000,
                             static_cast<double>(workers->number(row, 3)) / 1000, std::nullopt};
         if (!workers->isNull(row, 4)) worker.area = areaOf(*workers, row, 4);
-        // One that was killed is listed, but works no more.
+        // A killed worker is still listed, but no longer works.
         if (worker.silentSeconds < static_cast<double>(kLease.count())) status.rate += worker.rate;
         status.workers.push_back(std::move(worker));
     }

@@ -31,7 +31,7 @@ constexpr Statement kAddBlocks = {
 constexpr Statement kSchemaExists = {"SELECT count(*) FROM pg_namespace WHERE nspname = $1"};
 constexpr Statement kDeleteGenerated = {"DELETE FROM chunks WHERE origin = 0 OR key >= $1"};
 constexpr Statement kDeleteAllChunks = {"DELETE FROM chunks"};
-// What was made is to be made again, where somebody asks for it.
+// Finished jobs are deleted, so that the area can be requested again.
 constexpr const char* kDeleteWork = "DELETE FROM jobs; DELETE FROM work_areas;";
 constexpr Statement kDeleteQuarantine = {"DELETE FROM quarantine"};
 
@@ -56,7 +56,7 @@ base::Result<void> addNames(Connection& connection, const std::vector<SavedName>
     return connection.change(kAddBlocks, Parameters().numbers(numbers).texts(names));
 }
 
-// In one transaction: a world without a seed would be a damaged one.
+// In one transaction, since a world without a seed would be damaged.
 base::Result<void> createWorld(Connection& connection, const Address& address,
                                const store::SaveAccess& access) {
     if (auto made = migrateInTransaction(connection, address.schema, 0); !made) return made;
@@ -142,9 +142,9 @@ void reportUnknown(const Connection& connection, const WorldContents& contents) 
                      connection.shown(), names.size(), names.front());
 }
 
-// "terrane_backup_1", or the first number that is free.
+// "terrane_backup_1", or the next unused number.
 base::Result<std::string> freeSchema(Connection& connection, const Address& address) {
-    // Names of more than 63 bytes are cut off by PostgreSQL. Not within a character of UTF-8.
+    // PostgreSQL truncates names to 63 bytes. Cut at a UTF-8 character boundary.
     std::size_t length = std::min<std::size_t>(address.schema.size(), 48);
     while (length < address.schema.size() && (address.schema[length] & 0xC0) == 0x80) --length;
     const std::string start = address.schema.substr(0, length);
@@ -156,14 +156,14 @@ base::Result<std::string> freeSchema(Connection& connection, const Address& addr
     }
 }
 
-// A world of its own, with settings, blocks and chunks as they are. Players and history stay where they are.
+// SQL that copies settings, blocks and chunks into a separate world. Players and history are not copied.
 std::string copySql(Connection& connection, const Address& address, const std::string& copy) {
     const std::string to = connection.quoted(copy), from = connection.quoted(address.schema);
     std::string sql = fmt::format("CREATE SCHEMA {0}; SET LOCAL search_path = {0};", to);
     for (const char* step : formatSteps()) sql += step;
     for (const char* table : {"terrane_format", "settings", "blocks"})
         sql += fmt::format("INSERT INTO {0}.{2} SELECT * FROM {1}.{2};", to, from, table);
-    // Without their versions: its history begins anew.
+    // Without versions: the copy has a new history.
     sql += fmt::format("INSERT INTO {0}.chunks SELECT key, origin, data FROM {1}.chunks;", to, from);
     sql += fmt::format(
         "INSERT INTO {0}.quarantine (key, reason, data) SELECT key, reason, data FROM "
@@ -222,7 +222,7 @@ base::Result<void> regenerateIfAsked(Connection& connection, const Address& addr
     return readContents(connection, blocks, contents);
 }
 
-// What servers that were killed left in the history alone, only servers add to the chunks.
+// Edits of killed servers that are only in the history can only be saved by a server.
 base::Result<void> readHistory(Connection& connection, WorldSharing sharing, WorldContents& contents) {
     const auto history = connection.run(kHistory);
     if (!history) return tl::unexpected(history.error());
@@ -323,7 +323,7 @@ base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
     if (!saved) return tl::unexpected(saved.error());
     if (auto same = store::requireSame(*saved, contents.identity, address.shown); !same)
         return tl::unexpected(same.error());
-    // What generates, others may play in: it replaces nothing of theirs.
+    // A generating program replaces no rows of others, who may play meanwhile.
     if (sharing == WorldSharing::Generating) return connection;
     const auto openings = readOpenings(*connection);
     if (!openings) return tl::unexpected(openings.error());

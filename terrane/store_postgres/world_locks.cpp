@@ -12,7 +12,7 @@ using base::ErrorCode;
 using store::WorldSharing;
 
 constexpr const char* kWaitForOpening = "20s";
-// The server notices the end of a program, and of a connection that was cut, a moment later.
+// The server notices the end of a program or a lost connection with a delay.
 constexpr std::chrono::milliseconds kWaitForEnd{500}, kLookAgain{20};
 
 constexpr Statement kLock = {"SELECT pg_advisory_lock($1, $2)"};
@@ -26,7 +26,7 @@ constexpr Statement kHolder = {
     "AND database = (SELECT oid FROM pg_database WHERE datname = current_database()) "
     "AND classid = ($1::bigint & 4294967295)::oid AND objid = ($2::bigint)::oid LIMIT 1"};
 
-// Advisory locks have two numbers: the first is the world's.
+// Advisory locks have two numbers: the first one identifies the world.
 std::int32_t numberOf(const Address& address) {
     return static_cast<std::int32_t>(XXH32(address.schema.data(), address.schema.size(), 0));
 }
@@ -35,7 +35,7 @@ Parameters lockParameters(const Address& address, WorldLock lock) {
     return Parameters().integer(numberOf(address)).integer(static_cast<std::int32_t>(lock));
 }
 
-// "process 12 at 10.0.0.3"; of another user's less may be told.
+// Describes the program that holds the lock; details of other users may be hidden.
 std::string holderOf(Connection& connection, const Address& address, WorldLock lock) {
     const auto rows = connection.run(
         kHolder, Parameters().number(numberOf(address)).number(static_cast<std::int64_t>(lock)));
@@ -76,7 +76,7 @@ void releaseAllLocks(Connection& connection) {
     if (connection.isUsable()) (void)connection.execute("SELECT pg_advisory_unlock_all()");
 }
 
-// Openings of a world come one after the other.
+// Serializes the openings of a world.
 base::Result<void> waitForOpening(Connection& connection, const Address& address) {
     const std::string shortly = fmt::format("SET lock_timeout = '{}'", kWaitForOpening);
     if (auto done = connection.execute(shortly); !done) return done;

@@ -8,7 +8,7 @@ namespace {
 
 namespace http = boost::beast::http;
 
-// What the page may do: nothing of other hosts, no scripts but the program's.
+// Security headers: no resources of other hosts, no scripts except the program's.
 constexpr std::string_view kSafety =
     "Content-Security-Policy: default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
     "connect-src 'self'; form-action 'self'; base-uri 'none'\r\n"

@@ -1,4 +1,4 @@
-// What a browser is answered. Plain values.
+// An HTTP response. Plain values.
 #pragma once
 
 #include <memory>
@@ -9,24 +9,23 @@ namespace terrane::web {
 
 struct Answer {
     int status = 200;
-    std::string_view type = "text/plain; charset=utf-8";  // a constant
+    std::string_view type = "text/plain; charset=utf-8";  // refers to a constant
     std::shared_ptr<const std::string> body = nullptr;    // null: empty
-    std::string tag = {};                                 // for ETag; empty: none
-    // Seconds for which the browser need not ask again; 0: it asks each time, with the tag.
+    std::string tag = {};                                 // ETag; empty: none
+    // Seconds for which the browser may cache; 0: it revalidates each time with the tag.
     int maxAge = 0;
-    int retryAfter = 0;  // seconds; 0: not said
+    int retryAfter = 0;  // seconds; 0: no header
 };
 
-// The head of an HTTP/1.1 answer: its line, its fields, and the empty line. `keepsOpen`: another request may
-// follow.
+// The head of an HTTP/1.1 response: status line, fields, empty line. `keepsOpen`: another request may follow.
 std::string headerOf(const Answer& answer, bool keepsOpen);
-// That of server-sent events, which have no end.
+// The head of a stream of server-sent events.
 std::string streamHeader();
 
 inline Answer textAnswer(int status, std::string text) {
     return {.status = status, .body = std::make_shared<const std::string>(std::move(text))};
 }
-// Later it may be another one: a browser asks again.
+// An error that may be temporary: the browser retries after a second.
 inline Answer busyAnswer(int status, std::string text) {
     Answer answer = textAnswer(status, std::move(text));
     answer.retryAfter = 1;

@@ -10,7 +10,7 @@ constexpr std::size_t kMaxBoxes = 200;
 
 // A square of 2^shift chunks of a level along each side.
 struct Square {
-    std::int32_t x = 0, y = 0;  // in such squares
+    std::int32_t x = 0, y = 0;  // in units of the square
     std::uint8_t level = 0;
 
     auto operator<=>(const Square&) const = default;

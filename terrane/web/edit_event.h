@@ -1,4 +1,4 @@
-// What browsers are told of edits. Plain values; any thread.
+// The event that tells browsers about edits. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace terrane::web {
 
-// JSON: the event's number, and boxes of blocks, each with the level of the tiles that show it, the ends
-// included. Of many chunks some boxes are larger than what changed.
+// JSON: the event's number, and boxes of blocks with inclusive bounds, each with the level of the tiles that
+// show it. With many chunks, boxes are enlarged to limit their number.
 std::string editEvent(std::uint64_t number, std::span<const world::ChunkPos> chunks);
 
 }  // namespace terrane::web

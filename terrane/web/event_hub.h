@@ -1,5 +1,5 @@
-// Server-sent events: lines that go to all who listen. What a listener cannot take in time is dropped with
-// it. On the web's thread.
+// Server-sent events, broadcast to all listeners. A listener that reads too slowly is dropped. On the web's
+// thread.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@ using EventText = std::shared_ptr<const std::string>;
 
 class EventHub {
   public:
-    // Gets each event as text; returns false where the listener is gone.
+    // Receives each event as text; returns false if the listener is gone.
     using Listener = std::function<bool(const EventText&)>;
-    // It gets the newest event of each name that is remembered, at once.
+    // Adds a listener and sends it the last remembered event of each name.
     void add(Listener listener);
-    // `data`: one line. A remembered event is also told to who comes later.
+    // Sends an event. `data`: one line. A remembered event is also sent to later listeners.
     void tell(std::string_view name, std::string_view data, bool isRemembered);
     void forget(std::string_view name);
-    // A comment, so that a connection that is gone is noticed and proxies keep others open.
+    // Sends a comment, which detects lost connections and keeps proxies from closing idle ones.
     void sendKeepAlive();
     std::size_t count() const { return listeners_.size(); }
 

@@ -22,10 +22,10 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kEditsEvery{250}, kPlacesEvery{1000}, kKeepAliveEvery{15000};
-// Problems of painting are logged once in such a time.
+// Minimum interval between logged problems of painting.
 constexpr std::chrono::milliseconds kProblemsEvery{10000};
 
-// One text of each, which all answers share.
+// The page's files, each with one text shared by all responses.
 std::map<std::string, Answer, std::less<>> pageAnswers() {
     std::map<std::string, Answer, std::less<>> answers;
     for (const base::EmbeddedFile& file : pageFiles())
@@ -38,7 +38,7 @@ std::map<std::string, Answer, std::less<>> pageAnswers() {
 }  // namespace
 
 struct MapSite::Impl {
-    // True each `interval`.
+    // A timer that is due once per interval.
     class Every {
       public:
         explicit Every(std::chrono::milliseconds interval) : interval_(interval) {}
@@ -82,19 +82,20 @@ struct MapSite::Impl {
     MapSiteParts parts;
     std::map<std::string, Answer, std::less<>> page;  // by name
     map::MapPainter painter;
-    base::JobSystem jobs;  // ends before what it uses, but for the tiles, which wait for it
+    base::JobSystem jobs;  // destroyed before painter and parts; TileService waits for its jobs
     TileService tiles;
     EventHub events;
     std::unique_ptr<WebServer> server;
     SeenChanges changes;
-    // Of the last event of edits. Begins with the time, so that those of another run differ.
+    // Number of the last event of edits. Starts with the current time, so that numbers of different runs
+    // differ.
     std::uint64_t edits = static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
                                                          std::chrono::system_clock::now().time_since_epoch())
                                                          .count());
     Every editsEvery{kEditsEvery}, placesEvery{kPlacesEvery}, keepAliveEvery{kKeepAliveEvery},
         problemsEvery{kProblemsEvery};
     PlaceList players{parts.players}, places{parts.places};
-    std::shared_ptr<bool> isAlive = std::make_shared<bool>(true);  // what is posted may come after the end
+    std::shared_ptr<bool> isAlive = std::make_shared<bool>(true);  // for functions posted before destruction
 };
 
 PageFacts MapSite::Impl::facts() {
@@ -149,7 +150,7 @@ Cancel MapSite::Impl::answerBlock(const BlockAt& at, const Reply& reply) {
     return [job] { job.cancel(); };
 }
 
-// On a worker.
+// Runs on a worker.
 Answer MapSite::Impl::blockAnswer(const BlockAt& at, std::span<const map::EditedChunk> edited) {
     try {
         const auto found = painter.facts(at.x, at.y, edited);
@@ -161,7 +162,7 @@ Answer MapSite::Impl::blockAnswer(const BlockAt& at, std::span<const map::Edited
                                      {"depth", found->depth},
                                      {"biome", found->biome}};
         return jsonAnswer(json.dump());
-    } catch (const std::exception&) {  // no memory
+    } catch (const std::exception&) {  // out of memory
         return textAnswer(500, "the place cannot be read\n");
     }
 }
@@ -221,7 +222,7 @@ Cancel MapSite::Impl::answer(const Route& route, const Reply& reply) {
     return nullptr;
 }
 
-// The newest event is told to who comes later: by its number a page knows what it missed.
+// The newest event is remembered: a page finds by its number what it missed.
 void MapSite::Impl::showChanges(std::span<const world::ChunkPos> chunks) {
     tiles.forget(chunks);
     events.tell("edits", editEvent(++edits, chunks), true);
@@ -232,7 +233,7 @@ void MapSite::Impl::logProblem(const std::string& what, const base::Error& error
         base::logWarning("map: {}: {}", what, error.message);
 }
 
-// Told where it changed; while nobody listens, it is forgotten.
+// Sends the list if it changed; forgets it while nobody listens.
 void MapSite::Impl::tellList(const char* name, PlaceList& list) {
     if (events.count() == 0) {
         events.forget(name);

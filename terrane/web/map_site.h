@@ -1,6 +1,6 @@
-// The map of a world as a web site: the page, its tiles, what changes while people look, figures for
-// Prometheus. Ties the parts of this module together; whoever has a world says what there is to show. On one
-// thread, which runs the context; tiles are painted by workers of its own.
+// The map of a world as a web site: page, tiles, live changes, Prometheus metrics. Combines the parts of this
+// module; the owner of the world provides the contents. On one thread, which runs the context; tiles are
+// painted by its own workers.
 #pragma once
 
 #include <cstdint>
@@ -26,25 +26,25 @@ namespace terrane::web {
 struct MapSiteParts {
     const gen::LevelGenerators& generators;
     const world::BlockRegistry& blocks;
-    const world::TextureSource& textures;  // read by open() alone
-    store::ReadableStore& store;           // its identity is the world's; edited chunks are read by workers
-    std::string name;                      // of the world, for people
+    const world::TextureSource& textures;  // only read by open()
+    store::ReadableStore& store;           // of the world; workers read edited chunks
+    std::string name;                      // display name of the world
     NamedPlace spawn;
     unsigned threads = 1;
-    map::SurfaceCache* cache = nullptr;             // null: nothing is kept on the disk
-    std::size_t tileBytes = std::size_t{64} << 20;  // of tiles in memory
-    std::vector<world::ChunkPos> edited = {};       // of level 0, so far
-    // A chunk of level 0 as it is in a running game; null where it is not loaded. May be empty.
+    map::SurfaceCache* cache = nullptr;             // null: no disk cache
+    std::size_t tileBytes = std::size_t{64} << 20;  // limit of tiles in memory
+    std::vector<world::ChunkPos> edited = {};       // edited chunks of level 0 so far
+    // A loaded chunk of level 0 of a running game; null if not loaded. May be empty.
     std::function<world::ChunkPtr(world::ChunkPos)> liveChunk = {};
-    // Who and what is shown, asked for each second while somebody looks. May be empty.
+    // Players and places to show; called each second while there are listeners. May be empty.
     std::function<std::vector<NamedPlace>()> players = {}, places = {};
-    // Adds figures of the program. May be empty.
+    // Adds metrics of the program. May be empty.
     std::function<void(MetricsText&)> metrics = {};
 };
 
 class MapSite {
   public:
-    // Listens from here on. The context and what the parts refer to outlive it.
+    // Starts to listen. The context and everything that the parts refer to outlive it.
     [[nodiscard]] static base::Result<std::unique_ptr<MapSite>> open(boost::asio::io_context& context,
                                                                      MapSiteParts parts,
                                                                      const WebAddress& address,
@@ -52,10 +52,9 @@ class MapSite {
     ~MapSite();
 
     std::uint16_t port() const;
-    // Chunks of level 0 that were edited, and tiles of the store that follow from edits: browsers show them
-    // anew.
+    // Edited chunks of level 0, and stored tiles that changed with them: browsers reload them.
     void onChanged(std::span<const world::ChunkPos> chunks);
-    // Tells browsers what changed. Some times a second.
+    // Tells browsers about changes. Call a few times per second.
     void tick();
 
   private:

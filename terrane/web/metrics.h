@@ -1,4 +1,4 @@
-// Figures in the text format of Prometheus (prometheus.io, "Exposition formats", version 0.0.4). Plain
+// Metrics in the text format of Prometheus (prometheus.io, "Exposition formats", version 0.0.4). Plain
 // values.
 #pragma once
 
@@ -10,15 +10,15 @@
 
 namespace terrane::web {
 
-// How many values were up to each bound.
+// Counts values up to each bound.
 struct Histogram {
     explicit Histogram(std::vector<double> ascendingBounds)
         : bounds(std::move(ascendingBounds)), counts(bounds.size()) {}
     void add(double value);
 
     std::vector<double> bounds;
-    std::vector<std::uint64_t> counts;  // of values between a bound and the one before
-    std::uint64_t count = 0;            // of all
+    std::vector<std::uint64_t> counts;  // values above the previous bound and up to this one
+    std::uint64_t count = 0;            // all values
     double sum = 0;
 };
 
@@ -32,9 +32,9 @@ class MetricsText {
         add(name, help, "gauge", value);
     }
     void histogram(std::string_view name, std::string_view help, const Histogram& histogram);
-    // One more sample of the metric added last, with labels such as code="2xx".
+    // Adds a sample to the last metric, with labels such as code="2xx".
     void sample(std::string_view name, std::string_view labels, double value);
-    // Begins a metric that has samples with labels alone.
+    // Begins a metric whose samples all have labels.
     void begin(std::string_view name, std::string_view help, std::string_view type);
 
     const std::string& text() const { return text_; }

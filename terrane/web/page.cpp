@@ -29,7 +29,7 @@ Json jsonOf(const std::vector<NamedPlace>& places) {
     return list;
 }
 
-// Names are text of players: what is no UTF-8 is replaced.
+// Names come from players: invalid UTF-8 is replaced.
 std::string dump(const Json& json) {
     return json.dump(-1, ' ', false, Json::error_handler_t::replace);
 }

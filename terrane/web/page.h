@@ -1,4 +1,4 @@
-// The page that shows a map, and what it is told of a world. Any thread.
+// The map's page, and the facts about a world that it gets. Any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace terrane::web {
 
-// Somebody or something with a name, in blocks.
+// A named player or place; position in blocks.
 struct NamedPlace {
     std::string name;
     double x = 0, y = 0, z = 0;
@@ -23,24 +23,24 @@ struct NamedPlace {
 
 struct PageFacts {
     store::WorldIdentity identity;
-    std::string name;  // of the world, for people
+    std::string name;  // display name of the world
     NamedPlace spawn;
     std::vector<NamedPlace> places = {};
     std::vector<std::string> layers = {};
     int minZoom = 0, maxZoom = 0;
     std::uint64_t edits = 0;                  // number of the last event of edits
-    bool isLive = true;                       // a program answers, not files alone
-    std::optional<map::BlockRect> area = {};  // that there are tiles of; none: all of the world
+    bool isLive = true;                       // served by a program, not static files
+    std::optional<map::BlockRect> area = {};  // area with tiles; no value: the whole world
 };
-// JSON.
+// Formats as JSON.
 std::string textOf(const PageFacts& facts);
 std::string textOf(const std::vector<NamedPlace>& places);
-// The same as a script for the page: world.js.
+// The facts as a script for the page: world.js.
 std::string scriptOf(const PageFacts& facts);
 
-// The files of the page, but for world.js.
+// The files of the page, except world.js.
 std::span<const base::EmbeddedFile> pageFiles();
-const base::EmbeddedFile* pageFile(std::string_view name);  // null where there is none
+const base::EmbeddedFile* pageFile(std::string_view name);  // null if there is none
 std::string_view typeOf(std::string_view fileName);         // for Content-Type
 
 }  // namespace terrane::web

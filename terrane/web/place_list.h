@@ -1,5 +1,4 @@
-// Places that change, such as where players are: looked up at most once a second, however many ask. On one
-// thread.
+// A list of places that change, such as players' positions: looked up at most once per second. On one thread.
 #pragma once
 
 #include <chrono>
@@ -14,7 +13,7 @@ namespace terrane::web {
 
 class PlaceList {
   public:
-    // An empty function finds none.
+    // Without a function the list is empty.
     explicit PlaceList(std::function<std::vector<NamedPlace>()> find) : find_(std::move(find)) {}
 
     const std::vector<NamedPlace>& places() {
@@ -25,13 +24,13 @@ class PlaceList {
         text_ = textOf(places_);
         return places_;
     }
-    // JSON. It holds until the next call.
+    // JSON, valid until the next call.
     const std::string& text() {
         (void)places();
         return text_;
     }
 
-    std::string told;  // what browsers were told last
+    std::string told;  // last text sent to browsers
 
   private:
     std::function<std::vector<NamedPlace>()> find_;

@@ -6,7 +6,7 @@
 namespace terrane::web {
 namespace {
 
-// The whole text is a decimal number of 32 bits.
+// Parses a decimal 32-bit number; all of the text must match.
 std::optional<std::int32_t> numberFrom(std::string_view text) {
     std::int32_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);

@@ -1,4 +1,4 @@
-// Which answer a target asks for. Plain values; any thread.
+// Maps request targets to routes. Plain values; any thread.
 #pragma once
 
 #include <cstdint>

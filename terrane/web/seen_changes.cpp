@@ -10,13 +10,13 @@ using world::ChunkPos;
 
 namespace {
 
-// Nothing where it cannot be read.
+// No value if the surface cannot be read.
 std::optional<std::uint64_t> digestOf(map::MapPainter& painter, ChunkPos pos,
                                       std::span<const map::EditedChunk> edited) {
     try {
         const auto digest = painter.surfaceDigest(pos, edited);
         return digest ? std::optional(*digest) : std::nullopt;
-    } catch (const std::exception&) {  // no memory
+    } catch (const std::exception&) {  // out of memory
         return std::nullopt;
     }
 }
@@ -33,8 +33,8 @@ void SeenChanges::add(std::span<const ChunkPos> chunks, const map::EditedPositio
     }
 }
 
-// In doubt it is seen: where it was edited before the map began, or cannot be read. So is all of a job that
-// failed.
+// If unsure, counts as visible: chunks edited before the map started, unreadable ones, and all of a failed
+// job.
 std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std::vector<Change>& changes,
                                              Digests& digests) {
     std::vector<ChunkPos> seen;
@@ -53,7 +53,7 @@ std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std
 }
 
 void SeenChanges::look() {
-    if (isLooking_ && job_.state() == base::JobState::Failed) {  // no memory
+    if (isLooking_ && job_.state() == base::JobState::Failed) {  // out of memory
         isLooking_ = false;
         parts_.seen(looking_);
     }
@@ -66,7 +66,7 @@ void SeenChanges::look() {
         const bool wasGenerated = generated_.erase(chunk.pos) > 0;
         changes->push_back({std::move(chunk), wasGenerated});
     }
-    // Before tiles, which are to have it.
+    // Priority above tiles, which should show the result.
     job_ = parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_,
                                    &painter = parts_.painter, post = parts_.post](const base::CancelToken&) {
         std::vector<ChunkPos> seen = seenAmong(painter, *changes, *digests);

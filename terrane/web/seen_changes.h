@@ -1,5 +1,5 @@
-// Which edits change what a map shows: an edit under ground changes no tile, and nobody is to learn from a
-// map where somebody digs. On the web's thread; surfaces are looked at by a worker.
+// Finds the edits that are visible on a map: an edit below ground changes no tile, and the map must not
+// reveal where somebody digs. On the web's thread; a worker computes surfaces.
 #pragma once
 
 #include <cstdint>
@@ -23,25 +23,25 @@ class SeenChanges {
         base::JobSystem& jobs;
         // Runs a function on the web's thread soon. Any thread.
         std::function<void(std::function<void()>)> post;
-        // Those of these chunks that are edited, as they are now.
+        // The current state of the edited ones among these chunks.
         std::function<std::vector<map::EditedChunk>(std::span<const world::ChunkPos>)> editedAmong;
-        // Called with the chunks and tiles that look different from above.
+        // Called with the chunks and tiles whose appearance from above changed.
         std::function<void(std::span<const world::ChunkPos>)> seen;
     };
-    // Of the parts the painter and the jobs outlive this; what a job finds after that is dropped.
+    // The painter and the jobs outlive this; later results of jobs are dropped.
     explicit SeenChanges(Parts parts) : parts_(std::move(parts)) {}
     ~SeenChanges() { *isAlive_ = false; }
 
-    // Chunks of level 0 that were edited, and tiles of the store that follow from edits. `before`: what was
-    // edited before these were.
+    // Edited chunks of level 0, and stored tiles that changed with them. `before`: the positions edited
+    // before.
     void add(std::span<const world::ChunkPos> chunks, const map::EditedPositions& before);
-    // Looks at what was added. Some times a second.
+    // Examines the added positions. Call a few times per second.
     void look();
 
   private:
     struct Change {
         map::EditedChunk chunk;
-        bool wasGenerated = false;  // it was never looked at, and was as generated before
+        bool wasGenerated = false;  // never examined, and generated before the edit
     };
     using Digests = std::unordered_map<world::ChunkPos, std::uint64_t, world::ChunkPosHash>;
     static std::vector<world::ChunkPos> seenAmong(map::MapPainter& painter,
@@ -49,13 +49,13 @@ class SeenChanges {
 
     Parts parts_;
     std::set<world::ChunkPos> added_;
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> generated_;  // edited since, and never looked at
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> generated_;  // edited since, and never examined
     std::shared_ptr<Digests> digests_ =
-        std::make_shared<Digests>();  // of surfaces; the job's, while one runs
+        std::make_shared<Digests>();  // surface digests; owned by the running job
     bool isLooking_ = false;
-    std::vector<world::ChunkPos> looking_;  // what the job looks at
+    std::vector<world::ChunkPos> looking_;  // positions examined by the job
     base::JobHandle job_;
-    std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);  // what is posted may come after the end
+    std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);  // for functions posted before destruction
 };
 
 }  // namespace terrane::web

@@ -28,7 +28,7 @@ std::optional<std::string> decoded(std::string_view text) {
     return out;
 }
 
-// The parts between separators; of an empty text none.
+// Splits at separators; an empty text has no parts.
 std::vector<std::string_view> parts(std::string_view text, char separator) {
     std::vector<std::string_view> found;
     while (!text.empty()) {

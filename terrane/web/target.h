@@ -1,4 +1,4 @@
-// What a browser asks for: the path and query of a request, from any bytes. Plain values; any thread.
+// Parses the target of a request, path and query, from any bytes. Plain values; any thread.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace terrane::web {
 
-// Longer targets, and those with more parts, are refused.
+// Longer targets, and targets with more parts, are rejected.
 constexpr std::size_t kMaxTargetBytes = 1024, kMaxSegments = 8, kMaxParameters = 8;
 
 struct Parameter {
@@ -21,13 +21,13 @@ struct Target {
     std::vector<std::string> segments;
     std::vector<Parameter> query;
 
-    // The value of the first parameter of this name; nothing where there is none.
+    // The value of the first parameter of this name, if any.
     std::optional<std::string_view> parameter(std::string_view name) const;
 };
 
-// Percent escapes are decoded (RFC 3986); "+" is a plus. Nothing for what is no absolute path: a wrong
-// escape, a control character or a byte above 0x7e outside of escapes, a segment that is empty, "." or "..",
-// or has a slash, a backslash or a zero byte in it once it is decoded.
+// Decodes percent escapes (RFC 3986); "+" is a plus. No value if the target is not a valid absolute path:
+// invalid escapes, control characters or bytes above 0x7e outside of escapes, segments that are empty, "." or
+// "..", or contain a slash, backslash or zero byte after decoding.
 std::optional<Target> parseTarget(std::string_view target);
 
 }  // namespace terrane::web

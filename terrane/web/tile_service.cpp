@@ -16,7 +16,7 @@ struct TileService::Render {
 
 namespace {
 
-// Who waits is answered where there is no memory, too.
+// Turns exceptions, such as out of memory, into errors, so that every request is answered.
 base::Result<std::string> paintTile(map::MapPainter& painter, const MapTile& tile,
                                     std::span<const map::EditedChunk> edited) {
     try {
@@ -59,7 +59,7 @@ TileService::Ticket TileService::request(const MapTile& tile, Ready ready) {
     return ticket;
 }
 
-// The edited chunks are taken here, on the web's thread, as they are now: the worker sees no others.
+// Collects the edited chunks here, on the web's thread: the worker sees a consistent state.
 void TileService::start(const MapTile& tile, const RenderPtr& render) {
     const auto edited =
         std::make_shared<const std::vector<map::EditedChunk>>(editedAmong(map::MapPainter::chunksFor(tile)));
@@ -91,7 +91,7 @@ void TileService::finish(const MapTile& tile, const RenderPtr& render, base::Res
     } else {
         result = tl::unexpected(png.error());
     }
-    // Who is called may ask for more.
+    // A callback may call request() again.
     for (auto& [ticket, ready] : std::exchange(render->waiting, {})) {
         tickets_.erase(ticket);
         ready(result);
@@ -106,12 +106,12 @@ void TileService::cancel(Ticket ticket) {
     render->waiting.erase(ticket);
     if (!render->waiting.empty() || render->job.state() != base::JobState::Queued) return;
     render->job.cancel();
-    if (render->job.state() != base::JobState::Cancelled) return;  // a worker was faster
+    if (render->job.state() != base::JobState::Cancelled) return;  // a worker has started it
     ++statistics_.cancelled;
     std::erase_if(renders_, [&](const auto& entry) { return entry.second == render; });
 }
 
-// What is being painted goes to those who wait for it, but is not kept.
+// A render in progress is still delivered to its waiting requests, but not cached.
 void TileService::forget(const MapTile& tile) {
     files_.erase(tile);
     renders_.erase(tile);

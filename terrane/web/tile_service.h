@@ -1,5 +1,5 @@
-// The tiles of a map as PNG files: kept in memory while they are used, painted by workers when somebody asks,
-// once for all who ask at a time, and not at all when nobody waits any more. On one thread, the web's;
+// Provides the tiles of a map as PNG files: caches recent ones in memory, paints others on workers on
+// request, once for concurrent requests, and cancels when nobody waits any more. On the web's thread;
 // painting runs on workers.
 #pragma once
 
@@ -20,13 +20,13 @@ namespace terrane::web {
 
 struct TileFile {
     std::string png;
-    std::string tag;  // names the content, for ETag
+    std::string tag;  // hash of the content, for ETag
 };
 using TileFilePtr = std::shared_ptr<const TileFile>;
 
 struct TileStatistics {
     std::uint64_t painted = 0, fromMemory = 0, cancelled = 0, refused = 0;
-    std::size_t waiting = 0;           // tiles that are painted or to be painted
+    std::size_t waiting = 0;           // tiles queued or being painted
     std::size_t bytes = 0, count = 0;  // in memory
     double paintSeconds = 0;
 };
@@ -38,31 +38,31 @@ class TileService {
         base::JobSystem& jobs;
         // Runs a function on the web's thread soon. Any thread.
         std::function<void(std::function<void()>)> post;
-        // A chunk of level 0 as it is in a running game; null where it is not loaded. May be empty.
+        // A loaded chunk of level 0 of a running game; null if not loaded. May be empty.
         std::function<world::ChunkPtr(world::ChunkPos)> liveChunk = {};
-        std::size_t maxBytes = std::size_t{64} << 20;  // of files in memory
-        std::size_t maxWaiting = 256;                  // tiles
+        std::size_t maxBytes = std::size_t{64} << 20;  // limit of files in memory
+        std::size_t maxWaiting = 256;                  // limit of queued tiles
     };
-    // All but the functions outlives it; it waits for its workers at the end.
+    // The painter and the jobs outlive this. The destructor waits for the workers.
     explicit TileService(Parts parts);
     ~TileService();
 
     using Ticket = std::uint64_t;
     using Ready = std::function<void(base::Result<TileFilePtr>)>;
-    // Calls `ready` once: at once where memory has the tile, or with Busy where too many wait, else later. 0
-    // where it was called; else what cancel() takes.
+    // Calls `ready` once: immediately if the tile is in memory, or with Busy if too many are queued,
+    // otherwise later. Returns 0 if it was called immediately, otherwise a ticket for cancel().
     Ticket request(const map::MapTile& tile, Ready ready);
-    // `ready` is not called any more. A tile that nobody else waits for is not painted unless a worker is at
-    // it.
+    // `ready` will not be called. Cancels painting if nobody else waits for the tile and no worker has
+    // started.
     void cancel(Ticket ticket);
 
-    // Chunks of level 0 that are edited from now on; others are left out.
+    // Adds edited chunks of level 0; ignores other levels.
     void addEdited(std::span<const world::ChunkPos> chunks);
     const map::EditedPositions& edited() const { return edited_; }
-    // What shows these chunks and tiles is painted anew.
+    // Drops tiles that show these chunks or tiles, so that they are painted again.
     void forget(std::span<const world::ChunkPos> chunks);
 
-    // The edited chunks among these, to be given to the painter.
+    // The edited chunks among these, for the painter.
     std::vector<map::EditedChunk> editedAmong(std::span<const world::ChunkPos> chunks) const;
     const TileStatistics& statistics();
 
@@ -77,11 +77,11 @@ class TileService {
     Parts parts_;
     map::EditedPositions edited_;
     map::LruCache<map::MapTile, TileFilePtr, map::MapTileHash> files_;
-    std::unordered_map<map::MapTile, RenderPtr, map::MapTileHash> renders_;  // of what is shown now
+    std::unordered_map<map::MapTile, RenderPtr, map::MapTileHash> renders_;  // current renders in progress
     std::unordered_map<Ticket, RenderPtr> tickets_;
     Ticket lastTicket_ = 0;
     TileStatistics statistics_;
-    std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);  // what is posted may come after the end
+    std::shared_ptr<bool> isAlive_ = std::make_shared<bool>(true);  // for functions posted before destruction
 };
 
 }  // namespace terrane::web

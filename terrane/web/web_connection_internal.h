@@ -1,4 +1,4 @@
-// One browser's connection, as web_server_internal.h keeps it. On the web's thread.
+// A browser's connection, used by web_server_internal.h. On the web's thread.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -26,13 +26,13 @@ using RequestParser = boost::beast::http::request_parser<boost::beast::http::emp
 
 enum class Stage : std::uint8_t {
     Idle,       // between requests, or before the first
-    Answering,  // somebody looks for the answer
+    Answering,  // the answer is being prepared
     Sending,
     Streaming,  // events
     Closed
 };
 
-// What one address does.
+// Usage by one address.
 struct AddressUse {
     std::size_t connections = 0, answering = 0;
     base::TokenBucket requests;
@@ -45,15 +45,15 @@ struct Connection {
 
     std::uint64_t id;
     Tcp::socket socket;
-    std::string address;        // of IPv6 its network
-    AddressUse* use = nullptr;  // of the address
-    bool isLimited = true;      // by it
+    std::string address;        // for IPv6 the network
+    AddressUse* use = nullptr;  // shared by the address
+    bool isLimited = true;      // limits per address apply
     Stage stage = Stage::Idle;
-    Time since = std::chrono::steady_clock::now();  // in this stage
-    std::optional<Time> begun = {};  // when the first bytes of a request were seen, while it is read
+    Time since = std::chrono::steady_clock::now();  // start of this stage
+    std::optional<Time> begun = {};                 // arrival of the first bytes of the request being read
 
-    boost::asio::streambuf buffer;  // what was read and not answered: no more than one header may have
-    std::uint64_t request = 0;      // number: answers to former ones come too late
+    boost::asio::streambuf buffer;  // unprocessed input, at most the size of one header
+    std::uint64_t request = 0;      // number of the request; late answers to earlier ones are dropped
     bool isHead = false, keepsOpen = true;
     std::string knownTag;
     Cancel cancel;
@@ -61,7 +61,7 @@ struct Connection {
     std::string header;
     std::shared_ptr<const std::string> body;
 
-    std::deque<EventText> events;  // the first one is being sent, if isSending
+    std::deque<EventText> events;  // the first is being sent if isSending
     std::size_t eventBytes = 0;
     bool isSending = false;
 };

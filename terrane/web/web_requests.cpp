@@ -1,4 +1,4 @@
-// Reads requests, answers them, and sends events.
+// Reads requests, sends answers and events.
 #include <algorithm>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
@@ -22,8 +22,8 @@ void WebServer::Impl::read(const ConnectionPtr& connection) {
         });
 }
 
-// The parser gets a header as a whole. Where it reads by itself its limit is of bytes that it has not taken
-// apart yet, so that any number of short fields would pass.
+// The parser gets the header as a whole. If it read by itself, its limit would only count unparsed bytes, so
+// any number of short fields would pass.
 void WebServer::Impl::onRead(const ConnectionPtr& connection, const SocketError& error, std::size_t bytes) {
     if (connection->stage == Stage::Closed) return;
     ++connection->request;
@@ -55,7 +55,7 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
     const auto& request = parser.get();
     ++statistics.requests;
     const bool hasBody = !parser.is_done();
-    // Who speaks HTTP/1.0 would have to be told.
+    // HTTP/1.0 would need an explicit keep-alive header.
     connection->keepsOpen = request.version() >= 11 && request.keep_alive() && !hasBody;
     connection->isHead = request.method() == http::verb::head;
     if (const auto tag = request.find(http::field::if_none_match); tag != request.end())
@@ -93,7 +93,7 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
     watch(connection);
 }
 
-// A browser that does not want an answer any more closes the connection.
+// A browser that no longer needs an answer closes the connection.
 void WebServer::Impl::watch(const ConnectionPtr& connection) {
     const std::uint64_t number = connection->request;
     connection->socket.async_wait(Tcp::socket::wait_read, [this, self = shared_from_this(), connection,
@@ -108,7 +108,7 @@ void WebServer::Impl::watch(const ConnectionPtr& connection) {
 void WebServer::Impl::reply(const ConnectionPtr& connection, Answer found) {
     connection->cancel = nullptr;
     SocketError ignored;
-    connection->socket.cancel(ignored);  // the end of watch(): requests in a row leave none behind
+    connection->socket.cancel(ignored);  // ends watch(), so that consecutive requests leave none behind
     if (found.status == 200 && !found.tag.empty() &&
         connection->knownTag.find('"' + found.tag + '"') != std::string::npos) {
         found.status = 304;
@@ -147,7 +147,7 @@ void WebServer::Impl::stream(const ConnectionPtr& connection) {
 
 bool WebServer::Impl::addEvent(const ConnectionPtr& connection, const EventText& event) {
     if (connection->stage != Stage::Streaming) return false;
-    const bool isBehind = connection->eventBytes > 0;  // one that is too large by itself is sent all the same
+    const bool isBehind = connection->eventBytes > 0;  // a single event above the limit is sent anyway
     if (isBehind && connection->eventBytes + event->size() > limits.unsentEventBytes) {
         ++statistics.refused;
         close(connection);

@@ -22,14 +22,14 @@ void WebServer::Impl::accept() {
     isAccepting = true;
     acceptor.async_accept([this, self = shared_from_this()](const SocketError& error, Tcp::socket socket) {
         isAccepting = false;
-        // No more files, as it may be: the next tick tries again.
+        // Possibly out of file descriptors: the next tick tries again.
         if (error || !acceptor.is_open()) return;
         add(std::move(socket));
         accept();
     });
 }
 
-// Who asks for nothing goes first, then who listens, the longest in its stage before others.
+// Closes a connection: idle ones first, then listeners, the longest in its stage first.
 void WebServer::Impl::makeRoom() {
     if (connections.size() < limits.connections) return;
     const auto rank = [](const Connection& connection) {
@@ -79,7 +79,7 @@ void WebServer::Impl::close(const ConnectionPtr& connection) {
 bool WebServer::Impl::isSlow(Connection& connection, Time time) const {
     if (connection.stage == Stage::Sending) return time - connection.since > limits.sentWithin;
     if (connection.stage != Stage::Idle) return false;
-    // The first request is due as soon as one that has begun.
+    // The deadline of the first request counts from connecting.
     if (!connection.begun && connection.request == 0) connection.begun = connection.since;
     if (!connection.begun && connection.buffer.size() > 0) connection.begun = time;
     if (connection.begun) return time - *connection.begun > limits.headerWithin;
@@ -111,7 +111,7 @@ WebServer::WebServer(std::shared_ptr<Impl> impl) : impl_(std::move(impl)) {}
 WebServer::~WebServer() {
     SocketError ignored;
     impl_->acceptor.close(ignored);
-    impl_->answer = nullptr;  // what it refers to may end now
+    impl_->answer = nullptr;  // its references may become invalid
     while (!impl_->connections.empty()) impl_->close(ConnectionPtr(impl_->connections.begin()->second));
 }
 

@@ -1,5 +1,5 @@
-// The state of a WebServer, for the files that it is written in: web_server.cpp (connections and their
-// limits) and web_requests.cpp (requests and answers).
+// The state of a WebServer, shared by web_server.cpp (connections and their limits) and web_requests.cpp
+// (requests and answers).
 #pragma once
 
 #include <boost/asio/io_context.hpp>

@@ -1,5 +1,5 @@
-// Every operation of the disk fails once, and fails from then on; the program is killed or the power goes at
-// every operation that changes a file. TERRANE_ALL_FAULTS=1 takes all of them, otherwise every 29th.
+// Every disk operation fails once, or permanently; the program is killed or the power fails at every
+// operation that changes a file. TERRANE_ALL_FAULTS=1 tests all of them, otherwise every 29th.
 #include <cstdio>
 #include <cstdlib>
 
@@ -21,11 +21,11 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
 
     static long step() { return std::getenv("TERRANE_ALL_FAULTS") ? 1 : 29; }
 
-    // One run in which what `arrange` says fails. False where nothing failed any more.
+    // One run with the faults of `arrange`. Returns false if nothing failed any more.
     bool play(FaultyDisk& disk, bool lasts, const std::function<void()>& arrange) {
         const base::TempFolder folder;
         Play play(folder, start_);
-        disk.restart();  // knows nothing of the last run's files
+        disk.restart();  // forgets the files of the last run
         disk.seedRandomness(1);
         arrange();
         play.run(lasts);
@@ -36,7 +36,7 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
         return hasFailed;
     }
 
-    // All operations of these kinds, one after the other.
+    // Fails all operations of these kinds, one after the other.
     void failAll(unsigned kinds, DiskError error, long count) {
         isHarmless_ = error == DiskError::Short;
         FaultyDisk disk;

@@ -1,4 +1,4 @@
-// Whether the tiles of a store follow from its edited chunks (tests/store/tile_sums.h).
+// Checks that the tiles of a store are derived from its edited chunks (tests/store/tile_sums.h).
 #pragma once
 
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 
 namespace terrane::store {
 
-// Where the mark says that they do. Nothing waits to be saved.
+// Checks only if the mark is set. No saves may be queued.
 inline void expectTiles(ReadableStore& store, std::string_view rules) {
     if (store.metadata(kDerivedRowsMark) != rules) return;
     const auto positions = store.editedChunks();

@@ -1,5 +1,5 @@
-// What a store was told to save and what it reported as durable: which content a save may have afterwards.
-// Contents are numbers (markedChunk); 0 stands for none.
+// Records the saves of a store and those reported as durable, and thus the possible contents of the save
+// afterwards. Contents are numbers (markedChunk); 0 means none.
 #pragma once
 
 #include <algorithm>
@@ -16,21 +16,21 @@ class Ledger {
     void saved(world::ChunkPos pos, int content, SaveNumber number) {
         versions_[pos].contents.push_back({content, number});
     }
-    // All saves up to this number are durable.
+    // Reports all saves up to this number as durable.
     void durable(SaveNumber number) {
         for (auto& [pos, versions] : versions_)
             for (std::size_t k = versions.from; k < versions.contents.size(); ++k)
                 if (versions.contents[k].second <= number) versions.from = k;
     }
-    // A save has it from the start, or it was found there. Nothing older is possible any more.
+    // The save had this content from the start, or it was found there: nothing older is possible any more.
     void found(world::ChunkPos pos, int content) { versions_[pos] = {{{content, 0}}, 0}; }
-    // Another store counts from 1 again. What the last one was told and did not write may be there or not.
+    // The store was closed; the next one numbers saves from 1. Saves that were not durable may exist or not.
     void closed() {
         for (auto& [pos, versions] : versions_)
             for (auto& [content, number] : versions.contents) number = kNever;
     }
 
-    // What a save may have there.
+    // Possible contents in the save.
     std::vector<int> possible(world::ChunkPos pos) const {
         const auto found = versions_.find(pos);
         if (found == versions_.end()) return {0};
@@ -43,7 +43,7 @@ class Ledger {
         const std::vector<int> contents = possible(pos);
         return std::find(contents.begin(), contents.end(), content) != contents.end();
     }
-    // What the store that is open may give: the last one that it was told, or what it may have found.
+    // Possible answers of the open store: the last save, or the possible contents of the save.
     std::vector<int> expected(world::ChunkPos pos) const {
         const auto found = versions_.find(pos);
         if (found == versions_.end() || found->second.contents.back().second == kNever) return possible(pos);
@@ -58,8 +58,8 @@ class Ledger {
   private:
     static constexpr SaveNumber kNever = ~SaveNumber{0};
     struct Versions {
-        std::vector<std::pair<int, SaveNumber>> contents{{0, 0}};  // oldest first, with their numbers
-        std::size_t from = 0;                                      // these are possible
+        std::vector<std::pair<int, SaveNumber>> contents{{0, 0}};  // oldest first, with save numbers
+        std::size_t from = 0;                                      // index of the oldest possible content
     };
     std::map<world::ChunkPos, Versions> versions_;
 };

@@ -1,5 +1,5 @@
-// Every allocation fails once, and all from then on: those of C++ and those of SQLite.
-// TERRANE_ALL_FAULTS=1 takes all of them, otherwise forty.
+// Every allocation of C++ and SQLite fails once, or together with all later ones. TERRANE_ALL_FAULTS=1 tests
+// all of them, otherwise forty.
 #include <sqlite3.h>
 
 #include <cstdio>
@@ -13,7 +13,7 @@ namespace {
 
 sqlite3_mem_methods systemMemory;
 
-// SQLite takes its allocator once, before anything else.
+// SQLite's allocator can only be set before anything else.
 const bool isSqliteMemoryOurs = [] {
     sqlite3_config(SQLITE_CONFIG_GETMALLOC, &systemMemory);
     sqlite3_mem_methods failing = systemMemory;
@@ -30,7 +30,7 @@ class MemoryFaults : public testing::Test {
   protected:
     static bool isComplete() { return std::getenv("TERRANE_ALL_FAULTS") != nullptr; }
 
-    // False where no allocation failed any more.
+    // Returns false if no allocation failed any more.
     bool play(const Start& start, long after, long count) {
         const base::TempFolder folder;
         Play play(folder, start);
@@ -39,7 +39,7 @@ class MemoryFaults : public testing::Test {
             const base::FailingMemory memory(after, count);
             try {
                 play.run(true);
-            } catch (const std::exception&) {  // the program ends
+            } catch (const std::exception&) {  // simulates the end of the program
             }
             hasFailed = base::FailingMemory::hasFailed();
             allocations_ = base::FailingMemory::allocations();
@@ -54,7 +54,7 @@ class MemoryFaults : public testing::Test {
         if (!base::FailingMemory::isPossible()) GTEST_SKIP() << "memory does not fail under this sanitizer";
         FaultyDisk disk;
         testing::internal::CaptureStderr();
-        (void)play(start, LONG_MAX - 1, 1);  // counts them
+        (void)play(start, LONG_MAX - 1, 1);  // counts the allocations
         const long step = isComplete() ? 1 : 1 + allocations_ / 40;
         long runs = 0;
         for (long n = 0;; n += step) {
@@ -68,7 +68,7 @@ class MemoryFaults : public testing::Test {
         std::printf("%ld of %ld allocations failed\n", runs, allocations_);
     }
 
-    long allocations_ = 0;  // of the last play
+    long allocations_ = 0;  // during the last play
 };
 
 TEST_F(MemoryFaults, ATransactionIsRolledBackWithoutMemory) {
@@ -84,7 +84,7 @@ TEST_F(MemoryFaults, ATransactionIsRolledBackWithoutMemory) {
         const base::FailingMemory memory(0);
         { const Transaction ended = std::move(*transaction); }
     }
-    const auto next = Transaction::begin(*database);  // at the latest
+    const auto next = Transaction::begin(*database);  // rolls back if that failed before
     EXPECT_TRUE(next);
     EXPECT_EQ(*database->queryNumber("SELECT count(*) FROM t"), 0);
 }
@@ -105,7 +105,8 @@ TEST_F(MemoryFaults, ATransactionWithNothingToRollBackEnds) {
     EXPECT_EQ(*database->queryNumber("SELECT count(*) FROM t"), 1);
 }
 
-// What could not be bound is NULL, which equals nothing: such a statement would do nothing and succeed.
+// A parameter that could not be bound is NULL, which equals nothing: the statement would do nothing and
+// succeed.
 TEST_F(MemoryFaults, AStatementWithoutItsParameterFails) {
     const base::TempFolder folder;
     auto database = Database::open(folder / "a.sqlite", OpenMode::Create);

@@ -14,8 +14,7 @@ namespace {
 constexpr world::BlockIndex kMark = 12345;
 constexpr const char* kSumRules = "sums";
 
-// The connections that are opened while it lives write the log back into the file after a few pages: SQLite
-// does so after 1,000.
+// Connections opened during its lifetime checkpoint the log after a few pages instead of 1,000.
 class FewLogPages {
   public:
     FewLogPages() {
@@ -25,7 +24,7 @@ class FewLogPages {
     ~FewLogPages() { sqlite3_cancel_auto_extension(kHook); }
     FewLogPages(const FewLogPages&) = delete;
     FewLogPages& operator=(const FewLogPages&) = delete;
-    // Of the connection that writes, which is opened first.
+    // Applies to the writing connection, which is opened first.
     static void apply() {
         if (first_) sqlite3_wal_autocheckpoint(first_, 8);
     }
@@ -82,7 +81,7 @@ void Play::save(SqliteStore& store, world::ChunkPos pos) {
     ledger_.saved(pos, content, number);
 }
 
-// Twice: what failed for a moment must work when it is tried again.
+// Twice: a temporary failure must succeed on retry.
 void Play::flush(SqliteStore& store) {
     for (int attempt = 0; attempt < 2; ++attempt) {
         const bool isDone = store.flush().has_value();
@@ -97,7 +96,7 @@ void Play::flush(SqliteStore& store) {
     }
 }
 
-// Where reading failed for a moment it works when it is tried again.
+// A temporary read failure must succeed on retry.
 void Play::expectLoads(SqliteStore& store) {
     const std::vector<world::ChunkPos> all = ledger_.positions();
     for (int attempt = 0; attempt < 2; ++attempt) {

@@ -1,5 +1,5 @@
-// A program that opens a save, edits, saves, loads and closes it, while the world around it fails; and what
-// must be true of the save afterwards.
+// Simulates a program that opens a save, edits, saves, loads and closes it while faults occur, and checks the
+// save afterwards.
 #pragma once
 
 #include <functional>
@@ -13,33 +13,33 @@
 
 namespace terrane::store {
 
-// A chunk that tells which save it is from.
+// A chunk marked with a number.
 world::ChunkPtr markedChunk(int content);
-// -1: another chunk; 0 where there is none.
+// The number of a chunk: 0 if there is none, -1 for other chunks.
 int contentOf(const LoadedChunk& loaded);
 
-// What a folder holds before the play begins.
+// Contents of the folder before the play.
 struct Start {
     std::map<std::string, std::string> files;  // content by name
     Ledger ledger;
-    int damaged = 0;  // rows
+    int damaged = 0;  // number of damaged rows
 };
 Start emptyFolder();
 Start saveOfFormat1();
 Start saveWithDamagedRows();
-Start saveAfterKill();  // its last transactions are in the log alone
+Start saveAfterKill();  // the last transactions are only in the log
 
 class Play {
   public:
     Play(const base::TempFolder& folder, const Start& start);
 
-    // Edits, saves and loads twice, with a restart between. What the store answers must be right, also while
-    // the disk fails; it may refuse, once for each failure unless failing `lasts`.
+    // Edits, saves and loads twice, with a restart in between. Answers of the store must be right even during
+    // faults; it may refuse once per failure, unless the failure `lasts`.
     void run(bool lasts);
-    // Nothing fails any more: what was durable is there, the save is whole and works.
+    // Without faults: durable saves exist, the save is intact and usable.
     void verify();
 
-    bool tellsAll = true;  // the play got through without a refusal
+    bool tellsAll = true;  // the play completed without a refusal
 
   private:
     std::unique_ptr<SqliteStore> open();

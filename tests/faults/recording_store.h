@@ -1,5 +1,4 @@
-// A store that keeps account of what another one is told, reports and answers, and fails the test where an
-// answer is wrong.
+// A store that records the calls, reports and answers of another one, and fails the test for wrong answers.
 #pragma once
 
 #include <functional>
@@ -11,23 +10,23 @@
 
 namespace terrane::store {
 
-// What a player sees and the save does not have yet: when it was seen.
+// Visible edits that are not in the save yet, and when they were made.
 struct Unsaved {
-    std::map<world::ChunkPos, stream::Time> edited;  // by the oldest edit that no save has
-    std::map<SaveNumber, stream::Time> queued;       // by save
+    std::map<world::ChunkPos, stream::Time> edited;  // time of the oldest unsaved edit
+    std::map<SaveNumber, stream::Time> queued;       // by save number
 };
 
-// What outlives stores: each one is opened after the last one ended.
+// State that outlives stores: each store is opened after the previous one was closed.
 struct Account {
     Ledger ledger;
-    std::vector<world::ChunkPtr> contents;  // 1 is the first
+    std::vector<world::ChunkPtr> contents;  // numbered from 1
     Unsaved unsaved;
     std::function<world::ChunkPtr(world::ChunkPos)> generated;
     std::uint64_t history = 0xCBF2'9CE4'8422'2325;
     long loads = 0, saves = 0, unread = 0;
 
     void note(std::uint64_t value) { history = (history ^ value) * 0x100'0000'01B3; }
-    // The content among those that are possible; -1 where it is none of these.
+    // The matching content among the possible ones; -1 if none matches.
     int contentAmong(const std::vector<int>& possible, const world::ChunkPtr& chunk) const;
 };
 

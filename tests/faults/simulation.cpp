@@ -35,7 +35,7 @@ const gen::Generator& simulatedGenerator() {
     return generator;
 }
 
-// All are the same.
+// All generated chunks are equal.
 world::ChunkPtr simulatedChunk(world::ChunkPos) {
     static const auto chunk = std::make_shared<const world::Chunk>(simulatedGenerator().generate({0, 0}));
     return chunk;
@@ -85,7 +85,7 @@ void Simulation::open() {
     pipeline_->setView(place_, 0);
 }
 
-// The player has seen nothing any more: what waits is lost, and the log says so.
+// Nothing is visible any more: queued saves may be lost, and the log says so.
 void Simulation::close() {
     pipeline_ = nullptr;
     if (store_) {
@@ -108,7 +108,7 @@ void Simulation::restartAfterStop() {
     expectAllThere();
 }
 
-// Opens the save by itself, with a disk that works: what was durable is there.
+// Opens the save directly with a working disk: durable saves exist.
 void Simulation::expectAllThere() {
     auto store = SqliteStore::open(path_, simulatedBlocks(), {.create = kIdentity, .decide = {}}, kNever);
     ASSERT_TRUE(store) << store.error().message;
@@ -177,7 +177,7 @@ void Simulation::edit() {
     counts_.edits += edits.empty() ? 0 : 1;
 }
 
-// Frames of 10 to 60 ms; in a pause of the whole computer nothing is seen.
+// Frames of 10 to 60 ms; nothing is visible during a pause of the whole computer.
 void Simulation::passTime() {
     const auto frame = std::chrono::milliseconds(10 + below(50));
     clock_.now += frame;
@@ -221,7 +221,7 @@ void Simulation::step() {
     if (disk_.hasStopped()) restartAfterStop();
 }
 
-// Nothing fails any more.
+// Without further faults.
 void Simulation::settle() {
     counts_.failedOperations += disk_.failures();
     disk_.restart();

@@ -1,9 +1,9 @@
-// A player who walks and builds in a small world, with its pipeline, workers, store, clock and disk in one
-// thread: the seed decides what happens, and the same seed does the same again. The disk fails, workers are
-// late, the program is closed and killed, the power goes.
+// Simulates a player who walks and builds in a small world, with pipeline, workers, store, clock and disk on
+// one thread; deterministic for a seed. The disk fails, workers are late, the program is closed and killed,
+// the power fails.
 //
-// What must hold: what was reported durable is there, what was seen is saved within two seconds or the status
-// says why not, nobody is given a wrong chunk, and when nothing fails any more all gets saved.
+// Invariants: durable saves exist, visible edits are saved within two seconds or the status reports why not,
+// no wrong chunk is returned, and without further faults everything gets saved.
 #pragma once
 
 #include <optional>
@@ -20,7 +20,7 @@ namespace terrane::store {
 struct SimulationCounts {
     long steps = 0, edits = 0, loads = 0, saves = 0, unread = 0, faults = 0, failedOperations = 0;
     long kills = 0, powerLosses = 0, restarts = 0;
-    double seconds = 0;  // that were simulated
+    double seconds = 0;  // simulated time
 };
 
 class Simulation {
@@ -30,9 +30,9 @@ class Simulation {
     Simulation(const Simulation&) = delete;
     Simulation& operator=(const Simulation&) = delete;
 
-    // Expectations of GoogleTest fail where something does not hold.
+    // Violations are reported as GoogleTest failures.
     void run();
-    std::uint64_t history() const;  // of all that happened
+    std::uint64_t history() const;  // hash of all events
     SimulationCounts counts() const { return counts_; }
 
   private:
@@ -60,12 +60,12 @@ class Simulation {
     Account account_;
     base::JobSystem jobs_{0};
     world::World world_;
-    std::unique_ptr<RecordingStore> store_;  // null: could not be opened yet
+    std::unique_ptr<RecordingStore> store_;  // null: not open yet
     std::unique_ptr<stream::ChunkPipeline> pipeline_;
     world::ChunkPos place_;
     bool storesGenerated_ = false;
     bool isPowerLoss_ = false;
-    std::optional<stream::Time> toldAt_;  // the status had a problem
+    std::optional<stream::Time> toldAt_;  // when the status last had a problem
     SimulationCounts counts_;
 };
 

@@ -1,5 +1,5 @@
-// Many seeds of the simulation: TERRANE_SEEDS of them from TERRANE_FIRST_SEED on (1 unless told otherwise),
-// or TERRANE_SEED alone.
+// Runs many seeds of the simulation: TERRANE_SEEDS seeds from TERRANE_FIRST_SEED (default 1), or only
+// TERRANE_SEED.
 #include "tests/faults/simulation.h"
 
 #include <cstdio>
@@ -49,7 +49,7 @@ TEST_F(SimulationTest, NothingIsLost) {
             break;
         }
     }
-    if (count >= 24) {  // each kind of mishap has been there
+    if (count >= 24) {  // each kind of fault occurred
         for (const long happened :
              {sum.edits, sum.loads, sum.saves, sum.failedOperations, sum.kills, sum.powerLosses})
             EXPECT_GT(happened, 0);

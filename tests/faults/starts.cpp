@@ -1,4 +1,4 @@
-// Saves that plays begin with.
+// Initial saves of plays.
 #include "terrane/store/chunk_codec.h"
 #include "terrane/store/chunk_key.h"
 #include "tests/faults/play.h"
@@ -38,7 +38,7 @@ Start emptyFolder() {
     return {};
 }
 
-// By the SQL of docs/file-format-1.md.
+// Uses the SQL of docs/file-format-1.md.
 Start saveOfFormat1() {
     Start start;
     const base::TempFolder folder;

@@ -17,7 +17,7 @@ namespace {
 using store::Provenance;
 
 const store::WorldIdentity kIdentity{.seed = 7, .generator = "flat", .generatorVersion = 3};
-// Only flush and the end write.
+// Only flush and closing write.
 constexpr store::SaveLimits kNever{.delay = std::chrono::hours(1), .chunks = 1000000};
 
 const world::BlockRegistry& registry() {
@@ -36,7 +36,7 @@ world::ChunkPtr chunkOf(int number) {
     return chunk;
 }
 
-// SQLite takes the size of pages while there is no table.
+// SQLite accepts a page size only before the first table is created.
 void makeSmallPages(const std::filesystem::path& path) {
     auto database = store::Database::open(path, store::OpenMode::Create);
     require(database && database->execute("PRAGMA page_size = 512; CREATE TABLE t (n); DROP TABLE t"));
@@ -73,7 +73,7 @@ bool isGood(const base::Result<T>& result) {
 store::WorldRequest requestFor(store::WorldAccess access) {
     return {.access = access,
             .create = std::nullopt,
-            .wanted = {},
+            .world = {},
             .versionOf = [](std::string_view) { return kIdentity.generatorVersion; },
             .limits = kNever};
 }

@@ -1,4 +1,4 @@
-// Bytes written as numbers.
+// Converts integer literals to bytes.
 #pragma once
 
 #include <initializer_list>

@@ -14,7 +14,7 @@ world::BlockEntityDataPtr dataOf(std::size_t size, int value) {
     return std::make_shared<const world::BlockEntityData>(size, static_cast<std::byte>(value));
 }
 
-// Layers of some blocks with states and data here and there.
+// A chunk with layers of a few blocks, some with states and data.
 Chunk someChunk(std::mt19937& random) {
     Chunk chunk;
     for (int i = 0; i < world::kBlocksPerChunk; ++i)
@@ -132,7 +132,20 @@ TEST(ChunkDifference, NewerBlocksReplaceOlderOnes) {
     EXPECT_EQ(difference, (ChunkDifference{{0, changed}, {1, old}, {3, changed}, {5, old}, {9, changed}}));
 }
 
-// Whatever bytes come, blocks are in order and few enough, or there are none.
+TEST(ChunkDifference, KindsDiffer) {
+    const auto withIds = [](std::uint64_t first, std::uint64_t second) {
+        Bytes bytes;
+        WireWriter wire(bytes);
+        // Two kinds, one run of one block of the first kind, no data.
+        for (const std::uint64_t number : std::vector<std::uint64_t>{2, first, 0, second, 0, 1, 0, 0, 0})
+            wire.number(number);
+        return bytes;
+    };
+    EXPECT_TRUE(read(withIds(5, 6)));
+    EXPECT_FALSE(read(withIds(5, 5)));
+}
+
+// For any input, the blocks read are in order and within the limit.
 TEST(ChunkDifference, AnyBytesAreRead) {
     std::mt19937 random(11);
     Chunk edited;

@@ -1,5 +1,5 @@
-// Players who do random things over slow connections: when all is told, everybody has the server's world. A
-// seed that fails is to be kept here.
+// Players act randomly over slow connections: in the end all of them have the server's world. Add failing
+// seeds here as regression tests.
 #include <gtest/gtest.h>
 
 #include <random>
@@ -14,7 +14,7 @@ constexpr int kPlayers = 3, kSteps = 1200, kMaxDelay = 12;  // steps are ticks: 
 constexpr double kAway = 70;                                // blocks from the spawn
 constexpr double kStepBlocks = 4;                           // 80 blocks a second
 
-// Messages on their way, in order, each for some steps.
+// Delays messages by some steps, keeping their order.
 template <class Message>
 class SlowWay {
   public:
@@ -53,7 +53,7 @@ class RandomPlayer {
         spawn_ = goal_ = pose_.position;
     }
 
-    // Before and after a tick of the server.
+    // Call before and after each tick of the server.
     void update(int step) {
         step_ = step;
         if (wire_) {
@@ -88,7 +88,7 @@ class RandomPlayer {
         return toServer_.isEmpty() && toClient_.isEmpty() && world_->undecidedCount() == 0 &&
                world_->isViewComplete() && progress.isUpToDate();
     }
-    // What the player has otherwise than the server; empty where all is equal.
+    // Differences between the player's world and the server's; empty if there are none.
     std::string difference() {
         const world::ChunkPos own = world::chunkOf(pose_.position);
         for (const world::ChunkPos pos : world::chunksWithin(own, view_ + 1)) {
@@ -108,7 +108,8 @@ class RandomPlayer {
     std::size_t acts() const { return acts_; }
 
   private:
-    // Liquid beside a refused edit stays marked for a flow that players' worlds do not have. Nobody sees it.
+    // Liquid beside a refused edit stays marked for a flow that players' worlds do not have. This is
+    // invisible.
     static bool isToBeLookedAt(const world::Chunk& right, const ChangedBlock& block) {
         const bool isLiquid = world::isFlowing(contentBlocks().type(block.value.id));
         const bool isSame = isLiquid && block.value.id == right.block(block.index) && !block.value.data;
@@ -124,7 +125,7 @@ class RandomPlayer {
         pose_ = poseOf(std::get<Joined>(answer).pose);
         world_->onMessage(answer);
     }
-    // Half of the time without a word.
+    // Half of the disconnects are without Leave.
     void cut() {
         if (random_() % 2) wire_->say(Leave{});
         wire_->close();
@@ -220,7 +221,7 @@ TEST_P(Convergence, EverybodyHasTheServersWorld) {
     for (; step < kSteps && !HasFatalFailure();) {
         for (const auto& player : players) player->act();
         tickAll();
-        // Sometimes chunks come at once, sometimes late.
+        // Alternates between immediate and late loading of chunks.
         if (step / 100 % 2) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
     for (const auto& player : players) player->hurry();

@@ -64,7 +64,7 @@ TEST_F(EditLogTest, AnEditReadsBack) {
     EXPECT_EQ(edits[0].before[1].value, valueOf("sand"));
 }
 
-// Three blocks with as much data as a block may have are more than one part holds.
+// Three blocks with the maximum of data exceed one part.
 TEST_F(EditLogTest, MuchDataReadsBack) {
     world::BlockValue chest = valueOf("chest");
     chest.data = std::make_shared<const world::BlockEntityData>(kMaxBlockData, std::byte{5});
@@ -121,7 +121,7 @@ TEST_F(EditLogTest, RemembersWhatTheWorldHas) {
     EXPECT_EQ(records_->historyEnds()->saved, 9);
 }
 
-// From what the last edit made a block to what it was before the first, of those that are meant.
+// A rollback goes from the value after the last selected edit to the value before the first.
 TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
     const BlockPos pos{1, 2, 70};
     log(7, 100, {{pos, valueOf("air"), valueOf("glass")}});
@@ -139,7 +139,7 @@ TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
     EXPECT_TRUE(plan({.player = 9}).empty());
 }
 
-// Random edits of some players: what a roll-back of one gives is what a slow reference gives.
+// Random edits of several players: the rollback of one equals a slow reference.
 TEST_F(EditLogTest, RollbacksEqualAReference) {
     std::mt19937 random(4);
     const std::vector<std::string> names{"air", "stone", "sand", "glass", "dirt"};
@@ -174,7 +174,7 @@ TEST_F(EditLogTest, RollbacksEqualAReference) {
     }
 }
 
-// The file names block types: a program with others reads it right, and refuses what it cannot know.
+// The file stores block names: a program with other types reads it correctly, and refuses unknown ones.
 TEST_F(EditLogTest, BlockTypesAreNamed) {
     log(7, 1, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
     flush();

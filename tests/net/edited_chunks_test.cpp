@@ -1,4 +1,4 @@
-// Differences of edited chunks, found by workers.
+// Differences of edited chunks, computed by workers.
 #include "terrane/net/edited_chunks.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 namespace terrane::net {
 namespace {
 
-// A database that is away for a while.
+// A store that cannot be read for a while, like a remote database.
 class DistantStore : public store::MemoryStore {
   public:
     using MemoryStore::MemoryStore;

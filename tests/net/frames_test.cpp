@@ -44,5 +44,18 @@ TEST(Frames, LengthsThatAreTooLargeAreErrors) {
     EXPECT_TRUE(reader.next()) << "65,536 bytes are yet to come";
 }
 
+TEST(Frames, LengthsHaveTheirShortestForm) {
+    for (const Bytes& stream : {bytesOf({0x80, 0x00}), bytesOf({0x85, 0x80, 0x00})}) {
+        FrameReader reader(65536);
+        reader.add(stream);
+        EXPECT_FALSE(reader.next());
+    }
+    FrameReader reader(65536);
+    reader.add(bytesOf({0x00}));
+    const auto empty = reader.next();
+    ASSERT_TRUE(empty && empty->has_value());
+    EXPECT_EQ((*empty)->size(), 0u);
+}
+
 }  // namespace
 }  // namespace terrane::net

@@ -1,4 +1,5 @@
-// Commands that change blocks where they should not, or too many: each is answered, and none harms the world.
+// Commands that change blocks where they are not allowed, or too many: each is answered, and none harms the
+// world.
 #include "tests/net/hostile_fixture.h"
 
 #include <limits>
@@ -23,14 +24,14 @@ class HostileBuilding : public HostileTest {
     Fill fill(CommandNumber number, world::BlockPos low, world::BlockPos high) const {
         return {number, {{low, high}, contentBlock("glass"), 0, {}}};
     }
-    // What a chest holds whose items have so long names.
+    // Contents of a chest whose items have long names.
     static Bytes chestData(std::size_t nameBytes) {
         const int slots = contentBlocks().find("chest")->slots;
         world::Inventory inventory(static_cast<std::size_t>(slots));
         for (world::ItemStack& stack : inventory) stack = {std::string(nameBytes, 'x'), 1};
         return world::encodeInventory(inventory);
     }
-    // Blocks beside each other along x, each with data.
+    // A row of blocks along x, each with data.
     static Bytes structureWith(const std::vector<std::string>& names, const std::vector<Bytes>& data) {
         world::Structure structure;
         structure.size = {static_cast<int>(names.size()), 1, 1};
@@ -74,7 +75,7 @@ TEST_F(HostileBuilding, UndoOfMuchIsRationed) {
     const std::int64_t before = server_->state().history.newest;
     loadAround(low);
     for (int k = 0; k < 20; ++k) server_->tick();
-    // 131,072 at once and 20,000 in this second: 36 times 4096, in four chunks each.
+    // 131,072 blocks at once plus 20,000 in this second allow 36 fills of 4096 blocks, in four chunks each.
     EXPECT_LE(server_->state().history.newest - before, 40 * 4);
     EXPECT_GE(server_->state().history.newest - before, 32 * 4);
     EXPECT_TRUE(plays(*bob));
@@ -137,7 +138,7 @@ TEST_F(HostileBuilding, DataOfStructuresIsForBlocksThatKeepSome) {
     EXPECT_EQ(world::blockValue(world, pos).data, nullptr);
     EXPECT_EQ(world::blockValue(world, {pos.x + 1, pos.y, pos.z}).data, nullptr);
     EXPECT_NE(world::blockValue(world, {pos.x + 2, pos.y, pos.z}).data, nullptr);
-    // A stone with four megabytes, which are few when they travel.
+    // A stone with 4 MiB of data, which compresses well.
     expectDecision(*bob, Place{2, pos, structureWith({"stone"}, {Bytes(4 << 20)})}, 2, BuildResult::Empty);
 }
 
@@ -179,7 +180,7 @@ TEST_F(HostileBuilding, FillsThatAreNoBoxes) {
     expectFill(1, p, {p.x + 100, p.y + 100, p.z + 100}, BuildResult::TooLarge);
     expectFill(2, {kLowest, kLowest, 0}, {kHighest, kHighest, 255}, BuildResult::TooLarge);
     expectFill(3, p, {p.x - 1, p.y, p.z}, BuildResult::Empty);
-    // No blocks, but corners so far apart that their chunks cannot be counted in 32 bits: 65,536².
+    // An empty box with corners so far apart that their number of chunks, 65,536², exceeds 32 bits.
     const std::int32_t away = 16 * (65536 - 3) / 2;
     expectFill(4, {p.x - away, p.y - away, p.z}, {p.x + away, p.y + away, p.z - 1}, BuildResult::Empty);
     expectFill(5, {kLowest, kHighest, p.z}, {kHighest, kLowest, p.z}, BuildResult::OutOfReach);
@@ -204,7 +205,7 @@ TEST_F(HostileBuilding, TheEndsOfTheWorld) {
                 expectDecision(*bob, put(number, {x, y, z}, z == 200 ? "sand" : "water"), number,
                                EditResult::Applied);
             }
-            for (int k = 0; k < 100; ++k) {  // it falls, it flows
+            for (int k = 0; k < 100; ++k) {  // time to fall and flow
                 ann_->say(Pong{0});
                 bob->say(Pong{0});
                 server_->tick();
@@ -241,7 +242,7 @@ TEST_F(HostileBuilding, AnEditAfterAStallIsToldAsItIs) {
     ann_->say(View{world::chunkOf(pos), 2, 0});
     bob->say(put(1, pos));
     (void)ann_->take();
-    server_->now += std::chrono::seconds(10);  // chunks were not needed for so long
+    server_->now += std::chrono::seconds(10);  // unloads unused chunks
     std::optional<BlocksChanged> changed;
     for (int k = 0; k < 200 && !changed; ++k) {
         server_->tick();

@@ -1,4 +1,4 @@
-// Lines of the console and of operators that make little sense, and what players are told of them.
+// Invalid lines of the console and of operators, and their answers.
 #include "tests/net/hostile_fixture.h"
 
 #include <random>
@@ -30,7 +30,7 @@ TEST_F(HostileConsole, PlayersGiveNoCommands) {
     EXPECT_EQ(clientOf(*bob).role, game::Role::Player);
 }
 
-// Answers have several lines, and some are long: all of it comes as messages that a client can read.
+// Answers may have several and long lines: all of them arrive as valid messages.
 TEST_F(HostileConsole, OperatorsReadTheAnswers) {
     start();
     const auto bob = joined("Bob");

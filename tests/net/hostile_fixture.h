@@ -1,4 +1,4 @@
-// A server with a player who does nothing wrong, and wires for those who do.
+// A server with a well-behaved player, and wires for hostile clients.
 #pragma once
 
 #include "terrane/net/server_console.h"
@@ -11,13 +11,13 @@ inline std::optional<Refused> refusedIn(const std::vector<ServerMessage>& messag
     return refused ? std::optional(*refused) : std::nullopt;
 }
 
-// Why the wire was sent away; Refusal::Count where it was not.
+// Why the wire was refused; Refusal::Count if it was not.
 inline Refusal refusalOf(TestWire& wire) {
     const auto refused = refusedIn(wire.take());
     return refused ? refused->why : Refusal::Count;
 }
 
-// A signed Login for the wire's connection, which has said nothing yet.
+// A signed Login for a wire that has sent nothing yet.
 inline Greeting greetingOf(TestWire& wire, const ClientIdentity& identity) {
     wire.say(helloOf(identity));
     return std::get<Greeting>(wire.take().at(0));
@@ -29,7 +29,7 @@ inline Login greetedLogin(TestWire& wire, const ClientIdentity& identity) {
 
 class HostileTest : public testing::Test {
   protected:
-    // Ann is in the world. Whatever others do, she stays and can talk.
+    // Ann is in the world; whatever others do, she stays and can chat.
     TestServer& start(const ServerSettings& settings = {}) {
         server_ = std::make_unique<TestServer>(folder_.path(), settings);
         ann_ = std::make_unique<TestWire>(*server_);
@@ -40,7 +40,7 @@ class HostileTest : public testing::Test {
     }
     void TearDown() override {
         if (!server_) return;
-        // So long that nobody hears "you talk too fast".
+        // Long enough to avoid the answer "you talk too fast".
         for (int k = 0; k < 20; ++k) {
             ann_->say(Pong{0});
             server_->tick();
@@ -54,7 +54,7 @@ class HostileTest : public testing::Test {
         ann_.reset();
         server_.reset();
     }
-    // Somebody of that name in the world.
+    // A player with this identity in the world.
     std::unique_ptr<TestWire> joined(const ClientIdentity& identity) {
         auto wire = std::make_unique<TestWire>(*server_);
         EXPECT_TRUE(std::holds_alternative<Joined>(logIn(*wire, identity)));
@@ -66,17 +66,17 @@ class HostileTest : public testing::Test {
         const auto found = server_->state().clients.find(wire.id);
         return found != server_->state().clients.end() && found->second.stage == ServerClient::Stage::Playing;
     }
-    // A block above the spawn, where everybody appears.
+    // A block above the spawn, where all players appear.
     world::BlockPos nearSpawn(int dx = 2) const {
         const world::BlockPos eyes = world::blockOf(poseOf(pose_).position);
         return {eyes.x + dx, eyes.y, eyes.z + 2};
     }
-    // No command waits for chunks there for the next five seconds of the server's time.
+    // Loads chunks so that no command waits for them during the next five seconds of server time.
     void loadAround(world::BlockPos pos) {
         for (const world::ChunkPos chunk : world::chunksWithin(world::chunkOf(pos), 1))
             if (world::isInWorld(chunk)) (void)server_->state().session.pipeline().chunkAt(chunk);
     }
-    // The decision on a command; ticks until it is there.
+    // The decision on a command; ticks until it arrives.
     std::optional<Done> decision(TestWire& wire, CommandNumber number) {
         const Time end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
         while (std::chrono::steady_clock::now() < end) {

@@ -1,4 +1,4 @@
-// Those who should not come in, and how they are told. Nobody else hears of it.
+// Logins that must be refused, the answers, and that other players do not notice.
 #include "tests/net/hostile_fixture.h"
 
 namespace terrane::net {
@@ -6,7 +6,7 @@ namespace {
 
 class HostileLogin : public HostileTest {
   protected:
-    // The answer to Login, and to Proof where it is asked for.
+    // The answer to Login, or to Proof if it is requested.
     Refusal refusalOfLogin(TestWire& wire, const Login& login) {
         wire.say(login);
         const auto messages = wire.take();
@@ -26,7 +26,7 @@ class HostileLogin : public HostileTest {
             updateLoginsOnly();
         }
     }
-    // Without the time of a tick, which a login has little of.
+    // Ticks without advancing time, since logins have a short time limit.
     void updateLoginsOnly() { net::tick(server_->state(), server_->now); }
 };
 
@@ -65,7 +65,7 @@ TEST_F(HostileLogin, ANameBelongsToItsKey) {
     start();
     EXPECT_EQ(refusalOfName("Ann"), Refusal::Name);
     EXPECT_EQ(refusalOfName("aNN"), Refusal::Name) << "the case is no difference";
-    // Two who are new want one name: the first has it.
+    // Two new players choose the same name: the first gets it.
     TestWire bob(*server_), other(*server_);
     bob.say(greetedLogin(bob, testIdentity("Bob")));
     other.say(greetedLogin(other, testIdentity("BOB")));
@@ -79,9 +79,9 @@ TEST_F(HostileLogin, BadNames) {
     start();
     for (const char* name : {"", " ", " Bob", "Bob ", "a\" b", "*"})
         EXPECT_EQ(refusalOfName(name), Refusal::Name) << name;
-    // These do not even make a message.
+    // These names do not form a valid message.
     for (const char* name : {"a\nb", "a\x1b[2J", "\xff\xfe", "\xe2\x80\xae", "1234567890123456789012345"})
-        EXPECT_EQ(refusalOfName(name), Refusal::Disorder) << name;
+        EXPECT_EQ(refusalOfName(name), Refusal::ProtocolError) << name;
     EXPECT_EQ(refusalOfName("123456789012345678901234"), Refusal::Count) << "24 bytes are a name";
 }
 
@@ -91,7 +91,7 @@ TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
     version.say(Hello{kMagic, 99, "test"});
     EXPECT_EQ(refusalOf(version), Refusal::Version);
     magic.say(Hello{kMagic + 1, kProtocolVersion, "test"});
-    EXPECT_EQ(refusalOf(magic), Refusal::Disorder);
+    EXPECT_EQ(refusalOf(magic), Refusal::ProtocolError);
     world.say(greetedLogin(world, testIdentity("Bob")));
     auto digests = server_->state().digests;
     ++digests.back();
@@ -110,7 +110,7 @@ TEST_F(HostileLogin, WhoIsBannedStaysOut) {
     TestWire again(*server_);
     EXPECT_EQ(refusalOfLogin(again, greetedLogin(again, renamed)), Refusal::Banned) << "the key is banned";
     EXPECT_EQ(refusalOfName("Bob"), Refusal::Name) << "and its name is not free";
-    // Between Login and Proof, too.
+    // Also between Login and Proof.
     const ClientIdentity cid = testIdentity("Cid");
     joined(cid)->close();
     TestWire late(*server_);
@@ -161,7 +161,7 @@ TEST_F(HostileLogin, WhoComesAgainMayDoWhatWasLeft) {
 TEST_F(HostileLogin, PlayersOfAnAddressAreFew) {
     ServerSettings settings;
     settings.maxPlayersOfAddress = 2;
-    start(settings);  // Ann is one of the address "test"
+    start(settings);  // Ann counts for the address "test"
     const ClientIdentity bob = testIdentity("Bob");
     const auto first = joined(bob);
     EXPECT_EQ(refusalOfName("Cid"), Refusal::Full);
@@ -174,13 +174,13 @@ TEST_F(HostileLogin, PlayersOfAnAddressAreFew) {
 TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
     ServerSettings settings;
     settings.newPlayersPerHour = 3;
-    start(settings);  // Ann is the first of the address "test"
+    start(settings);  // Ann is the first player of the address "test"
     const ClientIdentity bob = testIdentity("Bob");
     joined(bob)->close();
     joined(testIdentity("Cid"))->close();
     EXPECT_EQ(refusalOfName("Dan"), Refusal::Full);
     EXPECT_EQ(server_->state().people.byName("Dan"), nullptr);
-    EXPECT_TRUE(plays(*joined(bob)));  // who was here comes again
+    EXPECT_TRUE(plays(*joined(bob)));  // a known player may return
     server_->now += std::chrono::minutes(20);
     EXPECT_TRUE(plays(*joined(testIdentity("Dan"))));
 }
@@ -227,7 +227,7 @@ TEST_F(HostileLogin, ASlowLoginAndASilentPlayerEnd) {
     TestWire silent(*server_), greeted(*server_), offered(*server_);
     greeted.say(helloOf(testIdentity("Cid")));
     offered.say(greetedLogin(offered, testIdentity("Dan")));
-    for (int k = 0; k < 500; ++k) {  // 25 seconds
+    for (int k = 0; k < 500; ++k) {  // 25 s of server time
         ann_->say(Pong{0});
         server_->tick();
     }
@@ -280,8 +280,8 @@ TEST_F(HostileLogin, EachMessageAtEachStage) {
             wire.say(message);
             // Hello, Login, Proof
             const bool isLogin = message.index() <= 2 || std::holds_alternative<AskPack>(message);
-            Refusal expected = (stage == Stage::Playing) == isLogin ? Refusal::Disorder : Refusal::Count;
-            if (stage != Stage::Playing) expected = Refusal::Disorder;
+            Refusal expected = (stage == Stage::Playing) == isLogin ? Refusal::ProtocolError : Refusal::Count;
+            if (stage != Stage::Playing) expected = Refusal::ProtocolError;
             if (stage == Stage::Closed) expected = Refusal::Count;
             if (stage == Stage::Hello && message.index() == 0) expected = Refusal::Count;
             if (stage == Stage::Login && message.index() == 1) expected = Refusal::WrongKey;

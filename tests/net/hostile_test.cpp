@@ -1,4 +1,4 @@
-// Players who do what they should not: each is answered or sent away, and nobody else hears of it.
+// Misbehaving players: each is answered or refused, and other players do not notice.
 #include "tests/net/hostile_fixture.h"
 
 #include <random>
@@ -8,7 +8,7 @@ namespace {
 
 class HostileTestOfPlay : public HostileTest {};
 
-// ——— bytes that are no messages
+// ——— invalid messages
 
 TEST_F(HostileTestOfPlay, WhatIsNoMessageEndsTheConnection) {
     ServerSettings settings;
@@ -22,20 +22,20 @@ TEST_F(HostileTestOfPlay, WhatIsNoMessageEndsTheConnection) {
         wire->close();
         return why;
     };
-    EXPECT_EQ(sayBytes({}), Refusal::Disorder);
-    EXPECT_EQ(sayBytes(Bytes(1, std::byte{13})), Refusal::Disorder);
-    EXPECT_EQ(sayBytes(Bytes(100, std::byte{255})), Refusal::Disorder);
+    EXPECT_EQ(sayBytes({}), Refusal::ProtocolError);
+    EXPECT_EQ(sayBytes(Bytes(1, std::byte{13})), Refusal::ProtocolError);
+    EXPECT_EQ(sayBytes(Bytes(100, std::byte{255})), Refusal::ProtocolError);
     Bytes edit = encode(put(1, {1, 2, 3}));
     edit.push_back(std::byte{0});
-    EXPECT_EQ(sayBytes(edit), Refusal::Disorder) << "a byte too many";
+    EXPECT_EQ(sayBytes(edit), Refusal::ProtocolError) << "a byte too many";
     edit.resize(edit.size() - 2);
-    EXPECT_EQ(sayBytes(edit), Refusal::Disorder) << "a byte too few";
+    EXPECT_EQ(sayBytes(edit), Refusal::ProtocolError) << "a byte too few";
     std::mt19937 random(1);
     for (int k = 0; k < 100; ++k) {
         Bytes noise(random() % 60);
         for (std::byte& byte : noise) byte = static_cast<std::byte>(random());
         if (decodeClientMessage(noise)) continue;
-        EXPECT_EQ(sayBytes(noise), Refusal::Disorder);
+        EXPECT_EQ(sayBytes(noise), Refusal::ProtocolError);
     }
 }
 
@@ -68,7 +68,7 @@ TEST_F(HostileTestOfPlay, TooManyWaitingEditsEnd) {
     start();
     const auto bob = joined("Bob");
     bool isRefused = false;
-    // No more than 120 messages a second, which are allowed.
+    // At most 120 messages per second, which are allowed.
     for (CommandNumber k = 1; k < 4000 && !isRefused; ++k) {
         bob->say(put(k, nearSpawn()));
         EXPECT_LE(clientOf(*bob).commands.size(), 512u);
@@ -122,17 +122,17 @@ TEST_F(HostileTestOfPlay, MovesThatAreNotBelieved) {
     expectCorrected(far);
     (void)runConsoleLine(server_->state(), "op Bob");
     far = pose_;
-    far.x = std::int64_t{1} << 37;  // 2^31 blocks: one too many
+    far.x = std::int64_t{1} << 37;  // 2^31 blocks: one above the limit
     expectCorrected(far);
     far.x = -(std::int64_t{1} << 37) - 1;
     bob->say(Move{far});
-    EXPECT_EQ(refusalOf(*bob), Refusal::Disorder);
+    EXPECT_EQ(refusalOf(*bob), Refusal::ProtocolError);
 }
 
 TEST_F(HostileTestOfPlay, SpeedIsThatOfAFlight) {
     start();
     const auto bob = joined("Bob");
-    // Ten seconds, as fast as it is let.
+    // Ten seconds at the maximum speed.
     double furthest = 0;
     WirePose pose = pose_;
     for (int k = 0; k < 200; ++k) {
@@ -168,7 +168,7 @@ TEST_F(HostileTestOfPlay, ViewsAreAroundThePlayer) {
     EXPECT_TRUE(findMessage<ViewComplete>(bob->take()));
 }
 
-// ——— who does not read
+// ——— clients that do not read
 
 TEST_F(HostileTestOfPlay, WhoDoesNotReadIsSentAway) {
     ServerSettings settings;

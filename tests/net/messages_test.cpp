@@ -1,4 +1,4 @@
-// Messages of both sides: their bytes are made by the same templates (message_codec.h).
+// Messages of both sides, encoded by the same templates (message_codec.h).
 #include <gtest/gtest.h>
 
 #include <limits>
@@ -12,7 +12,7 @@ namespace {
 
 const WirePose kPose{-1234567, 64, 4096, 40000, -200};
 
-// One of each, with fields that differ from those of an empty one.
+// One of each type, with non-default fields.
 std::vector<ClientMessage> clientMessages() {
     PublicKey key{};
     key[31] = std::byte{9};
@@ -97,7 +97,7 @@ TEST(Messages, FieldsKeepTheirValues) {
     EXPECT_EQ(std::get<WorldOffer>(*offer).world.identity.generator, "continents");
 }
 
-// Sums of steps must stay numbers, and an edit has blocks.
+// Sums of steps must not overflow, and an edit has blocks.
 TEST(Messages, StepsHaveBounds) {
     for (const std::int64_t step : {kMaxPosePosition, 2 * kMaxPosePosition}) {
         for (const std::int64_t way : {step, -step}) {
@@ -113,7 +113,7 @@ TEST(Messages, StepsHaveBounds) {
     }
 }
 
-// By docs/protocol.md, made by hand.
+// Encoded by hand according to docs/protocol.md.
 TEST(Messages, HaveTheBytesOfTheProtocol) {
     const auto bytes = [](std::initializer_list<int> values) {
         Bytes all;
@@ -141,7 +141,7 @@ TEST(Messages, TheUsualOnesAreSmall) {
     EXPECT_LE(encode(ServerMessage(poses)).size(), 100u * 7 + 3);
 }
 
-// Found by fuzzing: a change of which nothing is told had two forms.
+// Found by fuzzing: a pose change without flags had two encodings.
 TEST(Messages, APoseHasItsDirection) {
     Bytes bytes = encode(ServerMessage(Poses{{{11, 0, 0, 0, 3, 4, false}}}));
     EXPECT_TRUE(decodeServerMessage(bytes));
@@ -149,7 +149,7 @@ TEST(Messages, APoseHasItsDirection) {
     EXPECT_FALSE(decodeServerMessage(bytes));
 }
 
-// Every cut of every message, under the sanitizers: an error, never a message.
+// Every truncation of every message, under the sanitizers: an error, never a message.
 TEST(Messages, CutOnesAreRefused) {
     for (const ClientMessage& message : clientMessages()) {
         const Bytes bytes = encode(message);
@@ -171,7 +171,7 @@ TEST(Messages, WhatFollowsAMessageIsRefused) {
     }
 }
 
-// A newer client is told that it is newer: its hello may go on as it likes.
+// A newer client is told so: the rest of its Hello may be anything.
 TEST(Messages, AHelloOfAnotherVersionIsRead) {
     Bytes bytes = encode(ClientMessage(Hello{kMagic, kProtocolVersion + 1, "x"}));
     bytes.insert(bytes.end(), 100, std::byte{0xFF});
@@ -191,7 +191,7 @@ TEST(Messages, AnyBytesAreReadOrRefused) {
             isClient ? encode(client[random() % client.size()]) : encode(server[random() % server.size()]);
         for (std::size_t n = 1 + random() % 3; n > 0 && !bytes.empty(); --n)
             bytes[random() % bytes.size()] = static_cast<std::byte>(random());
-        // What is read writes the same: none has two forms, but for runs of blocks.
+        // Decoding and encoding is lossless: each message has one form, except for runs of blocks.
         if (isClient) {
             const auto read = decodeClientMessage(bytes);
             const auto* hello = read ? std::get_if<Hello>(&*read) : nullptr;

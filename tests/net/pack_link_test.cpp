@@ -1,4 +1,4 @@
-// A client's link that gets content packs before it joins, over sockets.
+// A client's link that downloads content packs before it joins, over sockets.
 #include <gtest/gtest.h>
 
 #include "terrane/net/server_clients.h"
@@ -9,7 +9,7 @@ namespace {
 
 class PackLink : public testing::Test {
   protected:
-    // Until the link is joined or has ended.
+    // Runs until the link is joined or ended.
     void run(LinkEvents events) {
         ClientLink link(context_, {"127.0.0.1", server_.sockets->port()}, testIdentity("ann"),
                         std::move(events));
@@ -18,7 +18,7 @@ class PackLink : public testing::Test {
             link.update(std::chrono::steady_clock::now());
             server_.update();
             context_.restart();
-            // One message after the other, else a login is over in a turn.
+            // One message at a time; otherwise a login completes in a single call.
             context_.run_one_for(std::chrono::milliseconds(5));
             if (!letsInAtOnce_) continue;
             for (auto& [id, client] : server_.server.state().clients) send(client, Joined{});
@@ -71,7 +71,7 @@ TEST_F(PackLink, GetsWhatItLacksAndJoins) {
     EXPECT_EQ(got_["p1"], *content_.packs[1].archive);
 }
 
-// Whoever is told of Joined reads the offer, which is there then.
+// Listeners of Joined rely on the offer.
 TEST_F(PackLink, LeavesAServerThatLetsItInBeforeTheProof) {
     letsInAtOnce_ = true;
     run(events());

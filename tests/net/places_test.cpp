@@ -1,4 +1,4 @@
-// Places that players name on a server, and what maps hear of edits.
+// Named places on a server, and changes reported to maps.
 #include <gtest/gtest.h>
 
 #include <glm/common.hpp>
@@ -92,7 +92,7 @@ TEST(SavedPlaces, StayWithTheWorld) {
     }
 }
 
-// What a player builds is told at once, and the tiles above it once the world is saved.
+// Edits are reported at once, the tiles above them once the world is saved.
 TEST(ChangedChunks, AreTold) {
     base::TempFolder folder;
     TestServer server(folder.path());
@@ -104,7 +104,7 @@ TEST(ChangedChunks, AreTold) {
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
     const glm::ivec3 eyes(glm::floor(ann.pose.position));
     EXPECT_TRUE(told.empty());
-    // A tower: one block alone may change no tile.
+    // A tower: a single block may change no tile.
     for (int k = 0; k < 48; ++k)
         ASSERT_EQ(ann.put({eyes.x / 4 * 4 + k % 4, eyes.y / 4 * 4 + k / 4 % 4, eyes.z + 2 + k / 16}, "stone"),
                   game::EditResult::Applied);

@@ -61,7 +61,7 @@ TEST(Prediction, WithoutAServerAllIsTakenBack) {
 }
 
 // A server and two clients that edit the same few blocks, with delays: the server refuses some edits. In the
-// end all show what the server has, and a client's own edit is never undone before it is decided.
+// end all show the server's blocks, and a client's own edit is never reverted before it is decided.
 TEST(Prediction, ClientsComeToShowWhatTheServerHas) {
     std::mt19937 random(1);
     struct ToServer {
@@ -71,11 +71,11 @@ TEST(Prediction, ClientsComeToShowWhatTheServerHas) {
     };
     struct ToClient {
         std::vector<PlacedBlock> blocks;
-        std::uint32_t done = 0;  // none: blocks alone
+        std::uint32_t done = 0;  // 0: only blocks
     };
     struct Client {
         Prediction prediction;
-        std::map<BlockPos, int> shown, own;  // own: newest edit not decided
+        std::map<BlockPos, int> shown, own;  // own: newest undecided edit
         std::map<BlockPos, std::uint32_t> ownNumber;
         std::deque<ToServer> up;
         std::deque<ToClient> down;

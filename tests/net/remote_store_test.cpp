@@ -49,7 +49,7 @@ TEST_F(RemoteStoreTest, LaterChangesAreAdded) {
     EXPECT_FALSE(store_.contains({0, 0}));
 }
 
-// A client's session: chunks come with the server's edits, and its own edits are gone with the chunk.
+// In a client's session, chunks include the server's edits, and own edits are lost with the chunk.
 TEST_F(RemoteStoreTest, ASessionPlaysOnIt) {
     auto store = std::make_unique<RemoteStore>(store_.identity(), overworld());
     const world::BlockPos pos{3, 4, 200};

@@ -1,4 +1,4 @@
-// A server's file in a folder of its own.
+// A server's file in a temporary folder.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -51,7 +51,7 @@ TEST_F(ServerFileTest, AFailureIsToldAndTriedAgain) {
     EXPECT_EQ(file_->durable(), 0u);
     EXPECT_EQ(state(*file_), -1) << "all or nothing";
     isFull = false;
-    // An attempt that began before may still fail.
+    // An earlier attempt may still fail.
     while (!file_->flush()) continue;
     EXPECT_EQ(state(*file_), 4);
     EXPECT_EQ(file_->problem(), "");

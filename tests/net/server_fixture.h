@@ -1,5 +1,4 @@
-// A server without sockets, and clients on wires of memory: what one sends the other gets, at the test's
-// will.
+// A server without sockets, and clients on in-memory wires; the test delivers the messages.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -58,14 +57,14 @@ struct TestServer {
     ConnectionId lastConnection = 0;
 };
 
-// What speaks to the server: raw messages in, raw messages out.
+// A connection to the server that sends and receives raw messages.
 struct TestWire {
     explicit TestWire(TestServer& testServer) : server(testServer), id(++testServer.lastConnection) {
         fillRandom(channel);
         onOpened(server.state(), id, channel, {"test", "test", false}, server.now);
     }
     void say(const ClientMessage& message) { onMessage(server.state(), id, encode(message), server.now); }
-    // What the server sent since the last call.
+    // Messages of the server since the last call.
     std::vector<ServerMessage> take() {
         std::vector<ServerMessage> messages;
         const auto client = server.state().clients.find(id);
@@ -85,7 +84,7 @@ struct TestWire {
     std::size_t received = 0;
 };
 
-// Null where there is none; it points into the vector.
+// Null if there is none; points into the vector.
 template <class Message>
 const Message* findMessage(const std::vector<ServerMessage>& messages) {
     for (const ServerMessage& message : messages)
@@ -97,7 +96,7 @@ inline ClientIdentity testIdentity(const std::string& name) {
     return {name, newPlayerKey(), {}, "test"};
 }
 
-// Says what a client says until the answer to Proof is there; gives the last answer.
+// Performs the client's side of the login until the answer to Proof; returns the last answer.
 inline ServerMessage logIn(TestWire& wire, const ClientIdentity& identity) {
     wire.say(helloOf(identity));
     auto messages = wire.take();
@@ -111,7 +110,7 @@ inline ServerMessage logIn(TestWire& wire, const ClientIdentity& identity) {
     return messages.at(0);
 }
 
-// A player with a world of its own, on the surface at its spawn.
+// A player with its own world, on the surface at its spawn.
 struct TestPlayer {
     TestPlayer(TestServer& server, const ClientIdentity& who, int viewDistance = 2, int horizon = 0)
         : identity(who), wire(std::make_unique<TestWire>(server)), view(viewDistance), far(horizon) {
@@ -155,14 +154,14 @@ struct TestPlayer {
     world::Pose pose;
 };
 
-// A tick of the server, with all clients before and after it.
+// A tick of the server, with updates of all clients before and after it.
 inline void step(TestServer& server, std::initializer_list<TestPlayer*> players) {
     for (TestPlayer* player : players) player->update();
     server.tick();
     for (TestPlayer* player : players) player->update();
 }
 
-// Steps until it is so; false where that takes too long.
+// Steps until the condition holds; false on timeout.
 template <class Condition>
 bool stepUntil(TestServer& server, std::initializer_list<TestPlayer*> players, Condition isSo) {
     const Time end = std::chrono::steady_clock::now() + std::chrono::seconds(60);

@@ -23,7 +23,7 @@ ServerContent twoPacks() {
 
 class ServerPacks : public testing::Test {
   protected:
-    // Until WorldOffer.
+    // Logs in up to WorldOffer.
     WorldOffer offerTo(TestWire& wire) {
         const ClientIdentity identity = testIdentity("ann");
         wire.say(helloOf(identity));
@@ -54,7 +54,7 @@ TEST_F(ServerPacks, ComePartByPart) {
         ASSERT_TRUE(isWhole) << isWhole.error().message;
         if (!*isWhole) continue;
         archives.push_back(std::exchange(fetch.archive, {}));
-        fetch.wanted.pop_back();
+        fetch.missing.pop_back();
     }
     ASSERT_EQ(archives.size(), 2u);
     EXPECT_EQ(archives[0], *content_.packs[0].archive);
@@ -63,7 +63,7 @@ TEST_F(ServerPacks, ComePartByPart) {
     EXPECT_TRUE(findMessage<Joined>(wire.take()));
 }
 
-// What each connection gets is bounded: a pack once.
+// Limit per connection: each pack once.
 TEST_F(ServerPacks, AreSentOnce) {
     TestWire wire(server_);
     offerTo(wire);
@@ -105,7 +105,7 @@ TEST_F(ServerPacks, AClientTakesOnlyWhatItAskedFor) {
     EXPECT_FALSE(takePart(none, {0, 0, Bytes(50)}));
 }
 
-// Whoever gets parts has time for them; whoever asks for none has not.
+// Clients that download parts get more login time, others do not.
 TEST_F(ServerPacks, TheLoginWaitsForPacks) {
     TestWire fetching(server_), idle(server_);
     offerTo(fetching);

@@ -1,4 +1,4 @@
-// Players on one server, without sockets: each has a world of its own, and all worlds become the same.
+// Players on one server, without sockets: each has its own world, and all worlds become equal.
 #include "terrane/net/server.h"
 
 #include "terrane/net/server_console.h"
@@ -27,7 +27,7 @@ TEST_F(ServerTest, WhatOneBuildsTheOtherSees) {
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.block(pos) == contentBlock("glass"); }));
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(server.state().session.world().block(pos), contentBlock("glass"));
-    // Who comes later is told, too.
+    // A later player gets the edits, too.
     TestPlayer cid(server, testIdentity("Cid"));
     ASSERT_TRUE(stepUntil(server, {&cid}, [&] { return cid.isLoaded(); }));
     ASSERT_TRUE(stepUntil(server, {&cid}, [&] { return cid.block(pos) == contentBlock("glass"); }));
@@ -73,7 +73,7 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     EXPECT_EQ(std::get<game::TakenBack>(decided[0]).blocks, 64u);
 }
 
-// Two who roll back the same edits at once: the history can still be read.
+// Two concurrent rollbacks of the same edits: the history stays readable.
 TEST_F(ServerTest, RollBacksMayOverlap) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));
@@ -106,7 +106,7 @@ TEST_F(ServerTest, WhatWasAcknowledgedIsThereAfterACrash) {
         pos = above(ann);
         ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
         ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
-        // As a crash leaves it: the server's file alone has the edit.
+        // The state after a crash: only the server's file has the edit.
         for (const auto& entry : std::filesystem::directory_iterator(first)) {
             const std::string name = entry.path().filename().string();
             if (name.starts_with("w.server.sqlite") && !name.ends_with("lock"))

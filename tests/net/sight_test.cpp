@@ -36,7 +36,7 @@ TEST(PlayerGrid, FindsTheNearestOthers) {
     }
 }
 
-// A client that adds up what it is told has everybody's place, as old as the distance allows.
+// A client that accumulates pose changes has all positions, at most as old as the distance allows.
 TEST(Sight, ToldPosesAddUpAndAreYoungEnough) {
     std::mt19937 random(2);
     std::uniform_real_distribution<double> place(-300, 300), step(-3, 3);
@@ -87,7 +87,7 @@ TEST(Sight, ToldPosesAddUpAndAreYoungEnough) {
     }
 }
 
-// Two who go to the other end of the world together stay in sight of each other.
+// Two players who move to the other end of the world together still see each other.
 TEST(Sight, StepsMayBeAsLongAsTheWorld) {
     Sight sight;
     std::vector<PlayerAt> players{playerAt(1, -2147483000, 0), playerAt(2, -2147483005, 0)};
@@ -102,7 +102,7 @@ TEST(Sight, StepsMayBeAsLongAsTheWorld) {
     EXPECT_EQ(from + changes.poses[0].dx, players[1].pose.x);
 }
 
-// In 256 steps, within which a look is told.
+// Pitch is transmitted in 256 steps.
 TEST(Sight, LooksUpAndDownStayUpAndDown) {
     Sight sight;
     std::vector<PlayerAt> players{playerAt(1, 0, 0), playerAt(2, 5, 0)};

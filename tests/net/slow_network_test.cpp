@@ -1,4 +1,5 @@
-// Players over a network that is slow, stalls and breaks: each edit is made once, and all worlds are equal.
+// Players over a network that is slow, stalls and breaks: each edit is applied once, and all worlds become
+// equal.
 #include <random>
 
 #include "terrane/net/server.h"
@@ -20,7 +21,7 @@ class SlowNetwork : public SocketTest {
         far_ = &addPlayer("Far", proxy_->port());
         ASSERT_TRUE(runUntil([&] { return near_->isLoaded() && far_->isLoaded(); }));
     }
-    // A row of blocks, each by one edit.
+    // Builds a row of blocks with one edit each.
     void build(int count) {
         for (int k = 0; k < count; ++k) {
             const world::BlockPos pos = far_->above(k % 4);
@@ -74,7 +75,7 @@ TEST_F(SlowNetwork, EditsArriveOnceAfterAStall) {
     expectAllArrive(16);
 }
 
-// What is acknowledged is there; what is not may be lost, but nobody sees it then.
+// Acknowledged edits exist; others may be lost, but then nobody sees them.
 TEST_F(SlowNetwork, CutsAtAnyTime) {
     startBoth(std::chrono::milliseconds(20), false);
     std::mt19937 random(1);

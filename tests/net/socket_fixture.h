@@ -1,4 +1,4 @@
-// A server on a port of this computer and clients that connect to it, all on one thread.
+// A server on a local port and clients that connect to it, all on one thread.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -31,7 +31,7 @@ struct SocketServer {
     Time nextTick{};
 };
 
-// A player with a world of its own, behind a link that comes back after cuts.
+// A player with its own world, behind a link that reconnects.
 struct LinkPlayer {
     LinkPlayer(boost::asio::io_context& context, std::uint16_t port, const std::string& name)
         : link(context, {"127.0.0.1", port}, testIdentity(name), events()) {}
@@ -104,7 +104,7 @@ class SocketTest : public testing::Test {
         players_.push_back(std::make_unique<LinkPlayer>(context_, port ? port : port_, name));
         return *players_.back();
     }
-    // Runs all until it is so; false where that takes too long.
+    // Runs everything until the condition holds; false on timeout.
     template <class Condition>
     bool runUntil(Condition isSo, std::chrono::seconds limit = std::chrono::seconds(60)) {
         const Time end = std::chrono::steady_clock::now() + limit;
@@ -117,7 +117,7 @@ class SocketTest : public testing::Test {
         }
         return false;
     }
-    // `use` on a thread of its own, while the server runs: blocking calls are allowed there.
+    // Runs `use` on a separate thread while the server runs: it may block.
     template <class Use>
     auto beside(Use use) {
         auto result = std::async(std::launch::async, use);

@@ -1,4 +1,4 @@
-// A server on a real port: players over TLS, and those who speak something else or nothing at all.
+// A server on a real port: players over TLS, and clients that send something else or nothing.
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -25,12 +25,12 @@ Tcp::endpoint localPort(std::uint16_t port) {
     return {asio::ip::make_address("127.0.0.1"), port};
 }
 
-// For blocking calls on another thread.
+// A client with blocking calls, for another thread.
 struct BlockingClient {
     explicit BlockingClient(std::uint16_t port) : tls(clientContext()), stream(context, tls) {
         stream.next_layer().connect(localPort(port));
     }
-    // All that the server sends until it closes.
+    // Everything that the server sends until it closes.
     Bytes readAll() {
         Bytes bytes;
         std::array<std::byte, 4096> part;
@@ -56,7 +56,7 @@ std::optional<Refused> refusedOf(const Bytes& stream) {
     return std::nullopt;
 }
 
-// Of this process.
+// Resident memory of this process.
 std::size_t residentBytes() {
     std::ifstream file("/proc/self/statm");
     std::size_t pages = 0;
@@ -66,7 +66,7 @@ std::size_t residentBytes() {
 
 class SocketsTest : public SocketTest {
   protected:
-    // A player who is in builds, and sees that it was decided.
+    // A joined player builds and receives the decision.
     bool builds(LinkPlayer& player) {
         const world::BlockPos pos = player.above(2);
         const char* block = player.session->world().block(pos) == world::kAir ? "glass" : "air";
@@ -94,7 +94,7 @@ TEST_F(SocketsTest, PlayersJoinOverTls) {
     expectNobodyElse(1);
 }
 
-TEST_F(SocketsTest, WhatIsNoTlsIsClosed) {
+TEST_F(SocketsTest, ConnectionsWithoutTlsAreClosed) {
     start();
     LinkPlayer& ann = addPlayer("Ann");
     ASSERT_TRUE(runUntil([&] { return ann.isLoaded(); }));
@@ -105,7 +105,8 @@ TEST_F(SocketsTest, WhatIsNoTlsIsClosed) {
             BlockingClient client(port);
             SocketError error;
             asio::write(client.stream.next_layer(), asio::buffer(text), error);
-            // The last one may be the beginning of a record: it ends with its client.
+            // The last text may be the start of a TLS record: close our side so that the server stops
+            // waiting.
             if (text.size() < 5) client.stream.next_layer().shutdown(Tcp::socket::shutdown_send, error);
             std::array<char, 512> answer;
             while (!error) client.stream.next_layer().read_some(asio::buffer(answer), error);
@@ -132,7 +133,7 @@ TEST_F(SocketsTest, OlderTlsIsRefused) {
     expectNobodyElse(0);
 }
 
-// They are told why, though they go on sending.
+// They receive the reason although they keep sending.
 TEST_F(SocketsTest, TooLongAMessageEndsTheConnection) {
     start();
     const std::uint16_t port = port_;
@@ -148,7 +149,7 @@ TEST_F(SocketsTest, TooLongAMessageEndsTheConnection) {
     });
     const auto refused = refusedOf(answer);
     ASSERT_TRUE(refused);
-    EXPECT_EQ(refused->why, Refusal::Disorder);
+    EXPECT_EQ(refused->why, Refusal::ProtocolError);
     expectNobodyElse(0);
 }
 
@@ -174,7 +175,7 @@ TEST_F(SocketsTest, AServerThatStartsAgainIsJoinedAgain) {
     ASSERT_TRUE(runUntil([&] { return !ann.isJoined(); }));
     EXPECT_EQ(ann.link.reason(), "a pause");
     server_.reset();
-    (void)runUntil([] { return false; }, std::chrono::seconds(1));  // nobody is there
+    (void)runUntil([] { return false; }, std::chrono::seconds(1));  // no clients
     EXPECT_EQ(ann.link.stage() == ClientLink::Stage::Ended, false) << ann.link.reason();
     start();
     ASSERT_TRUE(runUntil([&] { return ann.joins == 2 && ann.isLoaded(); })) << ann.link.reason();
@@ -186,7 +187,7 @@ TEST_F(SocketsTest, WhoIsSentAwayStaysAway) {
     start();
     LinkPlayer& ann = addPlayer("Ann");
     ASSERT_TRUE(runUntil([&] { return ann.isLoaded(); }));
-    for (int k = 0; k < 100; ++k) ann.world->say("still talking");  // on its way meanwhile
+    for (int k = 0; k < 100; ++k) ann.world->say("still talking");  // in transit meanwhile
     EXPECT_EQ(runConsoleLine(server_->server.state(), "kick Ann enough"), "Ann is sent away");
     ASSERT_TRUE(runUntil([&] { return ann.link.stage() != ClientLink::Stage::Joined; }));
     EXPECT_EQ(ann.link.stage(), ClientLink::Stage::Ended);
@@ -206,7 +207,7 @@ TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
     start();
     LinkPlayer& ann = addPlayer("Ann");
     ASSERT_TRUE(runUntil([&] { return ann.isLoaded(); }));
-    // The beginning of a record of 500 bytes: the server expects the rest.
+    // The header of a TLS record of 500 bytes: the server waits for the rest.
     const std::array<char, 5> begun{0x16, 0x03, 0x01, 0x01, static_cast<char>(0xf4)};
     for (const bool begins : {false, true}) {
         const std::size_t before = residentBytes();
@@ -216,7 +217,7 @@ TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
             SocketError error;
             sockets.emplace_back(context_).connect(localPort(port_), error);
             if (begins && !error) asio::write(sockets.back(), asio::buffer(begun), error);
-            // All are taken in before more come: nobody else empties the system's queue.
+            // Accept all before opening more, since nothing else empties the system's queue.
             if (k % 50 == 49) (void)runUntil([&] { return context_.poll() == 0; });
             most = std::max(most, server_->sockets->connectionCount());
         }
@@ -245,7 +246,8 @@ TEST_F(SocketsTest, WhoStopsReadingIsSentAway) {
     ASSERT_TRUE(runUntil([&] { return ann.isLoaded() && bob.isLoaded(); }));
     proxy.isStalled = true;
     const std::string line = "say " + std::string(390, 'x');
-    // The system's buffers hold some megabytes. Ann reads all the time: more lines wait for that.
+    // The system's buffers hold several megabytes. More lines are sent only after Ann has read the earlier
+    // ones.
     EXPECT_TRUE(runUntil([&] {
         ServerState& state = server_->server.state();
         const bool hasAnnRead = std::ranges::any_of(state.clients, [](const auto& entry) {
@@ -257,7 +259,7 @@ TEST_F(SocketsTest, WhoStopsReadingIsSentAway) {
     EXPECT_TRUE(ann.isJoined()) << ann.link.reason();
     expectNobodyElse(1);
     EXPECT_TRUE(builds(ann));
-    // It comes back when it reads again.
+    // It reconnects when it reads again.
     proxy.isStalled = false;
     EXPECT_TRUE(runUntil([&] { return bob.joins == 2; })) << bob.link.reason();
 }

@@ -1,5 +1,5 @@
-// Between clients and a server on this computer: a network that delays, cuts bytes into pieces, stalls and
-// breaks. On the thread that runs the context.
+// A proxy that simulates a network which delays, splits, stalls and cuts the stream between clients and a
+// local server. On the thread that runs the context.
 #pragma once
 
 #include <boost/asio/io_context.hpp>
@@ -19,8 +19,8 @@ class TestProxy {
     using Error = boost::system::error_code;
 
     std::chrono::milliseconds delay{0};  // each way
-    bool splits = false;                 // bytes are sent one by one
-    bool isStalled = false;              // nothing more is taken from either side
+    bool splits = false;                 // sends single bytes
+    bool isStalled = false;              // reads nothing from either side
 
     TestProxy(boost::asio::io_context& context, std::uint16_t serverPort)
         : context_(context),
@@ -30,7 +30,7 @@ class TestProxy {
     }
     ~TestProxy() { cutAll(); }
     std::uint16_t port() const { return acceptor_.local_endpoint().port(); }
-    // Ends all connections that are open now.
+    // Cuts all open connections.
     void cutAll() {
         for (const auto& pair : pairs_)
             if (const auto open = pair.lock()) open->close();
@@ -42,7 +42,7 @@ class TestProxy {
         std::chrono::steady_clock::time_point due;
         std::vector<char> bytes;
     };
-    // One way of a connection.
+    // One direction of a connection.
     struct Way {
         Way(Tcp::socket& source, Tcp::socket& target) : from(source), to(target) {}
         Tcp::socket& from;

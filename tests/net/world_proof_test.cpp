@@ -38,7 +38,7 @@ TEST(WorldProof, EachDifferenceIsToldInOneLine) {
     EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("blocks"), std::string::npos);
 }
 
-// A server that offers what nobody has, and knows the list of blocks.
+// An offer with an unknown generator but the right blocks.
 TEST(WorldProof, AnOfferOfNoGeneratorIsRefused) {
     WorldOffer offer;
     offer.world.blocks = blocksHash(contentBlocks());
@@ -71,7 +71,7 @@ TEST(WorldProof, DigestsTellGeneratorsAndSeedsApart) {
     EXPECT_NE(digests("overworld", 1), digests("continents", 1));
 }
 
-// However the chunk came to its blocks.
+// The digest depends only on the blocks, not on their history.
 TEST(WorldProof, ADigestIsOfBlocksAlone) {
     world::Chunk a, b;
     a.setBlock(5, 3);

@@ -1,4 +1,4 @@
-// The database of servers stops, is killed, and comes back: edits wait and none is lost or made twice.
+// The servers' database stops, is killed and comes back: edits wait, and none is lost or applied twice.
 #include "tests/base/temp_folder.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 

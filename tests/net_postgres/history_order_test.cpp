@@ -1,4 +1,4 @@
-// Who was first, against a slow reference.
+// Conflict detection compared with a slow reference.
 #include "terrane/net_postgres/history_order.h"
 
 #include <gtest/gtest.h>

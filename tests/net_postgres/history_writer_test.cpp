@@ -1,5 +1,5 @@
-// Batches whose end the server never hears of: they are in the history once, in its order, and nobody is told
-// otherwise.
+// Batches whose COMMIT is never confirmed to the server: they are in the history once and in order, and all
+// reports agree with it.
 #include "terrane/net_postgres/history_writer.h"
 
 #include <sys/socket.h>
@@ -26,15 +26,15 @@ net::LoggedEdit editOf(std::string_view block) {
             {{7, world::BlockValue{contentBlock(block), 0, {}}}}};
 }
 
-// A world in a database of its own, in which the ends of transactions that write to some tables wait for a
-// second machine, which is not there. What waits is committed.
+// A world in its own database, where commits of transactions that write to certain tables wait for a
+// synchronous replica that does not exist. A waiting transaction is already durable.
 class HistoryWriterTest : public testing::Test {
   protected:
     HistoryWriterTest() {
         postgres_.sql("ALTER SYSTEM SET synchronous_commit = local");
         postgres_.sql("ALTER SYSTEM SET synchronous_standby_names = nobody");
         postgres_.sql("SELECT pg_reload_conf()");
-        sharedParts(address_);  // makes the world
+        sharedParts(address_);  // creates the world
         blocks_ = net::ownBlocks();
         ids_ = store_postgres::openToRead(address_, *blocks_)->contents.ids;
         connection_.emplace(open());
@@ -62,7 +62,7 @@ class HistoryWriterTest : public testing::Test {
         postgres_.sql("ALTER SYSTEM SET synchronous_standby_names = ''");
         postgres_.sql("SELECT pg_reload_conf()");
     }
-    // Writes a batch to its end, where `cut` breaks the connection.
+    // Writes a batch up to its commit, where `cut` breaks the connection.
     template <class Cut>
     void writeAndCut(const std::vector<QueuedWrite>& batch, Cut cut) {
         Heard heard;
@@ -96,7 +96,7 @@ class HistoryWriterTest : public testing::Test {
     std::optional<HistoryWriter> writer_;
 };
 
-// Another server appends before this one is back: its edit is the later one.
+// Another server appends before this one reconnects: its edit is the later one.
 TEST_F(HistoryWriterTest, ACommitThatWasNotHeardOfComesBeforeWhatFollowedIt) {
     makeEndsWait("edits");
     const std::vector<QueuedWrite> batch{write(11, editOf("stone"))};
@@ -126,8 +126,7 @@ TEST_F(HistoryWriterTest, ACommitThatWasNotHeardOfComesBeforeWhatFollowedIt) {
     EXPECT_EQ(postgres_.query("SELECT count(*) FROM terrane.edits"), "2");
 }
 
-// The network breaks while the database has not ended the transaction: whoever looks at once sees nothing of
-// it.
+// The network breaks while the database is still committing: an immediate read does not see the transaction.
 TEST_F(HistoryWriterTest, ACommitThatIsStillGoingOnIsWaitedFor) {
     makeEndsWait("edits");
     const std::vector<QueuedWrite> batch{write(11, editOf("stone"))};

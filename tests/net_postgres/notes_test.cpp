@@ -1,4 +1,4 @@
-// Notes of servers to each other: round trips, and any text.
+// Notes between servers: round trips, and arbitrary text.
 #include <gtest/gtest.h>
 
 #include <random>

@@ -1,4 +1,4 @@
-// Records of servers from a file into a database, and back.
+// Copies records of servers from a file into a database and back.
 #include "terrane/net/records_copy.h"
 
 #include "terrane/net/server_console.h"
@@ -81,7 +81,7 @@ TEST_F(SharedServersTest, RecordsGoThereAndBack) {
     shared.reset();
     EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "0") << "it is no server";
 
-    // New players have numbers above.
+    // New players get higher numbers.
     TestServer& server = servers_.add();
     net::runConsoleLine(server.state(), "password off");
     Guest carl(server, "Carl");
@@ -89,8 +89,7 @@ TEST_F(SharedServersTest, RecordsGoThereAndBack) {
     servers_.stopAll();
 }
 
-// Pages that are read again are used once. The error of who uses an edit is not taken for one of the
-// database.
+// Pages that are read again are used once. An error of `use` is not taken for one of the database.
 TEST_F(SharedServersTest, EditsComeOnceThoughTheConnectionIsCut) {
     sharedParts(servers_.address());  // makes the world
     auto records = PostgresRecords::open(servers_.address(), contentBlocks(), {"test", "", ""}).value();

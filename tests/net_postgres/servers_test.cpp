@@ -1,4 +1,4 @@
-// Several servers of one world: edits, players, talk, time.
+// Several servers of one world: edits, players, chat, time.
 #include <functional>
 #include <random>
 
@@ -12,7 +12,7 @@ namespace {
 using game::EditResult;
 using world::BlockPos;
 
-// Null, unless the chunk is loaded on the server.
+// No value unless the chunk is loaded on the server.
 std::optional<world::BlockId> blockOn(TestServer& server, BlockPos pos) {
     const world::World& world = server.state().session.world();
     if (!world.maybeChunkAt(world::chunkOf(pos))) return std::nullopt;
@@ -33,7 +33,7 @@ TEST_F(SharedServersTest, AnEditReachesPlayersOfOtherServers) {
     const auto* changed = bert.find<net::BlocksChanged>();
     EXPECT_EQ(changed->chunk, world::chunkOf(pos));
     EXPECT_EQ(changed->blocks.at(0).value.id, contentBlock("stone"));
-    // And who comes later is told.
+    // A later player gets them, too.
     Guest carl(b, "Carl");
     EXPECT_TRUE(servers_.tickUntil([&] { return carl.find<net::ChunkEdits>() != nullptr; }));
     servers_.stopAll();
@@ -43,7 +43,7 @@ TEST_F(SharedServersTest, OfTwoWhoChangeOneBlockAtATimeOneIsFirst) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna"), bert(b, "Bert");
     const BlockPos pos = anna.near(1, 1);
-    // Both have the chunk before.
+    // Both servers have loaded the chunk.
     const auto warmA = anna.set(anna.near(0, 1), "dirt");
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(warmA).has_value(); }));
     const auto warmB = bert.set(bert.near(0, -1), "dirt");
@@ -60,8 +60,8 @@ TEST_F(SharedServersTest, OfTwoWhoChangeOneBlockAtATimeOneIsFirst) {
     servers_.stopAll();
 }
 
-// Random edits of few blocks by three servers at once: all servers, the history and the store end with the
-// same.
+// Random concurrent edits of a few blocks by three servers: all servers, the history and the store end up
+// equal.
 TEST_F(SharedServersTest, RandomEditsConverge) {
     std::mt19937 random(7);
     std::vector<std::unique_ptr<Guest>> guests;
@@ -83,7 +83,7 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
             places.insert(pos);
             guest->set(pos, blocks[random() % std::size(blocks)]);
         }
-        // Not in step: each hears of the others at its own time.
+        // Servers tick at different times, so each hears of the others at its own time.
         servers_.all()[random() % 3]->tick();
         if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
@@ -133,7 +133,7 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
     EXPECT_EQ(postgres_.query("SELECT newest = saved FROM " + schema_ + ".history"), "t");
 }
 
-// The other server has not loaded the chunk, its row is not saved, and nobody there has looked at it before.
+// The other server has not loaded the chunk, its row is not saved, and nobody there has seen it before.
 TEST_F(SharedServersTest, WhoComesLaterIsToldWhatIsNotSavedYet) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna");
@@ -206,12 +206,12 @@ TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
 
 TEST_F(SharedServersTest, ANameIsGivenOnce) {
     TestServer &a = servers_.add(), &b = servers_.add();
-    Guest first(a, "Anna"), second(b, "ANNA");  // at the same time: neither server has heard of the other
+    Guest first(a, "Anna"), second(b, "ANNA");  // simultaneous: neither server knows of the other
     ASSERT_TRUE(servers_.tickUntil(
         [&] { return (first.find<net::Refused>() != nullptr) != (second.find<net::Refused>() != nullptr); }));
     Guest& loser = first.find<net::Refused>() ? first : second;
     EXPECT_EQ(loser.find<net::Refused>()->why, net::Refusal::Name);
-    // Who comes later is refused at once.
+    // Later logins with the name are refused at once.
     for (int k = 0; k < 50; ++k) servers_.tick();
     for (const auto& server : servers_.all()) {
         Guest third(*server, "anna");
@@ -255,7 +255,7 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     EXPECT_TRUE(servers_.tickUntil([&] { return std::abs(b.state().session.clock.timeDay - 0.75) < 0.01; }));
     (void)net::runConsoleLine(a.state(), "mark 5 -6 70 The mill");
     const auto places = [&] { return game::savedPlaces(b.state().session.store()); };
-    // Others hear of them once they are saved.
+    // Other servers are told once they are saved.
     const auto tickUntil = [&](const std::function<bool()>& isSo) {
         return servers_.tickUntil([&] {
             anna.stayAwake();
@@ -273,14 +273,14 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     servers_.stopAll();
 }
 
-// One server alone lets time pass in a region, and the others have what it does there.
+// Only one server lets time pass in a region, and the others get its changes.
 TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna"), bert(b, "Bert");
     const BlockPos source = anna.near(1, 0, 1);
     const auto number = anna.set(source, "water");
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
-    const auto one = bert.set(bert.near(0, 1), "stone");  // so that it is loaded there, too
+    const auto one = bert.set(bert.near(0, 1), "stone");  // loads the chunk there, too
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.resultOf(one) == EditResult::Applied; }));
     const std::string flown = "SELECT count(*) FROM " + schema_ + ".edits WHERE player = 0";
     std::string before;
@@ -311,7 +311,7 @@ TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
     servers_.stopAll();
 }
 
-// One change that is no UTF-8 waits for nobody: those around it are made.
+// A change with invalid UTF-8 does not block the changes around it.
 TEST_F(SharedServersTest, WhatTheDatabaseRefusesIsGivenUp) {
     TestServer& a = servers_.add();
     Guest anna(a, "Anna");
@@ -327,7 +327,7 @@ TEST_F(SharedServersTest, WhatTheDatabaseRefusesIsGivenUp) {
     servers_.stopAll();
 }
 
-// Nobody tells of it: as what was told while the connection was broken.
+// Without a notification, as when it was sent while the connection was broken.
 TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
     TestServer& a = servers_.add();
     Guest anna(a, "Anna"), bert(a, "Bert");
@@ -352,13 +352,13 @@ TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
     servers_.stopAll();
 }
 
-// A server that stalled is heard of again: its edits are its own to save.
+// A stalled server continues: it saves its own edits.
 TEST_F(SharedServersTest, AServerThatHadOnlyStalledIsNotForgotten) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna");
     const auto number = anna.set(anna.near(1, 0), "cyan_glass");
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
-    // As b finds it, before a says again that it is there.
+    // The state of b before a reports again.
     b.state().sharing.orphans.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
     net::SharedWorld& shared = *b.state().records.shared();
     shared.forgetServer(1);

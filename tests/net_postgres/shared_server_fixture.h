@@ -1,4 +1,4 @@
-// Servers of one world in a real PostgreSQL, in one process, driven tick by tick.
+// Servers of one world in a real PostgreSQL database, in one process, driven tick by tick.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -36,14 +36,14 @@ class SharedServers {
     TestServer& add() {
         auto parts = sharedParts(address_);
         auto records = PostgresRecords::open(address_, *parts.blocks, {"test", "", ""}).value();
-        // Numbers of players come on another thread: guests of a test join at once.
+        // Another thread reserves player numbers: wait, so that guests can join at once.
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
         while (records->takePlayerNumber() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         servers_.push_back(std::make_unique<TestServer>(std::move(parts), std::move(records)));
         return *servers_.back();
     }
-    // As if it was killed: nothing is saved.
+    // Ends the server as if killed: nothing is saved.
     void kill(TestServer& server) {
         std::erase_if(servers_, [&](const auto& entry) { return entry.get() == &server; });
     }
@@ -59,7 +59,7 @@ class SharedServers {
         for (const auto& server : servers_) server->tick();
         std::this_thread::sleep_for(std::chrono::milliseconds(2));
     }
-    // Ticks until that is so, for half a minute at most.
+    // Ticks until the condition holds, at most half a minute.
     template <class Condition>
     bool tickUntil(Condition condition) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
@@ -78,7 +78,7 @@ class SharedServers {
     std::vector<std::unique_ptr<TestServer>> servers_;
 };
 
-// A player without a world, that says and hears messages.
+// A player without a world that sends and receives messages.
 struct Guest {
     Guest(TestServer& testServer, const std::string& name, net::ClientIdentity who)
         : server(testServer), identity(std::move(who)), wire(testServer) {
@@ -93,7 +93,7 @@ struct Guest {
     Guest(TestServer& testServer, const std::string& name)
         : Guest(testServer, name, net::testIdentity(name)) {}
 
-    // Sets a block near the player. Gives the command's number.
+    // Sets a block near the player. Returns the command's number.
     net::CommandNumber set(world::BlockPos pos, std::string_view block,
                            std::optional<world::BlockId> expected = std::nullopt) {
         const world::BlockId to = contentBlock(block);
@@ -101,7 +101,7 @@ struct Guest {
         return last;
     }
     void stayAwake() { wire.say(net::Move{pose}); }
-    // Keeps what came.
+    // Stores received messages.
     void hear() {
         for (net::ServerMessage& message : wire.take()) heard.push_back(std::move(message));
     }
@@ -117,7 +117,7 @@ struct Guest {
                 return static_cast<game::EditResult>(done->result);
         return std::nullopt;
     }
-    // A place in reach, `up` blocks above its head.
+    // A position within reach, `up` blocks above its head.
     world::BlockPos near(int dx, int dy, int up = 1) const {
         const world::BlockPos eyes = world::blockOf(net::poseOf(pose).position);
         return {eyes.x + dx, eyes.y + dy, eyes.z + up};

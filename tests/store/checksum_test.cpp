@@ -1,5 +1,5 @@
-// What the checksums of format 3 cover: a bit that flips anywhere in a save is found by the check, or changes
-// nothing of what is read.
+// Coverage of the checksums of format 3: any flipped bit in a save is detected by the check, or changes
+// nothing that is read.
 #include <gmock/gmock.h>
 
 #include <cstdlib>
@@ -35,7 +35,7 @@ class ChecksumTest : public testing::Test {
         return !reader && reader.error().code == base::ErrorCode::Damaged &&
                reader.error().message.find(reason) != std::string::npos;
     }
-    // Whether all that a game reads is there as it was saved.
+    // Whether everything that a game reads is as saved.
     bool isWhole() {
         const auto reader = SqliteReader::open(path_, registry_);
         if (!reader || (*reader)->identity() != kIdentity) return false;
@@ -114,7 +114,7 @@ TEST_F(ChecksumTest, TheStoreAloneWritesTheChecksum) {
     EXPECT_TRUE(isWhole());
 }
 
-// A change keeps what is wrong elsewhere wrong.
+// Writing does not hide damage elsewhere.
 TEST_F(ChecksumTest, WritingDoesNotHideDamage) {
     auto database = Database::open(path_, OpenMode::ReadWrite);
     ASSERT_TRUE(database && database->execute("UPDATE settings SET value = '8' WHERE name = 'seed'"));
@@ -126,7 +126,7 @@ TEST_F(ChecksumTest, WritingDoesNotHideDamage) {
     EXPECT_TRUE(SqliteReader::open(path_, registry_));
 }
 
-// All bits with TERRANE_FLIPS=1 (minutes), else each 211th: bits of all places of a byte.
+// All bits with TERRANE_FLIPS=1 (minutes), otherwise every 211th, which covers all bit positions.
 TEST_F(ChecksumTest, OneFlippedBitIsNoticedOrHarmless) {
     ASSERT_TRUE(isWhole());
     const std::string whole = readAll(path_);

@@ -19,7 +19,7 @@ Bytes encode(const Chunk& chunk, const BlockIdMap& ids = allIds()) {
     return std::move(*bytes);
 }
 
-// The reader's answer to bytes that a program wrote which knows the checksum.
+// The reader's error for bytes with a valid checksum.
 std::string errorOf(Bytes bytes) {
     const auto chunk = decodeChunk(bytes, allIds());
     return chunk ? "" : chunk.error().message;
@@ -31,7 +31,7 @@ Bytes withChecksum(Bytes bytes) {
     return bytes;
 }
 
-// The frame that docs/file-format.md describes, around any content.
+// The frame of docs/file-format.md around any content.
 Bytes frame(ByteView plain, std::uint8_t version = kChunkVersion) {
     Bytes bytes(8);
     appendNumber(bytes, version);
@@ -40,7 +40,7 @@ Bytes frame(ByteView plain, std::uint8_t version = kChunkVersion) {
     return withChecksum(bytes);
 }
 
-// Uniform sections of id 0 and block state 0, then what follows.
+// Uniform sections of id 0 and block state 0, then `rest`.
 Bytes plainAir(ByteView rest) {
     Bytes plain(32 * 3);
     append(plain, rest);
@@ -57,7 +57,7 @@ TEST(ChunkCodec, RandomChunksComeBack) {
     }
 }
 
-// However a chunk came to be: section forms wider than needed, palettes in another order.
+// Independent of history: sections wider than needed, palettes in another order.
 TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
     std::mt19937 random(2);
     for (int round = 0; round < 20; ++round) {
@@ -104,7 +104,7 @@ TEST(ChunkCodec, TooMuchBlockEntityDataIsRefused) {
     EXPECT_THAT(bytes.error().message, HasSubstr("block entity data"));
 }
 
-// A save of a build whose blocks have other ids, and some that this one lacks.
+// A save of a build with other ids, and with blocks that this one lacks.
 TEST(ChunkCodec, IdsFollowTheNames) {
     const auto writer = BlockIdMap::make(registryOf({"stone", "lamp", "dirt"}), {});
     ASSERT_TRUE(writer);
@@ -155,7 +155,7 @@ TEST(ChunkCodec, IdsWithoutNamesAreErrors) {
     EXPECT_THAT(back.error().message, HasSubstr("block id 77 has no name"));
 }
 
-// Written by the first release of the format: must be read for ever.
+// Written by the first release of the format: must stay readable.
 TEST(ChunkCodec, ReadsVersion1) {
     constexpr std::string_view kHex =
         "0ed4fe921733ae79019812000028b52ffd0018cd0300d2061522902bad01a7faffffffff4ff52f7177d18757cb"
@@ -209,12 +209,12 @@ TEST(ChunkCodec, PaletteThatDoesNotFitIsRefused) {
     appendNumber(plain, std::uint16_t{3});
     for (const int id : {1, 2, 3}) appendNumber(plain, static_cast<std::uint16_t>(id));
     plain.resize(plain.size() + 31 * 3);
-    plain.resize(plain.size() + 1024, std::byte{0xFF});  // index 3 everywhere
+    plain.resize(plain.size() + 1024, std::byte{0xFF});  // palette index 3 everywhere
     appendNumber(plain, std::uint32_t{0});
     EXPECT_THAT(errorOf(frame(plain)), HasSubstr("palette of 2 bits"));
 }
 
-// A length that is a lie is found out, and memory for it is not asked for without end.
+// Wrong lengths are detected, without excessive allocations.
 TEST(ChunkCodec, LyingLengths) {
     Bytes bytes = frame(plainAir(Bytes(4)));
     for (const std::uint32_t length : {0u, 1u, 99u, 101u, 1u << 26, (1u << 26) + 1, 0xFFFFFFFFu}) {
@@ -223,8 +223,8 @@ TEST(ChunkCodec, LyingLengths) {
     }
 }
 
-// Nothing that can happen to bytes makes the reader do anything but answer. (The sanitizers watch.) Half of
-// the changes are made to what the checksum and the compression protect.
+// Damaged bytes never crash the reader (checked by the sanitizers). Half of the changes are made inside the
+// checksum and the compression.
 TEST(ChunkCodec, DamagedBytes) {
     std::mt19937 random(4);
     for (int round = 0; round < 40; ++round) {
@@ -252,7 +252,7 @@ TEST(ChunkCodec, DamagedContent) {
         ASSERT_TRUE(decompress(ByteView(good).subspan(13), plain));
         for (int step = 0; step < 30; ++step) {
             Bytes bad = plain;
-            // Heads and block entity data's lengths are where it matters: at both ends.
+            // The interesting parts are at both ends: section heads, and lengths of block entity data.
             const std::size_t near = random() % std::min<std::size_t>(bad.size(), 300);
             bad[random() % 2 ? near : bad.size() - 1 - near] = static_cast<std::byte>(random());
             (void)errorOf(frame(bad));

@@ -1,5 +1,5 @@
-// What every ChunkStore does is in chunk_store_contract_test.cpp. A kind of store takes part by a fixture
-// and a line in store_kinds_test.cpp.
+// The contract of every ChunkStore is tested by chunk_store_contract_test.cpp. A kind of store takes part by
+// a fixture and a line in store_kinds_test.cpp.
 #pragma once
 
 #include <functional>
@@ -10,17 +10,17 @@
 
 namespace terrane::store {
 
-// A world of kIdentity, new for each test, and what a store of the kind needs besides: a folder, a database.
+// A world with kIdentity, new for each test, and the environment of the kind of store: a folder, a database.
 class ContractWorld {
   public:
     virtual ~ContractWorld() = default;
-    // The world with testRegistry(), saving nothing by itself (kNever). Called again after the store before
-    // is gone: where the store is persistent it finds what that one saved.
+    // Opens the world with testRegistry() and no automatic saves (kNever). When called again, the previous
+    // store is gone; a persistent store finds its saves.
     virtual std::unique_ptr<ChunkStore> open() = 0;
 };
 
 struct StoreKind {
-    std::string name;  // of the tests
+    std::string name;  // name of the tests
     std::function<std::unique_ptr<ContractWorld>()> makeWorld;
 };
 

@@ -44,7 +44,7 @@ TEST_P(ChunkStoreContract, ChunksComeBack) {
     }
 }
 
-// Blocks, block states and block entity data of all forms, with ids of the registry.
+// Blocks, block states and block entity data in all representations, with ids of the registry.
 TEST_P(ChunkStoreContract, AllThatAChunkHasComesBack) {
     const auto store = world_->open();
     std::mt19937 random(1);
@@ -109,7 +109,7 @@ TEST_P(ChunkStoreContract, GeneratedNeverReplacesEdited) {
             saveAs(n + 2, Provenance::Generated);
             expectNumber(n + 2, Provenance::Generated);
         } else {
-            expectNumber(5, Provenance::Edited);  // what the first round left
+            expectNumber(5, Provenance::Edited);  // saved by the first round
         }
         saveAs(n + 3, Provenance::Edited);
         expectNumber(n + 3, Provenance::Edited);
@@ -145,7 +145,7 @@ TEST_P(ChunkStoreContract, LoadsManyInTheOrderAsked) {
         positions.push_back(pos);
         if (x % 3 > 0)
             store->save(pos, numberedChunk(x), x % 3 == 1 ? Provenance::Edited : Provenance::Generated);
-        if (x == 20) {  // some are still on the way
+        if (x == 20) {  // some are still queued
             ASSERT_TRUE(store->flush());
         }
     }

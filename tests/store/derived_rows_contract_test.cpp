@@ -1,4 +1,4 @@
-// What every ChunkStore does with rows that follow from others. The stores are in store_kinds_test.cpp.
+// The contract of every ChunkStore for derived rows. The stores are in store_kinds_test.cpp.
 #include "terrane/store/derived_rows.h"
 
 #include <gmock/gmock.h>
@@ -16,7 +16,7 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using world::ChunkPos;
 
-// What the functions of deriveSums() were called with. To be read after flush().
+// Arguments of the functions of deriveSums(). Read after flush().
 struct Calls {
     std::vector<std::vector<ChunkPos>> derived, written;
     std::vector<std::thread::id> threads;
@@ -39,7 +39,7 @@ struct Calls {
     }
 };
 
-// The store has the tiles that follow from these chunks, and no others around chunks of -8 to 7.
+// Expects exactly the tiles derived from these chunks, among chunks -8 to 7.
 void expectTilesOf(ChunkStore& store, const std::vector<ChunkRow>& edited) {
     TileMap expected = tilesOf(edited);
     for (int level = 1; level <= kTopTileLevel; ++level)
@@ -76,7 +76,7 @@ TEST_P(ChunkStoreContract, DerivedRowsComeWithTheirChunks) {
     EXPECT_THAT(calls.written[0],
                 ElementsAre(ChunkPos{-2, 2, 1}, ChunkPos{0, 0, 1}, ChunkPos{-1, 1, 2}, ChunkPos{0, 0, 2}));
 
-    // Siblings of another batch count.
+    // Siblings saved in an earlier batch are included.
     store->save({1, 0}, numberedChunk(5), Provenance::Edited);
     ASSERT_TRUE(store->flush());
     expectTilesOf(*store,
@@ -110,7 +110,7 @@ bool isNumbered(const world::ChunkPtr& chunk, int number) {
     return chunk && *chunk == *numberedChunk(number);
 }
 
-// While rows are derived the store has what it had before the batch, and takes more.
+// During derive() the store has the state before the batch, and accepts saves.
 TEST_P(ChunkStoreContract, WhatDeriveSees) {
     const auto store = world_->open();
     saveAll(*store, {{{0, 0}, numberedChunk(1)}});
@@ -208,7 +208,7 @@ TEST_P(ChunkStoreContract, TellsEditedChunks) {
 
 TEST_P(ChunkStoreContract, DerivesAll) {
     const auto store = world_->open();
-    // Without four chunks: the second group begins in the middle of a tile of level 2.
+    // Without four chunks, so that the second group begins in the middle of a tile of level 2.
     std::vector<ChunkRow> edited;
     for (int k = 0; k < 16 * 16; ++k)
         if (k % 16 > 1 || k / 16 > 1) edited.push_back({{k % 16 - 8, k / 16 - 8}, numberedChunk(k)});
@@ -265,8 +265,8 @@ TEST_P(ChunkStoreContract, TheMarkTellsWhetherAllRowsAreDerived) {
                   {{{0, 0}, numberedChunk(1)}, {{2, 2}, numberedChunk(2)}, {{3, 3}, numberedChunk(3)}});
 }
 
-// setDerivedRows() and deriveAll() beside saves: for the thread sanitizer, and every tile is right at the
-// end.
+// setDerivedRows() and deriveAll() concurrent with saves: for the thread sanitizer; every tile is right at
+// the end.
 TEST_P(ChunkStoreContract, DerivesAllBesideSaves) {
     const auto store = world_->open();
     std::vector<ChunkRow> edited;

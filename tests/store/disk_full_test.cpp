@@ -1,4 +1,4 @@
-// A file system without room. Making a small one needs the rights of root.
+// A full file system. Creating a small one requires root.
 #include <gmock/gmock.h>
 #include <sys/mount.h>
 
@@ -35,7 +35,7 @@ TEST(DiskFull, NothingIsLostAndItWorksAgainWithRoom) {
     (*store)->save({-1, 0}, numberedChunk(1), Provenance::Edited);
     ASSERT_TRUE((*store)->flush());
 
-    // Leaves less than the 1.2 MB that follow.
+    // Leaves less than the 1.2 MB that are saved next.
     writeAll(disk / "other", std::string(3 << 20, 'x'));
     std::mt19937 random(1);
     const auto noise = [&] {

@@ -44,7 +44,7 @@ TEST(EntityBudget, DataOutlivesTheBudget) {
     EXPECT_EQ((*data)[9], std::byte{3});
 }
 
-// Many small pieces cost more than their bytes.
+// Many small pieces use more memory than their bytes.
 TEST(EntityBudget, ManySmallPiecesAreCounted) {
     world::Chunk chunk;
     for (int i = 0; i < 20000; ++i)
@@ -60,7 +60,7 @@ TEST(EntityBudget, ManySmallPiecesAreCounted) {
     EXPECT_EQ(*taken, chunk);
 }
 
-// A small file whose chunks ask for 20 MiB each.
+// A small file whose chunks expand to 20 MiB each.
 class SwollenSaveTest : public testing::Test {
   protected:
     static constexpr int kRows = 10;
@@ -117,7 +117,7 @@ TEST_F(SwollenSaveTest, WhatGoesBeyondTheBudgetStaysInTheSave) {
         EXPECT_TRUE(held[3].isUnread);
         EXPECT_THAT(held[3].problem,
                     HasSubstr("chunk 3,0: its block entity data are more than may be in memory"));
-        // What the generator makes there is not saved, what a player builds is, and the row is put aside.
+        // A generated chunk is not saved there, an edited one is, and the row is quarantined.
         (*store)->save({3, 0}, numberedChunk(3), Provenance::Generated);
         (*store)->save({4, 0}, numberedChunk(4), Provenance::Edited);
         ASSERT_TRUE((*store)->flush());
@@ -138,7 +138,7 @@ TEST_F(SwollenSaveTest, ForReadersToo) {
     EXPECT_EQ(presentIn((*store)->loadMany(positions())), 3);
 }
 
-// A row that says it has more than any chunk: noted, and replaced.
+// A row whose size exceeds any chunk: noted, and replaced.
 TEST_F(SwollenSaveTest, RowsLongerThanAChunk) {
     runSql(path_, fmt::format("UPDATE chunks SET data = zeroblob(70000000) WHERE key IN ({}, {})",
                               keyOf({1, 0}), keyOf({2, 0})));

@@ -19,7 +19,7 @@
 namespace terrane::store {
 namespace {
 
-// One disk at a time: SQLite's callbacks know only files.
+// One disk at a time, since SQLite's callbacks only know files.
 struct DiskState {
     std::mutex mutex;
     unsigned failingKinds = 0;
@@ -27,26 +27,27 @@ struct DiskState {
     long counted = 0, failFrom = 0, failUntil = 0, failed = 0;
 
     UnsyncedWrites unsynced;
-    UnsyncedWrites::Files left;  // by the stop
+    UnsyncedWrites::Files left;  // files left by the stop
     DiskStop stop = DiskStop::Kill;
     bool hasStopped = false;
     long changed = 0, stopFrom = LONG_MAX;
     std::mt19937 random;
     std::uint64_t history = 0xCBF2'9CE4'8422'2325;
 
-    // SQLite asks for numbers while it holds a mutex of its own, which other calls take the other way round.
+    // SQLite requests random numbers while it holds its own mutex, which other calls lock in the opposite
+    // order.
     std::mutex sqliteMutex;
     std::mt19937 sqliteRandom;
 };
 DiskState* disk = nullptr;
-thread_local bool isHalved = false;  // the next call of the system
+thread_local bool isHalved = false;  // applies to the next system call
 
 constexpr unsigned kChanges = kDiskOpen | kDiskWrite | kDiskTruncate | kDiskSync | kDiskDelete;
 
-// What becomes of an operation.
+// The outcome of an operation.
 enum class Fate { Works, Fails, IsCutShort, IsLost };
 
-// Called under the mutex.
+// Call with the mutex held.
 void remember(std::uint64_t value) {
     disk->history = (disk->history ^ value) * 0x100'0000'01B3;
 }
@@ -66,7 +67,7 @@ Fate fateOf(DiskOperation kind, std::int64_t at = 0, int bytes = 0) {
     return Fate::Fails;
 }
 
-// The system's calls, of which an operation makes as many as it takes. The thread that halves has the mutex.
+// System calls; an operation makes as many as needed. The thread that halves holds the mutex.
 std::size_t halvedOnce(std::size_t bytes) {
     if (!std::exchange(isHalved, false)) return bytes;
     ++disk->failed;
@@ -96,8 +97,8 @@ void stopHere() {
     disk->hasStopped = true;
     const bool isKill = disk->stop == DiskStop::Kill;
     disk->left = isKill ? disk->unsynced.afterKill() : disk->unsynced.afterPowerLoss(disk->random);
-    // The lock of terrane/store/file_lock.h, which SQLite does not know: its file may be as it is, or not yet
-    // have its last words.
+    // The lock file of terrane/store/file_lock.h, which SQLite does not know: it may be complete, or lack its
+    // last content.
     for (const auto& [path, content] : UnsyncedWrites::Files(disk->left)) {
         auto lock = contentOfFile(path + "-lock");
         if (!lock || lock->empty()) continue;
@@ -106,7 +107,7 @@ void stopHere() {
     }
 }
 
-// The code of a failure. Room is needed by what writes and by new files.
+// The error code of a failure. Writes and new files need disk space.
 int codeOf(DiskOperation kind, int code) {
     const bool needsRoom = (kind & (kDiskWrite | kDiskOpen | kDiskMap)) != 0;
     return disk->error == DiskError::Full && needsRoom ? SQLITE_FULL : code;
@@ -114,8 +115,8 @@ int codeOf(DiskOperation kind, int code) {
 
 struct File {
     sqlite3_file base;
-    sqlite3_file* real;  // behind this one in memory
-    const char* name;    // SQLite's, as long as the file is open; null: of no interest
+    sqlite3_file* real;  // after this one in memory
+    const char* name;    // owned by SQLite while the file is open; null: ignored
 };
 
 sqlite3_file* realOf(sqlite3_file* file) {
@@ -125,8 +126,8 @@ sqlite3_vfs* realOf(sqlite3_vfs* vfs) {
     return static_cast<sqlite3_vfs*>(vfs->pAppData);
 }
 
-// Runs `change`, which keeps account of it, if the operation works, or where it is cut short by chance; then
-// it happened before the stop.
+// Runs `change`, which records the operation, if it works, or randomly if it is cut short: then it happened
+// before the stop.
 template <class Change, class Run>
 int changing(DiskOperation kind, int code, std::int64_t at, int bytes, Change change, Run run) {
     const base::EnoughMemory enough;
@@ -184,7 +185,7 @@ int truncateFile(sqlite3_file* file, sqlite3_int64 size) {
         [&] { return realOf(file)->pMethods->xTruncate(realOf(file), size); });
 }
 
-// Nothing waits for the real disk: the power goes in tests alone.
+// Does not sync the real disk, since power failures are simulated.
 int syncFile(sqlite3_file* file, int) {
     return changing(
         kDiskSync, SQLITE_IOERR_FSYNC, 0, 0,
@@ -192,7 +193,7 @@ int syncFile(sqlite3_file* file, int) {
         [] { return SQLITE_OK; });
 }
 
-// Whoever is killed leaves the index of the log behind.
+// A killed program leaves the index of the log.
 int unmapFile(sqlite3_file* file, int isDeleted) {
     const std::lock_guard lock(disk->mutex);
     return realOf(file)->pMethods->xShmUnmap(realOf(file), disk->hasStopped ? 0 : isDeleted);
@@ -229,7 +230,7 @@ const sqlite3_io_methods kMethods = {
     .xShmLock =
         [](sqlite3_file* f, int first, int count, int flags) {
             const auto run = [&] { return realOf(f)->pMethods->xShmLock(realOf(f), first, count, flags); };
-            // Giving a lock back does not fail.
+            // Releasing a lock does not fail.
             return (flags & SQLITE_SHM_UNLOCK) != 0 ? run()
                                                     : unlessFailing(kDiskLock, SQLITE_IOERR_SHMLOCK, run);
         },
@@ -271,7 +272,7 @@ int randomBytes(sqlite3_vfs*, int count, char* out) {
     return count;
 }
 
-// Nobody is waited for: another connection of the same program goes on at once, or never.
+// No waiting: another connection of the same program continues at once, or never.
 int sleepShortly(sqlite3_vfs* vfs, int microseconds) {
     realOf(vfs)->xSleep(realOf(vfs), std::min(microseconds, 100));
     return microseconds;
@@ -294,7 +295,7 @@ FaultyDisk::FaultyDisk() {
     vfs_->xDelete = deleteFile;
     vfs_->xRandomness = randomBytes;
     vfs_->xSleep = sleepShortly;
-    // These look at their own VFS.
+    // These functions use their own VFS.
     vfs_->xAccess = [](sqlite3_vfs* vfs, const char* name, int flags, int* out) {
         return realOf(vfs)->xAccess(realOf(vfs), name, flags, out);
     };
@@ -363,7 +364,7 @@ void FaultyDisk::seedRandomness(unsigned seed) {
         const std::lock_guard lock(disk->sqliteMutex);
         disk->sqliteRandom.seed(seed);
     }
-    sqlite3_randomness(0, nullptr);  // asks the disk again
+    sqlite3_randomness(0, nullptr);  // reseeds from the disk
 }
 
 }  // namespace terrane::store

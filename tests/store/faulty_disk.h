@@ -1,6 +1,6 @@
-// A disk that fails when a test says so, under SQLite: while a FaultyDisk lives, databases are opened through
-// it. It passes everything on to the system's own file system, but for syncs: what a power loss leaves of
-// writes without one is computed by unsynced_writes.h.
+// A disk under SQLite that fails on request: while a FaultyDisk exists, databases are opened through it. It
+// forwards everything except syncs to the system's file system; unsynced_writes.h computes what a power
+// failure leaves of unsynced writes.
 #pragma once
 
 #include <climits>
@@ -11,7 +11,7 @@ struct sqlite3_vfs;
 
 namespace terrane::store {
 
-// What SQLite asks of files; a set of bits.
+// SQLite's file operations, as bits.
 enum DiskOperation : unsigned {
     kDiskOpen = 1,
     kDiskRead = 2,
@@ -26,37 +26,37 @@ enum DiskOperation : unsigned {
 
 enum class DiskError : std::uint8_t {
     Io,
-    Full,   // of what needs room
-    Short,  // reads and writes do half of it at first; nothing fails
+    Full,   // fails operations that need disk space
+    Short,  // reads and writes first do half; nothing fails
 };
 
 enum class DiskStop : std::uint8_t {
-    Kill,       // the program ends: all that was written stays
+    Kill,       // the program ends: all writes stay
     PowerLoss,  // unsynced writes are kept, dropped or torn
 };
 
 class FaultyDisk {
   public:
     FaultyDisk();
-    ~FaultyDisk();  // after all databases that were opened meanwhile
+    ~FaultyDisk();  // outlives all databases opened meanwhile
     FaultyDisk(const FaultyDisk&) = delete;
     FaultyDisk& operator=(const FaultyDisk&) = delete;
 
-    // From the next operation of these kinds on `count` of them fail, after `after` that do not.
+    // Skips `after` operations of these kinds, then fails `count` of them.
     void fail(unsigned kinds, long after = 0, long count = LONG_MAX, DiskError error = DiskError::Io);
     void work() { fail(0); }
     long failures() const;  // since the last fail()
 
-    // After `after` operations that change files the next one may be cut short, and nothing reaches the files
-    // any more: all operations fail until restart(). What is left depends on the seed.
+    // After `after` operations that change files, the next one may be cut short and nothing reaches the files
+    // any more: all operations fail until restart(). The remaining state depends on the seed.
     void stopAfter(DiskStop stop, long after, unsigned seed);
     bool hasStopped() const;
-    // After all databases were closed: the files are what the stop left, and everything works.
+    // Call after all databases were closed: the files have the state left by the stop, and everything works.
     void restart();
 
-    // Of all operations so far: their kinds, offsets and sizes.
+    // Hash of all operations so far: kinds, offsets and sizes.
     std::uint64_t history() const;
-    // What SQLite's random numbers begin with, so that the same operations have the same history.
+    // Seeds SQLite's random numbers, so that equal operations have equal histories.
     void seedRandomness(unsigned seed);
 
   private:

@@ -1,5 +1,5 @@
-// Saves of formats 1 and 2, made by the SQL of docs/file-format-1.md and docs/file-format-2.md: opening one
-// to write brings it to the present format, and it can be read as it is.
+// Saves of formats 1 and 2, made by the SQL of docs/file-format-1.md and docs/file-format-2.md: opening for
+// writing migrates them, opening for reading works without migration.
 #include <gmock/gmock.h>
 
 #include "terrane/store/chunk_codec.h"
@@ -109,7 +109,7 @@ TEST_P(FormerFormatTest, ReadingLeavesItAsItIs) {
     EXPECT_EQ(folder_.fileCount(), 1);
 }
 
-// What is wrong before is wrong afterwards, and nothing of it is lost.
+// Damaged rows stay damaged, and none of them is lost.
 TEST_P(FormerFormatTest, DamagedRowsStayDamaged) {
     runSql(path_, fmt::format("UPDATE chunks SET data = zeroblob(100) WHERE key = {}; "
                               "UPDATE chunks SET origin = 'abc' WHERE key = {}",
@@ -125,7 +125,7 @@ TEST_P(FormerFormatTest, DamagedRowsStayDamaged) {
     EXPECT_EQ(queryFile(path_, "SELECT count(*) FROM quarantine WHERE data = zeroblob(100)"), 1);
 }
 
-// The step to format 3 is one transaction.
+// The migration to format 3 is one transaction.
 TEST_P(FormerFormatTest, AMigrationThatFailsChangesNothing) {
     const std::string name(kMaxNameBytes + 1, 'n');
     runSql(path_, fmt::format("INSERT INTO blocks VALUES (900, '{}')", name));

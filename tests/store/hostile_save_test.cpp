@@ -1,5 +1,5 @@
-// Saves that somebody made to harm who opens them: schemas with code, rows of other types, trees of pages
-// without an end. Each is refused in one line, by those who read and those who write, and stays as it is.
+// Malicious saves: schemas with code, rows of other types, endless page trees. Readers and writers refuse
+// each with one line and do not change it.
 #include <gmock/gmock.h>
 
 #include "terrane/store/chunk_key.h"
@@ -49,7 +49,7 @@ class HostileSaveTest : public testing::Test {
     world::BlockRegistry registry_ = testRegistry();
 };
 
-// One that counts without end.
+// A view that counts endlessly.
 TEST_F(HostileSaveTest, AViewInPlaceOfATable) {
     for (const std::string name : {"chunks", "quarantine", "settings", "blocks"}) {
         SetUp();
@@ -68,7 +68,7 @@ TEST_F(HostileSaveTest, OtherObjects) {
          "the trigger \"burn\""},
         {"CREATE VIEW v AS SELECT 1 AS a; CREATE TRIGGER t INSTEAD OF INSERT ON v BEGIN DELETE FROM chunks; "
          "END",
-         "the view \"v\""},  // it comes first
+         "the view \"v\""},  // found first
         {"CREATE TABLE more (a)", "the table \"more\""},
         {"CREATE INDEX more ON chunks (origin)", "the index \"more\""},
         {"CREATE INDEX more ON chunks (abs(origin))", "the index \"more\""},
@@ -102,7 +102,7 @@ TEST_F(HostileSaveTest, OtherColumns) {
         {"chunks", "data BLOB NOT NULL, key INTEGER PRIMARY KEY, origin INTEGER NOT NULL"},
         {"quarantine", "number INTEGER PRIMARY KEY, key, reason TEXT NOT NULL, data BLOB NOT NULL"}};
     for (const auto& [name, columns] : cases) {
-        // Without the index of `blocks`, which would be missing before.
+        // Without the index of `blocks`, which would be reported as missing first.
         runSql(path_, "DROP TABLE " + name + "; CREATE TABLE " + name + " (" + columns + ")");
         expectRefused("the table \"" + name + "\" is not as it is in a save");
         std::filesystem::remove(path_);
@@ -135,7 +135,7 @@ TEST_F(HostileSaveTest, AListOfTablesWithoutEnd) {
     expectRefused("reading it does not end");
 }
 
-// Triggers and views are off, whatever a schema says.
+// Triggers and views are disabled, whatever the schema contains.
 TEST_F(HostileSaveTest, NoConnectionRunsWhatAFileBrings) {
     runSql(path_,
            "CREATE TRIGGER burn AFTER INSERT ON settings BEGIN DELETE FROM chunks; END;"
@@ -151,7 +151,7 @@ TEST_F(HostileSaveTest, NoConnectionRunsWhatAFileBrings) {
     EXPECT_FALSE(database->queryNumber("SELECT length(zeroblob(100000000))"));
 }
 
-// What a save never has is damage of one chunk: it is put aside, and what is built there is saved.
+// Invalid column types are damage of one chunk: it is quarantined, and new edits are saved.
 TEST_F(HostileSaveTest, RowsOfOtherTypes) {
     runSql(path_, fmt::format("UPDATE chunks SET origin = 'abc' WHERE key = {}", keyOf({0, 0})));
     runSql(path_, fmt::format("UPDATE chunks SET data = 'text' WHERE key = {}", keyOf({1, 0})));
@@ -173,7 +173,7 @@ TEST_F(HostileSaveTest, RowsOfOtherTypes) {
     EXPECT_EQ(check().quarantined, 3u);
 }
 
-// NOT NULL binds only who writes by it.
+// NOT NULL is only enforced on writes through the schema.
 TEST_F(HostileSaveTest, NullInARow) {
     rewriteSchema("UPDATE sqlite_schema SET sql = replace(sql, ' NOT NULL', '') WHERE name = 'chunks'");
     runSql(path_, fmt::format("UPDATE chunks SET data = NULL, origin = NULL WHERE key = {}", keyOf({0, 0})));
@@ -210,19 +210,19 @@ TEST_F(HostileSaveTest, NamesAndSettings) {
     }
 }
 
-// Ids of blocks come twice where a page says so, in which SQLite looks for nothing.
+// A damaged page may contain duplicate block ids; SQLite does not detect this.
 TEST_F(HostileSaveTest, BlockIdsThatComeTwice) {
     std::string bytes = readAll(path_);
     const std::int64_t root = queryFile(path_, "SELECT rootpage FROM sqlite_schema WHERE name = 'blocks'");
     const std::size_t page = static_cast<std::size_t>(root - 1) * 4096;
-    bytes[page + 10] = bytes[page + 8];  // the second cell is the first
+    bytes[page + 10] = bytes[page + 8];  // the second cell points to the first
     bytes[page + 11] = bytes[page + 9];
     writeAll(path_, bytes);
     expectRefused("the ids of blocks are out of order at 0");
 }
 
-// A chain of pages, each the only child of the one before: SQLite's own check goes down by recursion and
-// overflows the stack.
+// A chain of pages, each the only child of the previous one: SQLite's integrity check recurses and overflows
+// the stack.
 TEST_F(HostileSaveTest, TreesThatAreTooDeep) {
     for (const std::string name : {"quarantine", "chunks", "sqlite_autoindex_blocks_1"}) {
         constexpr std::size_t kPageBytes = 512;
@@ -238,7 +238,7 @@ TEST_F(HostileSaveTest, TreesThatAreTooDeep) {
         const auto makeInner = [&](std::size_t page, std::uint32_t child) {
             std::fill_n(bytes.begin() + static_cast<std::ptrdiff_t>(page), 12, '\0');
             bytes[page] = name == "sqlite_autoindex_blocks_1" ? 2 : 5;
-            bytes[page + 5] = 0x02;  // cells begin at the end of the page
+            bytes[page + 5] = 0x02;  // cells start at the end of the page
             put(page + 8, child);
         };
         bytes.resize(bytes.size() + std::size_t{kPages} * kPageBytes);
@@ -253,7 +253,7 @@ TEST_F(HostileSaveTest, TreesThatAreTooDeep) {
     }
 }
 
-// A page whose children are all the same one has its rows many times; in several levels, without end.
+// A page whose children are all the same page repeats its rows; over several levels, endlessly.
 TEST_F(HostileSaveTest, TreesThatShareTheirBranches) {
     for (const std::string name : {"quarantine", "chunks"}) {
         runSql(path_, "INSERT INTO quarantine VALUES (1, 1, 'a', x'00'), (2, 2, 'b', x'00')");

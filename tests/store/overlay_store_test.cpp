@@ -12,7 +12,7 @@ namespace {
 using testing::ElementsAre;
 using world::ChunkPos;
 
-// Over a world with tiles of two edited chunks.
+// An overlay over a world with two edited chunks and their tiles.
 class OverlayStoreTest : public testing::Test {
   protected:
     void SetUp() override {

@@ -90,7 +90,7 @@ TEST_F(SaveCheckTest, WhileAnotherProgramSaves) {
     EXPECT_EQ(after.chunks, 80u);
 }
 
-// A save as a killed program leaves it: with a log of one transaction a chunk.
+// A save left by a killed program: the log has one transaction per chunk.
 class LogCheckTest : public SaveCheckTest {
   protected:
     static constexpr int kInLog = 20;
@@ -121,12 +121,12 @@ class LogCheckTest : public SaveCheckTest {
 TEST_F(LogCheckTest, AWholeLogIsGood) {
     EXPECT_FALSE(checkWith(log_).isDamaged());
     EXPECT_EQ(checkWith(log_).chunks, 30u + kInLog);
-    // What was being written when the power went was never reported as saved.
+    // An unfinished write was never reported as saved.
     EXPECT_FALSE(checkWith(log_ + std::string(5000, 'x')).isDamaged());
     EXPECT_FALSE(checkWith(log_.substr(0, log_.size() - 100)).isDamaged());
 }
 
-// Where the check finds nothing wrong, nothing is missing.
+// If the check finds no error, no data is missing.
 TEST_F(LogCheckTest, OneFlippedBitIsNoticed) {
     std::mt19937 random(5);
     int damaged = 0;
@@ -149,7 +149,7 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     EXPECT_FALSE(checkWith(log_).isDamaged());
     EXPECT_FALSE(check().isDamaged());
     std::filesystem::remove(logPath());
-    // A reader leaves the note of it for the next one.
+    // A reader keeps the note for the next one.
     for (int time = 0; time < 2; ++time) {
         const CheckReport report = check();
         ASSERT_EQ(report.fileProblems.size(), 1u) << time;
@@ -159,7 +159,7 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";
 }
 
-// A power loss leaves such a log too.
+// A power failure can leave such a log, too.
 TEST_F(LogCheckTest, ABrokenLastTransactionMayNeverHaveBeenSaved) {
     std::string log = log_;
     log[log.size() - 100] = static_cast<char>(log[log.size() - 100] ^ 1);
@@ -170,7 +170,7 @@ TEST_F(LogCheckTest, ABrokenLastTransactionMayNeverHaveBeenSaved) {
                                        "lost, unless it was never finished"));
 }
 
-// So does one that is lost while the header is written.
+// As does a power failure while the header is written.
 TEST_F(LogCheckTest, ABrokenHeaderMayNeverHaveBeenSaved) {
     std::string log = log_;
     log[20] = static_cast<char>(log[20] ^ 1);
@@ -181,7 +181,7 @@ TEST_F(LogCheckTest, ABrokenHeaderMayNeverHaveBeenSaved) {
                           "lost, unless it was never finished"));
 }
 
-// Writing fails at the end of a large transaction, then a smaller one takes its place in the log.
+// Writing fails at the end of a large transaction, then a smaller one overwrites it in the log.
 TEST_F(LogCheckTest, WhatFailedToBeWrittenIsNotMissed) {
     FaultyDisk disk;
     std::mt19937 random(1);
@@ -205,7 +205,7 @@ TEST_F(LogCheckTest, WhatFailedToBeWrittenIsNotMissed) {
     EXPECT_FALSE(checkWith(log).isDamaged());
 }
 
-// A program that is killed before it writes, or after it has closed the save, leaves its lock and no log.
+// A program that is killed before it writes, or after it closed the save, leaves its lock but no log.
 TEST_F(LogCheckTest, ALogThatWasNotThereIsNotMissed) {
     std::string before;
     {

@@ -1,4 +1,4 @@
-// What can be wrong with a file: each gives one line that names it, and leaves it as it is.
+// Invalid files: each is refused with one line that names it, and is not changed.
 #include "terrane/store/save_file.h"
 
 #include <gmock/gmock.h>
@@ -44,7 +44,7 @@ class SaveFileTest : public testing::Test {
         const auto file = openToRead(path_, registry_);
         return file ? "" : file.error().message;
     }
-    // Both ways, with the file the same afterwards.
+    // Refused for reading and writing, with the file unchanged.
     void expectRefused(const std::string& reason) {
         const std::string before = readAll(path_);
         for (const std::string& message :
@@ -61,7 +61,7 @@ class SaveFileTest : public testing::Test {
     world::BlockRegistry registry_ = testRegistry();
 };
 
-// What stands beside a save may come from anybody: other files are left alone.
+// Files beside a save are untrusted: other files are not touched.
 TEST_F(SaveFileTest, LinksBesideItAreNotFollowed) {
     makeSave();
     const fs::path precious = folder_ / "precious.txt";
@@ -96,8 +96,8 @@ TEST_F(SaveFileTest, ALockThatIsALinkIsNotWritten) {
     EXPECT_EQ(readAll(precious), "precious");
 }
 
-// A rollback journal that undoes nothing in a file of so many pages, of a transaction over several files
-// which the other one lists.
+// A rollback journal without pages for a file of `pages` pages, of a transaction over several files that are
+// listed in `other`.
 std::string journalNaming(const std::string& other, std::int64_t pages) {
     const std::string magic = "\xd9\xd5\x05\xf9\x20\xa1\x63\xd7";
     const auto number = [](std::uint32_t value) {
@@ -137,7 +137,7 @@ TEST_F(SaveFileTest, ReadingUndoesNothing) {
     EXPECT_EQ(errorOfReading(), "");
 }
 
-// SQLite neither plays it back nor removes it: reading would be refused for ever.
+// SQLite neither plays it back nor removes it: otherwise reading would be refused forever.
 TEST_F(SaveFileTest, AJournalThatUndoesNothingIsPassedOver) {
     makeSave();
     writeAll(path_.string() + "-journal", std::string(600, '\0'));
@@ -153,7 +153,7 @@ TEST_F(SaveFileTest, ADoubledSlashIsOne) {
     EXPECT_TRUE(Database::open("/" + path_.string(), OpenMode::ReadOnly));
 }
 
-// By whatever name it is opened, it is one save.
+// Different paths lead to the same save.
 TEST_F(SaveFileTest, ALinkLeadsToTheSameLockAndLog) {
     const fs::path link = folder_ / "link.sqlite";
     fs::create_symlink(path_, link);
@@ -199,7 +199,7 @@ TEST_F(SaveFileTest, AFolder) {
     EXPECT_THAT(errorOfWriting(), HasSubstr("not a file"));
 }
 
-// The power went while the file was made: its first page did not reach the disk, its journal did.
+// Power failure while the file was created: its first page is missing, its journal exists.
 TEST_F(SaveFileTest, AMakingThatWasCutShortIsUndone) {
     std::string journal = journalNaming("", 0);
     journal.resize(512);
@@ -210,7 +210,7 @@ TEST_F(SaveFileTest, AMakingThatWasCutShortIsUndone) {
     EXPECT_EQ(errorOfReading(), "");
 }
 
-// What a program leaves that is killed while it makes the file.
+// Left by a program that is killed while it creates the file.
 TEST_F(SaveFileTest, EmptyFilesAreNewOnes) {
     writeAll(path_, "");
     EXPECT_THAT(errorOfReading(), HasSubstr("empty"));
@@ -272,7 +272,7 @@ TEST_F(SaveFileTest, BrokenTables) {
     expectRefused("blocks");
 }
 
-// Garbage in the pages: an answer, whatever it is, and never a crash.
+// Random bytes in the pages: any result is fine, but no crash.
 TEST_F(SaveFileTest, BrokenPages) {
     makeSave();
     const std::string whole = readAll(path_);
@@ -317,13 +317,13 @@ TEST_F(SaveFileTest, ReadingWhatAnotherProgramWrites) {
     EXPECT_TRUE(readAll(path_) == saved && readAll(path_.string() + "-wal") == log);
     save(101);
     EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
-    (*writer).reset();  // the log stays as long as somebody reads it
+    (*writer).reset();  // the log stays while a reader is open
     EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
     EXPECT_EQ(errorOfWriting(kMustBeThere), "");
     EXPECT_EQ(*(*beforeFirst)->load({3, 0}).chunk, *numberedChunk(101));
 }
 
-// Before it is in WAL mode, nothing but waiting helps.
+// Before the file is in WAL mode, only waiting helps.
 TEST_F(SaveFileTest, ASaveThatIsBeingMadeIsBusy) {
     makeSave();
     const auto writer = FileLock::acquire(path_, FileLock::Kind::Exclusive);
@@ -345,14 +345,14 @@ TEST_F(SaveFileTest, ReadersShare) {
     EXPECT_THAT(errorOfWriting(), HasSubstr("open in another program"));
 }
 
-// The lock ends with the process; what it wrote stays.
+// The lock ends with the process; its writes stay.
 TEST_F(SaveFileTest, TheNextProgramAfterAKilledOne) {
     const pid_t child = ::fork();
     if (child == 0) {
         auto store = SqliteStore::open(path_, registry_, kCreate);
         if (store) (*store)->save({4, 4}, numberedChunk(77), Provenance::Edited);
         const bool good = store && (*store)->flush();
-        ::_exit(good ? 0 : 1);  // as when killed: nothing is closed
+        ::_exit(good ? 0 : 1);  // as if killed: nothing is closed
     }
     int status = 0;
     ASSERT_EQ(::waitpid(child, &status, 0), child);
@@ -426,13 +426,13 @@ class ReadOnlyTest : public SaveFileTest {
     auto openInMemory(bool regenerate = false) {
         WorldRequest request;
         request.access = WorldAccess::ReadOnly;
-        if (regenerate) request.wanted.regenerate = Regenerate::All;
+        if (regenerate) request.world.regenerate = Regenerate::All;
         request.versionOf = [=](std::string_view) { return regenerate ? 4 : kIdentity.generatorVersion; };
         return openWorld({WorldLocation::Kind::File, path_}, registry_, request);
     }
 };
 
-// A folder in which nothing can be made: played in memory, and the file stays as it was.
+// A read-only folder: changes stay in memory, and the file is unchanged.
 TEST_F(ReadOnlyTest, SaveInAReadOnlyFolder) {
     makeSave();
     fs::permissions(path_, fs::perms(0444));
@@ -473,7 +473,7 @@ TEST_F(ReadOnlyTest, RecreateInAReadOnlyFolder) {
     EXPECT_EQ((*store)->identity().generatorVersion, 4);
 }
 
-// Who may not write the save does not read it as one that stays as it is.
+// Without write permission, a save that is being written is not opened as immutable.
 TEST_F(ReadOnlyTest, SeesWhoWrites) {
     const auto writer = openToWrite(path_, registry_, kCreate);
     ASSERT_TRUE(writer) << writer.error().message;
@@ -485,7 +485,7 @@ TEST_F(ReadOnlyTest, SeesWhoWrites) {
     EXPECT_EQ(reader->readers, OpenMode::ReadOnly);
 }
 
-// A program that was killed left the lock's file.
+// A killed program left the lock file.
 TEST_F(ReadOnlyTest, KeepsOutWhoWouldWrite) {
     makeSave();
     std::ofstream(path_.string() + "-lock") << "12";

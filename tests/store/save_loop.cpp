@@ -1,12 +1,13 @@
-// Saves chunks without end and reports what is durable, to be killed by tools/kill_test.py.
+// Saves chunks endlessly and reports durable saves, to be killed by tools/kill_test.py.
 //
-//   save_loop FILE FIRST         from save FIRST on, prints the number of each last durable save on a line
-//   save_loop FILE verify LAST   exit code 0 where every chunk holds save 1 … LAST's edit of it, or a later
-//   one, and every tile is the one that follows from the chunks, byte for byte
+// save_loop FILE FIRST: saves from number FIRST on, prints the number of each last durable save on a line.
 //
-// Save n edits the chunk n mod 100: sets it to numberedChunk(n) with n as block entity data, so that what is
-// found tells which save it is from. Every third round through the chunks makes them count
-// as empty, so that tiles (tests/store/tile_sums.h) go too.
+// save_loop FILE verify LAST: exit code 0 if every chunk has its edit of saves 1 … LAST, or a later one, and
+// every tile is derived from the chunks, byte for byte.
+//
+// Save n edits the chunk n mod 100: sets it to numberedChunk(n) with n as block entity data, which identifies
+// the save. Every third round through the chunks makes them count as empty, so that tiles
+// (tests/store/tile_sums.h) disappear, too.
 #include <cstdio>
 #include <cstring>
 #include <string>
@@ -37,7 +38,7 @@ world::ChunkPtr edited(int number) {
     return chunk;
 }
 
-// 0 where there is none.
+// The number in a chunk; 0 if it has none.
 int numberIn(const world::Chunk& chunk) {
     int number = 0;
     const world::BlockEntityData* mark = chunk.blockEntityData(kMark);
@@ -70,8 +71,8 @@ int verify(store::ChunkStore& store, int last) {
     return 0;
 }
 
-// Whether the rows of levels above 0 have the bytes of the tiles that follow from the rows of level 0. By
-// the file alone: no store is open.
+// Compares the rows of levels above 0 with tiles derived from the rows of level 0. Reads the file directly,
+// without an open store.
 base::Result<void> verifyTiles(const char* path, const world::BlockRegistry& registry) {
     auto file = store::openToRead(path, registry);
     if (!file) return tl::unexpected(file.error());
@@ -108,7 +109,7 @@ int main(int argc, char** argv) {
     if (argc < 3) return 2;
     const bool isVerifying = std::strcmp(argv[2], "verify") == 0;
     const auto registry = store::testRegistry();
-    // Before a store opens the file.
+    // Verifies before a store opens the file.
     const auto verified = isVerifying ? verifyTiles(argv[1], registry) : base::Result<void>();
     if (!verified) {
         std::fprintf(stderr, "%s\n", verified.error().message.c_str());

@@ -20,7 +20,7 @@ TEST(SavePath, InTheDataFolder) {
     }
 }
 
-// Up to version 0.1 they lay below the working directory.
+// Up to version 0.1 saves were below the working directory.
 TEST(SavePath, InTheFormerFolderWhereOnlyThatHasIt) {
     const base::TempFolder folder;
     const std::filesystem::path former = folder / "save", data = folder / "data";

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 struct Recorder {
     std::mutex mutex;
     std::vector<SaveBatch> batches;
-    std::string problem;  // what writing fails with
+    std::string problem;  // error returned by writing
 
     SaveQueue::WriteBatch write() {
         return [this](const SaveBatch& batch) -> base::Result<void> {
@@ -29,7 +29,7 @@ struct Recorder {
     }
 };
 
-// Writing takes memory: where there is none nothing is lost and the program goes on.
+// Out of memory while writing: nothing is lost and the program continues.
 TEST(SaveQueue, WhatThrowsStaysAndIsTriedAgain) {
     int attempts = 0;
     Recorder recorder;
@@ -114,7 +114,7 @@ TEST(SaveQueue, TheEndWritesWhatWaits) {
     EXPECT_EQ(recorder.batches.size(), 1u);
 }
 
-// As on a full disk: nothing is lost, nothing counts as durable, and it works again when there is room.
+// As with a full disk: nothing is lost, nothing counts as durable, and it recovers when there is space.
 TEST(SaveQueue, WhatFailedStaysAndIsTriedAgain) {
     Recorder recorder;
     SaveQueue queue(recorder.write(), kNever);

@@ -10,7 +10,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// Formats that never were: the ways between them are made up.
+// Fictional formats with fictional migrations.
 class MigrationTest : public testing::Test {
   protected:
     void SetUp() override {
@@ -24,7 +24,7 @@ class MigrationTest : public testing::Test {
         constexpr Migration kSteps[] = {
             {1, "ALTER TABLE chunks ADD COLUMN level INTEGER NOT NULL DEFAULT 0"},
             {2, "UPDATE chunks SET level = 7; CREATE TABLE more (a)"},
-            {3, "UPDATE chunks SET level = 9; CREATE TABLE more (a)"},  // fails: there is one
+            {3, "UPDATE chunks SET level = 9; CREATE TABLE more (a)"},  // fails: the table exists
         };
         auto database = Database::open(path_, OpenMode::ReadWrite);
         if (!database) return tl::unexpected(database.error());
@@ -55,7 +55,7 @@ TEST_F(MigrationTest, AllOrNothing) {
 
 TEST_F(MigrationTest, ACopyThatFailsLeavesNothing) {
     {
-        const base::FileSizeLimit limit(8192);  // two pages of about six
+        const base::FileSizeLimit limit(8192);  // two of about six pages
         EXPECT_FALSE(migrateTo(3));
     }
     EXPECT_FALSE(std::filesystem::exists(backup_));

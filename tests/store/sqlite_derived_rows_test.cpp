@@ -1,4 +1,4 @@
-// Derived rows in a file: when it cannot be written, is damaged, is opened again by others.
+// Derived rows in a file: failed writes, damage, other programs.
 #include <gmock/gmock.h>
 
 #include "terrane/store/chunk_key.h"
@@ -27,7 +27,7 @@ class SqliteDerivedRowsTest : public testing::Test {
         (*store)->setDerivedRows({deriveSums, {}});
         return std::move(*store);
     }
-    // With tiles, but for `rules` "".
+    // With tiles, unless `rules` is "".
     void makeSave(std::string_view rules = "sums") {
         const auto store = open();
         if (rules.empty()) {
@@ -67,7 +67,7 @@ TEST_F(SqliteDerivedRowsTest, WhatFailedIsDerivedAgainWithTheNewerChunk) {
                                return deriveSums(edited, saved);
                            },
                            [&](std::span<const ChunkRow>) { ++written; }});
-    // The chunk could be written, its tiles cannot: what their index holds is more than a number can be.
+    // Makes writing tiles fail by a numeric overflow in their index; chunks can be written.
     runSql(path_, fmt::format("CREATE INDEX failure ON chunks (abs(-9223372036854775807 - (key >= {})))",
                               kFirstTileKey));
     store->save({0, 0}, numberedChunk(1), Provenance::Edited);
@@ -100,7 +100,7 @@ TEST_F(SqliteDerivedRowsTest, DeriveAllThatFailsChangesNothing) {
     expectTiles(*store, edited_);
 }
 
-// A save of a program that did not know tiles, or that had others.
+// A save of a program without tiles, or with other rules.
 TEST_F(SqliteDerivedRowsTest, ASaveMadeBeforeGetsItsRowsOnce) {
     makeSave("");
     runSql(path_,
@@ -140,7 +140,7 @@ TEST_F(SqliteDerivedRowsTest, RegenerationDropsTiles) {
     }
 }
 
-// What is lost with a damaged row is derived when the save is opened the next time.
+// Lost rows are derived again when the save is opened the next time.
 TEST_F(SqliteDerivedRowsTest, DamagedRowsTakeTheMark) {
     for (const ChunkPos damaged : {ChunkPos{0, 0}, ChunkPos{0, 0, 1}}) {
         std::filesystem::remove(path_);
@@ -159,7 +159,7 @@ TEST_F(SqliteDerivedRowsTest, DamagedRowsTakeTheMark) {
     }
 }
 
-// Derive reads a damaged sibling: what follows is right only once all is derived again.
+// derive() reads a damaged sibling: its rows are only right after all are derived again.
 TEST_F(SqliteDerivedRowsTest, DamageThatDeriveMeetsTakesTheMark) {
     makeSave();
     runSql(path_, fmt::format("UPDATE chunks SET data = zeroblob(60) WHERE key = {}", keyOf({0, 0, 1})));

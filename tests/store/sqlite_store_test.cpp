@@ -20,7 +20,7 @@ class SqliteStoreTest : public testing::Test {
         return std::move(*store);
     }
     std::unique_ptr<SqliteStore> open() { return open(registry_); }
-    // The bytes of the only row.
+    // The data of the only row.
     Bytes chunkData(const std::string& table = "chunks") {
         auto database = Database::open(path_, OpenMode::ReadOnly).value();
         auto select = database.prepare("SELECT data FROM " + table).value();
@@ -48,7 +48,7 @@ TEST_F(SqliteStoreTest, LeavesOneFile) {
     EXPECT_EQ(queryFile(path_, "SELECT origin FROM chunks"), 1);
 }
 
-// Names and their ids survive builds that do not know them.
+// Names and their ids survive builds that lack them.
 TEST_F(SqliteStoreTest, AnotherBuildsBlocks) {
     world::ChunkPtr original;
     {
@@ -100,7 +100,7 @@ TEST_F(SqliteStoreTest, DamagedRowIsPutAside) {
               1);
 }
 
-// Reading fails for a moment. What the generator makes in its place is not saved over what is there.
+// After a temporary read failure, the generated chunk does not overwrite the stored one.
 TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsNotSavedOver) {
     FaultyDisk disk;
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
@@ -113,7 +113,7 @@ TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsNotSavedOver) {
     EXPECT_EQ(*store->load({0, 0}).chunk, *numberedChunk(1));
 }
 
-// Where a player builds there, what could not be read is put aside first, once.
+// If a player edits the chunk, the unreadable row is quarantined first, once.
 TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
     FaultyDisk disk;
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
@@ -136,7 +136,7 @@ TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
     EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(3));
 }
 
-// Whoever saves without having loaded does not overwrite what could still be rescued.
+// Saving without loading does not overwrite data that could still be recovered.
 TEST_F(SqliteStoreTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
     runSql(path_, "UPDATE chunks SET data = x'0102'");
@@ -165,7 +165,7 @@ TEST_F(SqliteStoreTest, ARowWithoutBytesIsPutAsideAndReplaced) {
     }
 }
 
-// Such a row is damage. It must not stay where an edit was reported as saved.
+// Such a row is damaged. It must not remain after an edit was reported as saved.
 TEST_F(SqliteStoreTest, AnEditReplacesARowOfAnyOrigin) {
     for (const char* origin : {"2", "143", "-1", "'abc'"}) {
         open()->save({0, 0}, numberedChunk(1), Provenance::Edited);
@@ -180,7 +180,7 @@ TEST_F(SqliteStoreTest, TheIdentityIsNotOverwritten) {
     EXPECT_EQ(open()->identity(), kIdentity);
 }
 
-// Damage in one row leaves the others of a batch as they are.
+// Damage in one row does not affect the others of a batch.
 TEST_F(SqliteStoreTest, LoadsManyAroundDamagedRows) {
     std::vector<world::ChunkPos> positions;
     {
@@ -222,7 +222,7 @@ TEST_F(SqliteStoreTest, IdWithoutANameIsDamage) {
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
     runSql(path_,
            "DELETE FROM blocks WHERE name = 'dirt'; UPDATE settings SET value = '' WHERE name = 'checksum'");
-    // The id goes to the next type that needs one, so the name has to be gone from the registry too.
+    // The id goes to the next new type, so the registry must lack the name, too.
     const auto store = open(registryOf({"stone", "grass", "sand", "water"}));
     EXPECT_THAT(store->load({0, 0}).problem, HasSubstr("block id 2 has no name"));
 }
@@ -238,7 +238,7 @@ TEST_F(SqliteStoreTest, WhatNoSaveHoldsIsLeftOut) {
     EXPECT_EQ(store->load({1, 0}).state, State::Present);
 }
 
-// Writing into a file without a name would look as if it were saved.
+// Writing into a deleted file would look like a successful save.
 TEST_F(SqliteStoreTest, AMovedOrReplacedFileIsNotWritten) {
     const auto elsewhere = folder_ / "elsewhere";
     for (const char* ending : {"", "-wal"}) {

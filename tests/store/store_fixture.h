@@ -1,4 +1,4 @@
-// Blocks, chunks and files for the tests of the module.
+// Blocks, chunks and files for the tests of this module.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,10 +20,10 @@
 
 namespace terrane::store {
 
-// Saves nothing by itself: only flush and the end write.
+// No automatic saves: only flush() and the destructor write.
 inline constexpr SaveLimits kNever{.delay = std::chrono::hours(1), .chunks = 1000000};
 
-// "air", the names, "missing": ids in this order.
+// A registry of "air", the names, "missing", with ids in this order.
 inline world::BlockRegistry registryOf(const std::vector<std::string>& names) {
     std::string toml;
     for (const std::string& name : names)
@@ -37,7 +37,7 @@ inline world::BlockRegistry testRegistry() {
     return registryOf({"stone", "dirt", "grass", "sand", "water"});
 }
 
-// Each of the 65,536 ids stands for itself: "b0", "b1", …
+// Maps each of the 65,536 ids to itself: "b0", "b1", …
 inline const BlockIdMap& allIds() {
     static const BlockIdMap map = [] {
         std::vector<SavedName> saved;
@@ -68,7 +68,7 @@ inline world::BlockEntityData randomBytes(std::mt19937& random, std::size_t size
     return data;
 }
 
-// Sections of all forms, block states and block entity data.
+// A chunk with sections in all representations, block states and block entity data.
 inline world::Chunk randomChunk(std::mt19937& random) {
     constexpr int kDistinct[] = {1, 1, 1, 2, 3, 4, 9, 16, 17, 200, 256, 257, 3000};
     world::Chunk chunk;
@@ -83,7 +83,7 @@ inline world::Chunk randomChunk(std::mt19937& random) {
     return chunk;
 }
 
-// A chunk of a few of the registry's blocks that differs with the number.
+// A chunk of a few of the registry's blocks, different for each number.
 inline world::ChunkPtr numberedChunk(int number) {
     auto chunk = std::make_shared<world::Chunk>();
     chunk->setSection(0, world::Section(1));
@@ -102,7 +102,7 @@ inline void writeAll(const std::filesystem::path& path, std::string_view bytes) 
     std::ofstream(path, std::ios::binary) << bytes;
 }
 
-// Runs SQL on a file as another program would, which keeps to none of this module's rules.
+// Runs SQL on a file like another program, without this module's rules.
 inline void runSql(const std::filesystem::path& path, const std::string& sql) {
     sqlite3* database = nullptr;
     ASSERT_EQ(sqlite3_open(path.c_str(), &database), SQLITE_OK);
@@ -121,7 +121,7 @@ inline std::int64_t queryFile(const std::filesystem::path& path, const std::stri
     return number->value_or(-1);
 }
 
-// As a user without rights sees files: the tests may run as root, for whom nothing is read-only.
+// Drops privileges: the tests may run as root, for whom nothing is read-only.
 class Unprivileged {
   public:
     Unprivileged() : wasRoot_(::geteuid() == 0) {

@@ -1,4 +1,4 @@
-// The stores that there are, under the contract of ChunkStore. Another one is another fixture.
+// All kinds of stores, tested by the contract of ChunkStore. A new kind needs a fixture here.
 #include "terrane/store/memory_store.h"
 #include "terrane/store/overlay_store.h"
 #include "terrane/store/sqlite_reader.h"
@@ -34,7 +34,7 @@ class OverlayWorld : public ContractWorld {
     }
 };
 
-// Over a file that is read alone.
+// An overlay over a file opened for reading.
 class OverlayOfSqliteWorld : public ContractWorld {
   public:
     std::unique_ptr<ChunkStore> open() override {

@@ -33,7 +33,7 @@ Structure randomStructure(std::mt19937& random) {
     return structure;
 }
 
-// As the page of the format says.
+// The frame of docs/structure-format.md.
 Bytes framed(ByteView plain, std::uint8_t version = 1, std::uint32_t size = 0) {
     Bytes rest, out;
     appendNumber(rest, version);
@@ -108,7 +108,7 @@ TEST(StructureFile, EveryTruncationAndFlippedBitIsAnError) {
     }
 }
 
-// Behind a checksum that is right.
+// With a valid checksum.
 TEST(StructureFile, EveryTruncationOfTheContentIsAnError) {
     Bytes bytes = content(2, 1, 1, 1);
     appendBlock(bytes, "stone");

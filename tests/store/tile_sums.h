@@ -1,5 +1,5 @@
-// Tiles for tests of derived rows, by a simple rule: a tile of level 1 or 2 holds a hash of each of its four
-// children. A chunk whose block 0 is air counts as none, and there is no tile without children.
+// Tiles for tests of derived rows: a tile of level 1 or 2 holds a hash of each of its four children. A chunk
+// whose block 0 is air counts as none, and a tile without children does not exist.
 #pragma once
 
 #include <cstring>
@@ -20,7 +20,7 @@ inline world::ChunkPos tileAbove(world::ChunkPos pos) {
     return {pos.x >> 1, pos.y >> 1, static_cast<std::uint8_t>(pos.level + 1)};
 }
 
-// FNV-1a of the bytes that a save keeps; 0: none.
+// FNV-1a of the saved bytes; 0: none.
 inline std::uint64_t sumOf(const world::ChunkPtr& chunk) {
     if (!chunk || chunk->block(0) == world::kAir) return 0;
     static const BlockIdMap ids = *BlockIdMap::make(testRegistry(), {});

@@ -16,7 +16,7 @@ bool flip(std::mt19937& random) {
     return random() % 2 == 0;
 }
 
-// Of each sector nothing, all or, seldom, the beginning.
+// Writes none or all of each sector, rarely its beginning.
 void writeSomeSectors(std::string& content, std::string_view data, std::size_t at, std::mt19937& random) {
     for (std::size_t from = 0; from < data.size();) {
         const std::size_t end = std::min(data.size(), ((at + from) / kSectorBytes + 1) * kSectorBytes - at);
@@ -43,7 +43,7 @@ void UnsyncedWrites::open(const std::string& path, const std::optional<std::stri
                           bool isJournal) {
     Entry& entry = entries_[path];
     if (entry.file && content && entry.file->now == *content) return;
-    if (content) {  // of before, or changed by others
+    if (content) {  // existed before, or was changed by others
         entry = {File{*content, *content, {}}, {}, true, isJournal};
         return;
     }

@@ -1,8 +1,7 @@
-// What files hold after the power went. Until a file is synced, each sector of 512 bytes that was written to
-// it may be on the disk or not, in any order, the last one may hold a part of what was written, and a file
-// that was extended may have zeros there. Entries of the folder (files made and deleted) are on the disk once
-// the folder was synced. Bytes that nobody wrote stay as they are: SQLite takes that for granted of every
-// disk ("powersafe overwrite").
+// Simulates the contents of files after a power failure. Until a file is synced, each written sector of 512
+// bytes may be on disk or not, in any order; the last one may be partial, and an extended file may contain
+// zeros. Directory entries (created and deleted files) are on disk once the folder is synced. Bytes that were
+// not written keep their value: SQLite assumes this of every disk ("powersafe overwrite").
 #pragma once
 
 #include <cstdint>
@@ -17,10 +16,10 @@ namespace terrane::store {
 
 class UnsyncedWrites {
   public:
-    using Files = std::map<std::string, std::optional<std::string>>;  // content by path; nothing: no file
+    using Files = std::map<std::string, std::optional<std::string>>;  // content by path; no value: no file
 
-    // `content` is on the disk already. `isJournal`: syncing the new file syncs its folder too, as SQLite
-    // does for journals and logs.
+    // `content` is already on disk. `isJournal`: syncing the new file also syncs its folder, as SQLite does
+    // for journals and logs.
     void open(const std::string& path, const std::optional<std::string>& content, bool isJournal);
     void write(const std::string& path, std::string_view data, std::size_t at);
     void truncate(const std::string& path, std::size_t size);
@@ -33,16 +32,16 @@ class UnsyncedWrites {
   private:
     struct Change {
         std::size_t at = 0;               // or the new size
-        std::optional<std::string> data;  // nothing: truncated
+        std::optional<std::string> data;  // no value: truncated
     };
-    // One file under a name. A name has a newer one when it was deleted and made again.
+    // A file with a name; a deleted and recreated name has a new File.
     struct File {
         std::string synced, now;
         std::vector<Change> unsynced;
     };
     struct Entry {
-        std::optional<File> file;    // nothing: deleted
-        std::optional<File> onDisk;  // what the name stands for until the folder is synced
+        std::optional<File> file;    // no value: deleted
+        std::optional<File> onDisk;  // the file of this name until the folder is synced
         bool isFolderSynced = true;
         bool syncsFolder = false;
     };

@@ -24,18 +24,18 @@ TEST(RequireSame, SaysHowTheyDiffer) {
     EXPECT_THAT(requireSame(kIdentity, other, "a.sqlite").error().message, HasSubstr("version 3"));
 }
 
-// A program with flat in a version, and overworld.
-base::Result<Regeneration> compare(const WantedWorld& wanted, int flatVersion = 3) {
+// A program with the generators flat, in this version, and overworld.
+base::Result<Regeneration> compare(const RequestedWorld& requested, int flatVersion = 3) {
     const auto versionOf = [=](std::string_view generator) {
         return generator == "flat" ? flatVersion : generator == "overworld" ? 1 : 0;
     };
-    return compareWorld(kIdentity, wanted, versionOf, "a.sqlite");
+    return compareWorld(kIdentity, requested, versionOf, "a.sqlite");
 }
 
 TEST(CompareWorld, WhatIsNotGivenIsTaken) {
-    for (const WantedWorld& wanted :
-         {WantedWorld{}, {.seed = 7, .generator = {}}, {.seed = {}, .generator = "flat"}}) {
-        const auto by = compare(wanted);
+    for (const RequestedWorld& requested :
+         {RequestedWorld{}, {.seed = 7, .generator = {}}, {.seed = {}, .generator = "flat"}}) {
+        const auto by = compare(requested);
         ASSERT_TRUE(by) << by.error().message;
         EXPECT_EQ(by->chunks, Regenerate::None);
     }
@@ -57,7 +57,7 @@ TEST(CompareWorld, AnotherVersionIsRefusedUnlessRegenerated) {
                 HasSubstr("version 3 of the generator flat, this program has version 5"));
     EXPECT_THAT(compare({}, 5).error().message, HasSubstr("--regenerate keep-edits"));
     for (const Regenerate regenerate : {Regenerate::AllButEdited, Regenerate::All}) {
-        for (const int version : {5, 3}) {  // another one, the same again
+        for (const int version : {5, 3}) {  // a different version, then the same
             const auto by = compare({.seed = {}, .generator = {}, .regenerate = regenerate}, version);
             ASSERT_TRUE(by) << by.error().message;
             EXPECT_EQ(by->chunks, regenerate);
@@ -68,9 +68,9 @@ TEST(CompareWorld, AnotherVersionIsRefusedUnlessRegenerated) {
                 HasSubstr("generator flat, which this program does not have"));
 }
 
-// Who works on a generator: only another version regenerates chunks, and no copy is kept.
+// For the development of generators: only another version regenerates chunks, and no backup is kept.
 TEST(CompareWorld, FollowsTheGeneratorWhereAsked) {
-    const WantedWorld follows{.seed = {}, .generator = {}, .followsGenerator = true};
+    const RequestedWorld follows{.seed = {}, .generator = {}, .followsGenerator = true};
     const auto same = compare(follows, 3);
     ASSERT_TRUE(same) << same.error().message;
     EXPECT_EQ(same->chunks, Regenerate::None);

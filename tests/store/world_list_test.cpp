@@ -117,7 +117,7 @@ TEST_F(WorldList, AWorldThatIsPlayedIsReadAndLeftAsItIs) {
     player->save({1, 0}, numberedChunk(2), {});
     ASSERT_TRUE(player->flush());
     EXPECT_THAT(entry("home").inUse, HasSubstr("open in another program"));
-    EXPECT_GT(entry("home").sizeBytes, fs::file_size(folder_ / "home.sqlite"));  // the log counts
+    EXPECT_GT(entry("home").sizeBytes, fs::file_size(folder_ / "home.sqlite"));  // the log is included
     EXPECT_EQ(codeOf(renameWorld(folder_, "home", "other")), ErrorCode::Busy);
     EXPECT_EQ(codeOf(deleteWorld(folder_, "home")), ErrorCode::Busy);
     ASSERT_TRUE(copy("home", "other"));
@@ -134,7 +134,7 @@ TEST_F(WorldList, RenamesAWorldWithItsPicture) {
     EXPECT_TRUE(renameWorld(folder_, "My house", "My house"));
 }
 
-// A program that was killed leaves what it saved last in the log.
+// A killed program leaves its last saves in the log.
 TEST_F(WorldList, TheLogOfAKilledProgramGoesWithTheWorld) {
     make("home");
     {
@@ -157,7 +157,7 @@ TEST_F(WorldList, NeverReplacesAWorld) {
     EXPECT_EQ(codeOf(renameWorld(folder_, "a", "b")), ErrorCode::BadInput);
     EXPECT_EQ(codeOf(copy("a", "b")), ErrorCode::BadInput);
     EXPECT_EQ(readAll(folder_ / "b.png"), "picture of b");
-    // Nor takes a log for its own that a world left behind.
+    // Nor adopts a log that another world left behind.
     writeAll(folder_ / "c.sqlite-wal", "left");
     EXPECT_EQ(codeOf(renameWorld(folder_, "a", "c")), ErrorCode::BadInput);
     EXPECT_EQ(codeOf(copy("a", "c")), ErrorCode::BadInput);

@@ -66,9 +66,9 @@ TEST(MissingOf, WhatCannotBeReadIsNotMissing) {
 
 class OpenWorldTest : public testing::Test {
   protected:
-    auto open(WorldAccess access, WantedWorld wanted = {}) {
+    auto open(WorldAccess access, RequestedWorld world = {}) {
         WorldRequest request{
-            .access = access, .create = {}, .wanted = std::move(wanted), .versionOf = {}, .limits = kNever};
+            .access = access, .create = {}, .world = std::move(world), .versionOf = {}, .limits = kNever};
         if (access != WorldAccess::ReadOnly) request.create = kIdentity;
         request.versionOf = [](std::string_view generator) { return generator == "flat" ? 3 : 0; };
         return openWorld(worldLocation(path_), registry_, request);

@@ -1,4 +1,4 @@
-// URLs of worlds: what is understood, and that no message holds a password.
+// URLs of worlds: parsing, and that no message contains a password.
 #include "terrane/store_postgres/address.h"
 
 #include <gmock/gmock.h>
@@ -71,7 +71,7 @@ TEST(Address, NoSchemaOfSuchAName) {
     }
 }
 
-// A password with characters that a URL has for other things is the usual mistake.
+// Passwords with special characters of URLs are a common mistake.
 TEST(Address, AMessageOfABadUrlHoldsNothingOfIt) {
     for (const char* url : {
              "postgresql://me:secret@host/db?nonsense=secret",

@@ -1,4 +1,4 @@
-// PostgreSQL and SQLite give the same for the same random saves.
+// PostgreSQL and SQLite give equal results for the same random saves.
 #include "terrane/store/sqlite_store.h"
 #include "tests/store_postgres/world_fixture.h"
 
@@ -11,7 +11,7 @@ using world::ChunkPos;
 
 constexpr int kSide = 6;
 
-// Of blocks that the registry has.
+// A random chunk of blocks that the registry has.
 world::ChunkPtr randomKnownChunk(std::mt19937& random, const world::BlockRegistry& registry) {
     auto chunk = std::make_shared<world::Chunk>(store::randomChunk(random));
     const auto types = static_cast<world::Section::Value>(registry.types().size());
@@ -95,7 +95,7 @@ TEST_F(BothDatabasesTest, RandomSavesGiveTheSame) {
         openBoth();
         for (int round = 0; round < 4; ++round) {
             for (int k = 0; k < 25; ++k) saveInBoth(random);
-            if (random() % 2) expectSame();  // of what waits
+            if (random() % 2) expectSame();  // with queued saves
             ASSERT_TRUE(postgres_->flush() && sqlite_->flush());
             expectSame();
         }

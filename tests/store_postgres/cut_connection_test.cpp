@@ -1,4 +1,4 @@
-// Connections that are cut at any moment, transactions among them.
+// Connections cut at any moment, also during transactions.
 #include <random>
 #include <thread>
 
@@ -11,13 +11,13 @@ using namespace std::chrono_literals;
 using store::Provenance;
 
 constexpr int kChunks = 40;
-constexpr std::chrono::milliseconds kLeastPause = 15ms;  // longer than a connection takes to be made
+constexpr std::chrono::milliseconds kLeastPause = 15ms;  // longer than connecting takes
 
 class CutConnectionTest : public PostgresWorldTest {
   protected:
     CutConnectionTest() { address_ = addressIn(sharedServer(), schema_, "application_name=" + schema_); }
 
-    // Cuts connections that are at work, until the end.
+    // Cuts active connections until the end of the test.
     void cutAllTheTime() {
         while (!isEnding_) {
             cuts_ += std::stoi(sharedServer().query(
@@ -33,7 +33,7 @@ class CutConnectionTest : public PostgresWorldTest {
     std::chrono::milliseconds pauseBetweenCuts_ = kLeastPause;
 };
 
-// Of about 400 KB together, so that a transaction takes long enough to be cut.
+// About 400 KB in total, so that a transaction takes long enough to be cut.
 world::ChunkPtr bigChunk(int number) {
     auto chunk = std::make_shared<world::Chunk>(*store::numberedChunk(number));
     std::mt19937 random(static_cast<std::uint32_t>(number));
@@ -41,7 +41,7 @@ world::ChunkPtr bigChunk(int number) {
     return chunk;
 }
 
-// Whether the chunks are all of one save.
+// Whether all chunks are of the same save.
 bool isWhole(const std::vector<store::LoadedChunk>& loaded) {
     return std::ranges::all_of(loaded, [&](const store::LoadedChunk& one) {
         const auto state = world::blockIndex(1, 1, 20);
@@ -61,8 +61,8 @@ TEST_F(CutConnectionTest, EachBatchIsWrittenWholeAndOnce) {
     };
     const auto start = std::chrono::steady_clock::now();
     ASSERT_TRUE(saveAll(0));
-    // A save that is cut again and again fails at last, as it should: on a slow machine, too, each gets its
-    // time.
+    // A save that is cut repeatedly fails eventually, as intended: give each save enough time on slow
+    // machines, too.
     pauseBetweenCuts_ = std::max(kLeastPause, 3 * std::chrono::duration_cast<std::chrono::milliseconds>(
                                                       std::chrono::steady_clock::now() - start));
     const auto reader = openReader(addressIn(sharedServer(), schema_), registry_);
@@ -74,7 +74,7 @@ TEST_F(CutConnectionTest, EachBatchIsWrittenWholeAndOnce) {
         const auto saved = saveAll(++last);
         EXPECT_TRUE(saved) << saved.error().message;
         EXPECT_TRUE(isWhole((*reader)->loadMany(positions)));
-        const auto loaded = store->load({last % kChunks, 0});  // its connection is cut, too
+        const auto loaded = store->load({last % kChunks, 0});  // its connection may be cut, too
         EXPECT_TRUE(loaded.chunk && *loaded.chunk == *bigChunk(last)) << loaded.problem;
     }
     isEnding_ = true;
@@ -86,7 +86,7 @@ TEST_F(CutConnectionTest, EachBatchIsWrittenWholeAndOnce) {
     EXPECT_EQ(query("SELECT count(*) FROM quarantine"), "0");
 }
 
-// Also when it has ended: what the first had not saved would replace what the second one saved.
+// Also after it ended: unsaved chunks of the first program would replace saves of the second.
 TEST_F(CutConnectionTest, AnotherProgramTookTheWorld) {
     auto first = open();
     first->save({0, 0}, store::numberedChunk(1), Provenance::Edited);
@@ -110,7 +110,7 @@ TEST_F(CutConnectionTest, AnotherProgramTookTheWorld) {
     EXPECT_EQ(*open()->load({0, 0}).chunk, *store::numberedChunk(2));
 }
 
-// What it would write follows from another version of the generator.
+// Its chunks would be of another generator version.
 TEST_F(CutConnectionTest, AnotherProgramRegeneratedTheWorld) {
     const auto worker = open(store::WorldSharing::Generating);
     cutConnectionsOf(schema_);

@@ -1,4 +1,4 @@
-// A database on a file system without room. Making a small one needs the rights of root.
+// A database on a full file system. Creating a small one requires root.
 #include <pwd.h>
 #include <sys/mount.h>
 
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 using store::Provenance;
 using testing::HasSubstr;
 
-// A tablespace on a file system of 24 MB, which a database of its own uses: 8 MB of it.
+// A tablespace on a file system of 24 MB, used by its own database, which takes 8 MB.
 class SmallTablespace {
   public:
     SmallTablespace() {
@@ -42,7 +42,7 @@ class SmallTablespace {
 
     bool isMounted() const { return isMounted_; }
     fs::path filler() const { return folder_ / "filler"; }
-    // All room but so much.
+    // Fills the file system up to `free` bytes.
     void fill(std::uintmax_t free) const {
         store::writeAll(filler(), std::string(fs::space(folder_).available - free, 'x'));
     }
@@ -62,7 +62,7 @@ TEST_F(DatabaseDiskFull, NothingIsLostAndItWorksAgainWithRoom) {
     store->save({-1, 0}, store::numberedChunk(1), Provenance::Edited);
     ASSERT_TRUE(store->flush());
 
-    space.fill(400000);  // less than the 1.2 MB that follow
+    space.fill(400000);  // less than the 1.2 MB saved next
     std::mt19937 random(1);
     std::vector<world::ChunkPtr> chunks;
     for (int x = 0; x < 60; ++x) {

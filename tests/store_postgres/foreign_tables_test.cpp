@@ -1,4 +1,4 @@
-// What a schema can hold in place of a world of this format: each gives one line, and stays as it is.
+// Schemas that are not worlds of this format: each is refused with one line, and not changed.
 #include "terrane/store_postgres/schema.h"
 
 #include "tests/store_postgres/world_fixture.h"
@@ -16,7 +16,7 @@ class ForeignTablesTest : public PostgresWorldTest {
               errorOf(openReader(address_, registry_))})
             expectError(error, code, address_.shown, reason);
     }
-    // A world that is then changed.
+    // Changes a valid world, then expects an error.
     void expectDamage(const std::string& change, ErrorCode code, const std::string& reason) {
         SCOPED_TRACE(change);
         sql("DROP SCHEMA IF EXISTS " + schema_ + " CASCADE");
@@ -25,7 +25,7 @@ class ForeignTablesTest : public PostgresWorldTest {
         expectRefused(code, reason);
     }
     Connection connect() { return Connection::open(address_).value(); }
-    // What is there: tables and the row of a format.
+    // The schema's tables and its format.
     std::string tables() {
         return query(
             "SELECT string_agg(relname, ' ' ORDER BY relname) FROM pg_class WHERE relkind = 'r' "
@@ -126,7 +126,7 @@ TEST_F(ForeignTablesTest, AMigrationIsAllOrNothing) {
     EXPECT_EQ(errorOf(formatOf(connection, 1)).code, ErrorCode::Incompatible);
 }
 
-// A world that was made in part would be a damaged one for ever.
+// A partially created world would stay damaged.
 TEST_F(ForeignTablesTest, AWorldIsMadeWholeOrNotAtAll) {
     store::SaveAccess access = kCreateWorld;
     access.blockNames = {{1, "stone"}, {2, "stone"}};

@@ -1,4 +1,4 @@
-// Two servers write one chunk: a snapshot that comes late never replaces a newer one.
+// Two servers write one chunk: a late snapshot never replaces a newer one.
 #include "tests/store_postgres/world_fixture.h"
 
 namespace terrane::store_postgres {
@@ -17,7 +17,7 @@ TEST(LateWriter, ReplacesNothingNewer) {
     early->setVersion(60);
     early->save(pos, store::numberedChunk(60), store::Provenance::Edited);
     ASSERT_TRUE(early->flush());
-    // What this server saved when it had heard less, and could not write until now.
+    // A snapshot of an older version that could not be written until now.
     late->setVersion(50);
     late->save(pos, store::numberedChunk(50), store::Provenance::Edited);
     std::size_t derived = 0;
@@ -29,7 +29,7 @@ TEST(LateWriter, ReplacesNothingNewer) {
     ASSERT_TRUE(late->flush());
     EXPECT_EQ(*early->load(pos).chunk, *store::numberedChunk(60));
     EXPECT_EQ(derived, 0u) << "no tile follows from what is not written";
-    // As new or newer: it does.
+    // An equal or newer version replaces it.
     for (const int version : {60, 61}) {
         late->setVersion(version);
         late->save(pos, store::numberedChunk(version + 100), store::Provenance::Edited);
@@ -39,7 +39,7 @@ TEST(LateWriter, ReplacesNothingNewer) {
     EXPECT_EQ(derived, 2u);
 }
 
-// The schema that a regeneration leaves behind has a history of its own, which begins anew.
+// The backup schema of a regeneration starts a new history.
 TEST_F(PostgresWorldTest, EditsInABackupAreKept) {
     const world::ChunkPos pos{3, -4};
     {

@@ -1,4 +1,4 @@
-// Names and values of any bytes: kept as they are, or left out, and never read as SQL.
+// Names and values of any bytes: kept or rejected, but never read as SQL.
 #include "tests/store_postgres/world_fixture.h"
 
 namespace terrane::store_postgres {
@@ -64,7 +64,7 @@ std::string percentCoded(const std::string& text) {
 
 class NamesTest : public PostgresWorldTest {};
 
-// Each is a world of its own, and the one beside it stays.
+// Each schema is a separate world, and others are not changed.
 TEST_F(NamesTest, Schemas) {
     makeWorld();
     for (const std::string& name : kOddSchemas) {
@@ -99,7 +99,7 @@ TEST_F(NamesTest, SchemasThatPostgresHasItself) {
     }
 }
 
-// A name for a copy is cut, and not within a character.
+// The name of a backup is shortened at a character boundary.
 TEST_F(NamesTest, BackupsOfLongNames) {
     std::string name = "x";
     while (name.size() + 3 <= 63) name += "日";
@@ -130,7 +130,7 @@ TEST_F(NamesTest, Metadata) {
     EXPECT_EQ(query("SELECT count(*) FROM chunks"), "1");
 }
 
-// PostgreSQL has no such texts. The rest of the batch is saved.
+// PostgreSQL cannot store such text. The rest of the batch is saved.
 TEST_F(NamesTest, MetadataThatIsNoTextIsLeftOut) {
     const auto store = open();
     for (const std::string& text : kNoTexts) {
@@ -168,7 +168,7 @@ TEST_F(NamesTest, Blocks) {
     EXPECT_EQ(query("SELECT count(*) FROM chunks"), "0");
 }
 
-// A world without some names would show other blocks: it is not made.
+// A world without some names would show other blocks, so it is not created.
 TEST_F(NamesTest, BlocksWithoutATextAreAnError) {
     for (const std::string& text : kNoTexts) {
         store::SaveAccess access = kCreateWorld;

@@ -1,4 +1,4 @@
-// What can be wrong with a server, a database and a user: each gives one line that names the database.
+// Faults of a server, a database and a user: each gives one line that names the database.
 #include "tests/store_postgres/world_fixture.h"
 
 namespace terrane::store_postgres {
@@ -15,7 +15,7 @@ class OpenFaultsTest : public PostgresWorldTest {
         return errorOf(tryOpen(access));
     }
     base::Error errorOfReading() { return errorOf(openReader(address_, registry_)); }
-    // Both ways.
+    // For reading and writing.
     void expectRefused(ErrorCode code, const std::string& reason) {
         for (const base::Error& error :
              {errorOfWriting(), errorOfWriting(kWorldMustBeThere), errorOfReading()})
@@ -38,7 +38,7 @@ TEST_F(OpenFaultsTest, WrongPassword) {
     EXPECT_TRUE(openReader(address_, registry_));
 }
 
-// "localhost" is two addresses on most machines, and a server may listen at one.
+// "localhost" has two addresses on most machines, and a server may listen on one only.
 TEST_F(OpenFaultsTest, TheServerThatAnsweredTellsWhy) {
     address_ = addressOf(fmt::format("postgresql://postgres:wr0ng@127.0.0.1:1,127.0.0.1:{}/postgres",
                                      sharedServer().port()))

@@ -1,4 +1,4 @@
-// PostgreSQL under the contract of ChunkStore.
+// PostgreSQL tested by the contract of ChunkStore.
 #include "terrane/store/overlay_store.h"
 #include "terrane/store_postgres/postgres_store.h"
 #include "tests/store/chunk_store_contract.h"
@@ -27,7 +27,7 @@ class PostgresWorld : public ContractWorld {
     world::BlockRegistry registry_ = testRegistry();
 };
 
-// Over a database that is read alone.
+// An overlay over a database opened for reading.
 class OverlayOfPostgresWorld : public ContractWorld {
   public:
     std::unique_ptr<ChunkStore> open() override {

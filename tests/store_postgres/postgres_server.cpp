@@ -110,7 +110,7 @@ std::string PostgresServer::query(const std::string& text) const {
 }
 
 PostgresServer& sharedServer() {
-    // Not in a base::TempFolder: the next one that a test makes would remove it.
+    // Not in a base::TempFolder, which the next TempFolder of a test would remove.
     static PostgresServer server(fs::temp_directory_path() / fmt::format("terrane_postgres_{}", ::getpid()));
     return server;
 }

@@ -1,4 +1,4 @@
-// A PostgreSQL server of its own in a folder, for tests: started, stopped, killed.
+// A separate PostgreSQL server in a folder, for tests: started, stopped, killed.
 #pragma once
 
 #include <filesystem>
@@ -8,24 +8,24 @@ namespace terrane::store_postgres {
 
 class PostgresServer {
   public:
-    // Makes its files and starts it. `folder` is empty or not there; PostgreSQL does not run as root, so it
-    // is given to its own user then. Throws where PostgreSQL is not installed.
+    // Creates its files and starts it. `folder` is empty or missing; since PostgreSQL does not run as root,
+    // it then belongs to PostgreSQL's user. Throws if PostgreSQL is not installed.
     explicit PostgresServer(std::filesystem::path folder);
-    ~PostgresServer();  // kills it, and removes its files
+    ~PostgresServer();  // kills the server and removes its files
     PostgresServer(const PostgresServer&) = delete;
     PostgresServer& operator=(const PostgresServer&) = delete;
 
     void start();
-    void stop();  // clients are cut off
-    void kill();  // as a power cut would
+    void stop();  // disconnects clients
+    void kill();  // like a power failure
 
-    // Of the superuser, through a socket, without a password.
+    // URL of the superuser, through a socket, without a password.
     std::string url(const std::string& parameters = "") const;
-    // Through the network, where a password is asked for.
+    // URL through the network, where a password is required.
     std::string networkUrl(const std::string& userAndPassword) const;
     int port() const { return port_; }
 
-    // Runs SQL as the superuser. Throws where it fails.
+    // Runs SQL as the superuser. Throws on failure.
     void sql(const std::string& text) const;
     std::string query(const std::string& text) const;  // one value
 
@@ -34,9 +34,9 @@ class PostgresServer {
     int port_ = 0;
 };
 
-// The server that all tests of a program share, started by the first.
+// The server shared by all tests of a program, started on first use.
 PostgresServer& sharedServer();
-// A name of a schema that no other test has.
+// A schema name unique to the test.
 std::string freshSchema();
 
 }  // namespace terrane::store_postgres

@@ -1,4 +1,4 @@
-// Rows that are no chunks: put aside, and what they had is kept.
+// Invalid rows are quarantined with their data.
 #include "tests/store_postgres/world_fixture.h"
 
 #include "terrane/store/chunk_key.h"
@@ -47,11 +47,11 @@ constexpr Damage kDamages[] = {
     {"data = convert_to(repeat('x', 66 << 20), 'UTF8')", "longer than a chunk can be"},
 };
 
-// Chunks x,0 are damaged, each in another way.
+// Chunks x,0 are damaged, each in a different way.
 TEST_F(QuarantineTest, DamagedRowIsPutAside) {
     constexpr int kCount = static_cast<int>(std::size(kDamages));
     makeWorld(kCount + 1);
-    sql("ALTER TABLE chunks ALTER data SET STORAGE EXTENDED");  // what is long is compressed
+    sql("ALTER TABLE chunks ALTER data SET STORAGE EXTENDED");  // compresses long values
     std::vector<world::ChunkPos> positions;
     std::vector<std::string> before;
     for (int x = 0; x < kCount; ++x) {
@@ -81,7 +81,7 @@ TEST_F(QuarantineTest, DamagedRowIsPutAside) {
     EXPECT_EQ(countIn("chunks"), std::to_string(kCount + 1));
 }
 
-// Whoever saves without having loaded does not overwrite what could still be rescued.
+// Saving without loading does not overwrite data that could still be recovered.
 TEST_F(QuarantineTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
     for (const Provenance provenance : {Provenance::Generated, Provenance::Edited}) {
         save({0, 0}, 1);
@@ -93,7 +93,7 @@ TEST_F(QuarantineTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
     }
 }
 
-// Such a row is damage. It must not stay where an edit was reported as saved.
+// Such a row is damaged. It must not remain after an edit was reported as saved.
 TEST_F(QuarantineTest, AnEditReplacesARowOfAnyOrigin) {
     save({0, 0}, 1);
     sql("ALTER TABLE chunks DROP CONSTRAINT chunks_origin_check");
@@ -105,7 +105,7 @@ TEST_F(QuarantineTest, AnEditReplacesARowOfAnyOrigin) {
     }
 }
 
-// Damage in one row leaves the others of a batch as they are.
+// Damage in one row does not affect the others of a batch.
 TEST_F(QuarantineTest, LoadsManyAroundDamagedRows) {
     makeWorld(10);
     sql("UPDATE chunks SET data = decode(repeat('00', 60), 'hex')" + whereIs({4, 0}));
@@ -137,13 +137,13 @@ TEST_F(QuarantineTest, DamageOfAHigherLevelIsNamed) {
 TEST_F(QuarantineTest, IdWithoutANameIsDamage) {
     save({0, 0}, 1);
     sql("DELETE FROM blocks WHERE name = 'dirt'");
-    // The id goes to the next type that needs one, so the name has to be gone from the registry too.
+    // The id goes to the next new type, so the registry must lack the name, too.
     registry_ = store::registryOf({"stone", "grass", "sand", "water"});
     EXPECT_THAT(open()->load({0, 0}).problem, HasSubstr("block id 2 has no name"));
     EXPECT_EQ(countIn("quarantine"), "1");
 }
 
-// A program found damage; before it puts the row aside, another one has written a good chunk there.
+// A program found damage; before it quarantines the row, another one writes a valid chunk there.
 TEST_F(QuarantineTest, WhatAnotherProgramRepairedStays) {
     save({0, 0}, 1);
     sql("UPDATE chunks SET data = '\\x0102'");

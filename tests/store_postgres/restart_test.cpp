@@ -1,4 +1,4 @@
-// A server that stops, is killed and starts again under a store: loads wait, saves get durable, nothing is
+// A server that stops, is killed and restarts under a store: loads wait, saves become durable, nothing is
 // lost.
 #include <thread>
 
@@ -44,7 +44,7 @@ class RestartTest : public PostgresWorldTest {
 };
 std::unique_ptr<PostgresServer> RestartTest::server_;
 
-// Chunks that are loaded all the time, and those that are saved: each save is loaded again.
+// Loads existing chunks continuously, and each new save again.
 TEST_F(RestartTest, LoadsWaitAndSavesGetDurable) {
     constexpr int kLoaded = 20, kSaved = 8;
     const auto store = openWith(kSoon);
@@ -86,7 +86,7 @@ TEST_F(RestartTest, LoadsWaitAndSavesGetDurable) {
     EXPECT_EQ(server_->query("SELECT count(*) FROM " + schema_ + ".quarantine"), "0");
 }
 
-// What was acknowledged before the server died is there, and of what was not nothing is in part.
+// Saves acknowledged before the kill exist; others exist entirely or not at all.
 TEST_F(RestartTest, WhatIsDurableOutlivesAKilledServer) {
     const auto store = openWith(store::kNever);
     for (int x = 0; x < 100; ++x) store->save({x, 0}, store::numberedChunk(x), Provenance::Generated);
@@ -116,7 +116,7 @@ TEST_F(RestartTest, AServerThatStaysAwayLosesNothing) {
     EXPECT_FALSE(store->contains({0, 0}));
     expectError(errorOf(store->editedChunks()), base::ErrorCode::Io, address_.shown, "");
 
-    store->save({0, 0}, store::numberedChunk(50), Provenance::Generated);  // in place of what was not read
+    store->save({0, 0}, store::numberedChunk(50), Provenance::Generated);  // in place of the unread chunk
     store->save({1, 0}, store::numberedChunk(51), Provenance::Edited);
     store->setMetadata("player", "1,2");
     expectError(errorOf(store->flush()), base::ErrorCode::Io, address_.shown, "");
@@ -137,7 +137,7 @@ TEST_F(RestartTest, AServerThatStaysAwayLosesNothing) {
     EXPECT_EQ((*reader)->metadata("player"), "1,2");
 }
 
-// A player builds where the ground could not be read: what was there is kept.
+// A player edits an unreadable chunk: the old row is kept.
 TEST_F(RestartTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
     const auto store = openWith(store::kNever, {.first = 5ms, .longest = 20ms, .total = 60ms});
     store->save({0, 0}, store::numberedChunk(1), Provenance::Edited);

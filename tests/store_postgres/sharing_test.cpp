@@ -1,4 +1,4 @@
-// Several programs with one world: who may open it beside whom, and what only one may do.
+// Several programs with one world: which may open it together, and what requires exclusive access.
 #include <thread>
 
 #include "tests/store_postgres/world_fixture.h"
@@ -18,7 +18,7 @@ class SharingTest : public PostgresWorldTest {
         expectError(errorOf(tryOpen(access, sharing)), ErrorCode::Busy, address_.shown,
                     "open in another program (process ");
     }
-    // Another world in the same database.
+    // Opens another world in the same database.
     std::unique_ptr<store::ReadableStore> openBackup(const std::string& schema) {
         auto store = openReader(addressIn(sharedServer(), schema), registry_);
         if (!store) throw std::runtime_error(store.error().message);
@@ -50,7 +50,7 @@ TEST_F(SharingTest, WhoMayOpenItBesideWhom) {
     EXPECT_TRUE(tryOpen(kWorldMustBeThere, Alone)) << "all have left";
 }
 
-// A world of another schema, or database, is another one.
+// A schema with the same name in another database, or another schema, is a different world.
 TEST_F(SharingTest, OtherWorldsAreNoMatter) {
     const auto store = open();
     EXPECT_TRUE(PostgresStore::open(addressIn(sharedServer(), freshSchema()), registry_, kCreateWorld));
@@ -59,7 +59,7 @@ TEST_F(SharingTest, OtherWorldsAreNoMatter) {
     EXPECT_TRUE(tryOpen());
 }
 
-// A server notices the end of a connection a moment later: the locks are given up before.
+// A server notices the end of a connection late: the locks are released before.
 TEST_F(SharingTest, ItIsFreeAtOnceWhenItIsClosed) {
     constexpr Statement kLocks = {
         "SELECT count(*) FROM pg_locks JOIN pg_stat_activity USING (pid) "
@@ -138,7 +138,7 @@ TEST_F(SharingTest, NotRegeneratedWhileOthersHaveIt) {
     EXPECT_EQ(backups(), "0");
 }
 
-// Names of blocks get their ids when one program has it.
+// Assigning ids to new block names requires exclusive access.
 TEST_F(SharingTest, NewBlocksNeedTheWorldAlone) {
     const auto store = open(WorldSharing::Generating);
     registry_ = store::registryOf({"stone", "lamp"});

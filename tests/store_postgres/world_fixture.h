@@ -1,4 +1,4 @@
-// A world in the shared server, in a schema of its own, for tests of faults and of sharing.
+// A world in its own schema of the shared server, for tests of faults and of sharing.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -21,7 +21,7 @@ inline store::SaveAccess regenerateBy(int version, store::Regenerate chunks = st
             }};
 }
 
-// The parameters of a URL that are there already stay.
+// Existing parameters of the URL stay.
 inline Address addressIn(const PostgresServer& server, const std::string& schema,
                          const std::string& parameters = "") {
     return addressOf(server.url("schema=" + schema + "&" + parameters)).value();
@@ -35,14 +35,14 @@ inline std::string urlWith(const std::string& database, const std::string& user 
     return url;
 }
 
-// The name of a new database in the shared server.
+// Creates a database in the shared server and returns its name.
 inline std::string freshDatabase(const std::string& options = "") {
     std::string name = "database_" + freshSchema();
     sharedServer().sql("CREATE DATABASE " + name + options);
     return name;
 }
 
-// An error in one line that names where, and says why.
+// Expects a one-line error that names `where` and the reason.
 inline void expectError(const base::Error& error, base::ErrorCode code, const std::string& where,
                         const std::string& reason) {
     EXPECT_EQ(static_cast<int>(error.code), static_cast<int>(code)) << error.message;
@@ -51,7 +51,7 @@ inline void expectError(const base::Error& error, base::ErrorCode code, const st
     EXPECT_EQ(error.message.find('\n'), std::string::npos) << error.message;
 }
 
-// Of what was expected to fail.
+// The error of an operation that is expected to fail.
 template <class T>
 base::Error errorOf(const base::Result<T>& result) {
     return result ? base::Error{base::ErrorCode::Failed, "no error"} : result.error();
@@ -70,20 +70,20 @@ class PostgresWorldTest : public testing::Test {
         if (!store) throw std::runtime_error(store.error().message);
         return std::move(*store);
     }
-    // Chunks x,0 with the numbers x, edited.
+    // Creates a world with edited chunks x,0 with the numbers x.
     void makeWorld(int chunks = 3) {
         const auto store = open();
         for (int x = 0; x < chunks; ++x)
             store->save({x, 0}, store::numberedChunk(x), store::Provenance::Edited);
         ASSERT_TRUE(store->flush());
     }
-    // As another program would, which keeps to none of the module's rules.
+    // Runs SQL like another program, without the module's rules.
     void sql(const std::string& text) { (void)query(text); }
     std::string query(const std::string& text) {
         return sharedServer().query("SET client_min_messages = error; SET search_path = \"" + schema_ +
                                     "\"; " + text);
     }
-    // Ends the connections of the store whose URL names this program, and waits until they are gone.
+    // Ends the connections of the store whose URL names this program, and waits until they are closed.
     void cutConnectionsOf(const std::string& program) {
         sharedServer().sql(
             "SELECT pg_terminate_backend(pid, 5000) FROM pg_stat_activity "

@@ -19,7 +19,7 @@ TEST(EditEvent, NamesTheBlocksOfEachChunk) {
         R"("number":7})");
 }
 
-// Of many chunks it has few boxes, which cover all of them and each level by itself.
+// Many chunks give few boxes, which cover all of them, separately for each level.
 TEST(EditEvent, ManyChunksAreFewBoxes) {
     std::mt19937 random(5);
     std::vector<ChunkPos> chunks{{world::kMinChunk, world::kMaxChunk}};

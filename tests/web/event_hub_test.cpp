@@ -60,7 +60,7 @@ TEST(EventHub, WhoIsGoneIsDropped) {
     EXPECT_EQ(one.texts.size(), 1u);
     EXPECT_EQ(two.texts.size(), 2u);
     EXPECT_EQ(hub.count(), 1u);
-    // Also at once, where a remembered event cannot be told.
+    // Also at once, if a remembered event cannot be sent.
     hub.tell("players", "[3]", true);
     Heard gone;
     gone.isThere = false;

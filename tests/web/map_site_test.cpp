@@ -101,7 +101,7 @@ TEST_F(MapSiteTest, TellsOfTheWorld) {
     EXPECT_TRUE(world["isLive"]);
     EXPECT_EQ(getJson("/api/players").size(), 0u);
     players_ = {{"Ada", 1.5, -2, 80}};
-    // Within a second, however often one asks.
+    // The list changes within a second, however often it is requested.
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
     while (getJson("/api/players").empty() && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
@@ -160,7 +160,7 @@ TEST_F(MapSiteTest, AnEditIsToldAndShown) {
     const Received before = get(target);
     Browser listener(site_->port());
     listener.get("/api/edits");
-    // Who comes is told who is there, within a second.
+    // A new listener gets the lists within a second.
     EXPECT_TRUE(runUntil([&] { return listener.text().find("event: places\n") != std::string::npos; }));
 
     const ChunkPos chunk{2, 1};
@@ -183,7 +183,7 @@ TEST_F(MapSiteTest, AnEditIsToldAndShown) {
     EXPECT_TRUE(runUntil([&] { return listener.text().find("\"Ada\"") != std::string::npos; }));
 }
 
-// A page knows by the number whether it missed edits: also where the program began again meanwhile.
+// A page detects missed edits by the number, also after a restart of the program.
 TEST_F(MapSiteTest, EditsHaveNumbersThatGoOn) {
     open(parts("flat"));
     const auto first = getJson("/api/world")["edits"].get<std::uint64_t>();
@@ -202,7 +202,7 @@ TEST_F(MapSiteTest, EditsHaveNumbersThatGoOn) {
     EXPECT_EQ(getJson("/api/world")["edits"], first + 1);
 }
 
-// Nobody learns from the map where somebody digs.
+// The map does not reveal where somebody digs.
 TEST_F(MapSiteTest, EditsThatAreNotSeenFromAboveAreNotTold) {
     open(parts("flat"));
     const std::string target = "/tiles/day/2/0/0.png";
@@ -221,7 +221,7 @@ TEST_F(MapSiteTest, EditsThatAreNotSeenFromAboveAreNotTold) {
     EXPECT_EQ(listener.text().find("\"x0\":16"), std::string::npos) << "who digs is not told of";
     EXPECT_EQ(listener.text().find("\"level\":1"), std::string::npos) << "a tile without a row";
     EXPECT_NE(get(target).field("ETag"), tag);
-    // What is dug open is seen.
+    // A hole that is open to the sky is visible.
     auto open = std::make_shared<world::Chunk>(*dug);
     for (int z = 21; z < world::kChunkHeight; ++z) open->setBlock(world::blockIndex(3, 3, z), world::kAir);
     live_[deep] = open;

@@ -27,7 +27,7 @@ TEST(MetricsText, SamplesHaveLabels) {
               "answers_total{code=\"2xx\"} 7\nanswers_total{code=\"4xx\"} 0\n");
 }
 
-// A number as the format has it: what Go's ParseFloat reads.
+// A number in Prometheus' format, as accepted by Go's ParseFloat.
 TEST(MetricsText, AnyValueIsANumber) {
     MetricsText text;
     for (const double value : {0.0, -1.5, 0.1, 1e-9, 123456789.0, 9007199254740992.0, 1.5e300})

@@ -34,13 +34,13 @@ TEST(Page, EachFileThatItNamesIsThere) {
     const auto names = allMatches(html, std::regex("(?:src|href)=\"([^\"]+)\""));
     EXPECT_GE(names.size(), 5u);
     for (const std::string& name : names) {
-        if (name == "world.js") continue;  // made for each world
+        if (name == "world.js") continue;  // generated for each world
         ASSERT_TRUE(pageFile(name)) << name;
         EXPECT_FALSE(pageFile(name)->data.empty()) << name;
         EXPECT_NE(typeOf(name), "application/octet-stream") << name;
     }
     EXPECT_THAT(names, testing::Contains("world.js"));
-    // The page may run no scripts of its own text (answer.cpp), nor ask other hosts.
+    // The page has no inline scripts or styles (answer.cpp) and no links to other hosts.
     EXPECT_FALSE(std::regex_search(html, std::regex("<script>|<style>| on[a-z]+=|style=|https?://")));
 }
 
@@ -59,7 +59,7 @@ TEST(Page, FilesHaveTypes) {
         EXPECT_NE(typeOf(file.path), "application/octet-stream") << file.path;
 }
 
-// The texts of each language, by their keys: "en: { key: 'text', … },".
+// The texts of each language by key: "en: { key: 'text', … },".
 std::map<std::string, std::map<std::string, std::string>> pageTexts() {
     const std::string script = textOfFile("texts.js");
     std::map<std::string, std::map<std::string, std::string>> languages;
@@ -72,7 +72,7 @@ std::map<std::string, std::map<std::string, std::string>> pageTexts() {
     return languages;
 }
 
-// The words in braces, which are replaced by values.
+// The placeholders in braces.
 std::set<std::string> valuesIn(const std::string& text) {
     const auto words = allMatches(text, std::regex("\\{(\\w+)\\}"));
     return {words.begin(), words.end()};

@@ -54,7 +54,7 @@ TEST(Route, TilesHaveLayerZoomAndNumbers) {
     EXPECT_EQ(tileAt("/tiles/biome/1/1/1.png"), (map::MapTile{map::Layer::Biome, 1, 1, 1}));
 }
 
-// The files that "terrane maps" writes have the names that a server answers to.
+// The files written by "terrane maps" have the names that a server serves.
 TEST(Route, TilesHaveTheNamesOfTheirFiles) {
     for (const map::MapTile& tile :
          {map::MapTile{map::Layer::Day, -10, 5, -6}, {map::Layer::Isometric, 2, -7, 0}})

@@ -42,7 +42,7 @@ TEST(Target, NoPathLeadsUpward) {
         EXPECT_FALSE(parseTarget(text)) << text;
 }
 
-// An escape is decoded once: what comes out is a name, which is no way upward.
+// Escapes are decoded once: the result is a name, never a parent folder.
 TEST(Target, EscapesOfEscapesAreText) {
     EXPECT_EQ(parseTarget("/%252e%252e").value().segments, Segments{"%2e%2e"});
     EXPECT_EQ(parseTarget("/%252f").value().segments, Segments{"%2f"});

@@ -18,7 +18,7 @@ using map::Layer;
 using map::MapTile;
 using world::ChunkPos;
 
-constexpr MapTile kTile{Layer::Day, 2, 0, 0};  // 4×4 chunks and those around
+constexpr MapTile kTile{Layer::Day, 2, 0, 0};  // 4×4 chunks and their neighbors
 
 struct Waiter {
     TileService::Ready ready() {
@@ -33,13 +33,13 @@ struct Waiter {
     std::optional<base::Result<TileFilePtr>> result;
 };
 
-// As an edit that is seen does.
+// Reports a visible edit.
 void change(TileService& tiles, ChunkPos chunk) {
     tiles.addEdited(std::span(&chunk, 1));
     tiles.forget(std::span(&chunk, 1));
 }
 
-// Workers run when a test says so, and so does what they post.
+// Tests decide when workers and the functions that they post run.
 class TileServiceTest : public testing::Test {
   protected:
     static map::MapPainter makePainter(const gen::LevelGenerators& generators) {
@@ -262,7 +262,7 @@ TEST_F(TileServiceTest, WhatCannotBePaintedIsAnErrorForAll) {
     EXPECT_EQ(tiles.statistics().count, 0u);
 }
 
-// Has every chunk, and no memory to read it into.
+// Contains every chunk, but loading throws std::bad_alloc.
 class ThrowingStore : public store::MemoryStore {
   public:
     using MemoryStore::MemoryStore;
@@ -343,7 +343,7 @@ TEST_F(TileServiceTest, ItsEndCallsNobody) {
     EXPECT_EQ(queued.calls + painted.calls, 0);
 }
 
-// With threads: edits, requests and cancels in between.
+// With threads: edits, requests and cancellations interleaved.
 TEST(TileService, WorkersPaintWhileItIsUsed) {
     const auto textures = content::builtInTextures();
     auto painter = map::MapPainter::create({map::generatorsOf("flat"), contentBlocks(), textures}).value();

@@ -1,4 +1,4 @@
-// A web server and browsers on one thread: sockets of this machine, and bytes as a test writes them.
+// A web server and browsers on one thread: local sockets, and bytes written by tests.
 #pragma once
 
 #include <arpa/inet.h>
@@ -22,12 +22,12 @@
 
 namespace terrane::web {
 
-// An answer as a browser reads it.
+// A received response.
 struct Received {
     int status = 0;
     std::string header, body;
 
-    // The value of a field of the header; empty where there is none.
+    // The value of a header field; empty if missing.
     std::string field(const std::string& name) const {
         const std::size_t at = header.find("\r\n" + name + ": ");
         if (at == std::string::npos) return {};
@@ -36,7 +36,7 @@ struct Received {
     }
 };
 
-// Sends whatever a test says. Nothing of it waits but connecting.
+// Sends arbitrary bytes. Only connecting blocks.
 class Browser {
   public:
     explicit Browser(std::uint16_t port, const std::string& address = "127.0.0.1", int receiveBytes = 0)
@@ -65,7 +65,7 @@ class Browser {
         if (socket_ >= 0) ::close(std::exchange(socket_, -1));
     }
 
-    // All that has come and was not taken.
+    // Everything received and not taken yet.
     const std::string& text() {
         read();
         return text_;
@@ -74,7 +74,7 @@ class Browser {
         read();
         return isClosed_;
     }
-    // The next answer, once it is there as a whole. `hasBody`: it is none to HEAD.
+    // The next complete response. `hasBody`: false after HEAD.
     std::optional<Received> take(bool hasBody = true) {
         read();
         const std::size_t end = text_.find("\r\n\r\n");
@@ -104,7 +104,7 @@ class Browser {
     bool isClosed_ = false;
 };
 
-// Runs the context until it is so; false where that takes too long.
+// Runs the context until the condition holds; false on timeout.
 template <class Condition>
 bool runContextUntil(boost::asio::io_context& context, Condition isSo) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);

@@ -1,4 +1,4 @@
-// Requests, answers and events of terrane/web/web_requests.cpp.
+// Tests of requests, answers and events: terrane/web/web_requests.cpp.
 #include <gtest/gtest.h>
 
 #include "tests/web/web_server_fixture.h"
@@ -132,7 +132,7 @@ TEST_F(WebRequestsTest, HeadersAreLimited) {
     std::string many = "GET / HTTP/1.1\r\n";
     for (int k = 0; k < 1000; ++k) many += "A" + std::to_string(k) + ": b\r\n";
     EXPECT_EQ(answerTo(many + "\r\n").status, 431);
-    // Without an end.
+    // Without the final empty line.
     for (const std::string& part : {std::string(3000, 'x'), std::string("A: b\r\n"), std::string("\r\n")}) {
         Browser endless = browser();
         endless.send("GET / HTTP/1.1\r\nEndless: b");
@@ -153,7 +153,7 @@ TEST_F(WebRequestsTest, RequestsInARowAreAnsweredInTheirOrder) {
     for (int k = 0; k < 200; ++k) text += "GET /" + std::to_string(k) + " HTTP/1.1\r\n\r\n";
     one.send(text);
     for (int k = 0; k < 200; ++k) ASSERT_EQ(next(one).body, std::to_string(k));
-    // Also when the first one takes long, and in pieces of a byte.
+    // Also if the first answer takes long, and for single bytes.
     one.send("GET /api/block?x=1&y=2 HTTP/1.1\r\n\r\nGET /after HTTP/1.1\r\n\r\n");
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 1; }));
     runShortly();

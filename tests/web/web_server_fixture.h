@@ -1,12 +1,12 @@
-// A web server whose answers a test decides on.
+// A web server whose answers a test controls.
 #pragma once
 
 #include "tests/web/web_fixture.h"
 
 namespace terrane::web {
 
-// "/" is a page with a tag, "/api/block" an answer that a test gives later, "/large.bin" more than sockets
-// hold, other names are their own text.
+// "/" is a page with a tag, "/api/block" is answered later by the test, "/large.bin" exceeds the buffers of
+// sockets, other names return their own text.
 class WebServerTest : public testing::Test {
   protected:
     WebServer& start(const WebLimits& limits = {}, const WebAddress& address = {}) {
@@ -48,7 +48,7 @@ class WebServerTest : public testing::Test {
             context_.run_for(std::chrono::milliseconds(2));
         }
     }
-    // The next answer; its status is 0 where none comes.
+    // The next answer; status 0 if none arrives.
     Received next(Browser& from, bool hasBody = true) {
         std::optional<Received> found;
         EXPECT_TRUE(runUntil([&] { return (found = from.take(hasBody)).has_value() || from.isClosed(); }));

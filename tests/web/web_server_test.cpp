@@ -1,4 +1,4 @@
-// Connections and their limits: terrane/web/web_server.cpp.
+// Tests of connections and their limits: terrane/web/web_server.cpp.
 #include "terrane/web/web_server.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// With limits of 0 s a tick closes all that one would close some seconds later.
+// With limits of 0 s, a tick closes connections that would otherwise be closed seconds later.
 TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
     WebLimits limits;
     limits.headerWithin = std::chrono::seconds(0);
@@ -33,7 +33,7 @@ TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
         EXPECT_EQ(next(slow).body, "b");
         slow.send(part);
         runShortly();
-        server.tick();  // sees it
+        server.tick();  // notices it
         runShortly();
         server.tick();
         EXPECT_TRUE(isClosedSoon(slow)) << part;
@@ -129,7 +129,7 @@ TEST_F(WebServerTest, WhereAllAreBusyTheFirstOneGoes) {
     EXPECT_TRUE(runUntil([&] { return one.take().has_value() != two.take().has_value(); }));
 }
 
-// An address of this machine that is not the loopback: to the server it is a stranger's.
+// A local address other than loopback: the server treats it as remote.
 std::optional<std::string> otherAddress() {
     ifaddrs* all = nullptr;
     if (::getifaddrs(&all) != 0) return std::nullopt;
@@ -209,7 +209,7 @@ TEST_F(WebServerTest, ItsEndClosesAll) {
     EXPECT_EQ(busy.text(), "");
 }
 
-// The end may come while the context has a new connection, but has not told of it.
+// The server may be destroyed while the context has an accepted connection that is not reported yet.
 TEST_F(WebServerTest, NobodyIsAcceptedAfterItsEnd) {
     for (int rounds = 0; rounds < 5; ++rounds) {
         start();
