@@ -19,9 +19,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int kCouldNotStart = 127;  // as of a shell
+constexpr int kCouldNotStart = 127;  // as in a shell
 
-// In the child.
+// Runs in the child process.
 [[noreturn]] void become(std::vector<std::string> command, const ChildOptions& options, int output) {
     std::vector<char*> arguments;
     for (std::string& argument : command) arguments.push_back(argument.data());
@@ -38,7 +38,7 @@ constexpr int kCouldNotStart = 127;  // as of a shell
     ::_exit(kCouldNotStart);
 }
 
-// Reads until the other side has closed; false when the time is over first.
+// Reads until the other side closes the pipe; false if the time runs out first.
 bool readAll(int from, Clock::time_point until, std::string& text) {
     std::array<char, 4096> part;
     for (;;) {

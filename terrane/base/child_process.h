@@ -1,4 +1,4 @@
-// Runs another program to its end.
+// Runs another program and waits for its end.
 #pragma once
 
 #include <chrono>
@@ -14,9 +14,9 @@ namespace terrane::base {
 struct ChildOptions {
     std::filesystem::path folder;                                       // working directory
     std::filesystem::path errorOutput;                                  // file for its standard error
-    std::chrono::seconds atMost{600};                                   // then it is killed
-    std::vector<std::pair<std::string, std::string>> environment = {};  // variables besides one's own
-    int mostRuns = 1;  // a child that crashes is run again until then
+    std::chrono::seconds atMost{600};                                   // the child is killed then
+    std::vector<std::pair<std::string, std::string>> environment = {};  // added to the inherited variables
+    int mostRuns = 1;  // a child that crashes is run again, up to this many runs
 };
 
 struct ChildEnd {
@@ -27,9 +27,9 @@ struct ChildEnd {
     double seconds = 0, processorSeconds = 0;  // of the last run
 };
 
-// Waits. The child ends with the calling thread. For a process that has no other threads. An error where the
-// system has no room for another process; a program that is not there or cannot be run gives exit code 127,
-// as in a shell.
+// Blocks until the child ends. The child is killed if the calling thread ends. The calling process must have
+// no other threads. An error if the system cannot start another process; a program that is missing or cannot
+// be run gives exit code 127, as in a shell.
 [[nodiscard]] Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options);
 
 }  // namespace terrane::base

@@ -1,5 +1,5 @@
-// 128-bit fingerprint of bytes, for golden results and for telling whether a file changed. Not for security.
-// It is XXH3 in 128 bits without a seed, as `xxh128sum` prints it. One thread at a time for each object.
+// 128-bit digest of bytes, for golden results and for detecting changed files. Not for security. It is XXH3
+// in 128 bits without a seed, as `xxh128sum` prints it. One thread at a time for each object.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@ struct XXH3_state_s;
 
 namespace terrane::base {
 
-// How the bytes are cut into updates makes no difference. Movable; a moved-from digest is only good for
-// assignment.
+// The result does not depend on how the bytes are split into updates. Movable; a moved-from digest may only
+// be assigned to.
 class Digest {
   public:
     Digest();
@@ -22,7 +22,7 @@ class Digest {
     void update(std::span<const std::byte> bytes);
     void update(std::string_view text);
 
-    // 32 lower-case digits for what was given so far; more may follow.
+    // 32 lower-case hexadecimal digits for the bytes given so far; more may follow.
     [[nodiscard]] std::string hex() const;
 
   private:

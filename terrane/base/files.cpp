@@ -26,7 +26,7 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
     const auto cannotRead = [&](const std::string& reason) {
         return fail(ErrorCode::Io, "{}: cannot be read: {}", path.string(), reason);
     };
-    // A pipe that nobody writes to would be waited for.
+    // O_NONBLOCK: opening a pipe without a writer would block.
     const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
     if (descriptor < 0) return cannotRead(systemReason(errno));
     const File file{::fdopen(descriptor, "rb")};
@@ -44,7 +44,7 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
     std::string bytes;
     std::array<char, 65536> part;
     while (const std::size_t partBytes = std::fread(part.data(), 1, part.size(), file.get())) {
-        if (bytes.size() + partBytes > maxBytes) return tooLarge();  // it grows
+        if (bytes.size() + partBytes > maxBytes) return tooLarge();  // the file grows
         bytes.append(part.data(), partBytes);
     }
     if (std::ferror(file.get()) != 0) return cannotRead(systemReason(errno));

@@ -1,5 +1,5 @@
-// Whole files in and out. Any thread may call. Errors name the path and the system's reason, for example
-// "saves/a.npy: cannot be written: No such file or directory".
+// Reads and writes whole files. Any thread may call. Errors name the path and the system's reason, for
+// example "saves/a.npy: cannot be written: No such file or directory".
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,15 @@
 
 namespace terrane::base {
 
-// No file that is read whole is larger, unless the caller says so.
+// Default limit for files that are read whole.
 constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 
-// A regular file of at most `maxBytes`. Others are refused before they are read: a device, a pipe that nobody
-// writes to, what is too large.
+// Reads a regular file of at most `maxBytes`. Larger files, devices and pipes are refused before they are
+// read.
 [[nodiscard]] Result<std::string> readFile(const std::filesystem::path& path,
                                            std::size_t maxBytes = kMaxFileBytes);
 
-// As OutputFile (output_file.h), in one piece.
+// Writes a file in one piece, as OutputFile does (output_file.h).
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
 }  // namespace terrane::base

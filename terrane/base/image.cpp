@@ -26,8 +26,8 @@ std::uint32_t bigEndian32(std::string_view bytes) {
     return value;
 }
 
-// libpng stops reading after the last row, so it takes a file that lost its end for a whole one. A PNG is 8
-// bytes of signature, then chunks of length (4), type (4), data and checksum (4); the last is IEND.
+// libpng stops after the last row, so it accepts a file whose end is missing. A PNG is 8 bytes of signature,
+// then chunks of length (4), type (4), data and checksum (4); the last is IEND.
 bool isComplete(std::string_view bytes) {
     constexpr std::size_t kSignatureBytes = 8;
     constexpr std::size_t kChunkFrameBytes = 12;
@@ -66,7 +66,7 @@ Result<Image> decodePng(std::string_view bytes, std::string_view name, std::int6
 
 namespace {
 
-// `pixels` as png.format says.
+// `pixels` have the format png.format.
 Result<std::string> encode(PngImage& png, const std::uint8_t* pixels) {
     png_alloc_size_t sizeBytes = PNG_IMAGE_PNG_SIZE_MAX(png);
     std::string bytes(sizeBytes, '\0');

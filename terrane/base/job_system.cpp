@@ -36,7 +36,7 @@ struct JobQueue {
     std::uint64_t nextSequence = 0;
     std::size_t runningCount = 0;
     bool stopping = false;
-    bool hasNoThreads = false;               // whoever waits runs the jobs
+    bool hasNoThreads = false;               // waiting threads run the jobs
     std::vector<std::thread::id> workerIds;  // complete before the first job is submitted
 
     [[nodiscard]] bool isIdle() const { return queued.empty() && runningCount == 0; }
@@ -67,14 +67,14 @@ namespace {
 using detail::Job;
 using detail::JobQueue;
 
-// Helpers of parallelFor go before everything else.
+// Helpers of parallelFor run before all other jobs.
 constexpr JobPriority kMostUrgent = std::numeric_limits<JobPriority>::min();
 
 bool isFinished(JobState state) {
     return state != JobState::Queued && state != JobState::Running;
 }
 
-// Checked in release builds too: otherwise the program would hang without a word.
+// Checked in release builds too: otherwise the program would hang without a message.
 void forbidOnWorker(const JobQueue& queue, const char* reason) {
     {
         const std::lock_guard lock(queue.mutex);
@@ -86,7 +86,7 @@ void forbidOnWorker(const JobQueue& queue, const char* reason) {
     std::abort();
 }
 
-// Without memory for it, a text that needs none.
+// A copy of the text, or a short text that needs no memory if the allocation fails.
 std::string copyOf(const char* text) noexcept {
     try {
         return text;
@@ -95,7 +95,8 @@ std::string copyOf(const char* text) noexcept {
     }
 }
 
-// The message of what `call` threw, or nothing. Throws nothing: who calls this would leave others waiting.
+// The message of the exception that `call` threw, or nothing. Never throws: an exception would leave other
+// threads waiting.
 template <class Call>
 std::optional<std::string> errorOf(const Call& call) noexcept {
     try {
@@ -108,8 +109,8 @@ std::optional<std::string> errorOf(const Call& call) noexcept {
     }
 }
 
-// Under the lock. There is one.
-std::shared_ptr<Job> takeFirst(JobQueue& queue) {
+// The most urgent job, now Running. Needs the lock and a queue that is not empty.
+std::shared_ptr<Job> popMostUrgent(JobQueue& queue) {
     std::shared_ptr<Job> job = std::move(queue.queued.begin()->second);
     queue.queued.erase(queue.queued.begin());
     assert(job->state == JobState::Queued && "only queued jobs are in the queue");
@@ -118,17 +119,17 @@ std::shared_ptr<Job> takeFirst(JobQueue& queue) {
     return job;
 }
 
-// Blocks for the most urgent job; none when the system stops.
+// Blocks until a job is queued and takes the most urgent one; null when the system stops.
 std::shared_ptr<Job> takeJob(JobQueue& queue) {
     std::unique_lock lock(queue.mutex);
     queue.workAdded.wait(lock, [&] { return queue.stopping || !queue.queued.empty(); });
-    return queue.stopping ? nullptr : takeFirst(queue);
+    return queue.stopping ? nullptr : popMostUrgent(queue);
 }
 
 void runJob(Job& job) {
     JobQueue& queue = *job.queue;
     std::optional<std::string> error = errorOf([&] { job.work(job.token); });
-    job.work = nullptr;  // who sees the job finished also finds its captures released
+    job.work = nullptr;  // captures are released before the job counts as finished
     bool idle = false;
     {
         const std::lock_guard lock(queue.mutex);
@@ -146,7 +147,7 @@ void runJob(Job& job) {
     if (idle) queue.becameIdle.notify_all();
 }
 
-// Cancels what is queued, and from now on what is submitted, and lets the workers end. Needs no memory.
+// Cancels queued jobs and all jobs submitted from now on, and lets the workers end. Allocates no memory.
 void stopQueue(JobQueue& queue) {
     std::map<detail::QueueKey, std::shared_ptr<Job>> cancelled;
     {
@@ -155,7 +156,7 @@ void stopQueue(JobQueue& queue) {
         cancelled.swap(queue.queued);
         for (const auto& [key, job] : cancelled) job->state = JobState::Cancelled;
     }
-    // Outside of the lock, as in JobHandle::cancel. Nobody else looks at the work of a cancelled job.
+    // Outside of the lock, as in JobHandle::cancel. No other thread accesses the work of a cancelled job.
     for (const auto& [key, job] : cancelled) job->work = nullptr;
     queue.workAdded.notify_all();
     for (const auto& [key, job] : cancelled) job->finished.notify_all();
@@ -166,14 +167,14 @@ bool runFirst(JobQueue& queue) {
     {
         const std::lock_guard lock(queue.mutex);
         if (queue.queued.empty()) return false;
-        job = takeFirst(queue);
+        job = popMostUrgent(queue);
     }
     runJob(*job);
     return true;
 }
 
 void runWorker(JobQueue& queue, unsigned number) {
-    // Without memory for a name it has none.
+    // The thread stays unnamed if there is no memory for its name.
     static_cast<void>(errorOf([&] { setThreadName(fmt::format("worker {}", number)); }));
     while (const std::shared_ptr<Job> job = takeJob(queue)) runJob(*job);
 }
@@ -317,14 +318,14 @@ Result<void> parallelFor(JobSystem& jobs, std::size_t count, const std::function
     const auto loop = std::make_shared<Loop>(body, count);
     std::vector<JobHandle> helpers(std::min<std::size_t>(jobs.threadCount(), count - 1));
     std::size_t helperCount = 0;
-    // Those that there is no memory for are done without.
+    // Helpers that cannot be submitted for lack of memory are left out.
     static_cast<void>(errorOf([&] {
         for (; helperCount < helpers.size(); ++helperCount)
             helpers[helperCount] =
                 jobs.submit(kMostUrgent, [loop](const CancelToken&) { runIndices(*loop); });
     }));
     runIndices(*loop);
-    for (std::size_t k = 0; k < helperCount; ++k) helpers[k].cancel();  // the ones that never got a thread
+    for (std::size_t k = 0; k < helperCount; ++k) helpers[k].cancel();  // those that did not start
     std::unique_lock lock(loop->mutex);
     loop->allFinished.wait(lock, [&] { return loop->finishedCount == loop->count; });
     if (loop->failedIndex < count) return fail("index {} of {}: {}", loop->failedIndex, count, loop->error);

@@ -1,8 +1,8 @@
 // Runs work on a fixed set of threads, most urgent first. Streaming, meshing and the generators submit to it.
 //
-// Any thread may submit, cancel and ask for a state, the workers included. Waiting for a job is for other
-// threads: a worker that waits may wait for something that only it could run, so that ends the program with
-// the reason. parallelFor is safe everywhere.
+// Any thread, workers included, may submit, cancel and query states. Only other threads may wait for a job: a
+// worker could wait for a job that only it can run, so waiting on a worker aborts the program with a message.
+// parallelFor is safe everywhere.
 #pragma once
 
 #include <atomic>
@@ -34,7 +34,7 @@ enum class JobState {
     Failed,     // threw; JobHandle::error has the message
 };
 
-// Asks running work to stop. Work looks at it between steps and returns early; nothing is interrupted.
+// Asks running work to stop. Work checks it between steps and returns early; nothing is interrupted.
 class CancelToken {
   public:
     CancelToken() = default;
@@ -50,26 +50,27 @@ class CancelToken {
 
 using JobWork = std::function<void(const CancelToken&)>;
 
-// Names one submitted job. Copies name the same job; dropping every handle neither cancels nor waits. A
-// handle may outlive its system. A default-made handle names no job and only tests false.
+// Refers to one submitted job. Copies refer to the same job; destroying all handles neither cancels the job
+// nor waits for it. A handle may outlive its system. A default-constructed handle refers to no job and tests
+// false.
 class JobHandle {
   public:
     JobHandle() = default;
 
     [[nodiscard]] explicit operator bool() const { return job_ != nullptr; }
 
-    // Seeing Done here also makes everything the job wrote visible to the calling thread.
+    // If this returns Done, everything that the job wrote is visible to the calling thread.
     [[nodiscard]] JobState state() const;
 
     // A queued job never starts and has released its captures when this returns. A running one sees its token
     // set and ends Cancelled (Failed if it throws). A finished one stays as it is.
     void cancel() const;
 
-    // Blocks until the job is Done, Cancelled or Failed. Not on a worker of the same system.
+    // Blocks until the job is Done, Cancelled or Failed. Must not be called on a worker of the same system.
     void wait() const;
 
-    // The message of what the job threw; empty unless Failed. A failure that nobody asks for before the last
-    // handle is gone is logged.
+    // The message of the exception that the job threw; empty unless Failed. A failure is logged if nobody
+    // called this before the last handle is destroyed.
     [[nodiscard]] std::string error() const;
 
   private:
@@ -81,8 +82,8 @@ class JobHandle {
 
 class JobSystem {
   public:
-    // Without threads jobs run when the caller says so, by runNext() or by waiting: tests decide when. Where
-    // the system cannot start that many, those that it can do the work; an exception where it starts none.
+    // With 0 threads, jobs run only in runNext() or while the caller waits, so that tests control when. If
+    // the system cannot start all threads, fewer do the work; throws if it cannot start any.
     explicit JobSystem(unsigned threadCount);
     ~JobSystem();  // cancels queued jobs, lets running ones finish; jobs submitted meanwhile come back
                    // Cancelled
@@ -91,16 +92,16 @@ class JobSystem {
 
     JobHandle submit(JobPriority priority, JobWork work);
 
-    // Runs the most urgent job on the calling thread. False where none is queued.
+    // Runs the most urgent job on the calling thread. False if none is queued.
     bool runNext();
 
-    // How many jobs run at a time.
+    // The number of jobs that run at a time.
     [[nodiscard]] unsigned threadCount() const {
         return workers_.empty() ? 1 : static_cast<unsigned>(workers_.size());
     }
     [[nodiscard]] std::size_t queuedCount() const;  // submitted and not started
 
-    // Blocks until nothing is queued or running. Not on a worker of this system.
+    // Blocks until nothing is queued or running. Must not be called on a worker of this system.
     void waitIdle();
 
   private:
@@ -109,9 +110,9 @@ class JobSystem {
 };
 
 // Calls body(0) … body(count - 1) once each, on the workers and the calling thread, and returns when all have
-// finished. Goes before every other queued job, since its caller stands still. Every index runs even after
-// one has thrown, and the error is that of the lowest index, so the result does not depend on the order of
-// threads. One index should be worth more than about a microsecond: each costs an atomic addition.
+// finished. Runs before all other queued jobs, since the caller is blocked. Every index runs even if one
+// throws; the error is that of the lowest index that threw, so the result does not depend on the order of
+// threads. One index should take more than about a microsecond: each costs an atomic addition.
 [[nodiscard]] Result<void> parallelFor(JobSystem& jobs, std::size_t count,
                                        const std::function<void(std::size_t)>& body);
 

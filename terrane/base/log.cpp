@@ -57,8 +57,8 @@ void writeLog(LogLevel level, fmt::string_view format, fmt::format_args args) {
         const char* word = level == LogLevel::Warning ? "warning: "
                            : level == LogLevel::Error ? "error: "
                                                       : "";
-        // As one finished string: the message must not be read as a format again. Names and texts of files
-        // end up in messages, so what a terminal would obey is escaped here, for all.
+        // Passed as one finished string, so that the message is not parsed as a format again. Messages
+        // contain names and texts of files, so terminal control characters are escaped here for all messages.
         const std::string line = word + printable(fmt::vformat(format, args));
         logger().log(target, spdlog::string_view_t(line));
     } catch (const std::bad_alloc&) {

@@ -1,5 +1,6 @@
-// Messages to the user who runs the program, one line each on standard error (standard output belongs to
-// results), made printable (printable.h). Any thread may call, also without memory: then a line says that.
+// Messages to the user who runs the program, one line each on standard error (standard output is for
+// results), made printable (printable.h). Any thread may call; without memory a fixed line is written
+// instead.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@ enum class LogLevel {
     Silent,   // as a threshold: nothing is written
 };
 
-// Messages below the level are dropped before they are formatted. Info at the start of the program.
+// Messages below the level are dropped before they are formatted. The initial level is Info.
 void setLogLevel(LogLevel level);
 
 namespace detail {

@@ -16,7 +16,7 @@
 namespace terrane::base {
 namespace {
 
-// What stands behind `key` in a file of lines "key: value" or "key=value"; empty where there is none.
+// The value of `key` in a file of lines "key: value" or "key=value"; empty if there is none.
 std::string lineOf(const char* path, const std::string& key) {
     std::ifstream file(path);
     std::string line;
@@ -74,7 +74,7 @@ double memoryCopySpeed() {
         const auto start = now();
         std::memcpy(to.data(), from.data(), kBytes);
         const double seconds = std::chrono::duration<double>(now() - start).count();
-        // What was copied is looked at, so that it is.
+        // Reads the copy, so that the compiler does not remove it.
         if (to[static_cast<std::size_t>(k)] == static_cast<char>(k))
             best = std::max(best, static_cast<double>(kBytes) / seconds);
     }

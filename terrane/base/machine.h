@@ -1,23 +1,23 @@
-// What measurements were made on.
+// Describes the machine that measurements are made on.
 #pragma once
 
 #include <string>
 
 namespace terrane::base {
 
-// What does not change while the program runs.
+// Properties that do not change while the program runs.
 struct Machine {
     std::string processor, system, compiler;
     unsigned processors = 0;
     double memoryBytes = 0;
-    bool hasAssertions = false;  // the build
+    bool hasAssertions = false;  // of this build
 };
 Machine describeMachine();
 
-// Processes that ran or waited for a processor, as a mean over the last minute.
+// The mean number of processes that ran or waited for a CPU over the last minute.
 double loadAverage();
 
-// Bytes a second at which this thread copies a block that no cache holds, the best of some times.
+// Bytes per second at which this thread copies a block that fits no cache; the best of several runs.
 double memoryCopySpeed();
 
 }  // namespace terrane::base

@@ -1,4 +1,4 @@
-// The middle of some numbers.
+// The median of numbers.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace terrane::base {
 
-// Of at least one; of an even number the mean of the middle two.
+// The median of at least one value; of an even number, the mean of the middle two.
 inline double medianOf(std::vector<double> values) {
     assert(!values.empty() && "nothing has no median");
     std::ranges::sort(values);

@@ -9,7 +9,7 @@
 
 namespace terrane::base {
 
-// Row i has the distances of the first i bytes of a from all beginnings of b; three rows are kept.
+// Row i has the distances of the first i bytes of a from all prefixes of b; three rows are kept.
 std::size_t editDistance(std::string_view a, std::string_view b) {
     std::array<std::vector<std::size_t>, 3> rows;
     for (auto& row : rows) row.resize(b.size() + 1);

@@ -1,4 +1,4 @@
-// Which known name somebody may have meant by a word that is none. Pure functions: any thread may call.
+// Finds the known name that a misspelled word probably means. Pure functions; any thread.
 #pragma once
 
 #include <cstddef>
@@ -8,15 +8,15 @@
 
 namespace terrane::base {
 
-// How many bytes must be inserted, deleted, replaced, or swapped with the next one, to make one of the other.
+// The number of bytes to insert, delete, replace or swap with the next one to turn one text into the other.
 // No byte is changed twice ("optimal string alignment").
 [[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b);
 
-// The name at the smallest distance, of equal ones the first; empty where none is near: at most a third of
-// the longer one's bytes may differ, or one, and something must be the same.
+// The name at the smallest edit distance, of equal ones the first. Empty if none is near: the distance may be
+// at most a third of the longer text, or 1, and must be less than its length.
 [[nodiscard]] std::string nearestName(std::string_view word, std::span<const std::string> names);
 
-// "; did you mean NAME?", to stand behind an error; empty where no name is near.
+// "; did you mean NAME?", to append to an error; empty if no name is near.
 [[nodiscard]] std::string didYouMean(std::string_view word, std::span<const std::string> names);
 
 // "expected one of low, high, got "hihg"; did you mean high?"

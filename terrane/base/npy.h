@@ -14,8 +14,8 @@ struct NpyArray {
     std::string data;                // the elements, last index fastest, in the byte order that descr says
 };
 
-// What stands before the elements; at least `minBytes` of it, so that a header can take the place of one
-// whose shape was not known yet. A multiple of 64 bytes.
+// The header before the elements, a multiple of 64 bytes. `minBytes` reserves room, so that a header can be
+// replaced once the shape is known.
 [[nodiscard]] std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& shape,
                                     std::size_t minBytes = 0);
 

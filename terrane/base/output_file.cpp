@@ -19,7 +19,7 @@ tl::unexpected<Error> cannotBeWritten(const fs::path& path, int errorNumber) {
     return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(errorNumber));
 }
 
-// So that a file's new name survives the power's end. File systems that cannot do it are left to themselves.
+// Makes a file's new name survive a power failure. Errors are ignored, since not all file systems support it.
 void syncFolder(const fs::path& file) {
     const fs::path folder = file.has_parent_path() ? file.parent_path() : ".";
     const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -28,9 +28,9 @@ void syncFolder(const fs::path& file) {
     ::close(descriptor);
 }
 
-// Also to what is not there yet. A link still, where they lead in a circle.
+// Resolves symbolic links, also to a file that does not exist yet. Still a link if the links form a cycle.
 fs::path behindLinks(fs::path file) {
-    constexpr int kMaxLinks = 40;  // as the system follows
+    constexpr int kMaxLinks = 40;  // the system's limit
     std::error_code ignored;
     for (int k = 0; k < kMaxLinks && fs::is_symlink(file, ignored); ++k) {
         file = file.parent_path() / fs::read_symlink(file, ignored);
@@ -38,7 +38,7 @@ fs::path behindLinks(fs::path file) {
     return file;
 }
 
-// Whether a file may take the place of what the path names.
+// Fails if the path names anything but a regular file, unless nothing exists there.
 Result<void> checkReplaceable(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_symlink(path, ignored)) return cannotBeWritten(path, ELOOP);
@@ -48,8 +48,8 @@ Result<void> checkReplaceable(const fs::path& path) {
     return fail(ErrorCode::Io, "{}: cannot be written: it is not a regular file", path.string());
 }
 
-// Two writers of one path never share a temporary file: `take` gets names of which nobody uses the first that
-// it accepts. Zero, or the error number; EEXIST where all are in use.
+// Calls `take` with temporary names until it accepts one, so that two writers of one path never share a
+// temporary file. Returns zero or the error number; EEXIST if all names are in use.
 template <class Take>
 int takeTemporaryName(const fs::path& path, Take take) {
     constexpr int kMaxAttempts = 1000;  // far more than writers at once and leftovers of crashes together
@@ -66,7 +66,8 @@ std::string linkOf(int descriptor) {
     return fmt::format("/proc/self/fd/{}", descriptor);
 }
 
-// A file without a name in the path's folder; negative where there can be none, or none that can get a name.
+// Opens a file without a name in the path's folder; negative if that is not possible, or if the file could
+// not be named later.
 int openWithoutName(const fs::path& path) {
     const fs::path folder = path.has_parent_path() ? path.parent_path() : ".";
     const int descriptor = ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
@@ -75,7 +76,7 @@ int openWithoutName(const fs::path& path) {
     return -1;
 }
 
-// What replaces a file keeps its mode: it may be only its owner's to read.
+// Gives the new file the mode of the file that it replaces, which may be readable by its owner only.
 void keepMode(int descriptor, const fs::path& path) {
     struct stat status {};
     if (::stat(path.c_str(), &status) == 0) (void)::fchmod(descriptor, status.st_mode & 0777);
@@ -119,13 +120,13 @@ OutputFile::OutputFile(OutputFile&& other) noexcept
       path_(std::move(other.path_)),
       temporary_(std::exchange(other.temporary_, fs::path())) {}
 
-// Zero, or the error number: closing can be the one to report a full disk.
+// Returns zero or the error number: a full disk may be reported only by close().
 int OutputFile::close() {
     if (descriptor_ < 0) return 0;
     return ::close(std::exchange(descriptor_, -1)) == 0 ? 0 : errno;
 }
 
-// Zero, or the error number.
+// Returns zero or the error number.
 int OutputFile::nameTemporarily() {
     if (!temporary_.empty()) return 0;
     const std::string link = linkOf(descriptor_);

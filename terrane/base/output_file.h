@@ -1,5 +1,5 @@
-// A file that is written piece by piece, for results that are larger than memory. One thread at a time.
-// Errors name the path and the system's reason, as those of files.h.
+// A file that is written in pieces, for results larger than memory. One thread at a time. Errors name the
+// path and the system's reason, like those of files.h.
 #pragma once
 
 #include <cstdint>
@@ -10,28 +10,28 @@
 
 namespace terrane::base {
 
-// Written without a name in the path's folder; finish() gives it its name. Without finish() nothing stays,
-// also of a program that is killed, and an older file of that name is as it was. Where the file system knows
-// no files without a name, and for an instant in finish(), it has a temporary one, which a killed program
-// leaves.
+// The file has no name in the path's folder until finish() gives it its name. Without finish() no file is
+// left, even if the program is killed, and an older file of that name is unchanged. If the file system does
+// not support files without a name, and for an instant in finish(), it has a temporary name, which a killed
+// program leaves behind.
 class OutputFile {
   public:
-    // A symbolic link is followed: the file it leads to is replaced, or made, and the link stays. Makes no
-    // folders and refuses to replace what is not a regular file, such as a folder or a device.
+    // Follows symbolic links: the target is replaced or created, and the link stays. Creates no folders, and
+    // refuses to replace anything but a regular file.
     [[nodiscard]] static Result<OutputFile> create(const std::filesystem::path& path);
     ~OutputFile();
     OutputFile(OutputFile&& other) noexcept;
     OutputFile& operator=(OutputFile&&) = delete;
 
-    // Fails at once where so many bytes do not fit the disk. Where the file system cannot reserve them, only
-    // what is free now is compared.
+    // Reserves disk space; fails if so many bytes do not fit. If the file system cannot reserve space, only
+    // compares with the free space.
     [[nodiscard]] Result<void> reserve(std::uint64_t sizeBytes);
 
-    // What is left out between pieces is 0.
+    // Gaps between pieces read as 0.
     [[nodiscard]] Result<void> write(std::uint64_t offsetBytes, std::string_view bytes);
 
-    // Waits until the disk has it, then renames it over the path: a reader finds the old file or the new one,
-    // also after a program, or the power, has ended midway. Called once, nothing after it.
+    // Waits until the data is on disk, then renames the file to the path: readers find the old file or the
+    // new one, also after a crash or power failure. Called once, as the last call.
     [[nodiscard]] Result<void> finish();
 
   private:

@@ -8,8 +8,8 @@
 namespace terrane::base {
 namespace {
 
-// C0, DEL and C1 (a terminal takes U+009B for the start of an escape sequence), ends of lines, and marks of
-// the direction of text, which can hide or reorder the rest of a line.
+// C0, DEL and C1 (U+009B begins an escape sequence), line separators, and marks of the text direction, which
+// can hide or reorder the rest of a line.
 bool isControl(char32_t code) {
     return code < 0x20 || (code >= 0x7F && code < 0xA0) || code == 0x61C || code == 0x200E ||
            code == 0x200F || (code >= 0x2028 && code <= 0x202E) || (code >= 0x2066 && code <= 0x2069);

@@ -1,11 +1,11 @@
-// What this process takes of the machine. Any thread.
+// Memory and CPU time used by this process. Any thread.
 #pragma once
 
 #include <cstddef>
 
 namespace terrane::base {
 
-std::size_t residentBytes();      // 0 where the system does not tell
+std::size_t residentBytes();      // 0 if unknown
 std::size_t peakResidentBytes();  // so far
 double cpuSeconds();              // of all threads, so far
 

@@ -101,7 +101,7 @@ void appendZones(fmt::memory_buffer& out, const ThreadBuffer& buffer, std::int64
     const std::size_t count = buffer.count.load(std::memory_order_acquire);
     for (std::size_t i = 0; i < count; ++i) {
         const ZoneRecord& zone = (*buffer.blocks[i / kBlockZones])[i % kBlockZones];
-        // A relaxed load may see the new trace before its time: keep the sign out of the digits.
+        // A relaxed load may see the new trace before it starts: keep times from being negative.
         const std::int64_t startNs = std::max<std::int64_t>(zone.startNs - traceStartNs, 0);
         fmt::format_to(
             fmt::appender(out),
@@ -127,7 +127,7 @@ void stopTrace() {
     detail::activeTrace().store(0, std::memory_order_release);
 }
 
-// A thread begins with it: without memory it has no name, and works.
+// Called when a thread starts: without memory the thread stays unnamed and works.
 void setThreadName(std::string name) {
     try {
         ThreadBuffer& buffer = threadBuffer();

@@ -1,11 +1,10 @@
-// Where the time goes: zones marked in the code, recorded while a trace runs, written for chrome://tracing
-// and Perfetto.
+// Profiling zones in the code, recorded while a trace runs and written for chrome://tracing and Perfetto.
 //
 //     void meshChunk() {
 //         TERRANE_ZONE("mesh chunk");
 //
-// Any thread may call anything here. Each thread records into memory of its own without a lock; a zone costs
-// one relaxed load while no trace runs.
+// Any thread may call anything here. Each thread records into its own memory without a lock; a zone costs one
+// relaxed load while no trace runs.
 #pragma once
 
 #include <atomic>
@@ -23,8 +22,8 @@ void startTrace();
 // Zones that are still open are left out.
 void stopTrace();
 
-// Writes the running or the last trace as JSON: complete events in microseconds since its start, by thread.
-// A thread keeps 1,048,576 zones (24 bytes each: 24 MiB); how many more were dropped is logged.
+// Writes the running or the last trace as JSON: complete events in microseconds since its start, by thread. A
+// thread keeps 1,048,576 zones (24 bytes each: 24 MiB); the number of dropped zones is logged.
 [[nodiscard]] Result<void> writeTrace(const std::filesystem::path& path);
 
 // Names the calling thread in traces, for example "worker 1".
@@ -32,8 +31,8 @@ void setThreadName(std::string name);
 
 namespace detail {
 
-// Number of the running trace, 0 when none runs. In a function so that no initialization order matters;
-// constant initialization keeps it free of a guard.
+// Number of the running trace, 0 if none runs. A static in a function, so that the initialization order does
+// not matter; constant initialization avoids a guard.
 inline std::atomic<std::uint32_t>& activeTrace() {
     static constinit std::atomic<std::uint32_t> number{0};
     return number;

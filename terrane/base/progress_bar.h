@@ -1,4 +1,4 @@
-// A bar on standard error while something long runs; silent where that is not a terminal.
+// A progress bar on standard error; silent if that is not a terminal.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,5 @@
-// Results and errors: what a function returns that can fail because of its input (files, arguments, drivers).
-// Broken invariants are asserted instead. An error has a message, one line for the player, and a code, by
-// which callers branch: messages are for people.
+// Results of functions that can fail because of their input (files, arguments, drivers). Broken invariants
+// are asserted instead. An error has a message, one line for the user, and a code for callers to branch on.
 #pragma once
 
 #include <fmt/format.h>
@@ -18,7 +17,7 @@ namespace terrane::base {
 enum class ErrorCode : std::uint8_t {
     Failed,          // the default: no caller needs to know more than the message says
     BadInput,        // an argument, or content, that is not as documented
-    NotFound,        // what is named is not there
+    NotFound,        // the named thing does not exist
     Io,              // the file system, or the network, refused or failed
     Damaged,         // of the right kind, but broken
     Incompatible,    // whole, but of another version, program or world
@@ -34,12 +33,12 @@ struct Error {
     std::string message;
 };
 
-// What the system says of an errno.
+// The system's message for an errno.
 inline std::string systemReason(int errorNumber) {
     return std::generic_category().message(errorNumber);
 }
 
-// A value or an error. Never ignored silently: write (void) where an error makes no difference.
+// A value or an error. Must not be ignored silently: cast to void if an error makes no difference.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
     using Base = tl::expected<T, Error>;

@@ -3,7 +3,7 @@
 namespace terrane::base {
 namespace {
 
-// A signal handler reaches nothing else.
+// A signal handler may access nothing else.
 volatile std::sig_atomic_t wasAsked = 0;
 
 void ask(int) {

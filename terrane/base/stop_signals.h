@@ -1,5 +1,5 @@
-// Interrupts (Ctrl+C, kill, a terminal that closes) end the work between two frames: a game is saved, and
-// nothing unfinished stays behind.
+// Interrupts (Ctrl+C, kill, a closed terminal) end the program between two frames, so that a game is saved
+// and no unfinished files are left.
 #pragma once
 
 #include <array>
@@ -7,12 +7,12 @@
 
 namespace terrane::base {
 
-// While one lives, SIGINT, SIGTERM and SIGHUP only make stopAsked() true; SIGHUP not where it is ignored, as
-// with nohup. One at a time.
+// While an object exists, SIGINT, SIGTERM and SIGHUP only make stopAsked() true; SIGHUP stays ignored if it
+// was, as with nohup. One object at a time.
 class StopSignals {
   public:
     StopSignals();
-    ~StopSignals();  // they do what they did before
+    ~StopSignals();  // restores the former handlers
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 

@@ -1,4 +1,4 @@
-// Opens a port, for whatever server listens there. On the thread of the acceptor.
+// Opens a port for a server. Called on the acceptor's thread.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -9,8 +9,8 @@
 
 namespace terrane::base {
 
-// `address` is a number, such as 127.0.0.1; "::" takes IPv4 as well. Port 0: one that is free. BadInput where
-// it is no address, Busy where another program listens there, else Io; each names both.
+// `address` is numeric, such as 127.0.0.1; "::" accepts IPv4 as well. Port 0 chooses a free port. BadInput if
+// it is no address; otherwise Busy if another program listens there, else Io, with address and port.
 [[nodiscard]] Result<void> listenAt(boost::asio::ip::tcp::acceptor& acceptor, const std::string& address,
                                     std::uint16_t port);
 

@@ -1,4 +1,4 @@
-// Whose connection it is. Any thread.
+// Addresses of the other end of TCP connections. Any thread.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -6,9 +6,10 @@
 
 namespace terrane::base {
 
-// An IPv4 address that came as IPv6 is one of IPv4.
+// The peer's address; an IPv4-mapped IPv6 address becomes IPv4.
 boost::asio::ip::address addressOf(const boost::asio::ip::tcp::endpoint& peer);
-// What limits for an address count by: of IPv6 the first 64 bits, as whoever has an address has 2^64 of them.
+// The key for limits per address: of IPv6 only the first 64 bits, since a network of 2^64 addresses usually
+// belongs to one client.
 std::string networkOf(const boost::asio::ip::address& address);
 
 }  // namespace terrane::base

@@ -1,4 +1,4 @@
-// A folder of its own for files that nobody needs afterwards. Any thread.
+// A folder for temporary files. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -9,10 +9,10 @@
 
 namespace terrane::base {
 
-// Removed at the end with all that is in it.
+// The destructor removes the folder and all its content.
 class TemporaryFolder {
   public:
-    // In `parent`, by a name that nobody had before: files of the user may lie beside it.
+    // Makes a folder with a new name in `parent`, which may hold files of the user.
     [[nodiscard]] static Result<TemporaryFolder> make(const std::filesystem::path& parent,
                                                       std::string_view prefix);
     ~TemporaryFolder();

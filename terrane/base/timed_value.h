@@ -1,4 +1,4 @@
-// A value that takes long to find: found again only when some time has passed. Any thread, one at a time.
+// Caches a value that is expensive to compute and computes it again after a pause. Any thread, one at a time.
 #pragma once
 
 namespace terrane::base {
@@ -8,7 +8,7 @@ class TimedValue {
   public:
     explicit TimedValue(double pauseSeconds) : pauseSeconds_(pauseSeconds) {}
 
-    // `find()` gives the value where there is none yet or the last one is older than the pause.
+    // Calls `find()` if there is no value yet or the last one is older than the pause.
     template <class Find>
     const T& at(double seconds, Find find) {
         if (!isFound_ || seconds - foundAt_ >= pauseSeconds_) {

@@ -1,4 +1,4 @@
-// How much of something a client may do: `perSecond` on average, `most` at once. A plain value.
+// A token bucket, which limits what a client may do: `perSecond` on average, `most` at once. A plain value.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,10 @@ class TokenBucket {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Full at first.
+    // Starts full.
     TokenBucket(double perSecond, double most) : perSecond_(perSecond), most_(most), tokens_(most) {}
 
-    // Takes `count` tokens where there are as many; false, and nothing is taken, where not. `now` never goes
-    // back.
+    // Takes `count` tokens, or returns false and takes nothing if there are fewer. `now` never decreases.
     [[nodiscard]] bool take(double count, Time now) {
         if (last_) {
             const double seconds = std::chrono::duration<double>(now - *last_).count();
@@ -27,7 +26,7 @@ class TokenBucket {
         return true;
     }
 
-    // Takes tokens that may not be there: others wait until they have come.
+    // Takes tokens even if there are too few: later calls of take() wait until they are refilled.
     void spend(double count) { tokens_ -= count; }
 
   private:

@@ -6,7 +6,7 @@
 namespace terrane::base {
 namespace {
 
-// Bytes of the character by its first byte; 0: no character starts so.
+// Length of a character in bytes by its first byte; 0 if no character begins with it.
 std::size_t lengthByFirst(unsigned char first) {
     if (first < 0x80) return 1;
     if (first >= 0xC2 && first < 0xE0) return 2;

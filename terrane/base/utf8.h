@@ -1,5 +1,5 @@
-// Characters of UTF-8 (the Unicode standard, section 3.9, table 3-7: longer forms than needed, surrogates and
-// codes beyond U+10FFFF are none). Any thread may call.
+// Decodes UTF-8 (the Unicode standard, section 3.9, table 3-7: overlong forms, surrogates and codes beyond
+// U+10FFFF are invalid). Any thread may call.
 #pragma once
 
 #include <cstddef>
@@ -9,10 +9,10 @@ namespace terrane::base {
 
 struct Character {
     char32_t code = 0;
-    std::size_t bytes = 0;  // 0: the text does not begin with UTF-8
+    std::size_t bytes = 0;  // 0: the text does not begin with valid UTF-8
 };
 
-// Of a text that is not empty.
+// The first character of a text that is not empty.
 [[nodiscard]] Character firstCharacter(std::string_view text);
 
 [[nodiscard]] bool isUtf8(std::string_view text);

@@ -1,4 +1,4 @@
-// What is compiled in: block types and textures; for shaders see gpu/built_in_shaders.h.
+// Block types and textures that are compiled into the program; for shaders see gpu/built_in_shaders.h.
 #pragma once
 
 #include <string_view>
@@ -10,12 +10,12 @@
 
 namespace terrane::content {
 
-// `behaviors`: those that blocks may name, the built-in ones among them.
+// `behaviors`: all behaviors that blocks may name, including the built-in ones.
 base::Result<world::BlockRegistry> loadBlocks(
     const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();
 
-// The files that are compiled in: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml",
+// The compiled-in files: "pack.toml", "blocks.toml", "textures/NAME.png", "languages/CODE.toml",
 // "skeleton/…".
 struct BuiltInFile {
     std::string_view path, data;  // live as long as the program

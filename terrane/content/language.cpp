@@ -24,14 +24,14 @@ std::string quoted(std::string_view text) {
     constexpr std::size_t kMaxShown = 60;
     std::size_t length = std::min(text.size(), kMaxShown);
     while (length < text.size() && length > 0 && (text[length] & 0xC0) == 0x80)
-        --length;  // a letter is whole
+        --length;  // do not split a character
     return fmt::format("\"{}{}\"", text.substr(0, length), length < text.size() ? "…" : "");
 }
 
 struct EntryRules {
     std::string_view table;
     std::size_t maxBytes = 0;
-    bool isFormat = false;  // may have line breaks and fields, those of its key
+    bool isFormat = false;  // may have line breaks and the fields of its key
 };
 
 void readEntry(ContentTable& table, const EntryRules& rules, const toml::key& key, const toml::node& node,
@@ -77,7 +77,7 @@ base::Result<Language> readLanguage(const toml::table& root, std::string_view fi
 base::Result<Language> parseLanguage(std::string_view toml, std::string_view file) {
     try {
         return readLanguage(toml::parse(toml), file);
-    } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
+    } catch (const toml::parse_error& error) {  // the library reports syntax errors only by exceptions
         return base::fail(base::ErrorCode::BadInput, "{}",
                           world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
                                                        error.description())));

@@ -13,7 +13,7 @@
 
 namespace terrane::content {
 
-// Files of languages that come with the program.
+// Languages that come with the program.
 constexpr std::array<std::string_view, 3> kLanguages{"en", "cs", "de"};
 
 // Bounds of a file: the text of all entries together stays below 2 × 4,096 × 2 KiB = 16 MiB.
@@ -31,16 +31,16 @@ struct Language {
 // Reads a file with the tables [blocks] and [text]. A translation has the fields of the English text (%d, {})
 // in the same order. Errors read "file:line: key: expected …, got …".
 base::Result<Language> parseLanguage(std::string_view toml, std::string_view file);
-// One of kLanguages.
+// Loads one of kLanguages.
 base::Result<Language> loadLanguage(std::string_view code);
 
 // The code in kLanguages for a locale of the system, "de" for "de_AT.UTF-8"; "en" for languages without a
 // file.
 std::string_view languageOfLocale(std::string_view locale);
 
-// "Oak log"; the block's own name in words where the language has none.
+// The shown name of a block, "Oak log"; made from the block's own name if the language has none.
 std::string blockName(const Language& language, const world::BlockType& type);
-// The translation, or the English text itself. Ends with a zero byte where `english` does.
+// The translation, or the English text itself. Null-terminated if `english` is.
 std::string_view text(const Language& language, std::string_view english);
 
 }  // namespace terrane::content

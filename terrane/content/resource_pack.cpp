@@ -44,7 +44,7 @@ base::Result<std::vector<TextureFile>> pngFilesIn(const fs::path& folder,
         if (fs::is_directory(folder / pack, ignored)) addPngFiles(files, folder / pack, pack + ":", error);
     if (error)
         return base::fail("{}: cannot be read as a resource pack: {}", folder.string(), error.message());
-    std::ranges::sort(files, {}, &TextureFile::path);  // the system gives them in any order
+    std::ranges::sort(files, {}, &TextureFile::path);  // the order of a directory is unspecified
     return files;
 }
 

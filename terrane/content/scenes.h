@@ -1,5 +1,4 @@
-// The reference scenes: fixed places in the overworld of seed 1 with the character that measurements and
-// images need.
+// The reference scenes: fixed places in the overworld of seed 1, for measurements and images.
 #pragma once
 
 #include <span>
@@ -18,6 +17,6 @@ struct Scene {
 constexpr const char* kSceneGenerator = "overworld";
 
 std::span<const Scene> scenes();
-const Scene* findScene(std::string_view name);  // null where there is none
+const Scene* findScene(std::string_view name);  // null if there is none
 
 }  // namespace terrane::content

@@ -1,4 +1,4 @@
-// The places of a text where values are put in: of printf ("%d") and of fmt ("{:.1f}").
+// Format fields of texts: those of printf ("%d") and of fmt ("{:.1f}").
 #pragma once
 
 #include <string>
@@ -7,7 +7,8 @@
 
 namespace terrane::content {
 
-// In the order of the text. "%%", "{{" and "}}" are fields, too; a lone "{" or "}" is one by itself.
+// The fields in the order of the text. "%%", "{{" and "}}" are fields, too; a lone "{" or "}" is a field by
+// itself.
 std::vector<std::string> textFields(std::string_view text);
 
 }  // namespace terrane::content

@@ -35,7 +35,7 @@ std::optional<NamedState> stateOf(const NbtTag& tag) {
     return state;
 }
 
-// 4,096 indices of the least number of bits that tells the palette's entries apart.
+// Unpacks 4,096 indices of as many bits as the palette needs, at least 4.
 base::Result<std::vector<std::uint16_t>> unpacked(const std::vector<std::int64_t>& words,
                                                   std::size_t paletteSize, bool isAligned) {
     const unsigned bits = std::max(kLeastIndexBits, static_cast<unsigned>(std::bit_width(paletteSize - 1)));
@@ -57,7 +57,7 @@ base::Result<std::vector<std::uint16_t>> unpacked(const std::vector<std::int64_t
     return blocks;
 }
 
-// `words` is null where all blocks are the palette's first.
+// `words` is null if all blocks are the first palette entry.
 base::Result<AnvilSection> sectionOf(int y, const NbtList& palette, const std::vector<std::int64_t>* words,
                                      bool isAligned) {
     AnvilSection section;
@@ -84,7 +84,7 @@ int nibbleOf(const std::string& nibbles, std::size_t k) {
     return k % 2 == 0 ? both & 15 : both >> 4;
 }
 
-// Ids in bytes, four more bits of them in `Add`, and four bits of data.
+// A section with numbers: ids in bytes, four more bits of ids in `Add`, and four bits of data.
 base::Result<AnvilSection> numberedSection(int y, const NbtCompound& tag, const LegacyIds& ids) {
     const auto* low = tag.get<NbtBytes>("Blocks");
     const auto* data = tag.get<NbtBytes>("Data");
@@ -109,7 +109,7 @@ base::Result<AnvilSection> numberedSection(int y, const NbtCompound& tag, const 
     return section;
 }
 
-// Nothing for a section of light alone.
+// Nothing for a section that has only light.
 base::Result<std::optional<AnvilSection>> readSection(const NbtTag& tag, int dataVersion,
                                                       const LegacyIds& ids) {
     const auto* compound = std::get_if<NbtCompound>(&tag.value);
@@ -148,7 +148,7 @@ void countBlockEntities(const NbtCompound& chunk, AnvilChunk& result) {
 }  // namespace
 
 base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyIds& ids) {
-    // Until 1.17 all but the version lies in "Level".
+    // Up to 1.17 everything but the version is in "Level".
     const auto* level = root.get<NbtCompound>("Level");
     const NbtCompound& chunk = level ? *level : root;
     const auto x = chunk.integer("xPos"), z = chunk.integer("zPos");

@@ -1,4 +1,4 @@
-// The blocks of a chunk of Minecraft, from its NBT: 1.13 and newer by names, older ones by numbers. Called by
+// Decodes the blocks of a Minecraft chunk from its NBT: by names since 1.13, by numbers before. Called by
 // `terrane import`. Plain values; any thread.
 #pragma once
 
@@ -27,10 +27,10 @@ struct AnvilChunk {
     int dataVersion = 0;                       // 0: before 1.9
     bool isFinished = true;                    // false: Minecraft has not generated all of it
     std::vector<AnvilSection> sections;        // those with blocks, in the order of the file
-    std::map<std::string, int> blockEntities;  // how many of each kind: chests, signs
+    std::map<std::string, int> blockEntities;  // count by kind: chests, signs
 };
 
-// Damaged where a part is missing, or a block has no palette entry.
+// Damaged if a part is missing or a block has no palette entry.
 [[nodiscard]] base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyIds& ids);
 
 }  // namespace terrane::formats

@@ -20,7 +20,7 @@ std::optional<std::uint16_t> stateNumber(std::string_view text) {
     return value;
 }
 
-// "terrane:NAME[state=N]"; nothing where the registry lacks it, or the name is another's.
+// "terrane:NAME[state=N]"; nothing if the registry lacks it or the name has another namespace.
 std::optional<BlockAndState> ownBlock(const NamedState& named, const world::BlockRegistry& blocks) {
     if (!named.name.starts_with(kOwnNamespace)) return std::nullopt;
     const world::BlockType* type = blocks.find(std::string_view(named.name).substr(kOwnNamespace.size()));
@@ -38,7 +38,7 @@ bool holds(const NamedState& all, const NamedState& some) {
 
 }  // namespace
 
-// An entry with more properties before one with fewer; of equal ones the later file's, which lies behind.
+// Prefers entries with more properties; of equal ones the last, which is the later file's.
 const BlockMapping::Entry* BlockMapping::entryOf(const NamedState& state) const {
     const auto found = byName_.find(state.name);
     if (found == byName_.end()) return nullptr;

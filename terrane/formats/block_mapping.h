@@ -1,6 +1,6 @@
-// Which blocks of Terrane names of Minecraft stand for, and the other way round: the built-in table
-// assets/formats/minecraft.toml, and files of the user over it. Called by all readers and writers of files
-// with names. Immutable once made; any thread.
+// Maps Minecraft's block names to blocks of Terrane and back: the built-in table
+// assets/formats/minecraft.toml, and files of the user over it. Used by all readers and writers of files with
+// block names. Immutable once created; any thread.
 #pragma once
 
 #include <cstdint>
@@ -32,24 +32,25 @@ struct MappingFile {
 
 class BlockMapping {
   public:
-    // Later files come first where names have as many properties. Errors read "name:line: key: what is
-    // wrong": a block that the registry lacks, a name that is none. The registry outlives the mapping.
+    // Names in later files have priority over those with as many properties in earlier ones. Errors read
+    // "name:line: key: what is wrong": a block that the registry lacks, an invalid name. The registry
+    // outlives the mapping.
     [[nodiscard]] static base::Result<BlockMapping> create(const world::BlockRegistry& blocks,
                                                            std::span<const MappingFile> files);
 
-    // "terrane:NAME[state=N]" is the block itself. The registry's "missing" for unknown names: isKnown()
-    // tells.
+    // "terrane:NAME[state=N]" names the block itself. Unknown names become the registry's "missing";
+    // isKnown() tells them apart.
     BlockAndState blockOf(const NamedState& state) const;
     bool isKnown(const NamedState& state) const;
 
-    // A name that blockOf() makes the same block and state of: Minecraft's where there is one, else
-    // "terrane:NAME", with a state that is not 0.
+    // A name that blockOf() maps back to this block and state: Minecraft's if there is one, else
+    // "terrane:NAME", with the state if it is not 0.
     NamedState nameOf(BlockAndState block) const;
 
-    // Doors of the registry: the lower half, the upper one.
+    // The doors of the registry: lower half and upper half.
     std::vector<std::pair<world::BlockId, world::BlockId>> doors() const;
 
-    // By 0xRRGGBB.
+    // Blocks by color, 0xRRGGBB.
     const std::map<std::uint32_t, world::BlockId>& colors() const { return colors_; }
 
   private:
@@ -72,9 +73,7 @@ class BlockMapping {
     std::map<std::uint32_t, world::BlockId> colors_;
 };
 
-// What is compiled in.
-[[nodiscard]] base::Result<BlockMapping> builtInMapping(const world::BlockRegistry& blocks);
-// The same with a file of the user over it; empty: none.
+// The built-in table, with a file of the user over it; `file` may be empty.
 [[nodiscard]] base::Result<BlockMapping> loadMapping(const world::BlockRegistry& blocks,
                                                      const std::string& file);
 [[nodiscard]] base::Result<LegacyIds> builtInLegacyIds();

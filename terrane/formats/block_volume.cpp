@@ -20,11 +20,7 @@ BlockVolume toBlocks(const NamedVolume& volume, const BlockMapping& mapping, Imp
     for (const NamedState& state : volume.palette) result.palette.push_back(mapping.blockOf(state));
     std::vector<std::uint64_t> uses(volume.palette.size());
     for (const std::uint16_t cell : volume.cells) ++uses[cell];
-    for (std::size_t k = 0; k < uses.size(); ++k) {
-        if (uses[k] == 0) continue;
-        counts.blocks[volume.palette[k].name] += uses[k];
-        if (!mapping.isKnown(volume.palette[k])) counts.unknown[textOf(volume.palette[k])] += uses[k];
-    }
+    addUses(volume.palette, uses, mapping, counts);
     return result;
 }
 
@@ -42,7 +38,7 @@ base::Result<world::Structure> toStructure(const BlockVolume& volume, const worl
                           "{}×{}×{} blocks are more than a structure has: {}, and {} in height",
                           volume.size.x, volume.size.y, volume.size.z, world::kMaxStructureBlocks,
                           world::kChunkHeight);
-    // Different entries in the order in which cells first have them.
+    // The structure's palette has distinct entries in the order in which cells first use them.
     std::vector<std::uint32_t> entryOf(volume.palette.size(), UINT32_MAX);
     std::unordered_map<std::uint32_t, std::uint32_t> known;  // by id and state
     for (const std::uint16_t cell : volume.cells) {

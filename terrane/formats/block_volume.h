@@ -1,5 +1,5 @@
-// A box of blocks on its way from a file into a world, or out of one. Called by the readers and writers of
-// this module and by `terrane import` and `terrane export`. Plain values; any thread.
+// A box of blocks that is read from a file or written to one. Used by the readers and writers of this module
+// and by `terrane import` and `terrane export`. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -22,20 +22,20 @@ template <class T>
 struct Volume {
     glm::ivec3 size{0};                // in blocks, each at least 1
     std::vector<T> palette;            // at most 65,536
-    std::vector<std::uint16_t> cells;  // palette entries
+    std::vector<std::uint16_t> cells;  // indices into the palette
 };
 using BlockVolume = Volume<BlockAndState>;
 using NamedVolume = Volume<NamedState>;
 
-// An error where a side is below 1, or there are more than kMaxVolumeBlocks.
+// An error if a side is below 1 or there are more than kMaxVolumeBlocks.
 [[nodiscard]] base::Result<void> checkVolumeSize(std::int64_t x, std::int64_t y, std::int64_t z);
 
-// Counts what it maps, as toChunk() does.
+// Adds the blocks to `counts`, as toChunk() does.
 [[nodiscard]] BlockVolume toBlocks(const NamedVolume& volume, const BlockMapping& mapping,
                                    ImportCounts& counts);
 [[nodiscard]] NamedVolume toNames(const BlockVolume& volume, const BlockMapping& mapping);
 
-// OutOfResources where it has more blocks than a structure (world::kMaxStructureBlocks), or is higher than a
+// OutOfResources if it has more blocks than a structure (world::kMaxStructureBlocks) or is higher than a
 // world.
 [[nodiscard]] base::Result<world::Structure> toStructure(const BlockVolume& volume,
                                                          const world::BlockRegistry& blocks);

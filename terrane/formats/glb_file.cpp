@@ -30,7 +30,7 @@ json vectorOf(glm::vec3 v) {
     return json::array({v.x, v.y, v.z});
 }
 
-// The binary part and what the JSON says of it: first all vertices, then all indices, then images.
+// Builds the binary part and the JSON that describes it: first all vertices, then all indices, then images.
 class GlbWriter {
   public:
     explicit GlbWriter(const GlbModel& model) : model_(model) {}
@@ -59,7 +59,7 @@ class GlbWriter {
         return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)};
     }
 
-    // A view over all that was appended since `first`.
+    // Adds a view of all bytes that were appended since `first`.
     std::size_t addView(std::size_t first, const json& more) {
         json view = {{"buffer", 0}, {"byteOffset", first}, {"byteLength", binary_.size() - first}};
         view.update(more);

@@ -1,5 +1,5 @@
-// Triangles with textures as binary glTF 2.0 (.glb): one file that viewers and 3D programs open. Called by
-// glb_mesh.h. Plain functions; any thread.
+// Writes triangles with textures as binary glTF 2.0 (.glb), one file that viewers and 3D programs open. Plain
+// functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -12,7 +12,7 @@
 
 namespace terrane::formats {
 
-// As the format has it: y is up, v counts down from the upper edge of the texture.
+// The format's axes: y is up, v counts down from the upper edge of the texture.
 struct GlbVertex {
     glm::vec3 position{0}, normal{0};
     glm::vec2 uv{0};
@@ -25,15 +25,15 @@ struct GlbImage {
     std::string name, png;
 };
 
-// Triangles of one material. Textures repeat, and have hard pixels from near.
+// Triangles of one material. Textures repeat and are not smoothed when magnified.
 struct GlbPart {
     std::string name;
     std::size_t image = 0;
-    int glow = -1;  // an image of the light that it gives; -1: none
+    int glow = -1;  // index of the image of the emitted light; -1: none
     GlbAlpha alpha = GlbAlpha::Opaque;
     bool isTwoSided = false;
     std::vector<GlbVertex> vertices;
-    std::vector<std::uint32_t> indices;  // three a triangle, against the clock seen from outside
+    std::vector<std::uint32_t> indices;  // three per triangle, counterclockwise seen from outside
 };
 
 struct GlbModel {
@@ -42,7 +42,7 @@ struct GlbModel {
     std::vector<GlbPart> parts;  // not empty; none of them empty
 };
 
-// The whole file. OutOfResources where it would have 4 GiB or more.
+// The whole file. OutOfResources if it would have 4 GiB or more.
 [[nodiscard]] base::Result<std::string> encodeGlb(const GlbModel& model);
 
 }  // namespace terrane::formats

@@ -20,8 +20,8 @@ glm::vec3 toGltf(glm::vec3 v) {
     return {v.x, v.z, -v.y};
 }
 
-// As the shader that draws quads has it (quad.vert.glsl): a face of a model or of a liquid that flows shows
-// the part of the texture in front of which it lies, others all of it, once a block.
+// Texture coordinates as in quad.vert.glsl: a face of a model or of a flowing liquid shows the part of the
+// texture in front of which it lies, other faces all of it, once a block.
 glm::vec2 uvOf(shared::uint number, const ShapeFace& face, glm::vec2 corner, glm::vec2 extent) {
     if (number < shared::kShapeFaceFlowTop) return glm::vec2(corner.x, 1 - corner.y) * extent;
     const glm::vec3 inCell(shared::shapeFaceCorner(face, shared::vec4(0), corner, shared::vec2(1)));
@@ -50,8 +50,8 @@ GlbImageUse useOf(AlphaMode alpha, bool isGlow) {
     return alphaOf(alpha) == GlbAlpha::Opaque ? GlbImageUse::Opaque : GlbImageUse::Alpha;
 }
 
-// What alpha means is in the image then: other programs know holes and coverage alone. A glow is the light
-// that each texel gives, its color times its share (world::AlphaMode).
+// Converts alpha to holes and coverage, the only meanings in glTF. A glow image has the light that each texel
+// emits: its color times its share of glow (world::AlphaMode).
 void prepareImage(base::Image& image, GlbImageUse use) {
     if (use == GlbImageUse::Alpha) return;
     for (std::size_t k = 0; k + 3 < image.rgba.size(); k += 4) {

@@ -1,5 +1,5 @@
-// The meshes of chunks as a model of glTF: a part for each material, whose texture repeats over merged quads.
-// Called by `terrane export`. One thread.
+// Converts meshes of chunks to a glTF model: one part for each material, whose texture repeats over merged
+// quads. Called by `terrane export`. One thread.
 //
 // Our x, y, z are x, -z, y of the file: z is up here and y there, a block is a meter, and nothing is
 // mirrored.
@@ -19,24 +19,23 @@
 
 namespace terrane::formats {
 
-// 4 vertices of 32 bytes and 6 indices of 4 a quad: 608 MB, and as much again while a file is made.
+// 4 vertices × 32 bytes + 6 indices × 4 bytes a quad: 608 MB, and as much again while a file is made.
 constexpr std::size_t kMaxGlbQuads = 4'000'000;
 
-// What an image is made for out of a texture.
+// Variants of a texture as an image, by the use of its alpha.
 enum class GlbImageUse : std::uint8_t { Opaque, Alpha, Holes, Glow, GlowAboveHoles };
 
 class GlbMesh {
   public:
-    // Both outlive it.
+    // Both outlive this.
     GlbMesh(const world::BlockRegistry& blocks, const world::TextureSource& textures);
 
-    // `corner`: where the chunk's lowest block lies in the model, in blocks along our axes. OutOfResources
-    // where there are too many quads.
+    // `corner`: the position of the chunk's lowest block in the model, in blocks along our axes.
+    // OutOfResources if there are too many quads.
     [[nodiscard]] base::Result<void> add(const mesh::ChunkMesh& mesh, glm::ivec3 corner);
 
     std::size_t quadCount() const { return quads_; }
-    // The model with its textures; an error where there is nothing in it, or a texture is missing. Called
-    // once.
+    // The model with its textures; an error if it is empty or a texture is missing. Called once.
     [[nodiscard]] base::Result<GlbModel> finish(std::string name);
 
   private:
@@ -47,7 +46,7 @@ class GlbMesh {
     const world::TextureSource& textures_;
     std::vector<shared::ShapeFace> faces_;
     std::map<shared::uint, GlbPart> parts_;                                    // by material
-    std::map<std::pair<std::string, GlbImageUse>, std::size_t> imageNumbers_;  // in the model, of textures
+    std::map<std::pair<std::string, GlbImageUse>, std::size_t> imageNumbers_;  // index in the model
     std::size_t quads_ = 0;
 };
 

@@ -22,8 +22,8 @@ void appendPngChunk(std::string& png, std::string_view kind, std::string_view da
     appendBigEndian(png, static_cast<std::uint32_t>(crc32_z(0, checked, png.size() - first)));
 }
 
-// Rows behind a byte each that says how they are filtered: each byte less the one a pixel before (PNG
-// specification, 9.2, "Sub").
+// Each row begins with a byte for its filter; each byte is stored as the difference to the one a pixel before
+// (PNG specification, 9.2, "Sub").
 std::string filteredRows(const GrayImage& image) {
     const std::size_t width = static_cast<std::size_t>(image.width), pixelBytes = image.bits == 16 ? 2 : 1;
     std::string rows, row;

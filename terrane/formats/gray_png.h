@@ -1,4 +1,4 @@
-// Gray images as PNG, for heights: base/image.h has colors alone. Plain functions; any thread.
+// Gray images as PNG, for heights: base/image.h has only colors. Plain functions; any thread.
 #pragma once
 
 #include <cstdint>

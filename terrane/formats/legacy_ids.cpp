@@ -14,7 +14,7 @@ int lineOf(const toml::node& node) {
     return static_cast<int>(node.source().begin.line);
 }
 
-// A text, or a list of texts; empty where it is neither.
+// States of a text or a list of texts; empty if it is neither.
 std::vector<NamedState> statesOf(const toml::node& node) {
     std::vector<NamedState> states;
     const auto take = [&](const toml::node& value) {

@@ -35,7 +35,7 @@ base::Result<std::string_view> builtInFile(std::string_view name) {
 
 }  // namespace
 
-// One file into a mapping. The first mistake stays.
+// Reads one file into a mapping; keeps the first error.
 class BlockMapping::Reader {
   public:
     Reader(BlockMapping& mapping, const MappingFile& file) : mapping_(mapping), file_(file) {}
@@ -130,10 +130,6 @@ base::Result<BlockMapping> BlockMapping::create(const world::BlockRegistry& bloc
     for (const MappingFile& file : files)
         if (auto read = Reader(mapping, file).read(); !read) return tl::unexpected(read.error());
     return mapping;
-}
-
-base::Result<BlockMapping> builtInMapping(const world::BlockRegistry& blocks) {
-    return loadMapping(blocks, {});
 }
 
 base::Result<BlockMapping> loadMapping(const world::BlockRegistry& blocks, const std::string& file) {

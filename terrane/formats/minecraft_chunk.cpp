@@ -17,7 +17,7 @@ struct ChunkValues {
     std::array<world::Section::Value, world::kBlocksPerChunk> ids{}, states{};
 };
 
-// Entries of a section's palette, looked up once.
+// Blocks of a section's palette entries, each looked up once.
 std::vector<BlockAndState> mappedPalette(const AnvilSection& section, const BlockMapping& mapping) {
     std::vector<BlockAndState> blocks;
     for (const NamedState& state : section.palette) blocks.push_back(mapping.blockOf(state));
@@ -28,15 +28,10 @@ void countBlocks(const AnvilSection& section, const BlockMapping& mapping, Impor
     std::vector<std::uint64_t> uses(section.palette.size());
     if (section.blocks.empty()) uses[0] = kAnvilSectionBlocks;
     for (const std::uint16_t entry : section.blocks) ++uses[entry];
-    for (std::size_t k = 0; k < uses.size(); ++k) {
-        if (uses[k] == 0) continue;
-        const NamedState& state = section.palette[k];
-        counts.blocks[state.name] += uses[k];
-        if (!mapping.isKnown(state)) counts.unknown[textOf(state)] += uses[k];
-    }
+    addUses(section.palette, uses, mapping, counts);
 }
 
-// Our x is -x: the blocks of a row come in the other order.
+// Our x is Minecraft's -x: the blocks of a row are in reverse order.
 void putSection(const AnvilSection& section, std::span<const BlockAndState> palette, int shift,
                 ChunkValues& values, ImportCounts& counts) {
     for (int k = 0; k < kAnvilSectionBlocks; ++k) {
@@ -54,7 +49,8 @@ void putSection(const AnvilSection& section, std::span<const BlockAndState> pale
     }
 }
 
-// Until 1.12 only the lower half of a door knows where it faces and whether it is open.
+// Up to 1.12 only the lower half of a door stores where it faces and whether it is open: copies that to the
+// upper half.
 void completeDoors(world::BlockId door, world::BlockId top, ChunkValues& values) {
     constexpr std::size_t kLayer = kSide * kSide;
     for (std::size_t k = kLayer; k < values.ids.size(); ++k)
@@ -80,6 +76,15 @@ world::Chunk chunkFrom(const ChunkValues& values) {
 
 world::ChunkPos chunkPosOf(const AnvilChunk& chunk) {
     return {-1 - chunk.x, chunk.z};
+}
+
+void addUses(std::span<const NamedState> palette, std::span<const std::uint64_t> uses,
+             const BlockMapping& mapping, ImportCounts& counts) {
+    for (std::size_t k = 0; k < uses.size(); ++k) {
+        if (uses[k] == 0) continue;
+        counts.blocks[palette[k].name] += uses[k];
+        if (!mapping.isKnown(palette[k])) counts.unknown[textOf(palette[k])] += uses[k];
+    }
 }
 
 world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift, ImportCounts& counts) {

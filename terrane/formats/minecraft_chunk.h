@@ -1,9 +1,10 @@
-// A chunk of Minecraft as a chunk of Terrane, and what of it was not understood. Called by `terrane import`.
-// Plain functions; any thread.
+// Converts a Minecraft chunk to a chunk of Terrane and counts what is unknown or left out. Called by `terrane
+// import`. Plain functions; any thread.
 #pragma once
 
 #include <cstdint>
 #include <map>
+#include <span>
 #include <string>
 
 #include "terrane/formats/anvil_chunk.h"
@@ -12,16 +13,20 @@
 
 namespace terrane::formats {
 
-// Summed over chunks.
+// Sums over all chunks.
 struct ImportCounts {
-    std::map<std::string, std::uint64_t> blocks;         // all that were read, by name without properties
-    std::map<std::string, std::uint64_t> unknown;        // of these: what became "missing"
+    std::map<std::string, std::uint64_t> blocks;         // all blocks read, by name without properties
+    std::map<std::string, std::uint64_t> unknown;        // of these: those that became "missing"
     std::map<std::string, std::uint64_t> blockEntities;  // left out, by kind
-    std::uint64_t below = 0, above = 0;  // blocks but air outside our heights, which are left out
+    std::uint64_t below = 0, above = 0;  // blocks other than air outside our heights, left out
 };
 
-// Where Minecraft's chunk x, z comes to lie before it is moved: -x - 1, z.
+// The position of Minecraft's chunk x, z in our axes, -x - 1, z; the import may move it.
 [[nodiscard]] world::ChunkPos chunkPosOf(const AnvilChunk& chunk);
+
+// Adds `uses[k]` blocks of each `palette[k]` to the counts.
+void addUses(std::span<const NamedState> palette, std::span<const std::uint64_t> uses,
+             const BlockMapping& mapping, ImportCounts& counts);
 
 // Height z is Minecraft's y + `shift`. Blocks outside 0…255 are counted and left out.
 [[nodiscard]] world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift,

@@ -14,17 +14,17 @@ struct NamedState {
     std::string name;                                             // with its namespace
     std::vector<std::pair<std::string, std::string>> properties;  // by name, each once
 
-    // The property's value; nothing where it has none.
+    // The value of the property; null if there is none.
     const std::string* property(std::string_view property) const;
-    // Sets it in its place.
+    // Sets the property; the order by name is kept.
     void set(std::string_view property, std::string value);
     bool operator==(const NamedState&) const = default;
 };
 
-// As in a schematic. The reverse of namedState() where no name holds any of "[]=,".
+// The text form of schematics. The reverse of namedState() if no name holds any of "[]=,".
 std::string textOf(const NamedState& state);
-// A name without namespace is one of "minecraft:". Nothing where the text is none: an empty name, a bracket
-// that does not close, a property without value.
+// Parses the text form. A name without namespace gets "minecraft:". Nothing if the text is invalid: an empty
+// name, a bracket that does not close, a property without value.
 std::optional<NamedState> namedState(std::string_view text);
 
 }  // namespace terrane::formats

@@ -17,7 +17,7 @@ using BitsOf =
                        std::conditional_t<sizeof(T) == 2, std::uint16_t,
                                           std::conditional_t<sizeof(T) == 4, std::uint32_t, std::uint64_t>>>;
 
-// Reads until something is wrong; from then on it reads nothing, and `problem` says why.
+// Reads until something is wrong; then `problem_` has the reason and all further reads give nothing.
 class NbtReader {
   public:
     explicit NbtReader(std::string_view bytes) : bytes_(bytes) {}
@@ -66,7 +66,7 @@ class NbtReader {
         return std::string(bytes_.substr(at_ - size, size));
     }
 
-    // How many elements follow, each of which takes at least `elementBytes`.
+    // The number of elements that follow; each takes at least `elementBytes`.
     std::size_t count(std::size_t elementBytes) {
         const auto value = number<std::int32_t>();
         if (value <= 0) return 0;  // Minecraft takes a negative length of a list for 0

@@ -1,5 +1,5 @@
-// NBT, the tree of tags in which Minecraft and its tools keep data, uncompressed and big-endian. Read by
-// region_file.h's users and schematic.h. Plain values; any thread.
+// NBT, the tree of tags in which Minecraft and its tools store data, uncompressed and big-endian. Used by
+// schematic.h and with region_file.h. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -24,20 +24,20 @@ struct NbtBytes {
     bool operator==(const NbtBytes&) const = default;
 };
 struct NbtList {
-    std::uint8_t type = 0;  // of all tags: their index in NbtTag::Value
+    std::uint8_t type = 0;  // of all tags: the index in NbtTag::Value
     std::vector<NbtTag> tags;
     bool operator==(const NbtList& other) const;
 };
 struct NbtCompound {
     std::vector<NbtEntry> entries;  // in the order of the file
 
-    const NbtTag* find(std::string_view name) const;  // the first of that name; null where there is none
-    // Null where there is none, or one of another type.
+    const NbtTag* find(std::string_view name) const;  // the first of that name; null if there is none
+    // Null if there is none or it has another type.
     template <class T>
     const T* get(std::string_view name) const;
-    // Of any integer type.
+    // The value of a tag of any integer type.
     std::optional<std::int64_t> integer(std::string_view name) const;
-    NbtCompound& add(std::string_view name, NbtTag tag);  // itself, for a chain
+    NbtCompound& add(std::string_view name, NbtTag tag);  // returns itself, for chaining
     bool operator==(const NbtCompound& other) const;
 };
 
@@ -71,7 +71,7 @@ constexpr std::size_t kMaxNbtTags = std::size_t{1} << 20;
 
 // Bytes after the root are ignored, as Minecraft does. Errors say at which byte the data are wrong.
 [[nodiscard]] base::Result<NbtRoot> decodeNbt(std::string_view bytes);
-// Names and texts have at most 65,535 bytes, and the tags of a list are of its type.
+// Names and texts must have at most 65,535 bytes, and the tags of a list must have its type.
 [[nodiscard]] std::string encodeNbt(const NbtRoot& root);
 
 template <class T>

@@ -18,7 +18,7 @@ std::uint32_t bigEndian(std::string_view bytes, std::size_t at, std::size_t coun
     return value;
 }
 
-// A table of 1,024 entries: three bytes of the first sector, one of how many there are.
+// The file begins with 1,024 entries: three bytes for the first sector, one for the number of sectors.
 std::uint32_t entryOf(std::string_view region, int number) {
     const auto at = static_cast<std::size_t>(number) * 4;
     return number >= 0 && number < kRegionChunks && region.size() >= at + 4 ? bigEndian(region, at, 4) : 0;

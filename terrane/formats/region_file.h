@@ -1,5 +1,5 @@
-// Region files of Minecraft (.mca, "Anvil"): 32×32 chunks, each compressed by itself in sectors of 4,096
-// bytes. Called by `terrane import`, and by anvil_chunk.h's users. Plain functions; any thread.
+// Region files of Minecraft (.mca, "Anvil"): 32×32 chunks, each compressed separately in sectors of 4,096
+// bytes. Called by `terrane import`. Plain functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +14,9 @@ namespace terrane::formats {
 
 constexpr int kRegionSide = 32;  // chunks
 constexpr int kRegionChunks = kRegionSide * kRegionSide;
-// A file of more is refused: 1,024 chunks of 255 sectors are 1 GiB; files that are played have 5 to 20 MiB.
+// Larger files are refused: 1,024 chunks of 255 sectors are 1 GiB; usual files have 5 to 20 MiB.
 constexpr std::size_t kMaxRegionBytes = std::size_t{1} << 30;
-// Of a chunk when decompressed; those that are played have 0.1 to 1 MiB.
+// The limit for a decompressed chunk; usual chunks have 0.1 to 1 MiB.
 constexpr std::size_t kMaxChunkBytes = std::size_t{32} << 20;
 
 struct RegionPos {
@@ -24,17 +24,18 @@ struct RegionPos {
     auto operator<=>(const RegionPos&) const = default;
 };
 
-// Of "r.X.Z.mca"; nothing for other names.
+// The position in a name "r.X.Z.mca"; nothing for other names.
 [[nodiscard]] std::optional<RegionPos> regionPosOf(std::string_view fileName);
 
-// Gives the bytes of a chunk that lies in a file of its own, c.X.Z.mcc beside the region, X and Z in chunks.
+// Returns the bytes of a chunk that is stored in its own file, c.X.Z.mcc beside the region, X and Z in
+// chunks.
 using ExternalChunk = std::function<base::Result<std::string>()>;
 
-// Whether the file has a chunk number x + 32 z, counted in the region. False where the file is too short.
+// Whether the file has a chunk number x + 32 z, counted in the region. False if the file is too short.
 [[nodiscard]] bool regionHasChunk(std::string_view region, int number);
 
-// The chunk's NBT, decompressed. NotFound where there is none, Unsupported for LZ4 and other compressions,
-// Damaged where it lies outside the file or is broken. Messages name no file.
+// The chunk's NBT, decompressed. NotFound if there is none, Unsupported for LZ4 and other compressions,
+// Damaged if it lies outside the file or is broken. Messages name no file.
 [[nodiscard]] base::Result<std::string> readRegionChunk(std::string_view region, int number,
                                                         const ExternalChunk& external);
 

@@ -12,14 +12,14 @@ namespace {
 
 constexpr std::int64_t kMaxSide = 65535;
 constexpr std::size_t kMaxSchematicPalette = 65536;
-// Minecraft 1.20.1, whose names are written; readers that are newer rename what has other names by now.
+// Minecraft 1.20.1, whose names are written; newer readers rename blocks that have other names now.
 constexpr std::int32_t kWrittenDataVersion = 3465;
 
 tl::unexpected<base::Error> damagedSchematic(std::string_view what) {
     return base::fail(base::ErrorCode::Damaged, "schematic: {}", what);
 }
 
-// The file's index of a cell, x + z · width + y · width · length, is the same but for the order in a row.
+// The file's index of a cell is x + z · width + y · width · length; ours differs only in the order of a row.
 std::size_t cellOfFileIndex(std::size_t index, glm::ivec3 size) {
     const auto sizeX = static_cast<std::size_t>(size.x), sizeY = static_cast<std::size_t>(size.y);
     const std::size_t x = index % sizeX, row = index / sizeX % sizeY, z = index / sizeX / sizeY;
@@ -40,7 +40,7 @@ base::Result<glm::ivec3> sizeOf(const NbtCompound& schematic) {
     return glm::ivec3(sides[0], sides[1], sides[2]);
 }
 
-// Numbers of 7 bits a byte, the lowest first.
+// Reads numbers of 7 bits a byte, the lowest first.
 base::Result<std::vector<std::uint32_t>> readVarints(std::string_view bytes, std::size_t count) {
     std::vector<std::uint32_t> values;
     values.reserve(std::min(count, bytes.size()));
@@ -58,7 +58,8 @@ base::Result<std::vector<std::uint32_t>> readVarints(std::string_view bytes, std
     return values;
 }
 
-// Names by number, each once; the numbers need not be dense.
+// Adds the names to the volume's palette; returns their indices by the file's numbers, which need not be
+// dense.
 base::Result<std::unordered_map<std::uint32_t, std::uint16_t>> readPalette(const NbtCompound& palette,
                                                                            NamedVolume& volume) {
     std::unordered_map<std::uint32_t, std::uint16_t> entries;
@@ -93,7 +94,7 @@ base::Result<NamedVolume> readSponge(const NbtCompound& schematic, const NbtComp
     return volume;
 }
 
-// MCEdit's: a byte of an id and one of data for each block, four more bits of ids in AddBlocks.
+// MCEdit's format: a byte of id and one of data for each block, four more bits of ids in AddBlocks.
 base::Result<NamedVolume> readNumbered(const NbtCompound& schematic, const LegacyIds& ids) {
     const auto size = sizeOf(schematic);
     if (!size) return tl::unexpected(size.error());
@@ -108,7 +109,7 @@ base::Result<NamedVolume> readNumbered(const NbtCompound& schematic, const Legac
     volume.cells.resize(count);
     std::vector<std::int32_t> entryOf(kMaxSchematicPalette, -1);
     for (std::size_t k = 0; k < count; ++k) {
-        // The first of two has the upper four bits, other than in chunks.
+        // The first of two blocks has the upper four bits, unlike in chunks.
         const int more =
             high ? static_cast<std::uint8_t>(high->bytes[k / 2]) >> (k % 2 == 0 ? 4 : 0) & 15 : 0;
         const int id = static_cast<std::uint8_t>(low->bytes[k]) | more << 8, bits = data->bytes[k] & 15;
@@ -134,7 +135,7 @@ base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyId
     if (!nbt) return base::fail(nbt.error().code, "schematic: {}", nbt.error().message);
     const auto root = decodeNbt(*nbt);
     if (!root) return tl::unexpected(root.error());
-    // Version 3 has a compound within an outer one without name.
+    // Version 3 has an outer compound without name.
     const auto* inner = root->compound.get<NbtCompound>("Schematic");
     const NbtCompound& schematic = inner ? *inner : root->compound;
     if (schematic.get<NbtBytes>("Blocks")) return readNumbered(schematic, ids);
@@ -155,9 +156,9 @@ base::Result<std::string> encodeSchematic(const NamedVolume& volume) {
     const glm::ivec3 size = volume.size;
     if (std::max({size.x, size.y, size.z}) > kMaxSide)
         return base::fail(base::ErrorCode::BadInput, "a schematic has at most {} blocks to a side", kMaxSide);
-    // Numbered in the order in which the file has them, so that equal boxes give equal files.
+    // Palette entries are numbered in the order of the file, so that equal boxes give equal files.
     NbtCompound palette;
-    std::unordered_map<std::string, std::int32_t> numbers;  // names may come twice
+    std::unordered_map<std::string, std::int32_t> numbers;  // entries may have the same name
     std::vector<std::int32_t> numberOf(volume.palette.size(), -1);
     std::string data;
     for (std::size_t k = 0; k < volume.cells.size(); ++k) {

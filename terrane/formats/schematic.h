@@ -1,8 +1,8 @@
-// Schematics: a box of Minecraft's blocks in a file. Sponge's format (.schem), versions 1 to 3, and the older
-// one of MCEdit (.schematic) with numbers. Called by `terrane import` and `terrane export`. Plain functions;
-// any thread.
+// Schematics, files with a box of Minecraft's blocks: Sponge's format (.schem), versions 1 to 3, and the
+// older one of MCEdit (.schematic) with numbers. Called by `terrane import` and `terrane export`. Plain
+// functions; any thread.
 //
-// Minecraft's x, y, z are our x, z, -y: the row with the largest z comes first.
+// Minecraft's x, y, z are our -x, z, y: the blocks of a row along x are in reverse order.
 #pragma once
 
 #include <string>
@@ -14,15 +14,15 @@
 
 namespace terrane::formats {
 
-// Of a schematic's NBT when decompressed: 2^25 blocks of up to 3 bytes, and what stands beside them.
+// The limit for a schematic's decompressed NBT: 2^25 blocks of up to 3 bytes and the other tags.
 constexpr std::size_t kMaxSchematicBytes = std::size_t{128} << 20;
 
-// Of a gzip file. Damaged where it is none, Unsupported where it is of another version. Entities, contents of
-// chests and the offset are left out. Messages name no file.
+// Reads a gzip file. Damaged if it is no schematic, Unsupported if it has another version. Entities, contents
+// of chests and the offset are left out. Messages name no file.
 [[nodiscard]] base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyIds& ids);
 
-// Version 2 of Sponge's format, compressed. Sides have at most 65,535 blocks. The same volume gives the same
-// bytes with one version of zlib.
+// Writes version 2 of Sponge's format, compressed. BadInput if a side has more than 65,535 blocks. The same
+// volume gives the same bytes with one version of zlib.
 [[nodiscard]] base::Result<std::string> encodeSchematic(const NamedVolume& volume);
 
 }  // namespace terrane::formats

@@ -14,11 +14,11 @@ namespace {
 
 using world::BlockType;
 
-// By our facing: quarter turns against the clock from +y.
+// By our facing: quarter turns counterclockwise from +y.
 constexpr std::array<std::string_view, 4> kDirections{"south", "east", "north", "west"};
 // By our arm: -x, +x, -y, +y.
 constexpr std::array<std::string_view, 4> kArmDirections{"east", "west", "north", "south"};
-// Sixteenths of a turn with the clock, 0 is south.
+// Sixteenths of a clockwise turn, 0 is south.
 constexpr int kRotations = 16;
 // The age of a ripe plant.
 int grownAge(const NamedState& state) {
@@ -47,7 +47,7 @@ bool hasFacing(const BlockType& type) {
     return (formBits(type) & world::kStateFacing) != 0;
 }
 
-// A door or a gate: its other form is the open one.
+// Whether it is a door or a gate, whose other form is the open one.
 bool opens(const BlockType& type) {
     return world::hasBehavior(type, "opens") || world::hasBehavior(type, "door");
 }
@@ -59,7 +59,7 @@ std::uint16_t facingOf(const NamedState& state, bool isOpposite) {
         if (at == kDirections.end()) return 0;
         facing = static_cast<int>(at - kDirections.begin());
     } else if (state.property("rotation")) {
-        // With the clock from south: 4 is west, 8 north, 12 east.
+        // Clockwise from south: 4 is west, 8 north, 12 east.
         const int quarters = (std::clamp(numberOf(state, "rotation", 0), 0, kRotations - 1) + 2) / 4 % 4;
         facing = (4 - quarters) % 4;
     } else {

@@ -1,5 +1,5 @@
-// Properties of Minecraft's blocks and the block states of ours that show the same: facing, halves, open
-// doors, arms of fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
+// Converts properties of Minecraft's blocks to block states and back: facing, halves, open doors, arms of
+// fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
 //
 // Minecraft's x, y, z (east, up, south) are our -x, z, y, so that the sun rises in the same east and maps
 // have the same north, -y (game/places.h). Nothing is mirrored.
@@ -12,11 +12,11 @@
 
 namespace terrane::formats {
 
-// The bits of the state that the properties of `state` give a block of `type`; 0 where they say nothing of
-// it. `isOpposite`: the block faces against its property.
+// The bits of the state that the properties of `state` give a block of `type`; 0 if they give none.
+// `isOpposite`: the block faces against its property.
 std::uint16_t stateOfProperties(const world::BlockType& type, const NamedState& state, bool isOpposite);
 
-// Adds the properties that say the same as the block state. Those that `named` has already stay.
+// Adds the properties that correspond to the block state. Properties that `named` already has stay.
 void addProperties(const world::BlockType& type, std::uint16_t state, bool isOpposite, NamedState& named);
 
 }  // namespace terrane::formats

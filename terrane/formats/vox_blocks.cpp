@@ -7,7 +7,7 @@
 namespace terrane::formats {
 namespace {
 
-// IEC 61966-2-1.
+// sRGB to linear, IEC 61966-2-1.
 float linear(float srgb) {
     return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
 }

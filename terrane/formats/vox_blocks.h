@@ -1,5 +1,5 @@
-// Colors of .vox files as blocks, and blocks as colors. Called by `terrane import` and `terrane export`.
-// Plain functions; any thread.
+// Converts colors of .vox files to blocks and back. Called by `terrane import` and `terrane export`. Plain
+// functions; any thread.
 #pragma once
 
 #include <string>
@@ -11,8 +11,7 @@
 
 namespace terrane::formats {
 
-// The cube whose top is nearest to the color 0xRRGGBB, by the distance in Oklab; opaque cubes without tint
-// count.
+// The opaque cube without tint whose top is nearest to the color 0xRRGGBB, by the distance in Oklab.
 [[nodiscard]] world::BlockId nearestCube(std::uint32_t color, const world::BlockRegistry& blocks,
                                          const world::TopColors& tops);
 
@@ -20,8 +19,8 @@ namespace terrane::formats {
 [[nodiscard]] BlockVolume toBlocks(const VoxImage& image, const BlockMapping& mapping,
                                    const world::BlockRegistry& blocks, const world::TopColors& tops);
 
-// Each kind of block has the color of its top, whatever its state; air is empty. An error where there are
-// more than 255 colors.
+// Each block has the color of its top, whatever its state; air is empty. An error if there are more than 255
+// colors.
 [[nodiscard]] base::Result<VoxImage> toVox(const BlockVolume& volume, const world::TopColors& tops);
 
 }  // namespace terrane::formats

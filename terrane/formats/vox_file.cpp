@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kMaxPlacedVoxels = std::size_t{1} << 27;
 
 struct VoxBox {
-    glm::ivec3 low{0}, high{0};  // both inside
+    glm::ivec3 low{0}, high{0};  // both inclusive
 };
 
 VoxBox boxOf(const VoxParts& parts, const std::vector<PlacedModel>& models) {
@@ -67,7 +67,7 @@ class VoxWriter {
     std::string bytes;
 };
 
-// The part of the image from `low` on, at most kMaxVoxSide in each direction.
+// Writes the part of the image from `low` on, at most kMaxVoxSide in each direction.
 void writeModel(const VoxImage& image, glm::ivec3 low, glm::ivec3 size, VoxWriter& out) {
     VoxWriter sides, voxels;
     for (int axis = 0; axis < 3; ++axis) sides.number(size[axis]);
@@ -105,7 +105,7 @@ std::vector<ModelPlace> modelPlaces(glm::ivec3 size) {
     return places;
 }
 
-// Node `id`, whose child is `child`, with a step where there is one.
+// Writes the node `id` with the child `child`, moved by `step` unless empty.
 void writeTransform(int id, int child, const std::string& step, VoxWriter& out) {
     VoxWriter node;
     for (const int value : {id, 0, child, -1, id == 0 ? -1 : 0, 1}) node.number(value);
@@ -117,7 +117,8 @@ void writeTransform(int id, int child, const std::string& step, VoxWriter& out) 
     out.part("nTRN", node);
 }
 
-// A group of models, each moved to its place: nodes 0 (the root), 1 (the group), then two a model.
+// Writes a group of models, each moved to its place: nodes 0 (the root), 1 (the group), then two for each
+// model.
 void writeScene(const std::vector<ModelPlace>& places, VoxWriter& out) {
     writeTransform(0, 1, "", out);
     VoxWriter group;

@@ -18,22 +18,23 @@ constexpr std::size_t kMaxVoxBytes = std::size_t{512} << 20;
 
 struct VoxImage {
     glm::ivec3 size{0};
-    std::array<std::uint32_t, 256> colors{};  // 0xRRGGBBAA; the first is none
+    std::array<std::uint32_t, 256> colors{};  // 0xRRGGBBAA; the first is unused
     std::vector<std::uint8_t> cells;          // x + size.x · (y + size.y · z): colors, 0 is empty
 
     bool operator==(const VoxImage&) const = default;
 };
 
-// All models of the scene at their places, in the smallest box that holds the models; without a scene the
+// Reads all models of the scene at their places, in the smallest box that holds them; without a scene the
 // first model. Hidden nodes are left out; of animations the first frame is taken; layers, cameras and
-// materials are ignored. Damaged where it is no such file, OutOfResources where the box is too large
+// materials are ignored. Damaged if it is no such file, OutOfResources if the box is too large
 // (block_volume.h).
 [[nodiscard]] base::Result<VoxImage> decodeVox(std::string_view bytes);
 
-// One model, or several in a scene where a side is longer than kMaxVoxSide. Comes back the same.
+// Writes one model, or several in a scene if a side is longer than kMaxVoxSide. decodeVox() gives the same
+// image.
 [[nodiscard]] std::string encodeVox(const VoxImage& image);
 
-// What a file without a palette has.
+// The palette of files that have none.
 [[nodiscard]] std::array<std::uint32_t, 256> defaultVoxColors();
 
 }  // namespace terrane::formats

@@ -12,7 +12,7 @@ constexpr std::size_t kMaxVoxModels = 65536, kMaxVoxNodes = 262144;
 
 using VoxDictionary = std::map<std::string_view, std::string_view>;
 
-// Reads until something is missing; then it is bad, and gives zeros.
+// Reads until data is missing or invalid; then it is bad and gives zeros.
 class VoxReader {
   public:
     explicit VoxReader(std::string_view bytes) : bytes_(bytes) {}
@@ -37,7 +37,7 @@ class VoxReader {
         return static_cast<std::int32_t>(value);
     }
 
-    // A number of bytes or of things; bad below 0.
+    // A number of bytes or elements; bad below 0.
     std::size_t count() {
         const std::int32_t value = number();
         if (value < 0) isBad_ = true;
@@ -65,7 +65,8 @@ std::string_view valueOf(const VoxDictionary& entries, std::string_view key) {
     return found == entries.end() ? std::string_view() : found->second;
 }
 
-// "x y z"; 0 for what is missing. Steps are clamped to 2^20 blocks: sums of nested ones fit an int.
+// Reads "x y z", 0 for missing numbers. Steps are clamped to 2^20 blocks, so that sums of nested ones fit an
+// int.
 glm::ivec3 stepOf(std::string_view text) {
     constexpr int kFarthest = 1 << 20;
     glm::ivec3 step(0);
@@ -111,7 +112,7 @@ class VoxPartsReader {
         reader.number();  // version
         if (reader.take(4) != "MAIN") return bad("it has no part MAIN");
         const std::size_t own = reader.count();
-        reader.count();  // bytes of the parts inside; files exist in which it is wrong
+        reader.count();  // bytes of the parts inside; wrong in some files
         reader.take(own);
         parts_.colors = defaultVoxColors();
         while (!reader.isAtEnd()) {
@@ -161,7 +162,7 @@ class VoxPartsReader {
         size_ = glm::ivec3(0);
     }
 
-    // Of 1 to 255, then that of none.
+    // The file has the colors 1 to 255, then an unused one.
     void readColors(VoxReader& reader) {
         for (std::size_t k = 1; k <= parts_.colors.size(); ++k) {
             std::uint32_t color = 0;

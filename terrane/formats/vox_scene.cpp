@@ -5,7 +5,7 @@ namespace terrane::formats {
 namespace {
 
 constexpr int kMaxVoxDepth = 64;
-// A group may be used several times, and groups in it: visits are counted, not nodes.
+// Groups may be used several times, and so may groups in them: visits are limited, not nodes.
 constexpr std::size_t kMaxVoxVisits = 1'000'000;
 
 class SceneWalk {
@@ -36,7 +36,7 @@ class SceneWalk {
         }
     }
 
-    // Of an animation the first model.
+    // Takes the first model of an animation.
     void place(const VoxNode& shape, const VoxTransform& transform) {
         if (shape.children.empty()) return;
         const auto model = static_cast<std::size_t>(shape.children[0]);
@@ -70,7 +70,7 @@ VoxTransform combined(const VoxTransform& outer, const VoxTransform& inner) {
     return result;
 }
 
-// Twice the middle of the voxel is odd, so half of one less is the voxel again.
+// Computes with twice the middle of the voxel, which is odd: half of one less is the voxel again.
 glm::ivec3 placed(const VoxTransform& transform, glm::ivec3 modelSize, glm::ivec3 voxel) {
     const glm::ivec3 twice = 2 * (voxel - modelSize / 2) + 1;
     glm::ivec3 result(0);

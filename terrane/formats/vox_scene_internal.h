@@ -1,4 +1,4 @@
-// The parts of a .vox file, and the scene that puts its models into places. Used by vox_file.cpp.
+// The parts of a .vox file, and the scene that places its models. Used by vox_file.cpp.
 #pragma once
 
 #include <array>
@@ -27,7 +27,7 @@ struct VoxTransform {
 
 // `outer` after `inner`.
 VoxTransform combined(const VoxTransform& outer, const VoxTransform& inner);
-// Where a voxel of a model comes to lie: models turn about their middle, size / 2 rounded down.
+// The place of a voxel of a model: models turn about their middle, size / 2 rounded down.
 glm::ivec3 placed(const VoxTransform& transform, glm::ivec3 modelSize, glm::ivec3 voxel);
 
 struct VoxNode {
@@ -44,7 +44,7 @@ struct VoxParts {
     std::array<std::uint32_t, 256> colors{};
 };
 
-// Views into `bytes`.
+// The result has views into `bytes`.
 [[nodiscard]] base::Result<VoxParts> readVoxParts(std::string_view bytes);
 
 struct PlacedModel {
@@ -52,7 +52,7 @@ struct PlacedModel {
     VoxTransform transform;
 };
 
-// The models of the scene; without one the first.
+// The models of the scene; without a scene, the first one.
 [[nodiscard]] base::Result<std::vector<PlacedModel>> placedModels(const VoxParts& parts);
 
 }  // namespace terrane::formats

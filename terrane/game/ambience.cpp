@@ -11,12 +11,12 @@
 namespace terrane::game {
 namespace {
 
-constexpr int kSkyReach = 40;  // blocks above the ears that are looked at for a roof
-// Wind begins to be heard at one height and is full at the other; z.
+constexpr int kSkyReach = 40;  // blocks above the ears that are searched for a roof
+// Wind begins at the first height and is full at the second; z.
 constexpr double kCalm = 70, kStormy = 200, kLeastWind = 0.15;
-constexpr int kStep = 2;        // between the columns that are looked at for water
+constexpr int kStep = 2;        // between the columns that are searched for water
 constexpr int kWaterDepth = 5;  // blocks above and below the ears
-constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f;  // volume for each surface that is seen
+constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f;  // volume for each surface found
 
 bool isWater(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos) {
     return blocks.type(world.block(pos)).shape == world::Shape::Liquid;
@@ -28,7 +28,7 @@ bool seesSky(const world::World& world, const world::BlockRegistry& blocks, worl
     return true;
 }
 
-// The share of some columns around that are open to the sky.
+// The share of nearby columns that are open to the sky.
 float openness(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos ears) {
     constexpr std::array<std::array<int, 2>, 9> kColumns = {
         {{0, 0}, {4, 0}, {-4, 0}, {0, 4}, {0, -4}, {3, 3}, {3, -3}, {-3, 3}, {-3, -3}}};
@@ -38,7 +38,7 @@ float openness(const world::World& world, const world::BlockRegistry& blocks, wo
     return static_cast<float>(open) / static_cast<float>(kColumns.size());
 }
 
-// The surface in a column near the ears, from above.
+// The highest surface of water in a column near the ears.
 std::optional<world::BlockPos> surfaceIn(const world::World& world, const world::BlockRegistry& blocks,
                                          world::BlockPos column) {
     bool isAir = false;

@@ -15,7 +15,7 @@ bool overlap(const world::Aabb& a, const world::Aabb& b) {
     return glm::all(glm::lessThan(a.min, b.max)) && glm::all(glm::lessThan(b.min, a.max));
 }
 
-// Whether a block of this kind would stand in the body.
+// Whether a block of this type would overlap the body.
 bool isInTheWay(const world::BlockType& type, std::uint16_t state, world::BlockPos pos,
                 const std::optional<world::Aabb>& body) {
     const glm::dvec3 corner(pos.x, pos.y, pos.z);
@@ -49,7 +49,7 @@ bool BlockInteraction::pick(const Session& session) {
     return true;
 }
 
-// Into air and liquids, not into plants and the like; a source of a liquid not into another of it.
+// Builds into air and liquids, not into plants; never a source of a liquid into another source of it.
 std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id, const Player& player,
                                                   const world::Ray& ray) const {
     const world::BlockType& type = session.blocks().type(block());
@@ -74,7 +74,7 @@ std::optional<EditResult> BlockInteraction::act(Session& session, PlayerId id, c
     };
     target_ = look(world::kAir);
     const bool breaks = breaking.acts(seconds), builds = building.acts(seconds);
-    // Who has a liquid in hand takes its sources.
+    // If a liquid is chosen, breaking takes its sources.
     const auto aimed = breaks && isFlowing(session.blocks().type(block())) ? look(block()) : target_;
     if (!aimed || (!breaks && !builds)) return std::nullopt;
     std::optional<EditResult> result;

@@ -1,4 +1,4 @@
-// What a player does to blocks: breaks, builds, and which block it builds with. Called once a frame.
+// A player's actions on blocks: breaking, building and the choice of the block to build. Called once a frame.
 #pragma once
 
 #include <optional>
@@ -24,14 +24,14 @@ class BlockInteraction {
     // The block that the player looks at and can reach, as of the last act().
     const std::optional<world::RayHit>& target() const { return target_; }
 
-    // Uses the block that the player looks at, as a door is opened. False where it cannot be used.
+    // Uses the block that the player looks at, for example opens a door. False if it cannot be used.
     bool use(Session& session, PlayerId id);
 
-    // Takes the block that the player looks at in the hand. False where there is none.
+    // Chooses the block that the player looks at in the hotbar. False if there is none.
     bool pick(const Session& session);
 
-    // Breaks or builds where a button is held, by commands to the session; never into the player. What became
-    // of the command; nothing where none was sent.
+    // Breaks or builds while a button is held, by commands to the session; never builds into the player.
+    // Returns the result of the command; nothing if none was sent.
     std::optional<EditResult> act(Session& session, PlayerId id, const Player& player, double seconds);
 
   private:

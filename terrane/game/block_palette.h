@@ -1,4 +1,4 @@
-// Which blocks a player chooses from: all that are built, by group and by a searched text. Plain functions.
+// The blocks that a player can choose to build, filtered by group and search text. Plain functions.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 
 namespace terrane::game {
 
-// The groups of the blocks, in the order in which the registry first has them.
+// The groups of the blocks, in order of their first block in the registry.
 std::vector<std::string> paletteGroups(const world::BlockRegistry& blocks);
 
 struct PaletteFilter {
     std::string_view group;   // empty: all
-    std::string_view search;  // words that each are in the shown name or in the type's name; case is ignored
+    std::string_view search;  // each word is in the shown name or in the type's name; case is ignored
     std::function<std::string(world::BlockId)> shownName;
 };
-// In the order of the registry; with a search those first whose name begins with it.
+// In the order of the registry; blocks whose name begins with the first searched word come first.
 std::vector<world::BlockId> paletteBlocks(const world::BlockRegistry& blocks, const PaletteFilter& filter);
 
 }  // namespace terrane::game

@@ -23,7 +23,7 @@ std::optional<BlockSound> soundOf(const world::BlockRegistry& blocks, const worl
     const bool breaks = isFluid(after) && !isFluid(before);
     const bool takesLiquid = edit.after == world::kAir;
     const world::SoundMaterial material = breaks || takesLiquid ? before.sound : after.sound;
-    // What there is no blow for: a liquid that is taken sounds as one that is poured.
+    // Water has no sound of breaking: taking a liquid sounds like placing it.
     const Kind kind = breaks && material != world::SoundMaterial::Water ? Kind::Break : Kind::Place;
     if (material == world::SoundMaterial::None) return std::nullopt;
     return BlockSound{kind, material, edit.pos};
@@ -37,7 +37,7 @@ std::vector<BlockSound> soundsOf(const world::BlockRegistry& blocks, std::span<c
     for (const world::BlockEdit& edit : edits) {
         const auto sound = soundOf(blocks, edit, isPlayers);
         if (!sound) continue;
-        // A door's two halves are one door.
+        // The two halves of a door make one sound.
         const bool isNew = std::ranges::none_of(sounds, [&](const BlockSound& other) {
             return other.kind == sound->kind && other.material == sound->material &&
                    other.pos.x == sound->pos.x && other.pos.y == sound->pos.y;

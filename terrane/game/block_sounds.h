@@ -1,4 +1,4 @@
-// Which sounds changes of blocks make. Plain data: who plays them lies elsewhere.
+// The sounds that changes of blocks make. Plain data; plays nothing.
 #pragma once
 
 #include <cstdint>
@@ -19,12 +19,12 @@ struct BlockSound {
     bool operator==(const BlockSound&) const = default;
 };
 
-// Of one change with all that follows from it: large ones (undo, a tree that falls) sound no louder.
+// The limit for one change with its consequences, so that large ones (undo, a falling tree) are no louder.
 constexpr std::size_t kMaxSoundsAChange = 6;
 
-// A block that goes breaks, one that comes is placed; in place of another one both are one sound. What is
-// used (a door) knocks, what only keeps other data is silent. Liquids are heard where a player places or
-// takes them, not where they flow: `isPlayers` says whose change it is.
+// A removed block makes a sound of breaking; a placed block, also in place of another one, a sound of
+// placing. A used block (a door) sounds as if placed; a change of data alone is silent. Liquids sound where a
+// player places or takes them, not where they flow: `isPlayers` says whether it is a player's change.
 std::vector<BlockSound> soundsOf(const world::BlockRegistry& blocks, std::span<const world::BlockEdit> edits,
                                  bool isPlayers);
 

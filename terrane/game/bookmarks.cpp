@@ -28,7 +28,7 @@ base::Result<void> readInto(std::vector<world::Pose>& bookmarks, const std::file
     return {};
 }
 
-// As where the program runs in its data folder.
+// True if, for example, the program runs in its data folder.
 bool isSameFile(const std::filesystem::path& a, const std::filesystem::path& b) {
     std::error_code ignored;
     return std::filesystem::equivalent(a, b, ignored);

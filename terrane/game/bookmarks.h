@@ -1,4 +1,4 @@
-// Places that a player keeps: a text file with one pose a line. Called on one thread.
+// A player's bookmarks: a text file with one pose a line. Called on one thread.
 #pragma once
 
 #include <filesystem>
@@ -17,13 +17,13 @@ struct BookmarkFiles {
 // bookmarks.txt in `dataFolder`; before version 0.2 positions.txt and bookmarks.txt in the working directory.
 BookmarkFiles bookmarkFiles(const std::filesystem::path& dataFolder);
 
-// Logs which former files there are.
+// Logs which former files exist.
 void reportFormerFiles(const BookmarkFiles& files);
 
-// The bookmarks of all files, former ones first, so that they keep their numbers; files that do not exist
-// have none. An error names the first line that is wrong.
+// The bookmarks of all files, former ones first, so that they keep their numbers; missing files have none. An
+// error names the first invalid line.
 [[nodiscard]] base::Result<std::vector<world::Pose>> readBookmarks(const BookmarkFiles& files);
-// Makes the file and its folder.
+// Creates the file and its folder if needed.
 [[nodiscard]] base::Result<void> appendBookmark(const std::filesystem::path& file, const world::Pose& pose);
 
 }  // namespace terrane::game

@@ -17,7 +17,7 @@ using world::BlockBox;
 using world::BlockPos;
 using world::BlockValue;
 
-// The far corner of a box; at the end of the numbers where it would be beyond.
+// The far end of a box along one axis, clamped to the largest coordinate.
 std::int32_t farEnd(std::int32_t low, int size) {
     constexpr std::int64_t kLast = std::numeric_limits<std::int32_t>::max();
     return static_cast<std::int32_t>(std::min(std::int64_t{low} + size - 1, kLast));
@@ -56,7 +56,7 @@ class Plan {
     PlannedBlocks plan_;
 };
 
-// Chunk by chunk, and in a chunk by block index: as histories and light want them.
+// Chunk by chunk, and in a chunk by block index: the order that histories and light need.
 template <class Function>
 void forEachBlock(const BlockBox& box, Function function) {
     for (std::int32_t chunkY = box.low.y >> 4; chunkY <= box.high.y >> 4; ++chunkY)
@@ -74,7 +74,7 @@ void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
     forEachBlock(fill.box, [&](BlockPos pos) {
         const world::BlockId there = world.block(pos);
         if (fill.replaced && there != *fill.replaced) return;
-        if (fill.state == 0 && there == fill.id) return;  // in the state in which it is
+        if (fill.state == 0 && there == fill.id) return;  // its state is kept
         plan.add(pos, {fill.id, fill.state, nullptr});
     });
 }
@@ -149,7 +149,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     }
     const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
     if (!mayChangeAll(permissions, command.player, plan.blocks)) return {Result::NotAllowed};
-    // Blocks of a structure have the states that they had; those of a fill find theirs.
+    // Blocks of a structure keep their states; behaviors set those of a fill.
     const bool isFill = std::holds_alternative<FillBox>(command.change);
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;

@@ -15,17 +15,17 @@
 
 namespace terrane::game {
 
-// Blocks from the eyes of a player to the nearest one of the box: how far one sees what one builds.
+// The largest distance in blocks from the eyes of a player to the nearest block of the box.
 constexpr double kBuildReach = 64;
 
-// Fills the box with one block, or puts it in the place of each block of one type there.
+// Fills the box with one block; with `replaced`, only in place of blocks of that type.
 struct FillBox {
     world::BlockBox box;
     world::BlockId id = world::kAir;
     std::uint16_t state = 0;
     std::optional<world::BlockId> replaced;
 };
-// Replaces all blocks of the box that begins at `low`, by air too. Text that is none is left out.
+// Replaces all blocks of the box that begins at `low`, by air too. Invalid texts of signs are left out.
 struct PlaceStructure {
     std::shared_ptr<const world::Structure> structure;  // not null
     world::BlockPos low;
@@ -40,30 +40,30 @@ struct BuildCommand {
 struct BuildOutcome {
     enum class Result : std::uint8_t {
         Done,
-        Empty,       // the box has no blocks, or the structure is none
+        Empty,       // the box or the structure has no blocks
         TooLarge,    // more than world::kMaxStructureBlocks
         OutOfWorld,  // above or below the world
         NotLoaded,   // some chunk of it is not loaded
         OutOfReach,  // or the player is unknown
         NotAllowed,  // the player may not change some block of it (permissions.h)
-        Sent,        // to the server that decides (Authority): what becomes of it is told later
+        Sent,        // to the server that decides (Authority); the result comes later
     };
     Result result = Result::Empty;
-    std::size_t changed = 0;  // blocks that are others now
+    std::size_t changed = 0;  // blocks that changed
     std::size_t kept = 0;     // blocks of the lowest layer, which no player breaks
 };
 
-// The blocks that a change is about. `low` above `high` where a structure has none.
+// The box that a change affects. `low` is above `high` if a structure has no blocks.
 world::BlockBox boxOf(const BuildChange& change);
 // Distance from a point to the nearest point of the box.
 double distanceTo(const world::BlockBox& box, const glm::dvec3& point);
 
 struct PlannedBlocks {
-    // Without those that are the same already; chunk by chunk and in a chunk by block index.
+    // Without blocks that already have the value; ordered by chunk, then by block index.
     std::vector<world::PlacedBlock> blocks;
     std::size_t kept = 0;
 };
-// What the world's blocks become. `protectsFloor`: the lowest layer stays where it is not air.
+// The new values of the blocks. `protectsFloor`: the lowest layer is kept unless it is air.
 PlannedBlocks plannedBlocks(const world::World& world, const world::BlockRegistry& blocks,
                             const BuildChange& change, bool protectsFloor);
 

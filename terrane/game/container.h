@@ -1,4 +1,4 @@
-// Blocks that hold items, such as chests: which block opens, what it holds, what a click on a slot does.
+// Blocks that hold items, such as chests: their items, and clicks on their slots.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,18 @@ namespace terrane::game {
 
 struct SlotClick {
     std::size_t slot = 0;
-    bool takes = false;       // else puts the block in hand
+    bool takes = false;       // else puts the chosen block
     bool wholeStack = false;  // else one
 };
 
 // Whether a block holds items.
 bool isContainer(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos);
-// What the container at `pos` holds. An error where its data is no inventory.
+// The items of the container at `pos`. An error if its data is no inventory.
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos);
 
-// Changes `items` as the click says. Players have no end of blocks: putting leaves `inHand` as it is, and
-// what is taken is what the player holds next. False where nothing changed. Items that are no blocks of this
-// program stay where they are.
+// Applies a click to `items`. Players have unlimited blocks: putting keeps `inHand`, taking sets it to the
+// block of the item. False if nothing changed. Items that are no blocks of this program cannot be taken.
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
                world::BlockId& inHand);
 

@@ -11,17 +11,17 @@ namespace terrane::game {
 
 struct DayClock {
     double timeDay = 0.38;   // 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk
-    double dayMinutes = 20;  // how long a day takes
+    double dayMinutes = 20;  // length of a day
     bool isRunning = true;
 
     void advance(double seconds) {
         if (isRunning) shift(seconds / (60 * std::max(dayMinutes, 0.01)));
     }
-    // By a part of a day, either way.
+    // Shifts by a part of a day, forward or back.
     void shift(double days) { timeDay = timeDay + days - std::floor(timeDay + days); }
 };
 
-// A time of day as a save has it; none for anything but a number from 0 to 1.
+// Parses a time of day as saves store it; nothing unless it is a number from 0 to 1.
 inline std::optional<double> timeDayFrom(std::string_view text) {
     double time = 0;
     const char* end = text.data() + text.size();

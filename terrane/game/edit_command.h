@@ -1,5 +1,5 @@
-// The one door for edits: whoever wants a block to change sends a command to the session, which checks it,
-// changes the world and tells the pipeline by a world::BlockEdit what became of it. Plain values.
+// Commands that edit blocks: a command goes to the session, which checks it, changes the world and reports
+// the changes to the pipeline as world::BlockEdit. Plain values.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 namespace terrane::game {
 
 using PlayerId = std::uint32_t;
-// The world itself (growth) and scripts: nobody whose reach could be checked.
+// The world itself (growth) and scripts, which have no reach to check.
 constexpr PlayerId kNoPlayer = 0;
 constexpr PlayerId kLocalPlayer = 1;  // of a game without a network
 
@@ -32,23 +32,23 @@ enum class EditResult : std::uint8_t {
     Conflict,    // there is another block than expected
     Protected,   // the lowest layer of the world, which holds all else: no player breaks it
     NotEmpty,    // it holds items: no player breaks it before they are taken out
-    BadData,     // that is no text, for a sign
+    BadData,     // no valid text, for a sign
     NotAllowed,  // to this player: Role::Guest
     Claimed,     // it is in a claim of somebody else
 };
 
-// What became of a step that was to be undone or done again.
+// The result of undoing or redoing a step.
 struct TakenBack {
     enum class Outcome : std::uint8_t {
         Done,
         NoStep,
         NotLoaded,   // some chunk of it is not loaded: nothing changes, and the step stays the next one
         NotAllowed,  // the player may not change some block of it (permissions.h): likewise
-        Sent,        // to the server that decides (Authority): what becomes of it is told later
+        Sent,        // to the server that decides (Authority); the result comes later
     };
     Outcome outcome = Outcome::NoStep;
-    std::size_t blocks = 0;  // that are again what they were
-    std::size_t kept = 0;    // that others changed since, and that stay
+    std::size_t blocks = 0;  // restored
+    std::size_t kept = 0;    // not restored, since others changed them
 };
 
 }  // namespace terrane::game

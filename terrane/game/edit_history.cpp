@@ -12,7 +12,7 @@ bool isSameData(const world::BlockValue& a, const world::BlockValue& b) {
     return a.data == b.data || *a.data == *b.data;
 }
 
-// Liquid beside what changed is to be looked at: that is no change to take back.
+// Liquid beside a change becomes unsettled: that is no change to undo.
 bool isUnchanged(const world::BlockValue& before, const world::BlockValue& now) {
     const bool isSameLiquid = before.id == now.id && !before.data && !now.data;
     return now == before || (isSameLiquid && (before.state | world::kLiquidUnsettled) == now.state);

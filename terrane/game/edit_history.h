@@ -1,4 +1,4 @@
-// The steps in which a player changed a world, so that they can be undone and done again. Plain values.
+// A player's changes of a world as steps that can be undone and redone. Plain values.
 #pragma once
 
 #include <cstddef>
@@ -17,31 +17,31 @@ struct ChangedBlock {
 };
 using EditStep = std::vector<ChangedBlock>;  // each block once
 
-// The step from the values that the recorder noted to those in the world now, without blocks that are the
-// same.
+// The step from the values that the recorder noted to those in the world now, without unchanged blocks.
 EditStep stepSince(const world::World& world, world::BlockRecorder& recorder);
-// The same with all that is different now, as for who follows every change; and what of it makes the step.
+// allSince() also has blocks of which only the mark of an unsettled liquid differs, for listeners of all
+// changes; stepOf() removes them.
 EditStep allSince(const world::World& world, world::BlockRecorder& recorder);
 EditStep stepOf(EditStep changes);
 
-// The blocks that take a step back: those that are still what the step made them. A block that somebody else
-// changed since, or whose data changed, stays; one that only grew or was opened does not.
+// The blocks that undo a step: those that are still what the step made them. A block that somebody else
+// changed since, or whose data changed, is left out; one that only grew or was opened is not.
 std::vector<world::PlacedBlock> blocksBefore(const world::World& world, const EditStep& step);
 
 enum class HistoryWay : std::uint8_t { Undo, Redo };
 
-// The step that takes back an undone one does it again: both ways hold steps of the same kind.
+// Undoing a step gives the reverse step, which redoes it: both ways hold steps of the same kind.
 class EditHistory {
   public:
     static constexpr std::size_t kMaxSteps = 1000;
     // 64 MiB of blocks each way: 800,000. The newest step is kept whatever its size.
     static constexpr std::size_t kMaxBlocks = (64u << 20) / sizeof(ChangedBlock);
 
-    // A new step: what was undone before can no longer be done again. An empty one changes nothing.
+    // Adds a step and removes all steps to redo. An empty one changes nothing.
     void add(EditStep step);
-    // The step to be taken back next; null where there is none. Holds until the history changes.
+    // The next step to undo or redo; null if there is none. Valid until the history changes.
     const EditStep* next(HistoryWay way) const;
-    // That step was taken back, which made `reverse`. An empty one is forgotten.
+    // Replaces that step, which was taken back, by `reverse` the other way. An empty one is not kept.
     void takenBack(HistoryWay way, EditStep reverse);
 
     std::size_t stepCount(HistoryWay way) const { return of(way).steps.size(); }

@@ -13,17 +13,17 @@
 namespace terrane::game {
 namespace {
 
-// Poses that come closer together are late ones of a slow network.
+// Shorter intervals are poses delayed by a slow network.
 constexpr double kShortestInterval = 0.05;
-// A way takes a little longer than the next pose should need to come, so that a late one stops nobody. At an
-// even pace the figure then is a fifth of an interval behind at its end, at the true speed.
+// A motion takes a little longer than the interval to the next pose, so that a late pose does not stop the
+// figure. At an even pace the figure is then a fifth of an interval behind at the end, at the true speed.
 constexpr double kSlack = 1.2;
-// After a longer silence somebody stood still: it tells nothing about the interval.
+// A longer pause means that the player stood still: it tells nothing about the interval.
 constexpr double kSilence = 1.5 * FigureMotion::kLongestInterval;
 
-constexpr double kSettle = 10;      // 1/s: how fast the size of steps and the body follow
+constexpr double kSettle = 10;      // 1/s: rate at which stride size and body follow
 constexpr double kLeastStep = 0.3;  // stride size of the shortest steps
-// Blocks a second over the ground: who is faster than the first flies, and legs hang still at the second.
+// Horizontal speeds, blocks/s: figures fly above the first; their legs hang still at the second.
 constexpr double kFlies = 10, kHangs = 15;
 
 double secondsOf(FigureMotion::Time::duration duration) {
@@ -34,12 +34,12 @@ float turnedTo(float from, float to, double share) {
     return from + static_cast<float>(share) * std::remainder(to - from, 360.0f);
 }
 
-// Share of the way that is done after `seconds` by something that follows at kSettle.
+// The share of a difference that is gone after `seconds` at the rate kSettle.
 double settled(double seconds) {
     return 1 - std::exp(-kSettle * seconds);
 }
 
-// Steps get longer with the square root of the speed, so that they get more frequent with it, too.
+// Steps get longer with the square root of the speed, so that they get more frequent, too.
 double strideSizeAt(double speed) {
     const double onFoot = std::sqrt(std::min(speed / world::kRunSpeed, 1.0));
     return onFoot * std::clamp((kHangs - speed) / (kHangs - kFlies), 0.0, 1.0);
@@ -85,7 +85,7 @@ world::Pose FigureMotion::shownAt(Time now) const {
     return pose;
 }
 
-// Backward where the body looks away from where it goes.
+// The legs run backward if the body faces against the motion.
 void FigureMotion::walk(glm::dvec2 step, double seconds) {
     const double blocks = glm::length(step);
     if (seconds > 0) {
@@ -99,7 +99,7 @@ void FigureMotion::walk(glm::dvec2 step, double seconds) {
         std::remainder(double{figure_.stride} + (isBack ? -phase : phase), 2 * std::numbers::pi));
 }
 
-// Toward where one walks, or away from it where one walks backward, and never far from the head.
+// Turns the body toward the motion, or away from it when walking backward, never far from the head.
 void FigureMotion::turnBody(glm::dvec2 step, double seconds) {
     constexpr double kStands = 0.2;  // blocks a second
     if (glm::length(step) > kStands * seconds) {

@@ -1,6 +1,5 @@
-// Moves the figure of another player smoothly through poses that arrive now and then: every 0.1 s from near
-// ones, every second from far ones, none while somebody stands still. One for each player, on the thread
-// that draws.
+// Moves the figure of another player smoothly between received poses: every 0.1 s from near players, every
+// second from far ones, none while a player stands still. One for each player, on the thread that draws.
 #pragma once
 
 #include <chrono>
@@ -15,18 +14,19 @@ class FigureMotion {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    static constexpr double kLongestInterval = 1;  // seconds between two poses of somebody who moves
+    static constexpr double kLongestInterval = 1;  // seconds between two poses of a moving player
     static constexpr double kJumpBlocks = 32;      // a longer step is taken at once
     static constexpr double kSwingSeconds = 0.3;
     static constexpr float kMostBodyLag = 50;  // degrees between head and body
 
     FigureMotion(const world::Pose& pose, Time now, std::uint32_t look);
 
-    // The newest pose, which has just arrived.
+    // Takes the newest pose, which has just arrived.
     void told(const world::Pose& pose, Time now);
-    // The player did something with the hand.
+    // Starts a swing of the arm.
     void swing(Time now) { swungAt_ = now; }
-    // Once a frame: the steps of legs follow from the way since the last call. `now` never goes back.
+    // Called once a frame: the steps of the legs follow from the distance moved since the last call. `now`
+    // never decreases.
     world::Figure at(Time now);
 
   private:
@@ -34,7 +34,7 @@ class FigureMotion {
     void walk(glm::dvec2 step, double seconds);
     void turnBody(glm::dvec2 step, double seconds);
 
-    // The way in progress: from where the figure was when the newest pose arrived.
+    // The motion in progress: from the place of the figure when the newest pose arrived.
     world::Pose from_, to_;
     Time since_;
     double waySeconds_ = 0;

@@ -13,9 +13,9 @@ namespace {
 
 // Blocks. A stride grows with speed: 2.3 steps a second at a walk of 4.5 blocks a second, 2.9 at a run.
 constexpr double kStride = 1.05, kStrideSeconds = 0.2, kClimbStride = 0.8, kSwimStride = 2.2;
-constexpr double kSoftFall = 4;      // blocks a second: below, landing is a step
-constexpr double kHardFall = 22;     // as loud as it gets
-constexpr double kMostInAFrame = 8;  // blocks; who moved farther was placed elsewhere
+constexpr double kSoftFall = 4;      // blocks/s; a slower landing counts as walking
+constexpr double kHardFall = 22;     // full volume
+constexpr double kMostInAFrame = 8;  // blocks; a longer move is a teleport
 
 double lengthOver(const glm::dvec3& v) {
     return std::hypot(v.x, v.y);
@@ -67,7 +67,7 @@ world::BlockId groundUnder(const world::World& world, const world::BlockRegistry
     for (const glm::dvec2& place : kPlaces) {
         const world::BlockPos pos = world::blockOf(feet + glm::dvec3(place, -kDeep));
         if (carries(world, blocks, pos)) return world.block(pos);
-        // The boxes of fences reach out of their cells.
+        // The boxes of fences are higher than their cells.
         const world::BlockPos below{pos.x, pos.y, pos.z - 1};
         if (feet.z - pos.z < 0.55 && carries(world, blocks, below)) return world.block(below);
     }

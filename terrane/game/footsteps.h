@@ -1,5 +1,5 @@
-// When a player on foot makes a sound: steps, landings, strokes in water. Pure bookkeeping, called once a
-// frame.
+// Decides when a player on foot makes a sound: steps, landings, strokes in water. Pure bookkeeping, called
+// once a frame.
 #pragma once
 
 #include <cstdint>
@@ -22,19 +22,18 @@ struct FootEvent {
 
 class Footsteps {
   public:
-    // What the character did since the last call; one event at most. A character that was moved from afar
-    // makes no sound on its way.
+    // The event since the last call; one at most. A character that was teleported makes no sound.
     std::optional<FootEvent> advance(const world::Character& now);
-    // The next call begins anew, as after the player flew.
+    // Forgets the last character, for example after the player flew.
     void reset() { before_.reset(); }
 
   private:
     std::optional<world::Character> before_;
     double sinceStep_ = 0;  // blocks
-    double fallSpeed_ = 0;  // of the last moment in the air, blocks a second
+    double fallSpeed_ = 0;  // in the last frame in the air, blocks/s
 };
 
-// The block that carries the feet, also where they stand over its edge; air in the air.
+// The block under the feet, also at its edge; air if there is none.
 world::BlockId groundUnder(const world::World& world, const world::BlockRegistry& blocks, glm::dvec3 feet);
 
 }  // namespace terrane::game

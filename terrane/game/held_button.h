@@ -1,4 +1,4 @@
-// A button that acts once when it is pressed, and again and again while it is held.
+// A button that acts when it is pressed and repeats while it is held.
 #pragma once
 
 namespace terrane::game {
@@ -8,7 +8,7 @@ class HeldButton {
     static constexpr double kFirstPause = 0.3, kPause = 0.15;  // seconds
 
     void press() { isDown_ = isNew_ = true; }
-    // What was pressed and released within a frame acts all the same.
+    // A button that is pressed and released within a frame still acts.
     void release() { isDown_ = false; }
     void cancel() { isDown_ = isNew_ = false; }
     bool isDown() const { return isDown_; }
@@ -29,7 +29,7 @@ class HeldButton {
 
   private:
     bool isDown_ = false, isNew_ = false;
-    double wait_ = 0;  // until it acts again
+    double wait_ = 0;  // seconds until it acts again
 };
 
 }  // namespace terrane::game

@@ -1,4 +1,4 @@
-// The nine blocks that a player has at hand, one of which is in the hand. Plain values; any thread.
+// The nine blocks of the hotbar, one of which is chosen. Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -20,20 +20,20 @@ struct Hotbar {
     bool operator==(const Hotbar&) const = default;
 };
 
-// Whether players build with it: air, "missing" and the upper halves of doors are not built.
+// Whether players can build with it: not with air, "missing" and the upper halves of doors.
 bool isBuilt(const world::BlockType& type, const world::BlockRegistry& blocks);
 
-// Blocks to begin with. Slots whose block the registry lacks get another one.
+// The initial hotbar. Slots whose block the registry lacks get another one.
 Hotbar firstHotbar(const world::BlockRegistry& blocks);
 
-// The next slot, around in a circle; below 0 the one before.
+// Chooses the slot `steps` further, or back if negative, in a circle.
 void stepSlot(Hotbar& hotbar, int steps);
-// The slot that has the block is chosen; where none has it, the chosen slot takes it.
+// Chooses the slot that has the block, or puts the block into the chosen slot.
 void takeInHand(Hotbar& hotbar, world::BlockId block);
 
 // The number of the chosen slot and the names of the nine blocks: "0 oak_planks cobble …".
 std::string textOf(const Hotbar& hotbar, const world::BlockRegistry& blocks);
-// Reads any text: what is missing, unknown or not built stays as in firstHotbar().
+// Reads any text; missing, unknown and unbuildable blocks stay as in firstHotbar().
 Hotbar hotbarFrom(std::string_view text, const world::BlockRegistry& blocks);
 
 }  // namespace terrane::game

@@ -1,6 +1,5 @@
-// Who may change which blocks of a world that several people share: roles, and claims, which are areas with
-// an owner. Session asks mayChange() for each block that a player's command is about; nothing else decides.
-// Plain values.
+// Permissions in a world that several people share: roles, and claims, which are areas with an owner. Session
+// calls refusal() or mayChangeAll() for the blocks of each player's command. Plain values.
 #pragma once
 
 #include <algorithm>
@@ -23,7 +22,7 @@ enum class Role : std::uint8_t {
     Count
 };
 
-// All heights of columns from corner to corner, both included; low ≤ high in each coordinate.
+// Columns of all heights from corner to corner, both included; low ≤ high in each coordinate.
 struct ColumnArea {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -37,16 +36,16 @@ struct ColumnArea {
 };
 
 struct Claim {
-    std::string name;  // different from all others
+    std::string name;  // unique
     ColumnArea area;
     PlayerId owner = kNoPlayer;
-    std::vector<PlayerId> members;  // who may build there besides
+    std::vector<PlayerId> members;  // others who may build there
 };
 
-// Claims do not overlap: a block has one owner. Looking for one goes through all: a server has some hundreds.
+// Claims do not overlap: a block has at most one owner. Searched linearly: a server has some hundreds.
 class Claims {
   public:
-    // An error where the name is in use, or the area overlaps another claim, which it names.
+    // An error if the name is in use, or if the area overlaps another claim, which the message names.
     [[nodiscard]] base::Result<void> add(Claim claim);
     bool remove(std::string_view name);  // false: there is none
 
@@ -66,10 +65,10 @@ struct Permissions {
     Role roleOf(PlayerId player) const;
 };
 
-// Why a player may not change a block: NotAllowed or Claimed; nothing where it may. kNoPlayer, the world
-// itself, may change all.
+// Why a player may not change a block: NotAllowed or Claimed; nothing if it may. kNoPlayer, the world itself,
+// may change all.
 std::optional<EditResult> refusal(const Permissions& permissions, PlayerId player, world::BlockPos pos);
-// Whether it may change each of these, which have a position `pos`. Half a million take no time where there
+// Whether the player may change all of these, which have a member `pos`. Half a million take no time if there
 // is no claim.
 bool mayChangeAll(const Permissions& permissions, PlayerId player, const auto& blocks) {
     if (player == kNoPlayer || permissions.roleOf(player) == Role::Operator) return true;

@@ -1,4 +1,4 @@
-// Places of a world that have names, such as "home": kept in the world's metadata. Plain values.
+// Named places of a world, such as "home", stored in the world's metadata. Plain values.
 #pragma once
 
 #include <optional>
@@ -20,26 +20,27 @@ struct Place {
 
 constexpr std::size_t kMaxPlaces = 200, kMaxPlaceName = 60;
 
-// A line a place, "X Y Z YAW PITCH NAME".
+// One line for each place, "X Y Z YAW PITCH NAME".
 std::string textOf(const std::vector<Place>& places);
-// The name may be missing. Nothing for anything else.
+// Parses a line; the name may be missing. Nothing if the line is invalid.
 std::optional<Place> placeFrom(const std::string& line);
-// Lines that are no place, or have no name, are left out, and what is beyond kMaxPlaces.
+// Skips lines that are no place or have no name, and those beyond kMaxPlaces places.
 std::vector<Place> placesFrom(std::string_view text);
 
-// Without control characters and spaces at its ends; cut to kMaxPlaceName bytes, between characters.
+// The typed text without control characters and without spaces at its ends, cut to kMaxPlaceName bytes
+// between characters.
 std::string placeName(std::string_view typed);
-// Gives the place its name: a place of the same name moves there. False where there are kMaxPlaces already or
+// Adds a place with this name; a place of the same name moves there. False if there are kMaxPlaces already or
 // the name is empty.
 bool namePlace(std::vector<Place>& places, std::string_view name, const world::Pose& pose);
 
-// In the store's metadata.
+// The key in the store's metadata.
 inline constexpr const char* kPlacesMetadata = "places";
 std::vector<Place> savedPlaces(store::ReadableStore& store);
 store::SaveNumber savePlaces(store::ChunkStore& store, const std::vector<Place>& places);
 
-// What a compass shows of a direction over the ground: degrees from north toward east, 0…360. The sun rises
-// in the east, which is -x; north is -y.
+// The compass angle of a horizontal direction: degrees from north toward east, 0…360. The sun rises in the
+// east, which is -x; north is -y.
 double compassDegrees(double x, double y);
 double compassDegrees(float yaw);
 

@@ -8,9 +8,9 @@
 namespace terrane::game {
 namespace {
 
-// Two chunks before the last one on each side: whoever flies stays in the world.
+// Two chunks before the last one on each side: keeps flying players in the world.
 constexpr double kEdge = 2147483600.0;
-// A long stall moves a player no farther than this would.
+// Seconds; a longer stall moves a player no farther.
 constexpr double kLongestFrame = 0.25;
 
 float axis(bool positive, bool negative) {

@@ -1,4 +1,4 @@
-// How a player moves: flying, or on foot among blocks. Pure bookkeeping: input goes in, the pose comes out.
+// Moves a player, flying or on foot among blocks: input goes in, the pose comes out.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -32,7 +32,7 @@ class Player {
     const world::Pose& pose() const { return pose_; }
     Movement movement() const { return movement_; }
     const world::Character& character() const { return now_; }  // of a player on foot
-    // The space that the player takes up; none where it passes through blocks.
+    // The bounding box of the player; none if it passes through blocks.
     std::optional<world::Aabb> body() const;
 
     void placeAt(const world::Pose& pose, Movement movement);
@@ -50,7 +50,7 @@ class Player {
     world::Pose pose_;
     Movement movement_ = Movement::Gravity;
     world::Character before_, now_;  // of the last two steps
-    double untilStep_ = 0;           // seconds that made no step yet
+    double untilStep_ = 0;           // seconds that are not yet a whole step
 };
 
 }  // namespace terrane::game

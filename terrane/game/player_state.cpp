@@ -37,7 +37,7 @@ void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<
     if (!saved || saved->timeDay != now.timeDay) saveTimeDay(store, now.timeDay);
     if (!saved || saved->hotbar != now.hotbar) store.setMetadata(kHotbar, now.hotbar);
     const auto put = [&](std::string_view name, const std::string PlayerState::*value) {
-        // A world that never had one needs no row for it.
+        // An empty value needs no row in a world that never had one.
         const bool isChanged =
             saved ? (*saved).*value != now.*value : !(now.*value).empty() || store.metadata(name);
         if (isChanged) store.setMetadata(name, now.*value);

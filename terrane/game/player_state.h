@@ -1,5 +1,5 @@
-// What a save keeps of its player besides the world. Metadata of a store: saved in the same order and within
-// the same time as blocks.
+// The player's state in a save. Metadata of a store: saved in the same order and within the same time as
+// blocks.
 #pragma once
 
 #include <optional>
@@ -13,14 +13,14 @@ namespace terrane::game {
 struct PlayerState {
     world::Pose pose;
     double timeDay = 0;  // of the world, 0 to 1
-    std::string hotbar;  // as textOf(Hotbar) says it
-    // How the player moves, by name, and the folder of textures that it chose for the world; empty: none.
+    std::string hotbar;  // in the format of textOf(Hotbar)
+    // The name of the movement, and the folder of textures chosen for the world; empty: none.
     std::string movement = {}, resourcePack = {};
 
     bool operator==(const PlayerState&) const = default;
 };
 
-// Nothing where a save has none yet, or something else, which is logged.
+// Members are empty if the save has none or invalid ones, which are logged.
 struct SavedPlayer {
     std::optional<world::Pose> pose;
     std::optional<double> timeDay;
@@ -30,11 +30,11 @@ struct SavedPlayer {
 
 SavedPlayer savedPlayer(store::ReadableStore& store);
 
-// Hands the parts that differ from `saved` to the store, without waiting, and sets `saved`; all of them where
-// that is empty. Cheap enough for every frame.
+// Writes the parts that differ from `saved` to the store without waiting, all of them if that is empty, and
+// sets `saved`. Cheap enough for every frame.
 void savePlayer(store::ChunkStore& store, const PlayerState& now, std::optional<PlayerState>& saved);
 
-// The time of day alone, 0 to 1, as of a world that has no one player.
+// Writes only the time of day, 0 to 1, for worlds without a single player.
 store::SaveNumber saveTimeDay(store::ChunkStore& store, double timeDay);
 
 }  // namespace terrane::game

@@ -1,4 +1,4 @@
-// A pose as text, "X Y Z YAW PITCH": in saves and in files of bookmarks.
+// A pose as text, "X Y Z YAW PITCH", in saves and files of bookmarks.
 #pragma once
 
 #include <optional>
@@ -8,9 +8,10 @@
 
 namespace terrane::game {
 
-// Reads back as the same pose.
+// poseFrom() gives the same pose back.
 std::string textOf(const world::Pose& pose);
-// Nothing for anything else, and for what is no place in the world (world::isInWorld()) or no direction.
+// Nothing if the text is invalid, the position is not in the world (world::isInWorld()) or the direction is
+// none.
 std::optional<world::Pose> poseFrom(const std::string& text);
 
 }  // namespace terrane::game

@@ -1,6 +1,5 @@
-// What a player builds with boxes of blocks: two corners, and a structure that is copied, turned and pasted.
-// It knows no world, window or keys; the window's tool (apps/terrane/window/selection_tool.h) drives it.
-// Plain value.
+// A player's selection of blocks: two corners, and a clipboard that is turned and pasted. Independent of
+// world, window and keys; apps/terrane/window/selection_tool.h drives it. Plain value.
 #pragma once
 
 #include <memory>
@@ -17,23 +16,23 @@ class Selection {
     void clear() { first_ = second_ = std::nullopt; }
     const std::optional<world::BlockPos>& first() const { return first_; }
     const std::optional<world::BlockPos>& second() const { return second_; }
-    // From corner to corner, or of the only one there is; none without.
+    // The box from corner to corner, or of the only corner; none without corners.
     std::optional<world::BlockBox> box() const;
 
-    // Null where nothing was copied or read.
+    // Null if nothing was copied or read.
     const std::shared_ptr<const world::Structure>& clipboard() const { return clipboard_; }
     void setClipboard(world::Structure structure);
-    // A quarter against the clock seen from above. Nothing happens without a clipboard.
+    // Turns the clipboard by a quarter counterclockwise, seen from above. Does nothing without a clipboard.
     void turn(const world::BlockRegistry& blocks);
-    // What is left of who looks along `yaw` (degrees) is right afterwards.
+    // Swaps left and right of the clipboard, as seen along `yaw` (degrees).
     void mirror(const world::BlockRegistry& blocks, float yaw);
 
     // Between beginPaste() and endPaste() the clipboard follows the crosshair. False without a clipboard.
     bool beginPaste() { return isPasting_ = clipboard_ != nullptr; }
     void endPaste() { isPasting_ = false; }
     bool isPasting() const { return isPasting_; }
-    // Where the clipboard goes whose bottom layer has its middle at a block; moved into the world's height as
-    // far as it fits. None without a clipboard.
+    // The lowest corner of a clipboard with the middle of its bottom layer at a block; moved into the height
+    // of the world as far as it fits. None without a clipboard.
     std::optional<world::BlockPos> pasteCorner(world::BlockPos middle) const;
 
   private:
@@ -42,7 +41,7 @@ class Selection {
     bool isPasting_ = false;
 };
 
-// The mirror that swaps left and right of who looks along `yaw`: 90 looks along +y.
+// The axis that swaps left and right as seen along `yaw`: 90 looks along +y.
 world::MirrorAxis sidewaysAxis(float yaw);
 
 }  // namespace terrane::game

@@ -15,9 +15,9 @@
 namespace terrane::game {
 namespace {
 
-// Between the middle of a block and its farthest corner: 0.87 blocks.
+// The middle of a block and its corners are 0.87 blocks apart.
 constexpr double kBlockRadius = 1;
-// After a stall ticks come as if it had been shorter.
+// Limits the ticks after a stall.
 constexpr double kMaxTickSeconds = 1;
 
 bool isLoaded(const world::World& world, world::BlockPos pos) {
@@ -26,7 +26,7 @@ bool isLoaded(const world::World& world, world::BlockPos pos) {
 
 }  // namespace
 
-// Loading is about ten times as fast as generating (docs/performance.md): stores that last keep generated
+// Loading is about ten times as fast as generating (docs/performance.md): persistent stores keep generated
 // chunks too.
 Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
@@ -64,7 +64,7 @@ EditResult Session::edit(const EditCommand& command) {
     return edit(std::span(&command, 1)).front();
 }
 
-// Steps to undo are the authority's.
+// Applies a command before the authority decides on it. The authority keeps the player's steps.
 EditResult Session::editAhead(const EditCommand& command) {
     std::vector<world::BlockEdit> edits;
     PlayerChanges changes;
@@ -108,7 +108,7 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
-    // What nobody did is one step, where it counts at all.
+    // Changes by nobody are one step, recorded only for a listener of all changes.
     const bool isRecorded = command.player != kNoPlayer || tellsAll_;
     world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
     world::BlockRecorder* const recorder = isRecorded ? &recorded : nullptr;
@@ -144,7 +144,7 @@ std::vector<world::ChunkPos> Session::chunksToTakeBack(PlayerId player, HistoryW
     const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
     std::vector<world::ChunkPos> chunks;
     if (!step) return chunks;
-    // A step is in the order of chunks.
+    // The blocks of a step are ordered by chunk.
     for (const ChangedBlock& block : *step)
         if (chunks.empty() || chunks.back() != world::chunkOf(block.pos))
             chunks.push_back(world::chunkOf(block.pos));
@@ -170,7 +170,7 @@ void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits
     if (editListener_ && !edits.empty()) editListener_(player, edits);
 }
 
-// What was recorded, which is told; of it what the player can take back.
+// Reports recorded changes to the listener; returns those that the player can undo.
 EditStep Session::tellStep(PlayerId player, world::BlockRecorder& recorder) {
     EditStep all = allSince(world_, recorder);
     if (tellsAll_) tellChanges(player, all);

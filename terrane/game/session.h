@@ -1,6 +1,6 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Commands come in through edit(), build() and takeBack(), the only ways to change a block;
-// events go out to the pipeline and so to screens and disk. Free of OpenGL. Used on one thread, the world's.
+// and its clock. Players change blocks by edit(), build() and takeBack(); the events go to the pipeline, and
+// so to the screen and the disk. Uses no OpenGL. Used on one thread, the world's.
 #pragma once
 
 #include <functional>
@@ -36,52 +36,52 @@ class Session {
 
     // Checks a command and applies it. Light, meshes and the store follow with the pipeline's next update.
     EditResult edit(const EditCommand& command);
-    // The same for many, in their order: one result each. Time grows with the number of blocks.
+    // The same for many commands, in their order: one result each. Takes time in proportion to the number of
+    // blocks.
     std::vector<EditResult> edit(std::span<const EditCommand> commands);
 
-    // Fills a box or places a structure, all of it or nothing; the player's next step to undo.
+    // Fills a box or places a structure, all of it or nothing, as one step of the player's history.
     BuildOutcome build(const BuildCommand& command);
 
-    // Undoes the player's last edits, or does again what was undone last. One call of edit() is one step,
-    // with all that followed from it at once; what was used (doors, containers) is none. From anywhere: these
-    // blocks were in reach once.
+    // Undoes the player's last step, or redoes the step that was undone last. One call of edit() is one step
+    // with its immediate consequences; using blocks (doors, containers) is none. The distance is not checked:
+    // these blocks were in reach once.
     TakenBack takeBack(PlayerId player, HistoryWay way);
 
-    // The chunks that takeBack() needs loaded; none where there is no such step.
+    // The chunks that takeBack() needs loaded; empty if there is no such step.
     std::vector<world::ChunkPos> chunksToTakeBack(PlayerId player, HistoryWay way) const;
 
-    // Called with the events of each change, and who made it, after it was made: for sounds. It changes no
-    // block.
+    // Called after each change with its events and its player, for sounds. The listener changes no block.
     using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
     void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
 
-    // Called with what a player's edit, building or undoing changed, each block once: for a history of who
-    // changed what; with `tellsAll` also with what nobody takes back: what grew and flowed, as kNoPlayer's,
-    // and liquid that is to be looked at.
+    // Called with the blocks that a player's edit, building or undoing changed, each once: for a history of
+    // who changed what. With `tellsAll` also with changes that nobody can undo: growth and flow, as
+    // kNoPlayer's, and liquid that becomes unsettled.
     using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
     void setChangeListener(ChangeListener listener, bool tellsAll = false) {
         changeListener_ = std::move(listener);
         tellsAll_ = tellsAll;
     }
 
-    // Exactly these blocks, as a server tells them or a history brings them back: nothing is checked, and no
-    // block falls or goes for it. Those in chunks that are not loaded are left out.
+    // Sets exactly these blocks, as a server or a history gives them: nothing is checked and no behavior is
+    // called. Blocks in chunks that are not loaded are left out.
     void setBlocks(std::span<const world::PlacedBlock> blocks);
 
-    // From now on commands of players are the authority's to decide on. An empty one: the session's own
+    // From now on the authority decides on players' commands; with an empty one the session itself decides
     // again.
     void setAuthority(Authority authority) { authority_ = std::move(authority); }
 
-    // Where a player stands: its edits are checked against that. Its history begins with the first call.
+    // The pose of a player, by which its edits are checked. The first call begins its history.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
 
-    // Game time passes: the day, and blocks near `center` get their ticks (plants grow, liquids flow).
+    // Advances game time: the clock, and ticks of blocks near `center` (plants grow, liquids flow).
     void advance(double seconds, world::ChunkPos center);
     // The same for blocks of these chunks.
     void advance(double seconds, std::span<const world::ChunkPos> chunks);
 
-    // Waits until all that changed is in the store.
+    // Waits until all changes are in the store.
     [[nodiscard]] base::Result<void> save();
 
     const world::BlockRegistry& blocks() const { return *blocks_; }
@@ -91,8 +91,8 @@ class Session {
     store::ChunkStore& store() { return *store_; }
     stream::ChunkPipeline& pipeline() { return pipeline_; }
     const stream::ChunkPipeline& pipeline() const { return pipeline_; }
-    // The tiles that edits change, of a world that lacks them. A store that lasts has them from the
-    // beginning; others need them only once land beyond the chunks is shown.
+    // Builds the tiles that edits change, for a world that lacks them. A persistent store has them from the
+    // beginning; other worlds need them only once land beyond the chunks is shown.
     void buildTiles();
     // Land beyond the chunks.
     stream::TilePipeline& tiles() { return tiles_; }
@@ -107,7 +107,7 @@ class Session {
         world::Pose pose;
         EditHistory history;
     };
-    // What a player's commands changed: steps that it can undo, and what it used (doors, containers).
+    // Changes by a player's commands: steps that can be undone, and uses (doors, containers).
     struct PlayerChanges {
         world::BlockRecorder steps, uses;
     };
@@ -120,7 +120,7 @@ class Session {
     void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);
     EditResult editAhead(const EditCommand& command);
 
-    // They refer to each other: destroyed in reverse order.
+    // These refer to each other and are destroyed in reverse order.
     std::shared_ptr<const world::BlockRegistry> blocks_;
     world::BlockRegistry farBlocks_;
     light::LightTable lights_;
@@ -137,13 +137,13 @@ class Session {
     ChangeListener changeListener_;
     bool tellsAll_ = false;
     Authority authority_;
-    double untilTick_ = 0;  // seconds of game time that made no tick yet
+    double untilTick_ = 0;  // seconds of game time that are not yet a whole tick
     std::uint64_t ticks_ = 0;
 };
 
-// Whether a point is in water: below its surface, where that is in the same block.
+// Whether a point is in water: below its surface, if that is in the same block.
 bool isUnderWater(const Session& session, const glm::dvec3& point);
-// Blocks of water over a point, its own included, 64 at most; 0 where it is in air.
+// The number of water blocks above a point, its own included, at most 64; 0 if it is in air.
 int waterAbove(const Session& session, const glm::dvec3& point);
 
 }  // namespace terrane::game

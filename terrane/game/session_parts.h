@@ -1,4 +1,4 @@
-// What a game::Session is made from, and who may decide in its place (session.h).
+// The parts of a game::Session, and the authority that may decide in its place (session.h).
 #pragma once
 
 #include <functional>
@@ -18,24 +18,24 @@
 
 namespace terrane::game {
 
-// What a session is made of.
+// Passed to the constructor of Session.
 struct SessionParts {
-    std::shared_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
+    std::shared_ptr<const world::BlockRegistry> blocks;  // not moved: others refer to it
     gen::LevelGenerators generators;                     // has level 0
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;         // workers
     bool storesGenerated = true;  // chunks without edits too
-    // Null: workers generate and light. They outlive the session.
+    // Null: workers generate and light. Both outlive the session.
     gen::BatchGenerator* batchGenerator = nullptr;
     light::BatchLighter* batchLighter = nullptr;
     stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
-    // Told of tiles of the store that edits changed, on a thread of the store; may be empty.
+    // Called with tiles of the store that edits changed, on a thread of the store; may be empty.
     stream::TileListener tileListener = {};
 };
 
-// A server, which decides on what players do in place of a session that shows its world. Edits are applied at
-// once, ahead of the decision; what changes many blocks waits for it. Time passes there, too: plants and
-// liquids change only as it says (setBlocks()).
+// A server that decides on players' commands for a session that shows its world. Edits are applied at once,
+// before the decision; builds and undo wait for it. The server also advances time: plants and liquids change
+// only by setBlocks().
 struct Authority {
     std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
     std::function<void(const BuildCommand&)> build;

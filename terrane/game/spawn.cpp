@@ -21,7 +21,7 @@ int highest(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x
     return -1;
 }
 
-// The height to stand at; none where it is wet, steep, or under trees.
+// The height to stand at; none if it is wet, steep or under trees.
 std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockRegistry& blocks) {
     int least = world::kChunkHeight, most = -1;
     const world::BlockType* grass = blocks.find("grass");
@@ -40,7 +40,7 @@ std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockR
     return most - least <= 3 ? std::optional(here) : std::nullopt;
 }
 
-// Toward the highest land around.
+// The yaw toward the highest land around.
 float viewFrom(const gen::Generator& generator, const world::BlockRegistry& blocks, world::ChunkPos pos) {
     constexpr int kDirections = 12, kDistance = 9;  // chunks
     float best = 0;

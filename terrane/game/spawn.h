@@ -1,5 +1,5 @@
-// Where a new world begins: on open, dry ground with something to look at; and where a player goes on who
-// fell out of it.
+// Finds the start of a new world, on open, dry ground with a view, and the place for a player who fell out of
+// the world.
 #pragma once
 
 #include <optional>
@@ -11,12 +11,12 @@
 
 namespace terrane::game {
 
-// The same for the same world. Generates up to some hundred chunks around 0,0, a tenth of a second; where
-// none of them is pleasant, a place above 0,0.
+// The same world gives the same pose. Generates up to some hundred chunks around 0,0, in a tenth of a second;
+// if none of them is suitable, the place is above 0,0.
 world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks);
 
-// For a player whose eyes are below the world: on the highest block of the same column. None where it is not
-// below, where the chunk is not loaded, and where the column is empty.
+// For a player whose eyes are below the world: the pose on the highest block of the column. None if it is not
+// below, if the chunk is not loaded or if the column is empty.
 std::optional<world::Pose> backOnSurface(const world::World& world, const world::BlockRegistry& blocks,
                                          const world::Pose& pose);
 

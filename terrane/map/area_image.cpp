@@ -8,7 +8,7 @@
 namespace terrane::map {
 namespace {
 
-// Of a piece, which one thread paints.
+// The size in pixels of a piece, which one thread paints.
 constexpr int kPieceWidth = 256, kStripHeight = 64;
 
 void copyInto(base::Image& image, const base::Image& piece, int left, int top) {

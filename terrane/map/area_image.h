@@ -8,8 +8,8 @@
 
 namespace terrane::map {
 
-// By day, a pixel a column, north up. `goesOn` is asked after each strip, with the number of rows painted:
-// false ends it with an error.
+// Paints by day, a pixel a column, north up. `goesOn` is called after each strip with the number of rows
+// painted: false ends it with an error.
 [[nodiscard]] base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect,
                                                  const EditedPositions& edited, base::JobSystem& jobs,
                                                  const std::function<bool(int rows)>& goesOn);

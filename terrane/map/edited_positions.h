@@ -1,5 +1,5 @@
-// Which chunks of a world are edited, and so which tiles above them may be. add() on one thread; any thread
-// while nothing is added.
+// The edited chunks of a world, and so the tiles above them that may be edited. add() on one thread; reading
+// on any thread while nothing is added.
 #pragma once
 
 #include <array>
@@ -14,13 +14,13 @@ namespace terrane::map {
 
 class EditedPositions {
   public:
-    // A chunk of level 0. False where it was there.
+    // Adds a chunk of level 0. False if it was there.
     bool add(world::ChunkPos chunk);
     std::size_t count() const { return positions_.front().size(); }  // of level 0
-    // A chunk of level 0, or a tile of any level with an edited chunk beneath it.
+    // Whether this is an edited chunk of level 0, or a tile with an edited chunk beneath it.
     bool contains(world::ChunkPos chunk) const;
 
-    // Those of these chunks that are edited, as the store has them.
+    // The edited ones of these chunks, to be read from the store.
     std::vector<EditedChunk> among(std::span<const world::ChunkPos> chunks) const;
 
   private:

@@ -15,17 +15,15 @@ using world::ChunkPos;
 
 namespace {
 
-// How bright faces are: tops, those that look south, at the left, and those that look east, at the right.
+// Brightness of faces: tops, southern ones at the left, and eastern ones at the right.
 constexpr float kTop = 1.0f, kSouth = 0.78f, kEast = 0.6f;
-// Trees are seen as a crown over the ground: it takes this share of what is between, and some blocks at most.
+// Trees are drawn as a crown over the ground: this share of the height between them thick, at most kMaxCrown
+// blocks.
 constexpr float kCrownShare = 0.6f;
 constexpr int kMaxCrown = 6;
 constexpr double kLiquidHeight = 0.9;  // of its topmost block
-constexpr float kUnseenDepth = 4;      // blocks: of a liquid under a crown, whose ground is not known
+constexpr float kUnseenDepth = 4;      // blocks: assumed for a liquid under a crown
 
-int pixelsOfColumn(int zoom) {  // a column is twice as wide
-    return zoom > 0 ? 1 << zoom : 1;
-}
 double pixelsOfHeight(int zoom) {
     return kIsometricHeight * std::exp2(zoom);
 }
@@ -36,7 +34,7 @@ struct Canvas {
         image.width = image.height = kTilePixels;
         image.rgba.resize(static_cast<std::size_t>(kTilePixels) * kTilePixels * 4);
     }
-    // The pixels of a column of the image whose middles are between two heights, in pixels of the zoom.
+    // Fills the pixels of a column of the image whose middles are between two heights, in pixels of the zoom.
     void fill(std::int64_t x, double top, double bottom, Rgb color) {
         if (x < x0 || x >= x0 + kTilePixels) return;
         const auto row = [&](double at) {
@@ -58,7 +56,7 @@ struct Canvas {
     std::int64_t x0, y0;
 };
 
-// A box on a column, from a height to another one, in blocks.
+// A box on a column between two heights, in blocks.
 struct Box {
     double bottom, top;
     glm::vec3 color;
@@ -67,7 +65,7 @@ struct Box {
 class ChunkPainter {
   public:
     ChunkPainter(Canvas& canvas, int zoom, const MapColors& colors)
-        : canvas_(canvas), colors_(colors), p_(pixelsOfColumn(zoom)), height_(pixelsOfHeight(zoom)) {}
+        : canvas_(canvas), colors_(colors), p_(columnPixels(zoom)), height_(pixelsOfHeight(zoom)) {}
 
     // From the farthest column to the nearest one.
     void paint(ChunkPos chunk, const Surface& surface, world::PackedColor tint) {
@@ -131,7 +129,7 @@ class ChunkPainter {
 
     Canvas& canvas_;
     const MapColors& colors_;
-    int p_;
+    int p_;  // pixels of a column, which is twice as wide
     double height_;
     std::unordered_map<BlockId, glm::vec3> tinted_;  // of the chunk
 };
@@ -139,13 +137,12 @@ class ChunkPainter {
 }  // namespace
 
 std::vector<ChunkPos> chunksSeen(const IsometricTile& tile) {
-    // A chunk is seen if its columns, from the world's ground to its top, reach into the tile.
-    const double width = world::kChunkSize * pixelsOfColumn(tile.zoom);  // half of that of a chunk, pixels
+    // A chunk is visible if its columns, from the world's ground to its top, reach into the tile.
+    const double width = world::kChunkSize * columnPixels(tile.zoom);  // half of a chunk's, pixels
     const double highest = world::kChunkHeight * pixelsOfHeight(tile.zoom);
     const double left = static_cast<double>(tile.x) * kTilePixels,
                  top = static_cast<double>(tile.y) * kTilePixels;
-    // With a = -x - y and b = y - x, in chunks, those of which a chunk reaches from (a - 2)·width to a·width,
-    // and so on.
+    // With a = -x - y and b = y - x, in chunks, a chunk reaches from (a - 2)·width to a·width, and so on.
     const auto firstA = static_cast<std::int64_t>(std::floor(left / width));
     const auto lastA = static_cast<std::int64_t>(std::ceil((left + kTilePixels) / width)) + 2;
     const auto firstB = static_cast<std::int64_t>(std::floor(2 * top / width)) - 1;
@@ -164,7 +161,7 @@ std::vector<ChunkPos> chunksSeen(const IsometricTile& tile) {
 }
 
 std::vector<IsometricTile> tilesSeeing(ChunkPos chunk, int zoom) {
-    const double width = world::kChunkSize * pixelsOfColumn(zoom);
+    const double width = world::kChunkSize * columnPixels(zoom);
     const double highest = world::kChunkHeight * pixelsOfHeight(zoom);
     const double right = -static_cast<double>(std::int64_t{chunk.x} + chunk.y) * width;
     const double middle = 0.5 * static_cast<double>(std::int64_t{chunk.y} - chunk.x) * width;

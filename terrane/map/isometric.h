@@ -23,14 +23,13 @@ struct IsometricTile {
     std::int32_t x = 0, y = 0;
 };
 
-// The chunks that may be seen in a tile, of level levelOf(zoom), the farthest from the eye first.
+// The chunks of level levelOf(zoom) that may be visible in a tile, the farthest from the eye first.
 std::vector<world::ChunkPos> chunksSeen(const IsometricTile& tile);
 
-// The tiles of a zoom, whose level is the chunk's, in which it may be seen.
+// The tiles of a zoom in which the chunk may be visible. The zoom's level is the chunk's.
 std::vector<IsometricTile> tilesSeeing(world::ChunkPos chunk, int zoom);
 
-// `surfaces` and `tints`: of `chunks`, which are those that chunksSeen() gives; a tint for each chunk as a
-// whole.
+// `chunks`: those that chunksSeen() gives. `surfaces` and `tints`: one for each of them.
 struct IsometricLand {
     std::span<const world::ChunkPos> chunks;
     std::span<const SurfacePtr> surfaces;

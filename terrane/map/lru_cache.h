@@ -1,4 +1,4 @@
-// A cache of the items that were used last, as many as fit into a number of bytes. Not synchronized.
+// A cache that keeps the most recently used items within a number of bytes. Not synchronized.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,7 @@ class LruCache {
   public:
     explicit LruCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
-    // Null where it is not there. It counts as used now. The pointer holds until the next call of another
-    // function.
+    // Null if it is not there. Counts as a use. The pointer is valid until the next call of put() or erase().
     const Value* find(const Key& key) {
         const auto found = places_.find(key);
         if (found == places_.end()) return nullptr;
@@ -23,10 +22,10 @@ class LruCache {
         return &items_.front().value;
     }
 
-    // As find(), but it does not count as used.
+    // Like find(), but does not count as a use.
     bool contains(const Key& key) const { return places_.contains(key); }
 
-    // In place of what the key has. Forgets what was not used for longest.
+    // Replaces the value of the key. Removes the least recently used items.
     void put(const Key& key, Value value, std::size_t bytes) {
         erase(key);
         items_.push_front({key, std::move(value), bytes});
@@ -53,7 +52,7 @@ class LruCache {
         std::size_t bytes;
     };
     std::size_t maxBytes_, bytes_ = 0;
-    std::list<Item> items_;  // used last first
+    std::list<Item> items_;  // most recently used first
     std::unordered_map<Key, typename std::list<Item>::iterator, Hash> places_;
 };
 

@@ -38,7 +38,7 @@ Texels texelsOf(const base::Image& texture, const glm::vec3& mean) {
     return texels;
 }
 
-// Reads each texture once. Refers to `source`.
+// A source that reads each texture once. Refers to `source`.
 world::TextureSource readingOnce(const world::TextureSource& source) {
     auto images = std::make_shared<std::map<std::string, base::Image, std::less<>>>();
     return [&source, images](std::string_view name) -> base::Result<base::Image> {

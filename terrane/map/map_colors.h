@@ -1,5 +1,5 @@
-// The colors of blocks on a map: of their top faces, as means and, where a block is several pixels wide, as
-// 4×4 texels. Plain values; any thread.
+// The colors of blocks on a map: means of their top faces and, for blocks several pixels wide, 4×4 texels.
+// Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -21,17 +21,17 @@ struct BlockColor {
     bool isTinted = false;
     SurfaceKind kind = SurfaceKind::Ground;
     glm::vec3 emission{0};  // 0…1
-    float reach = 0;        // how far it shines, blocks
+    float reach = 0;        // distance that it lights, blocks
 };
 using MapColors = std::vector<BlockColor>;  // by block id
 
-// The color of a liquid with ground under it: the deeper, the darker, and the less is seen of the ground.
+// The color of a liquid with ground under it: deeper is darker and shows less of the ground.
 glm::vec3 throughLiquid(const glm::vec3& liquid, const glm::vec3& ground, float depthBlocks);
-// The same for a block: one that shines hides its ground. `liquid`: the block's color, tinted.
+// The same for a block; a glowing liquid hides its ground. `liquid`: the block's color, tinted.
 glm::vec3 colorOfLiquid(const BlockColor& block, const glm::vec3& liquid, const glm::vec3& ground,
                         float depthBlocks);
 
-// Fails where a texture cannot be read; the message names it.
+// Fails if a texture cannot be read; the message names it.
 [[nodiscard]] base::Result<MapColors> mapColors(const world::BlockRegistry& blocks,
                                                 const world::TextureSource& textures);
 

@@ -17,16 +17,13 @@ namespace {
 int columnsAcross(int zoom) {
     return zoom > 0 ? kTilePixels >> zoom : kTilePixels;
 }
-int pixelsAcross(int zoom) {  // of a column
-    return zoom > 0 ? 1 << zoom : 1;
-}
 
 ColumnRect widened(const ColumnRect& rect, int margin) {
     return {rect.level, rect.x0 - margin, rect.y0 - margin, rect.width + 2 * margin,
             rect.height + 2 * margin};
 }
 
-// In the order of the area's columns.
+// Numbers of biomes in the order of the area's columns.
 std::vector<std::uint8_t> biomesOf(const gen::Biomes& biomes, const ColumnRect& rect) {
     std::vector<std::uint8_t> numbers(static_cast<std::size_t>(rect.width) *
                                       static_cast<std::size_t>(rect.height));
@@ -108,7 +105,7 @@ base::Result<base::Image> MapPainter::isometricImage(const MapTile& tile,
 base::Result<base::Image> MapPainter::image(const MapTile& tile, std::span<const EditedChunk> edited) {
     if (tile.layer == Layer::Isometric) return isometricImage(tile, edited);
     const ColumnRect rect = columnsOf(tile);
-    const int scale = pixelsAcross(tile.zoom);
+    const int scale = columnPixels(tile.zoom);
     if (tile.layer == Layer::Biome) return paintBiomes(rect, scale, biomesOf(*biomes_, rect));
     const auto surfaces = surfaces_->area(rect, edited);
     if (!surfaces) return tl::unexpected(surfaces.error());
@@ -128,7 +125,7 @@ base::Result<base::Image> MapPainter::paintArea(const ColumnRect& rect, const Ed
 }
 
 std::uint64_t MapPainter::colorDigest() const {
-    // Another way of painting gets another number: folders of images are not mixed
+    // Increase it when painting changes, so that folders do not mix images of two versions
     // (apps/terrane/maps/static_map.h).
     constexpr int kPainting = 2;
     std::string text = fmt::format("{}", kPainting);

@@ -1,5 +1,5 @@
 // Paints tiles of a world's map: finds the surfaces, chooses the painter of the layer, and makes a PNG. Any
-// thread, any number at a time.
+// thread, several at a time.
 #pragma once
 
 #include <memory>
@@ -18,15 +18,15 @@
 
 namespace terrane::map {
 
-// Of one column of level 0, for who points at it.
+// Facts of one column of level 0, shown for the column under the mouse pointer.
 struct ColumnFacts {
-    world::BlockId top = world::kAir;  // the topmost block, no plant but one that shines
+    world::BlockId top = world::kAir;  // the topmost block; of plants only those that glow
     int topZ = 0;
     int depth = 0;           // blocks of liquid, if it is one
     std::string_view biome;  // empty where the generator has none
 };
 
-// The columns around a tile that change its image, at each side; of layers seen from above.
+// The number of columns at each side of a tile that change its image; of layers seen from above.
 int marginOf(Layer layer);
 // The columns that a tile seen from above is painted from: its own and the margin.
 ColumnRect columnsOf(const MapTile& tile);
@@ -41,29 +41,29 @@ class MapPainter {
         SurfaceCache* cache = nullptr;
         std::optional<gen::Biomes> biomes = {};
     };
-    // Fails where a texture cannot be read. All but the textures outlives it.
+    // Fails if a texture cannot be read. All but the textures outlive this.
     [[nodiscard]] static base::Result<MapPainter> create(Parts parts);
 
-    // Of all that images follow from besides the land: colors of blocks, and how they are painted.
+    // The digest of all inputs of images besides the land: colors of blocks, and the way of painting.
     std::uint64_t colorDigest() const;
     bool hasLayer(Layer layer) const { return layer != Layer::Biome || biomes_.has_value(); }
-    // The chunks whose surfaces a tile shows: who asks for it knows which of them are edited. None of a tile
-    // of biomes, which edits do not change.
+    // The chunks whose surfaces a tile shows; callers pass the edited ones to paint(). Empty for a tile of
+    // biomes, which edits do not change.
     static std::vector<world::ChunkPos> chunksFor(const MapTile& tile);
-    // The other way round: the tiles, of all layers but biomes and of the zooms of the chunk's level, that
-    // show the chunk.
+    // The tiles that show the chunk: of all layers but biomes, and of the zooms of the chunk's level.
     static std::vector<MapTile> tilesShowing(world::ChunkPos chunk);
-    // A PNG file. `edited`: of chunksFor().
+    // Paints a PNG file. `edited`: the edited ones of chunksFor().
     [[nodiscard]] base::Result<std::string> paint(const MapTile& tile, std::span<const EditedChunk> edited);
 
-    // A rectangle by day, a pixel a column; chunks of `edited` as the store has them.
+    // Paints a rectangle by day, a pixel a column. Chunks of `edited` are read from the store.
     [[nodiscard]] base::Result<base::Image> paintArea(const ColumnRect& rect, const EditedPositions& edited);
 
-    // Of a chunk or tile as `edited` has it, or as generated; equal where it looks the same from above.
+    // The digest of the surface of a chunk or tile, from `edited` or as generated. Equal digests: it looks
+    // the same from above.
     [[nodiscard]] base::Result<std::uint64_t> surfaceDigest(world::ChunkPos pos,
                                                             std::span<const EditedChunk> edited);
 
-    // x and y in blocks; `edited`: their chunk, if it is edited.
+    // x and y in blocks; `edited`: their chunk if it is edited.
     [[nodiscard]] base::Result<ColumnFacts> facts(std::int32_t x, std::int32_t y,
                                                   std::span<const EditedChunk> edited);
 

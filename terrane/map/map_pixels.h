@@ -1,5 +1,5 @@
-// The pixels of an area of a map in the order of an image: north up, east to the right. Included by what
-// paints maps.
+// The pixels of an area of a map in the order of an image: north up, east to the right. Included by the
+// painters of maps.
 #pragma once
 
 #include <cstddef>
@@ -19,14 +19,14 @@ struct Rgb {
     bool operator==(const Rgb&) const = default;
 };
 
-// Of a color 0…1; what is beyond is clamped.
+// Converts a color 0…1; other values are clamped.
 inline Rgb rgbOf(const glm::vec3& color) {
     const glm::vec3 bytes = glm::clamp(color, 0.0f, 1.0f) * 255.0f + 0.5f;
     return {static_cast<std::uint8_t>(bytes.r), static_cast<std::uint8_t>(bytes.g),
             static_cast<std::uint8_t>(bytes.b)};
 }
 
-// Columns to be painted, but for `margin` at each side, each as `scale`² pixels.
+// Columns to paint, without `margin` columns at each side, each as `scale`² pixels.
 struct PixelGrid {
     int width, height;  // columns, with the margin
     int margin, scale;
@@ -35,8 +35,8 @@ inline PixelGrid gridOf(const PaintedArea& area) {
     return {area.surfaces.rect.width, area.surfaces.rect.height, area.margin, area.scale};
 }
 
-// `color(x, y, texel)` gives the Rgb of each pixel: of the column x, y from the corner of the grid, and which
-// part of it the pixel is, 0…scale - 1 along both sides.
+// `color(x, y, texel)` gives the Rgb of each pixel: x, y is its column from the corner of the grid, `texel`
+// the part of the column, 0…scale - 1 along both sides.
 template <class Color>
 base::Image imageOf(const PixelGrid& grid, Color color) {
     const int width = grid.width - 2 * grid.margin, height = grid.height - 2 * grid.margin;

@@ -22,7 +22,7 @@ std::optional<Layer> layerNamed(std::string_view name) {
 }
 
 bool isInWorld(const MapTile& tile) {
-    // Isometric tiles are numbered by pixels: of the world's two coordinates together, and its height.
+    // Isometric tiles are numbered by pixels: sums of the world's two coordinates, and of the height.
     const std::int64_t reach = tile.layer == Layer::Isometric ? std::int64_t{1} << 32 : std::int64_t{1} << 31;
     const std::int64_t across = blocksAcross(tile.zoom);
     const auto isIn = [&](std::int32_t number) {

@@ -1,4 +1,4 @@
-// How a map is divided: layers, zooms and tiles, and what land a tile shows. Plain values; any thread.
+// Layers, zooms and tiles of a map, and the land that a tile shows. Plain values; any thread.
 //
 // North is up: a tile's first row is the one with the smallest y, and its first column the one with the
 // largest x (east is -x, docs/building.md). A tile is 256×256 pixels. At zoom 0 a pixel is a block, at zoom 2
@@ -20,7 +20,7 @@ constexpr int kMinZoom = -10, kMaxZoom = 2;
 
 enum class Layer : std::uint8_t { Day, Night, Height, Biome, Isometric };
 constexpr int kLayerCount = 5;
-std::string_view nameOf(Layer layer);  // "day", as URLs have it
+std::string_view nameOf(Layer layer);  // "day", as in URLs
 std::optional<Layer> layerNamed(std::string_view name);
 
 // Tile x of zoom z shows the blocks from x · width to (x + 1) · width - 1, width = 256 / 2^z; y as well.
@@ -32,14 +32,19 @@ struct MapTile {
     auto operator<=>(const MapTile&) const = default;
 };
 
-// The level of the chunks that it is painted from: one column a pixel, at zooms above 0 one block for many.
+// The level of the chunks that a zoom is painted from: one column a pixel; above zoom 0 a block is several
+// pixels.
 constexpr int levelOf(int zoom) {
     return zoom < 0 ? -zoom : 0;
+}
+// Pixels along each side of a column, seen from above.
+constexpr int columnPixels(int zoom) {
+    return zoom > 0 ? 1 << zoom : 1;
 }
 constexpr std::int64_t blocksAcross(int zoom) {
     return zoom < 0 ? std::int64_t{kTilePixels} << -zoom : kTilePixels >> zoom;
 }
-// The number of the tile that holds a column, where tiles are so many columns wide.
+// The number of the tile that holds a column, if tiles are `across` columns wide.
 constexpr std::int64_t tileOf(std::int64_t column, std::int64_t across) {
     return column >= 0 ? column / across : (column + 1) / across - 1;
 }
@@ -47,7 +52,7 @@ struct MapTileHash {
     std::size_t operator()(const MapTile& tile) const;
 };
 
-// Whether such a tile exists: some of it is in the world.
+// Whether some of the tile is in the world.
 bool isInWorld(const MapTile& tile);
 
 }  // namespace terrane::map

@@ -1,5 +1,4 @@
-// Images that lie over a map: heights and biomes as translucent colors. Any thread. Rows and columns as in
-// paint.h.
+// Overlays of a map: images of heights and biomes as colors. Any thread. Rows and columns as in paint.h.
 #pragma once
 
 #include <array>
@@ -11,13 +10,13 @@
 
 namespace terrane::map {
 
-// The color of ground at a height, 0…255: blue below the sea, then from green over yellow and brown to white.
+// The color of ground at a height, 0…255: blue below the sea, then green, yellow, brown and white.
 Rgb heightColor(int z);
-// Of a biome by its number (gen/generators/biomes.h).
+// The color of a biome by its number (gen/generators/biomes.h).
 Rgb biomeColor(std::size_t number);
 
-// The ground, under water too, with a darker line each 16 blocks. Under a crown over water it is the water,
-// whose depth a surface does not tell. The margin is kReliefMargin.
+// The height of the ground, under water too, with a darker line each 16 blocks. Under a crown over water the
+// height of the water, since surfaces do not have its depth. The margin is kReliefMargin.
 base::Image paintHeights(const PaintedArea& area);
 // `biomes`: numbers of the rectangle's columns, x + width · y. Each column is `scale`² pixels.
 base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes);

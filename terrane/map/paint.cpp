@@ -17,22 +17,22 @@ using world::BlockId;
 
 // Light comes from the northwest, as on most maps: image coordinates, x to the right, y down, z up.
 constexpr glm::vec3 kLight(-0.50f, -0.58f, 0.64f);
-// How steep a rise of one block looks on the finest map. Wider columns are shown steeper, so that relief is
-// there at every zoom.
+// Slope of a rise of one block on the finest map. Wider columns are shown steeper, so that relief is visible
+// at every zoom.
 constexpr float kRelief = 0.6f, kReliefOfLevel = 1.45f;
-// Relief is the slope of the land around, and for this share the step beside a column: steps show what is
-// built, slopes the shape of hills.
+// Relief is the slope of the land around, and for this share the step beside a column: steps show buildings,
+// slopes the shape of hills.
 constexpr float kStepShare = 0.35f;
-constexpr float kSkyShare = 0.32f;  // of the light on flat ground: the sky's, which has no direction
+constexpr float kSkyShare = 0.32f;  // light of the sky, without direction, on flat ground
 constexpr glm::vec3 kNight(0.30f, 0.34f, 0.48f);
 constexpr float kLampShare = 1.1f;  // of the color by day, beside a lamp
 
-// Colors of tinted blocks at the samples of the tint, found when a block is first seen.
+// Colors of tinted blocks at the samples of the tint, computed when a block is first used.
 class TintedColors {
   public:
     TintedColors(const PaintedArea& area, const MapColors& colors) : area_(area), colors_(colors) {}
 
-    // Of a column of the area, x and y from its corner.
+    // The color in a column, x and y from the area's corner.
     glm::vec3 at(BlockId block, int x, int y) {
         const BlockColor& color = colors_[block];
         if (!color.isTinted) return color.mean;
@@ -66,12 +66,12 @@ bool isLiquid(const MapColors& colors, BlockId block) {
     return block < colors.size() && colors[block].kind == SurfaceKind::Liquid;
 }
 
-// Of what a map shows as relief: the ground under a liquid, seen through it.
+// The height for relief: of the ground under a liquid, else of the top.
 float reliefHeight(const MapColors& colors, const SurfaceColumn& column) {
     return static_cast<float>(isLiquid(colors, column.top) ? column.underZ : column.topZ);
 }
 
-// How bright ground is that rises so much toward the right and downward, blocks a block.
+// The brightness of ground that rises by `rise` toward the right and downward, blocks a block.
 float lightOn(glm::vec2 rise) {
     const glm::vec3 normal = glm::normalize(glm::vec3(-rise, 1.0f));
     // Half Lambert (Mitchell, McTaggart and Green, "Shading in Valve's Source Engine", 2006): slopes that are
@@ -88,8 +88,7 @@ struct DayPainter {
                     static_cast<float>(world::columnWidth(level));
     }
 
-    // East is to the left in the area's own order: the column at the left of one in the image is the next
-    // one.
+    // Larger x is to the west: the left neighbor in the image is the column x + 1.
     float light(int x, int y) const {
         const auto height = [&](int atX, int atY) {
             return reliefHeight(colors, area.surfaces.at(atX, atY));
@@ -117,7 +116,7 @@ struct DayPainter {
     float steepness = 0;
 };
 
-// What a texture adds to a block of several pixels; 1 where a block is one pixel.
+// The factor of the texture in a part of a block; 1 if a block is one pixel.
 glm::vec3 detail(const MapColors& colors, BlockId block, glm::ivec2 texel, int scale) {
     if (scale == 1 || block >= colors.size()) return glm::vec3(1);
     const int each = kTexels / scale;
@@ -129,7 +128,7 @@ glm::vec3 detail(const MapColors& colors, BlockId block, glm::ivec2 texel, int s
     return sum / static_cast<float>(each * each);
 }
 
-// Light of lamps, which shine over their surroundings, by column of the area.
+// Light of lamps by column of the area.
 class LampLight {
   public:
     LampLight(const PaintedArea& area, const MapColors& colors)
@@ -153,14 +152,14 @@ class LampLight {
         const BlockId top = surfaces_.at(x, y).top;
         return top < colors.size() && colors[top].reach > 0 ? &colors[top] : nullptr;
     }
-    // In a lake of lava those at the shore shine for all.
+    // In a lake of lava only the blocks at the shore shine.
     bool isInside(const MapColors& colors, int x, int y) const {
         for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
             if (isIn(x + dx, y + dy) && !lampAt(colors, x + dx, y + dy)) return false;
         return true;
     }
     void shine(const BlockColor& lamp, int x, int y, bool isInside) {
-        // A lamp is seen at every zoom.
+        // A lamp is visible at every zoom.
         const float reach =
             std::max(lamp.reach / static_cast<float>(world::columnWidth(surfaces_.rect.level)), 1.5f);
         const int far = isInside ? 0 : std::min(static_cast<int>(reach), kLampMargin);

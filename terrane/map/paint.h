@@ -13,11 +13,12 @@
 
 namespace terrane::map {
 
-// How many columns around what is painted an area has to have: relief is the slope of the columns around,
-// lamps shine as far.
+// Columns that an area needs around the painted ones: relief is the slope of the columns around, and lamps
+// shine this far.
 constexpr int kReliefMargin = 2, kLampMargin = 16;
 
-// What is painted: the columns of an area but for `margin` at each side, each as `scale`² pixels (1, 2 or 4).
+// The columns to paint: those of an area without `margin` columns at each side, each as `scale`² pixels (1, 2
+// or 4).
 struct PaintedArea {
     const SurfaceArea& surfaces;
     const TintField& tint;

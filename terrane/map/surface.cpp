@@ -14,13 +14,10 @@ SurfaceKind kindOf(const SurfaceKinds& kinds, BlockId id) {
 }
 
 bool isAllNothing(const world::Section& section, const SurfaceKinds& kinds) {
-    if (section.isUniform()) return kindOf(kinds, section.uniformValue()) == SurfaceKind::Nothing;
-    return !section.isDense() && std::ranges::all_of(section.palette(), [&](BlockId id) {
-        return kindOf(kinds, id) == SurfaceKind::Nothing;
-    });
+    return section.surelyAll([&](BlockId id) { return kindOf(kinds, id) == SurfaceKind::Nothing; });
 }
 
-// Looks down through one chunk, layer by layer, at the columns of which something that counts is unseen.
+// Scans one chunk from above, layer by layer, in the columns that are not done.
 class LookDown {
   public:
     explicit LookDown(const SurfaceKinds& kinds) : kinds_(kinds) {}
@@ -37,8 +34,8 @@ class LookDown {
   private:
     static constexpr std::size_t kRow = world::kChunkSize, kWord = sizeof(std::uint64_t) / sizeof(BlockId);
 
-    // Four columns at a time: mostly they are done, or have the block of the layer looked at before, which
-    // tells nothing new.
+    // Four columns at a time: most are done or have the same block as in the layer before, which changes
+    // nothing.
     void passRow(int z, std::size_t row, std::span<const BlockId, kSurfaceColumns> layer,
                  gen::WantedColumns& wanted) {
         for (std::size_t first = row; first < row + kRow; first += kWord) {
@@ -59,7 +56,7 @@ class LookDown {
         return word;
     }
 
-    // Whether nothing beneath it counts.
+    // Adds a block to a column. True if the column is done.
     bool passBlock(int z, SurfaceColumn& column, BlockId block) const {
         const SurfaceKind kind = kindOf(kinds_, block);
         if (kind == SurfaceKind::Nothing) return false;
@@ -78,8 +75,8 @@ class LookDown {
     static constexpr BlockId kDone = 0xFFFF;  // all bits of a column in a word
 
     const SurfaceKinds& kinds_;
-    std::array<BlockId, kSurfaceColumns> before_{};  // looked at last, by column
-    std::array<BlockId, kSurfaceColumns> isDone_{};  // `under` was seen
+    std::array<BlockId, kSurfaceColumns> before_{};  // of the last layer, by column
+    std::array<BlockId, kSurfaceColumns> isDone_{};  // `under` is known
     bool isFirst_ = true;
     Surface surface_{};
 };

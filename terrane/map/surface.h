@@ -12,7 +12,7 @@
 
 namespace terrane::map {
 
-// How a block counts when one looks down on it.
+// The role of a block in a view from above.
 enum class SurfaceKind : std::uint8_t {
     Nothing,  // air, plants
     Liquid,
@@ -26,7 +26,7 @@ SurfaceKinds surfaceKinds(const world::BlockRegistry& blocks);
 
 struct SurfaceColumn {
     world::BlockId top = world::kAir;  // the topmost block that is not Nothing; air where there is none
-    // The topmost Ground at or below it, under a Crown the topmost Ground or Liquid; air where there is none.
+    // The topmost Ground at or below it, under a Crown the topmost Ground or Liquid; air if there is none.
     world::BlockId under = world::kAir;
     std::uint8_t topZ = 0, underZ = 0;  // the z of these two blocks; 0 where there is none
 
@@ -37,7 +37,7 @@ constexpr std::size_t kSurfaceColumns = static_cast<std::size_t>(world::kChunkSi
 using Surface = std::array<SurfaceColumn, kSurfaceColumns>;  // x + 16 y
 
 Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds);
-// The same of a chunk that the generator would make, without what lies deeper. Errors as
+// The same for a chunk of the generator, which generates no more than needed. Errors as
 // gen::Generator::generate().
 Surface surfaceOf(const gen::Generator& generator, world::ChunkPos pos, const SurfaceKinds& kinds);
 

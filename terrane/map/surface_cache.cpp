@@ -15,26 +15,25 @@
 namespace terrane::map {
 namespace {
 
-// How surfaces are found and rows made from them: another way gets another name, and files of the old one are
-// begun anew.
+// The version of surfaces and rows: files of another version are replaced.
 constexpr std::string_view kForm = "2";
 
 // The share of the file's bytes that rows may take. The rest is for pages of SQLite's own: the schema and the
 // inner pages of the tables.
 constexpr double kFilled = 0.9;
 
-// Uses are numbered from here on, so that each number takes 8 bytes in a row: SQLite changes a row in its
-// place where it stays as long, and else writes all of it elsewhere.
+// The first number of a use, so that each number takes 8 bytes in a row: SQLite updates a row in place if its
+// size stays, and else writes all of it elsewhere.
 constexpr std::int64_t kFirstUse = std::int64_t{1} << 48;
 
-// The room of a row in the file: it may leave half of its last page empty, so whole pages are counted. (Rows
-// of 2.5 KB took 1.6 times their bytes.)
+// A row's bytes in the file, in whole pages, since it may leave half of its last page empty. (Rows of 2.5 KB
+// took 1.6 times their bytes.)
 constexpr std::int64_t kPageBytes = 4096, kRowHeadBytes = 32;
 std::int64_t roomOf(std::int64_t blobBytes) {
     return ((blobBytes + kRowHeadBytes) / kPageBytes + 1) * kPageBytes;
 }
 
-// What a connection is told first. Nothing here has to survive a crash: a damaged file is begun anew.
+// Settings of a connection. The file need not survive a crash: a damaged one is replaced.
 constexpr const char* kSettings =
     "PRAGMA page_size = 4096; PRAGMA journal_mode = OFF; PRAGMA synchronous = OFF; PRAGMA locking_mode = "
     "EXCLUSIVE;";
@@ -62,14 +61,14 @@ base::Result<bool> hasNoSurfaces(store::Database& database) {
     return isEmpty;
 }
 
-// SQLite keeps the pages of rows that are deleted, so a file never shrinks.
+// SQLite keeps the pages of deleted rows, so a file never shrinks.
 void removeWhereLarger(const std::filesystem::path& file, std::int64_t maxBytes) {
     std::error_code error;
     const auto bytes = std::filesystem::file_size(file, error);
     if (!error && bytes > static_cast<std::uintmax_t>(maxBytes)) std::filesystem::remove(file, error);
 }
 
-// A connection to a file of this origin; an error where it is another file, or of another origin.
+// A connection to a file of this origin; an error if it is another kind of file or has another origin.
 base::Result<store::Database> openFile(const std::filesystem::path& file, const std::string& origin) {
     auto database = store::Database::open(file, store::OpenMode::Create);
     if (!database) return database;
@@ -97,7 +96,7 @@ base::Result<store::Database> openFile(const std::filesystem::path& file, const 
     return database;
 }
 
-// Errors that a new file in this place would not have.
+// Whether a new file in this place would not have the error.
 bool isOtherFile(const base::Error& error) {
     using enum base::ErrorCode;
     return error.code == Incompatible || error.code == Damaged || error.code == Failed;
@@ -121,14 +120,14 @@ struct SurfaceCache::Impl {
         std::int64_t used = 0, bytes = 0;  // of the file
     };
     std::optional<store::FileLock> lock;  // ends after the database
-    std::mutex mutex;                     // of all below
+    std::mutex mutex;                     // guards all below
     store::Database database;
     std::optional<store::Statement> select, insert, remove;
     std::int64_t maxBytes, bytes = 0;
     std::int64_t uses = kFirstUse;               // of the newest one
     std::unordered_map<std::int64_t, Row> rows;  // by key
     std::map<std::int64_t, std::int64_t> byUse;  // keys
-    bool isBroken = false;                       // and nothing is written any more
+    bool isBroken = false;                       // nothing is written any more
 };
 
 base::Result<void> SurfaceCache::Impl::prepare() {
@@ -190,7 +189,7 @@ void SurfaceCache::Impl::check(const base::Result<void>& done) {
     base::logWarning("{}; the map keeps nothing on the disk any more", done.error().message);
 }
 
-// The order of uses, for the next program.
+// Stores the order of uses for the next run.
 void SurfaceCache::Impl::keepUses() {
     auto transaction = store::Transaction::begin(database);
     if (!transaction) return check(tl::unexpected(transaction.error()));

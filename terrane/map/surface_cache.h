@@ -1,6 +1,6 @@
-// Surfaces of generated land on the disk: a file that never grows beyond a number of bytes and may be deleted
-// at any time. It holds what the generator made, never what players built, so that it is right as long as the
-// generator is the same. Any thread, any number at a time: one waits for the other.
+// A cache of generated surfaces on the disk: a file that never grows beyond a number of bytes and may be
+// deleted at any time. It never holds edits, so it is valid as long as the generator is the same. Any thread;
+// calls wait for each other.
 #pragma once
 
 #include <cstdint>
@@ -26,24 +26,24 @@ struct BlobPos {
 
 class SurfaceCache {
   public:
-    // `origin` tells what the surfaces follow from: seed, generator, its version, the block ids. A file of
-    // another origin, a damaged one, one of a newer program, or one larger than `maxBytes` is begun anew.
-    // Fails where the file cannot be written, or another program has it open.
+    // `origin` identifies the inputs of the surfaces: seed, generator, its version, the block ids. A file is
+    // replaced by an empty one if it has another origin, is damaged, comes from a newer program or is larger
+    // than `maxBytes`. Fails if the file cannot be written, or if another program has it open.
     [[nodiscard]] static base::Result<std::unique_ptr<SurfaceCache>> open(const std::filesystem::path& file,
                                                                           const std::string& origin,
                                                                           std::int64_t maxBytes);
     ~SurfaceCache();
 
     bool contains(BlobPos pos) const;
-    // Nothing where it is not there, or damaged: then it is forgotten.
+    // Nothing if it is not there or damaged; then it is removed.
     std::optional<std::vector<SurfaceColumn>> find(BlobPos pos);
-    // Forgets what was not used for longest where the file would grow too large. What cannot be written is
-    // logged once.
+    // Removes the least recently used entries if the file would grow too large. A failure to write is logged
+    // once.
     void put(BlobPos pos, std::span<const SurfaceColumn> columns);
 
-    // Something could not be written: put() does nothing any more.
+    // Writing failed: put() does nothing any more.
     bool isBroken() const;
-    std::int64_t bytes() const;  // of the file, for all that it holds
+    std::int64_t bytes() const;  // in the file, for all entries
 
   private:
     struct Impl;

@@ -15,7 +15,7 @@ namespace {
 enum Plane { HeightPlane, DepthPlane, TopLow, TopHigh, UnderLow, UnderHigh, kPlanes };
 constexpr std::size_t kPlaneBytes = kColumnsOfBlob, kRawBytes = kPlanes * kPlaneBytes;
 
-// From the columns before: in a plane each height is west + south - southwest.
+// The prediction from earlier columns: in a plane each height is west + south - southwest.
 template <class HeightAt>
 std::uint8_t predictedHeight(std::size_t k, HeightAt heightAt) {
     const bool hasWest = k % kBlobColumns != 0, hasSouth = k >= kBlobColumns;

@@ -15,9 +15,9 @@ using world::ChunkPos;
 
 namespace {
 
-// Of generated chunks: those of 150 tiles, so that neighbors share the chunks at their borders.
+// Memory for generated chunks: those of 150 tiles, so that neighbors share the chunks at their borders.
 constexpr std::size_t kMemoryBytes = std::size_t{64} << 20;
-constexpr std::size_t kNoteBytes = 128;  // of an edited chunk that was not generated
+constexpr std::size_t kNoteBytes = 128;  // for an edited chunk that was not generated
 constexpr int kBlobChunks = kBlobColumns / world::kChunkSize;
 
 BlobPos blobOf(ChunkPos chunk) {
@@ -34,7 +34,7 @@ std::vector<ChunkPos> chunksOf(BlobPos blob) {
     return chunks;
 }
 
-// Where a row of a chunk begins among the columns of its blob.
+// The index of the first column of a row of a chunk in its blob.
 std::size_t rowOfBlob(ChunkPos chunk, int row) {
     const auto x = static_cast<std::size_t>(chunk.x & 15), y = static_cast<std::size_t>(chunk.y & 15);
     return (y * world::kChunkSize + static_cast<std::size_t>(row)) * kBlobColumns + x * world::kChunkSize;
@@ -57,7 +57,7 @@ struct SurfaceSource::Impl {
         surfaces.put(pos, surface, sizeof(Surface) + 128);
     }
     base::Result<SurfacePtr> generated(ChunkPos pos);
-    // By position, of those of the chunks that are edited; null where the store has none.
+    // Surfaces of the edited ones of the chunks, by position; null if the store has none.
     base::Result<SurfaceMap> editedAmong(std::span<const ChunkPos> chunks,
                                          std::span<const EditedChunk> edited);
     base::Result<void> loadEdited(std::span<const ChunkPos> chunks, SurfaceMap& result);
@@ -69,7 +69,7 @@ struct SurfaceSource::Impl {
     void writeBlob(BlobPos blob);
 
     Parts parts;
-    std::mutex mutex;  // of the surfaces: as generated, null where a chunk is edited
+    std::mutex mutex;  // guards the surfaces: as generated, null if edited
     LruCache<ChunkPos, SurfacePtr, world::ChunkPosHash> surfaces{kMemoryBytes};
 };
 
@@ -103,7 +103,7 @@ base::Result<SurfaceMap> SurfaceSource::Impl::editedAmong(std::span<const ChunkP
     return result;
 }
 
-// Those that are damaged count as generated, as they do in a game. One that could not be read may be whole.
+// Damaged chunks count as generated, as in a game. A chunk that could not be read may be intact: an error.
 base::Result<void> SurfaceSource::Impl::loadEdited(std::span<const ChunkPos> chunks, SurfaceMap& result) {
     if (chunks.empty() || !parts.store) return {};
     const std::vector<store::LoadedChunk> loaded = parts.store->loadMany(chunks);
@@ -116,7 +116,7 @@ base::Result<void> SurfaceSource::Impl::loadEdited(std::span<const ChunkPos> chu
     return {};
 }
 
-// A blob needs them as generated: they are made when it is whole but for them.
+// Notes edited chunks without generating them: writeBlob() does that once the rest of their blob is there.
 void SurfaceSource::Impl::noteEdited(const SurfaceMap& edited) {
     const std::lock_guard lock(mutex);
     for (const auto& [pos, surface] : edited)
@@ -135,7 +135,7 @@ void SurfaceSource::Impl::readBlob(BlobPos blob) {
     }
 }
 
-// Of the chunks that memory lacks.
+// Reads the blobs of chunks that are not in memory.
 void SurfaceSource::Impl::readBlobs(std::span<const ChunkPos> chunks) {
     std::set<BlobPos> seen;
     for (const ChunkPos chunk : chunks)
@@ -145,14 +145,14 @@ void SurfaceSource::Impl::readBlobs(std::span<const ChunkPos> chunks) {
         }
 }
 
-// Looks at the chunks in the order of rows, up to the first one that memory lacks: some 10 µs at most.
+// Whether all chunks of the blob are noted. Stops at the first one that is not: some 10 µs at most.
 bool SurfaceSource::Impl::isWhole(BlobPos blob) {
     const std::vector<ChunkPos> chunks = chunksOf(blob);
     const std::lock_guard lock(mutex);
     return std::ranges::all_of(chunks, [&](ChunkPos chunk) { return surfaces.contains(chunk); });
 }
 
-// Those that these chunks have made whole: tiles need not have all chunks of a blob.
+// Writes the blobs that these chunks have completed: a tile may have only some chunks of a blob.
 void SurfaceSource::Impl::writeBlobs(std::span<const ChunkPos> chunks) {
     if (parts.cache->isBroken()) return;
     std::set<BlobPos> blobs;
@@ -161,7 +161,7 @@ void SurfaceSource::Impl::writeBlobs(std::span<const ChunkPos> chunks) {
         if (!parts.cache->contains(blob) && isWhole(blob)) writeBlob(blob);
 }
 
-// Not where there are edited chunks and no generator to make them anew.
+// Writes nothing if a chunk cannot be generated.
 void SurfaceSource::Impl::writeBlob(BlobPos blob) {
     std::vector<SurfaceColumn> columns(kColumnsOfBlob);
     for (const ChunkPos chunk : chunksOf(blob)) {

@@ -1,5 +1,5 @@
-// Surfaces of any part of a world: from the generator, from a cache on the disk, and from the chunks that
-// players edited. Any thread, any number at a time.
+// Surfaces of any part of a world: from the generator, from a cache on the disk, and from edited chunks. Any
+// thread, several at a time.
 #pragma once
 
 #include <algorithm>
@@ -23,16 +23,16 @@ struct ColumnRect {
     int width = 0, height = 0;
 };
 
-// Chunks of a level as columns.
+// The columns of chunks of a level.
 ColumnRect columnsOf(const world::ChunkArea& chunks, int level);
 
-// The chunk of these numbers; some position outside the world where they are too large for one.
+// The chunk with these coordinates; a position outside the world if they are too large.
 world::ChunkPos chunkAt(std::int64_t x, std::int64_t y, int level);
 
 // The chunks that a rectangle touches, row by row; they may lie outside the world.
 std::vector<world::ChunkPos> chunksTouching(const ColumnRect& rect);
 
-// Copies a chunk's columns, x + 16 y, to where they are in a rectangle, x + width · y; those outside of it
+// Copies a chunk's columns, x + 16 y, to their places in a rectangle, x + width · y; columns outside of it
 // are left out.
 template <class Column>
 void copyChunk(const ColumnRect& rect, world::ChunkPos chunk,
@@ -62,10 +62,10 @@ struct SurfaceArea {
 
 using SurfacePtr = std::shared_ptr<const Surface>;
 
-// A chunk or tile that is not as the generator makes it.
+// A chunk or tile that differs from the generated one.
 struct EditedChunk {
     world::ChunkPos pos;
-    world::ChunkPtr chunk;  // null: as the store has it, or as generated where the store has none
+    world::ChunkPtr chunk;  // null: read from the store, or generated if it has none
 };
 
 class SurfaceSource {
@@ -73,17 +73,16 @@ class SurfaceSource {
     struct Parts {
         const gen::LevelGenerators& generators;
         const SurfaceKinds& kinds;
-        store::ReadableStore* store = nullptr;  // null: edited chunks are given
+        store::ReadableStore* store = nullptr;  // null: all edited chunks are passed in
         SurfaceCache* cache = nullptr;          // null: nothing is kept on the disk
     };
-    // All of it outlives this.
+    // All parts outlive this.
     explicit SurfaceSource(const Parts& parts);
     ~SurfaceSource();
 
     // The surfaces of chunks of one level, in the order of `chunks`; without blocks outside the world.
-    // `edited`: those among them that are edited, in any order. Takes about 0.1 ms a chunk that neither
-    // memory nor the disk has. Fails where the level has no generator, and where the store could not read a
-    // chunk that it may have.
+    // `edited`: the edited ones of them, in any order. Takes about 0.1 ms for each chunk that neither memory
+    // nor the disk has. Fails if the level has no generator, or if the store cannot read a chunk.
     [[nodiscard]] base::Result<std::vector<SurfacePtr>> surfaces(std::span<const world::ChunkPos> chunks,
                                                                  std::span<const EditedChunk> edited);
     // The same for a rectangle.

@@ -27,7 +27,7 @@ PixelRect pixelsOf(const MapTile& tile) {
     return {{tile.x * size, (tile.x + 1.0) * size}, {tile.y * size, (tile.y + 1.0) * size}};
 }
 
-// Where an area and what stands on it is seen, isometrically.
+// The isometric bounds of an area and all that can stand on it.
 PixelRect seenPixels(const BlockRect& area) {
     const auto x0 = static_cast<double>(area.x0), x1 = static_cast<double>(area.x1);
     const auto y0 = static_cast<double>(area.y0), y1 = static_cast<double>(area.y1);

@@ -1,4 +1,4 @@
-// Which tiles a map of an area has. Plain values; any thread.
+// The tiles of a map of an area. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -18,13 +18,13 @@ BlockRect blocksOf(const world::ChunkArea& chunks);  // of level 0
 
 // Whether some of the area, up to the world's top, may be seen in a tile.
 bool shows(const MapTile& tile, const BlockRect& area);
-// Those tiles, from the widest zoom to the finest; the layers of one place stand together, as they are
-// painted from the same surfaces. None outside the world.
+// The tiles that show the area, from the widest zoom to the finest. Layers of one place follow each other,
+// since they are painted from the same surfaces. None outside the world.
 std::vector<MapTile> tilesOf(const BlockRect& area, std::span<const Layer> layers, int minZoom, int maxZoom);
-// At least as many as those.
+// An upper bound of their number.
 std::int64_t countTiles(const BlockRect& area, std::span<const Layer> layers, int minZoom, int maxZoom);
 
-// "tiles/day/-2/4/-7.png", as URLs have it.
+// "tiles/day/-2/4/-7.png", as in URLs.
 std::string pathOf(const MapTile& tile);
 
 }  // namespace terrane::map

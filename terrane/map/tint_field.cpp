@@ -3,7 +3,7 @@
 namespace terrane::map {
 namespace {
 
-// A column of a chunk so many levels up is 16 columns wide.
+// A column of a chunk this many levels up is 16 columns wide.
 constexpr int kLevelsUp = 4;
 static_assert(TintField::kStep == 1 << kLevelsUp);
 
@@ -34,7 +34,7 @@ world::PackedColor TintSource::of(world::ChunkPos chunk) {
 
 TintField TintSource::field(const ColumnRect& rect) {
     constexpr int kHalf = TintField::kStep / 2;
-    // Sample n is of the columns from 16 n on: it stands in their middle.
+    // Sample n covers the columns from 16 n on and lies in their middle.
     const auto firstSample = [](std::int64_t column) { return (column - kHalf) >> kLevelsUp; };
     const std::int64_t left = firstSample(rect.x0), bottom = firstSample(rect.y0);
     TintField field{left * TintField::kStep + kHalf,

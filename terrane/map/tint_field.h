@@ -1,4 +1,5 @@
-// The tint of grass and leaves over an area of a map, from a few samples: it changes slowly. Any thread.
+// The tint of grass and leaves over an area of a map, from a few samples, since it changes slowly. Any
+// thread.
 #pragma once
 
 #include <mutex>
@@ -15,29 +16,27 @@ namespace terrane::map {
 struct TintField {
     static constexpr int kStep = 16;
     std::int64_t x0 = 0, y0 = 0;
-    int width = 0, height = 0;  // samples
-    std::vector<world::PackedColor> samples;
-
-    world::PackedColor at(int i, int j) const { return samples[static_cast<std::size_t>(j * width + i)]; }
+    int width = 0, height = 0;                // samples
+    std::vector<world::PackedColor> samples;  // sample (i, j) is at i + width · j
 };
 
-// Makes such fields, and remembers the tints that neighbors need.
+// Makes such fields, and caches tints that neighbors share.
 class TintSource {
   public:
     // `generators` outlives this.
     explicit TintSource(const gen::LevelGenerators& generators) : generators_(generators) {}
 
-    // Reaches beyond the rectangle, so that each of its columns lies between four samples. Neutral where the
+    // Reaches beyond the rectangle, so that each of its columns lies between four samples. Neutral if the
     // generator has no tint, and outside the world.
     TintField field(const ColumnRect& rect);
-    // Of a chunk as a whole.
+    // The tint of a whole chunk.
     world::PackedColor of(world::ChunkPos chunk);
 
   private:
     world::PackedColor sample(int level, std::int64_t x, std::int64_t y);
 
     const gen::LevelGenerators& generators_;
-    std::mutex mutex_;  // of the tiles
+    std::mutex mutex_;  // guards the tiles
     LruCache<world::ChunkPos, std::shared_ptr<const world::TintTile>, world::ChunkPosHash> tiles_{4 << 20};
 };
 

@@ -47,14 +47,14 @@ base::Result<void> qualifyTextures(const Pack& pack, const Pack& builtIn, world:
     return {};
 }
 
-// Blocks of packs, as they are read one after the other.
+// The blocks of the packs read so far.
 struct BlockCollector {
     const world::BehaviorTable& behaviors;
     std::vector<world::BlockDescription> blocks;
     std::vector<world::ShapePtr> builtInShapes;
 };
 
-// Blocks that behaviors name are the pack's own where it has them.
+// Blocks that behaviors name are the pack's own ones if it has them.
 void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& blocks) {
     std::unordered_set<std::string> own;
     for (const world::BlockDescription& block : blocks) own.insert(block.type.name);
@@ -80,7 +80,7 @@ base::Result<void> readBlocks(const Pack& pack, const Pack& builtIn, BlockCollec
     return {};
 }
 
-// Textures by the names that blocks have for them.
+// Textures by the names that blocks use for them.
 world::TextureSource texturesOf(std::shared_ptr<const std::vector<Pack>> packs) {
     return [packs = std::move(packs)](std::string_view name) -> base::Result<base::Image> {
         const auto colon = name.find(':');
@@ -93,10 +93,10 @@ world::TextureSource texturesOf(std::shared_ptr<const std::vector<Pack>> packs) 
     };
 }
 
-// All textures of a session lie in one array, as wide as the widest.
+// All textures of a session are in one array, as wide as the widest.
 constexpr std::size_t kMaxTextureBytes = std::size_t{1} << 30;
 
-// Decodes the textures of packs once, so that what is wrong with one comes to light here.
+// Decodes the textures of packs once to find errors.
 base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t count) {
     std::size_t widest = 16, pixelBytes = 0;
     for (const Pack& pack : packs) {
@@ -129,7 +129,7 @@ base::Result<void> checkLanguages(const Pack& pack) {
     return {};
 }
 
-// Packs of servers must not keep a client for minutes: a script may take 100 ms a level.
+// Packs of servers must not block a client for minutes: a script may take 100 ms a level.
 constexpr std::chrono::seconds kLongestRecording{10};
 
 // Records each script of a pack.

@@ -15,17 +15,17 @@
 namespace terrane::pack {
 
 struct Content {
-    // In the order of loading, the built-in one first. Those whose files textures are read from.
+    // In the order of loading, the built-in one first. Textures are read from their files.
     std::shared_ptr<const std::vector<Pack>> packs;
     std::shared_ptr<const world::BlockRegistry> blocks;
     world::TextureSource textures;
     gen::GeneratorCatalogue generators;  // the built-in ones, then scripts: "isles:floating"
 };
 
-// The built-in pack and `packs`, each after those that it requires, otherwise in the order given. Block ids
-// follow that order; saves keep names. In a pack a name means its own block, texture or shape first, then the
-// built-in one. Generators are recorded once, so that what is wrong with a script comes to light here. Errors
-// name file, line and key.
+// Loads the built-in pack and `packs`, each after those that it requires, otherwise in the order given. Block
+// ids follow that order; saves store names. In a pack a name means its own block, texture or shape first,
+// then the built-in one. Generators are recorded once, so that errors of scripts are found here. Errors name
+// file, line and key.
 [[nodiscard]] base::Result<Content> loadContent(
     std::vector<Pack> packs, const world::BehaviorTable& behaviors = world::builtInBehaviors());
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kMaxRequired = 256;
 
-// A pack that is named, rather than its path, has that name: worlds and other packs find it by it.
+// A pack that is found by its name must have that name: worlds and other packs refer to it.
 base::Result<Pack> readNamed(const std::string& nameOrPath) {
     const auto path = findPack(nameOrPath, packFolders());
     if (!path) return tl::unexpected(path.error());

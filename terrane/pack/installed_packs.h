@@ -9,20 +9,21 @@
 
 namespace terrane::pack {
 
-// Where packs are looked for by name: $XDG_DATA_HOME/terrane/packs. None where no variable names a home.
+// The folders that are searched for packs by name: $XDG_DATA_HOME/terrane/packs. None if no variable names a
+// home.
 std::vector<std::filesystem::path> packFolders();
 
-// Packs by names and paths. One that is named twice is read once.
+// Reads packs by names and paths. A pack that is named twice is read once.
 [[nodiscard]] base::Result<std::vector<Pack>> readPacks(const std::vector<std::string>& namesOrPaths);
 
-// Adds the packs `names` that are not among `packs`. One that is not in the packs folder is left out, with a
-// line in the log: a world without it shows its blocks as missing.
+// Adds the packs `names` that are not among `packs`. A pack that is not in the packs folder is left out with
+// a warning: a world without it shows its blocks as missing.
 [[nodiscard]] base::Result<void> addPacks(std::vector<Pack>& packs, const std::vector<std::string>& names);
 
-// Adds what the packs require and nobody named, from the packs folder.
+// Adds required packs that are not among `packs`, from the packs folder.
 [[nodiscard]] base::Result<void> addRequired(std::vector<Pack>& packs);
 
-// The same packs as their files are now.
+// Reads the same packs again from their files.
 [[nodiscard]] base::Result<Content> loadAgain(const Content& content);
 
 }  // namespace terrane::pack

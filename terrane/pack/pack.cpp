@@ -19,7 +19,7 @@ constexpr std::size_t kMaxListed = 64;      // authors, required packs
 constexpr std::array<std::string_view, 8> kInfoKeys{"format",      "name",    "version", "title",
                                                     "description", "license", "authors", "requires"};
 
-// The name of a file without folder and ending; empty where the path is another kind of file.
+// The name of a file without folder and ending; empty if the path is another kind of file.
 std::string_view nameIn(std::string_view path, std::string_view folder, std::string_view ending) {
     if (!path.starts_with(folder) || !path.ends_with(ending) || path.size() <= folder.size() + ending.size())
         return {};
@@ -107,7 +107,7 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
         auto read = readInfo(toml::parse(info->second), file);
         if (!read) return tl::unexpected(read.error());
         pack.info = std::move(*read);
-    } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
+    } catch (const toml::parse_error& error) {  // the library reports syntax errors only by exceptions
         return base::fail(base::ErrorCode::BadInput, "{}",
                           world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
                                                        error.description())));

@@ -12,7 +12,7 @@
 
 namespace terrane::pack {
 
-// Bounds of one pack. What is read of untrusted packs stays below them.
+// Bounds of one pack, which untrusted packs cannot exceed either.
 constexpr std::size_t kMaxFiles = 4096;
 constexpr std::size_t kMaxPackBytes = std::size_t{64} << 20;  // of all files together
 constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
@@ -24,7 +24,7 @@ constexpr std::size_t kMaxPackName = 32;  // bytes
 // The pack that comes with the program. Its blocks and textures have no prefix.
 constexpr std::string_view kBuiltInPack = "terrane";
 
-// What pack.toml says.
+// The content of pack.toml.
 struct PackInfo {
     std::string name;  // a-z, 0-9, _
     std::string version;
@@ -55,8 +55,8 @@ bool isPackPath(std::string_view path);
 // The path of a file for messages: "WHERE/blocks.toml"; of the built-in pack "blocks.toml".
 std::string placeOf(const Pack& pack, std::string_view path);
 
-// The name that a block, texture or generator of the pack has outside of it: "isles:glow_rock"; of the
-// built-in pack the name itself.
+// The name of a block, texture or generator of the pack outside of it: "isles:glow_rock"; for the built-in
+// pack the name itself.
 std::string qualified(const Pack& pack, std::string_view name);
 
 // The pack that comes with the program.

@@ -10,10 +10,10 @@ namespace terrane::pack {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x314B5054;  // "TPK1"
-// Paths and lengths beside the contents of kMaxFiles files.
+// The contents, and paths and lengths of kMaxFiles files.
 constexpr std::size_t kMaxRawBytes = kMaxPackBytes + kMaxFiles * 256;
 
-// A count, then of each file the length of its path, the length of its contents, path and contents; in order
+// A count, then for each file the length of its path, the length of its contents, path and contents; in order
 // of paths.
 store::Bytes rawBytes(const PackFiles& files) {
     store::Bytes bytes;

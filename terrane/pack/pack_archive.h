@@ -1,5 +1,5 @@
-// A pack as one piece of bytes, as servers send it and clients keep it, and the hash that names it. The
-// format stands in docs/protocol.md ("Packs"). Any thread.
+// A pack as an archive, which servers send and clients keep, and its hash. docs/protocol.md ("Packs")
+// specifies the format. Any thread.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ using PackHash = std::array<std::byte, 32>;
 PackHash hashOf(const Pack& pack);
 std::string hexOf(const PackHash& hash);  // 64 digits
 
-// Compressed. The same pack gives the same bytes, with one version of zstd.
+// The archive, compressed. The same pack gives the same bytes, with one version of zstd.
 store::Bytes archiveOf(const Pack& pack);
 
-// Takes any bytes: an error where they are no archive, or a pack beyond the bounds of pack.h.
+// Takes any bytes: an error if they are no archive or the pack is beyond the bounds of pack.h.
 [[nodiscard]] base::Result<Pack> packOf(store::ByteView archive, const std::string& where);
 
 }  // namespace terrane::pack

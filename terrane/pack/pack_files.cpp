@@ -24,7 +24,7 @@ base::Result<void> addFile(PackFiles& files, std::size_t& bytes, const fs::path&
     return {};
 }
 
-// The files of one folder of a pack; `inside`: its path in the pack, "" or "textures/".
+// Adds the files of one folder of a pack; `inside`: its path in the pack, "" or "textures/".
 base::Result<void> addFolder(PackFiles& files, std::size_t& bytes, const fs::path& folder,
                              const std::string& inside) {
     std::error_code error;

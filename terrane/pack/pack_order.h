@@ -1,4 +1,4 @@
-// In which order packs are loaded. Any thread.
+// The order in which packs are loaded. Any thread.
 #pragma once
 
 #include <vector>
@@ -7,8 +7,8 @@
 
 namespace terrane::pack {
 
-// `builtIn` first, then each pack after those that it requires, otherwise as given. An error where a pack is
-// given twice, requires one that is not there, or requires itself through others.
+// `builtIn` first, then each pack after those that it requires, otherwise as given. An error if a pack is
+// given twice, requires a missing one, or requires itself through others.
 [[nodiscard]] base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs);
 
 }  // namespace terrane::pack

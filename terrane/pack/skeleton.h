@@ -8,11 +8,11 @@
 
 namespace terrane::pack {
 
-// Of the skeleton's generator, within the pack.
+// The name of the skeleton's generator, within the pack.
 constexpr std::string_view kSkeletonGenerator = "hills";
 
 // Writes a pack that works as it is: a block that glows with its texture, a generator that uses it, names of
-// blocks, all with comments. The pack has the folder's name. An error where the folder is there.
+// blocks, all with comments. The pack has the folder's name. An error if the folder exists.
 [[nodiscard]] base::Result<void> writeSkeleton(const std::filesystem::path& folder);
 
 }  // namespace terrane::pack

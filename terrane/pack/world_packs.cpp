@@ -43,7 +43,7 @@ void rememberPacks(store::ChunkStore& store, const Content& content) {
             lines += fmt::format("{} {} {}\n", pack.info.name,
                                  pack.info.version.empty() ? "-" : base::printable(pack.info.version),
                                  hexOf(hashOf(pack)));
-    // The world may still have blocks of those that are not here now.
+    // The world may still have blocks of packs that are not loaded now.
     for (const std::string& line : linesOf(before))
         if (!hasPack(*content.packs, nameIn(line))) lines += line + "\n";
     if (before != lines) store.setMetadata(kPacksMetadata, std::move(lines));

@@ -1,4 +1,4 @@
-// The packs that a world remembers: the metadata "packs" of its save, a line "NAME VERSION HASH" each. Any
+// The packs of a world, stored as the metadata "packs" of its save, a line "NAME VERSION HASH" each. Any
 // thread.
 #pragma once
 
@@ -11,10 +11,11 @@
 
 namespace terrane::pack {
 
-// Names, at most 256; lines that hold none are left out.
+// The names, at most 256; invalid lines are left out.
 std::vector<std::string> rememberedPacks(const store::Metadata& metadata);
 
-// Names that the world has stay: it may still have blocks of a pack that is not loaded now.
+// Stores the packs of `content`. Other names that the world has stay: it may still have blocks of a pack that
+// is not loaded now.
 void rememberPacks(store::ChunkStore& store, const Content& content);
 
 }  // namespace terrane::pack

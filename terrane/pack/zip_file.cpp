@@ -42,7 +42,7 @@ base::Result<Zip> openZip(std::string_view bytes, const std::string& where) {
     return Zip(zip);
 }
 
-// "isles/" where pack.toml lies in a folder of its own.
+// "isles/" if pack.toml is in a folder of the zip file, else empty.
 std::string folderOf(zip_t* zip, zip_int64_t count) {
     for (zip_int64_t k = 0; k < count; ++k) {
         const char* name = zip_get_name(zip, static_cast<zip_uint64_t>(k), 0);

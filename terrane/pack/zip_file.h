@@ -1,4 +1,4 @@
-// The files of a pack in a zip file. Any thread.
+// Reads the files of a pack from a zip file. Any thread.
 #pragma once
 
 #include <filesystem>
@@ -7,11 +7,11 @@
 
 namespace terrane::pack {
 
-// Those that isPackPath() takes, at the top or in the only folder there. Bounded by kMaxFiles and
+// The files that isPackPath() accepts, at the top or in the folder of pack.toml. Bounded by kMaxFiles and
 // kMaxPackBytes, whatever the file claims. Errors name the file.
 [[nodiscard]] base::Result<PackFiles> readZip(const std::filesystem::path& path);
 
-// The same of bytes in memory; `where` stands in errors.
+// The same for bytes in memory; errors begin with `where`.
 [[nodiscard]] base::Result<PackFiles> readZipBytes(std::string_view bytes, const std::string& where);
 
 }  // namespace terrane::pack

@@ -17,7 +17,7 @@
 namespace terrane::sound {
 namespace {
 
-// OpenAL numbers 0 for "no buffer", "no source".
+// The number 0 means "no buffer" and "no source" in OpenAL.
 constexpr ALuint kNone = 0;
 
 struct LoopbackFunctions {
@@ -36,14 +36,14 @@ LoopbackFunctions loopbackFunctions() {
             alcFunction<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT")};
 }
 
-// How loud a sound is at a distance, as AL_INVERSE_DISTANCE_CLAMPED has it.
+// The volume of a sound at a distance, as in AL_INVERSE_DISTANCE_CLAMPED.
 double gainAt(double distance) {
     return kFullVolumeDistance / std::max(distance, kFullVolumeDistance);
 }
 
 }  // namespace
 
-// Of the device: a type with a name of its own, so that the sources can be compiled as one.
+// Types of the members of Device, in a named namespace for unity builds.
 namespace openal {
 
 struct DeviceCloser {
@@ -56,7 +56,7 @@ struct ContextCloser {
     }
 };
 
-// What sounds like a one-shot or a loop: a source and where in the world it is.
+// The source of a one-shot or a loop, and its place in the world.
 struct Source {
     ALuint id = 0;  // none
     std::optional<glm::dvec3> position;
@@ -66,7 +66,7 @@ struct Source {
 struct Loop {
     Source source;
     float target = 0;  // volume
-    float rate = 0;    // of its change, a second
+    float rate = 0;    // of its change, per second
 };
 
 }  // namespace openal
@@ -160,7 +160,7 @@ double SoundPlayer::Device::loudness(const Source& source) const {
     return double{source.volume} * (source.position ? gainAt(glm::distance(*source.position, ears)) : 1);
 }
 
-// One that is silent, else the quietest if it is quieter than the new sound; null: none.
+// A silent source, else the quietest one if it is quieter than the new sound; null if there is none.
 Source* SoundPlayer::Device::freeSource(double loudnessOfNew) {
     for (Source& source : sources)
         if (!isPlaying(source)) return &source;
@@ -170,7 +170,7 @@ Source* SoundPlayer::Device::freeSource(double loudnessOfNew) {
     return loudness(*quietest) < loudnessOfNew ? quietest : nullptr;
 }
 
-// The ears stay at OpenAL's origin: its floats are exact wherever the player is.
+// The ears stay at OpenAL's origin, since its floats are not exact far from it.
 void SoundPlayer::Device::place(const Source& source) const {
     const glm::vec3 p = source.position ? glm::vec3(*source.position - ears) : glm::vec3(0);
     alSourcei(source.id, AL_SOURCE_RELATIVE, source.position ? AL_FALSE : AL_TRUE);

@@ -1,5 +1,6 @@
-// Plays sounds at places of the world, through OpenAL. Owns the device and all that is made on it. Used on
-// one thread, which need not be the one that made it; one player at a time. No call waits for the device.
+// Plays sounds at places of the world, through OpenAL. Owns the device and all its objects. Used on one
+// thread, which may be another than the one that created it; one player at a time. No call waits for the
+// device.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +16,7 @@
 namespace terrane::sound {
 
 constexpr int kMaxSources = 24;            // sounds at once, loops not counted
-constexpr double kHearingDistance = 48;    // blocks; what is farther is not played
+constexpr double kHearingDistance = 48;    // blocks; farther sounds are not played
 constexpr double kFullVolumeDistance = 2;  // blocks; from there on sounds get quieter
 constexpr double kFadeSeconds = 1.5;       // of a loop, from one volume to another
 
@@ -35,24 +36,24 @@ class SoundPlayer {
   public:
     static constexpr int kMemoryRate = 44100;  // samples a second of render()
 
-    // Unsupported in a build without OpenAL; NotFound where the system has nothing to play on. May take
-    // seconds where the system's sound server does not answer.
+    // Unsupported in a build without OpenAL; NotFound if the system has nothing to play on. May take seconds
+    // if the system's sound server does not answer.
     static base::Result<SoundPlayer> create(const SoundSet& sounds, SoundOutput output = SoundOutput::Device);
     SoundPlayer(SoundPlayer&&) noexcept;
     SoundPlayer& operator=(SoundPlayer&&) noexcept;
     ~SoundPlayer();
 
     void setVolume(float volume);  // of all; 0 to 1
-    // Where the ears are, in the world, and where they point (world::Pose).
+    // The position and direction of the ears in the world (world::Pose).
     void setListener(const glm::dvec3& position, float yaw, float pitch);
 
-    // One of the sound's variants. Where all sources are busy the quietest one stops, if it is quieter.
+    // Plays one of the sound's variants. If all sources are busy the quietest one stops, if it is quieter.
     void play(const SoundCue& cue);
-    // A sound that goes on; it reaches its volume within kFadeSeconds, and stops at 0.
+    // Starts or changes a looping sound; it reaches its volume within kFadeSeconds, and stops at 0.
     void setLoop(const SoundCue& cue);
-    // Fades loops. Once a frame.
+    // Fades loops. Called once a frame.
     void update(double seconds);
-    // Silences all at once.
+    // Stops all sounds at once.
     void stop();
 
     int playing() const;  // sounds that are heard now, loops not counted

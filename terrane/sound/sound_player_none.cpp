@@ -1,4 +1,4 @@
-// In place of sound_player.cpp in a build without OpenAL.
+// Replaces sound_player.cpp in a build without OpenAL.
 #include "terrane/sound/sound_player.h"
 
 namespace terrane::sound {

@@ -1,4 +1,4 @@
-// Sounds by name, each in some variants.
+// Sounds by name, each with some variants.
 #pragma once
 
 #include <functional>
@@ -12,8 +12,8 @@ namespace terrane::sound {
 
 using SoundSet = std::map<std::string, std::vector<Wave>, std::less<>>;
 
-// Those that tools/synthesize_sounds.py made for the program: "stone_step" has the variants stone_step_1.wav,
-// stone_step_2.wav…; none in a build without sounds.
+// The sounds that tools/synthesize_sounds.py made for the program: "stone_step" has the variants
+// stone_step_1.wav, stone_step_2.wav…; empty in a build without sounds.
 base::Result<SoundSet> builtInSounds();
 
 }  // namespace terrane::sound

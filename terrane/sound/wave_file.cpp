@@ -7,7 +7,7 @@ namespace {
 
 constexpr std::size_t kHeader = 12, kChunkHead = 8;
 
-// Of `count` bytes, the lowest first.
+// A number of `count` bytes, the lowest first.
 std::uint32_t numberAt(std::string_view bytes, std::size_t at, std::size_t count) {
     std::uint32_t value = 0;
     for (std::size_t k = 0; k < count; ++k)

@@ -1,4 +1,4 @@
-// Samples of a sound, as WAV files have them.
+// Reads the samples of WAV files.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ struct Wave {
 // 48,000 × 60 s × 2 bytes = 5.8 MB.
 constexpr std::size_t kMaxWaveSamples = 48000 * 60;
 
-// Of one channel with 16 bits a sample, at 8,000 to 48,000 a second. `name` stands in errors.
+// Reads a file of one channel with 16 bits a sample, at 8,000 to 48,000 a second. Errors begin with `name`.
 base::Result<Wave> parseWave(std::string_view bytes, std::string_view name);
 
 }  // namespace terrane::sound

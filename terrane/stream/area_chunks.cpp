@@ -6,10 +6,10 @@
 namespace terrane::stream {
 namespace {
 
-// Loaded by one job at once.
+// Chunks that one job loads at once.
 constexpr std::size_t kChunksOfJob = 32;
 
-// What is stored of each; nothing of those beyond the world's edge, whose keys are others'.
+// The stored chunk of each position; none beyond the world's edge, where keys are those of other chunks.
 std::vector<store::LoadedChunk> storedOf(std::span<const world::ChunkPos> positions,
                                          store::ReadableStore* save) {
     std::vector<store::LoadedChunk> stored(positions.size());
@@ -36,7 +36,8 @@ base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos
         const auto part = positions.subspan(first, std::min(perJob, positions.size() - first));
         std::vector<store::LoadedChunk> stored = storedOf(part, save);
         for (std::size_t k = 0; k < part.size(); ++k) {
-            // A generated chunk in its place would be wrong, and replace it where the caller saves it.
+            // Generating the chunk instead would be wrong, and a caller that saves it would overwrite the
+            // stored one.
             if (stored[k].isUnread && !stored[k].isOverBudget) problems[job] = stored[k].problem;
             if (stored[k].chunk) {
                 chunks[first + k] = std::move(*stored[k].chunk);

@@ -1,4 +1,4 @@
-// Chunks of a world for commands that look at an area: from its store, else generated.
+// Chunks of an area for commands: loaded from the store, else generated.
 #pragma once
 
 #include <span>

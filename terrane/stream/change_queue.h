@@ -1,5 +1,5 @@
-// What changed on screen and was not handed on yet, one entry a chunk: edited chunks come first, then the
-// others in the order in which they changed.
+// Changes on screen that were not taken yet, one entry for each chunk. Edited chunks come first, then the
+// rest in order of change.
 #pragma once
 
 #include <cstddef>
@@ -13,20 +13,20 @@ namespace terrane::stream {
 
 class ChangeQueue {
   public:
-    // New light of a chunk, in `bricks`.
+    // Sets new light of a chunk, changed in `bricks`.
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks);
-    // New quads in `meshSections`. What waits stays, but for the mesh sections that are newer now.
+    // Sets new quads of `meshSections`. Other sections of a waiting mesh stay.
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
-    // Whoever takes the change makes the mesh.
+    // Whoever takes the change is to make the mesh.
     void askForMesh(world::ChunkPos pos);
     bool asksForMesh(world::ChunkPos pos) const;
     // The chunk is no longer on screen.
     void hide(world::ChunkPos pos);
-    // An edit changed it: it comes before others.
+    // Puts an edited chunk before all others.
     void putFirst(world::ChunkPos pos);
 
     std::vector<ChunkChange> take(std::size_t limit);
-    // Those that are no longer on screen, before all others.
+    // Takes only the chunks that are no longer on screen.
     std::vector<world::ChunkPos> takeHidden();
     std::size_t size() const { return changes_.size(); }
 
@@ -34,7 +34,7 @@ class ChangeQueue {
     ChunkChange& change(world::ChunkPos pos);
 
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;
-    // Positions that were taken meanwhile are passed over.
+    // May have positions that were taken meanwhile; take() skips them.
     std::deque<world::ChunkPos> first_, others_;
 };
 

@@ -5,7 +5,7 @@
 namespace terrane::stream {
 namespace {
 
-// Light and mesh keep memory from chunk to chunk, a worker each.
+// Memory that light and mesh reuse from chunk to chunk, for each worker.
 light::LightScratch& lightScratch() {
     thread_local light::LightScratch scratch;
     return scratch;

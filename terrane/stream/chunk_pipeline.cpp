@@ -21,13 +21,13 @@ using world::ChunkPtr;
 
 namespace {
 
-// Edits are seen in the next frame, up to so many chunks a frame, and before all that is only meshed again; a
-// chunk takes at most about 0.05 ms.
+// Edited chunks that are meshed in one update, before all others, so that edits are visible in the next
+// frame; a chunk takes at most about 0.05 ms.
 constexpr std::size_t kEditedMeshesPerUpdate = 64;
 
-// Chunks that a batch lighter gets at once, and that wait for it: two batches.
+// Chunks for a batch lighter at once. Two such batches may wait.
 constexpr std::size_t kLightBatch = 64;
-// Batches end without a signal.
+// The longest wait for a batch, since batches end without a signal.
 constexpr std::chrono::milliseconds kBatchPause{1};
 
 }  // namespace
@@ -54,7 +54,7 @@ void ChunkPipeline::hideAll() {
     for (const ChunkPos pos : popVisible(table_)) changes_.hide(pos);
 }
 
-// Those that wait for a worker; a load that runs goes on.
+// Cancels loads that wait for a worker; running ones go on.
 void ChunkPipeline::cancelLoads() {
     std::vector<ChunkPos> cancelled;
     for (auto& [pos, record] : table_.records) {
@@ -69,7 +69,7 @@ void ChunkPipeline::setMeshOptions(const mesh::MeshOptions& options) {
     if (options == meshOptions_) return;
     meshOptions_ = options;
     for (auto& [pos, record] : table_.records) {
-        record.isOutdated = true;  // what is lit and meshed now has the old options
+        record.isOutdated = true;  // running jobs have the old options
         requestWholeMesh(table_, pos);
     }
 }
@@ -78,7 +78,7 @@ mesh::MeshBlocks ChunkPipeline::meshBlocks(ChunkPos pos) const {
     return around(pos).meshed;
 }
 
-// What the chunk is lit and meshed from.
+// The input for light and mesh of the chunk.
 ChunkNeighborhood ChunkPipeline::around(ChunkPos pos) const {
     ChunkNeighborhood around = neighborhoodOf(table_, parts_.world, pos);
     const SideSet open = openSides(tileView_, pos);
@@ -96,7 +96,7 @@ void ChunkPipeline::update(Time now) {
     if (parts_.batchLighter) exchangeLight();
     relight();
     meshEdits();
-    if (now >= nextHousekeeping_) keepHouse();
+    if (now >= nextHousekeeping_) runHousekeeping();
     submitLoads();
     submitLighting();
     submitMeshes();
@@ -105,7 +105,7 @@ void ChunkPipeline::update(Time now) {
 void ChunkPipeline::takeResults() {
     const WorkerResults::Lists done = workers_.takeResults();
     for (const WorkerResults::Load& load : done.loads) {
-        // A job that ran on although it was cancelled.
+        // The result of a job that ran although it was cancelled.
         if (!isAt(table_, load.pos, ChunkStage::Loading)) continue;
         if (load.chunk) {
             onLoaded(load.pos, load.chunk, load.localLight);
@@ -155,7 +155,7 @@ void ChunkPipeline::dropLocalLightAround(ChunkPos pos) {
     }
 }
 
-// Chunks that may go to workers in this update, besides those that are there.
+// The number of jobs that may be added to the running ones in this update.
 std::size_t ChunkPipeline::roomFor(std::size_t running) const {
     const std::size_t limit = workers_.jobLimit(sinceUpdate_);
     return limit - std::min(limit, running);
@@ -251,7 +251,7 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             if (!record->editedAt) record->editedAt = now_;
             outdateLighting(table_, chunk);
         }
-        if (edit.before == edit.after) {  // its data only
+        if (edit.before == edit.after) {  // only its state or data changed
             requestEditedMesh(table_, chunk,
                               mesh::MeshSectionSet{1} << (edit.pos.z / meshOptions_.meshSectionHeight));
         } else {
@@ -286,7 +286,7 @@ void ChunkPipeline::meshEdits() {
     }
 }
 
-// Whole chunks, and those that the caller is to mesh anyway, are the caller's where it makes the meshes.
+// If the caller makes meshes, it makes those of whole chunks, and those that it was already asked for.
 void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
     if (parts_.meshing == MeshPolicy::Caller &&
         (meshSections == mesh::kAllMeshSections || changes_.asksForMesh(pos))) {
@@ -296,8 +296,8 @@ void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
                      meshSections);
 }
 
-// Saves what was edited some time ago, unloads what nobody needs.
-void ChunkPipeline::keepHouse() {
+// Saves chunks some time after their edits, and unloads chunks that nobody needs.
+void ChunkPipeline::runHousekeeping() {
     nextHousekeeping_ = now_ + kHousekeepingEvery;
     for (auto& [pos, record] : table_.records) {
         if (record.editedAt && now_ - *record.editedAt >= kSaveAfter) save(pos, record);
@@ -309,7 +309,7 @@ void ChunkPipeline::keepHouse() {
     }
 }
 
-// False: it may not be saved yet.
+// False if it may not be saved yet.
 bool ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
     if (!record.editedAt) return true;
     if (maySave_ && !maySave_(pos)) return false;

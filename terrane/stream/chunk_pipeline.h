@@ -1,9 +1,9 @@
-// Keeps the chunks around a camera loaded, lit and meshed, on worker threads, and edits on screen and on
-// disk.
+// Keeps the chunks around a camera loaded, lit and meshed on worker threads, and brings edits to the screen
+// and the disk.
 //
 // Three schedulers over one table of chunk records (chunk_table.h) decide what is next; this runs the work.
-// All functions are for one thread, the one that owns the world; workers see only immutable snapshots and
-// hand results back through a queue.
+// All functions are called on one thread, the one that owns the world; workers see only immutable snapshots
+// and return results through a queue.
 #pragma once
 
 #include <chrono>
@@ -28,61 +28,62 @@ class ChunkPipeline {
     using Time = stream::Time;
 
     explicit ChunkPipeline(const PipelineParts& parts);
-    ~ChunkPipeline();  // waits for its running jobs, the others do nothing; saves what changed
+    ~ChunkPipeline();  // waits for its running jobs, the others do nothing; saves edited chunks
 
-    // Chunks up to `viewDistance` (Chebyshev) around `center` are to be visible, tiles beyond them to
-    // `horizon`: see TileView. `direction`: see ViewOrder.
+    // Chunks up to `viewDistance` (Chebyshev) around `center` become visible, tiles beyond them to `horizon`:
+    // see TileView. `direction`: see ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {}, int horizon = 0);
     // Visible chunks are meshed again in the next updates; they are shown as before until then.
     void setMeshOptions(const mesh::MeshOptions& options);
     const mesh::MeshOptions& meshOptions() const { return meshOptions_; }
-    // The blocks that the chunk is meshed from, as they are now.
+    // The current blocks that the chunk is meshed from.
     mesh::MeshBlocks meshBlocks(world::ChunkPos pos) const;
-    // Takes in what workers finished, puts edits on screen, gives out new work. Call each frame.
-    // What a worker threw is thrown on from here.
+    // Takes the results of workers, puts edits on screen and submits new work. Call each frame. Throws what a
+    // worker threw.
     void update(Time now = std::chrono::steady_clock::now());
-    // Blocks until a worker or a batch may have finished something, or the time is over.
+    // Blocks until a worker or a batch may have a result, or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
-    // The chunk, or null unless it is loaded; then it is loaded soon, and is kept for 5 s from each call.
+    // The chunk; null if it is not loaded, and then it is loaded soon. Each call keeps it for 5 s.
     world::ChunkPtr maybeLoadChunkAt(world::ChunkPos pos);
     // Blocks until the chunk is loaded. `pos` is in the world.
     world::ChunkPtr chunkAt(world::ChunkPos pos);
 
-    // Blocks of the world changed. Light and mesh follow in the next update; the chunks go to the store after
+    // Reports changed blocks. Light and mesh follow in the next update; the chunks go to the store after
     // kSaveAfter and are in the file store::SaveLimits::delay later: within two seconds in all.
     void onEdits(std::span<const world::BlockEdit> edits);
     static constexpr std::chrono::milliseconds kSaveAfter{500};
     static constexpr std::chrono::milliseconds kHousekeepingEvery{250};
     // Hands all edited chunks to the store.
     void saveAll();
-    // Chunks for which it says no are not saved now, and stay loaded: what was changed in them may yet be
-    // taken back. Empty: all are saved.
+    // Chunks for which the filter is false are not saved now and stay loaded: their changes may yet be
+    // reverted. Empty: all are saved.
     void setSaveFilter(std::function<bool(world::ChunkPos)> maySave) { maySave_ = std::move(maySave); }
     // Whether the chunk has edits that the store was not given yet.
     bool isUnsaved(world::ChunkPos pos) const;
-    // The chunks that were loaded since the last call, once asked for: for who adds to what the store has.
+    // The chunks that were loaded since the last call; the first call begins to record them. For callers that
+    // add to what the store has.
     std::vector<world::ChunkPos> takeLoaded();
 
     // Returns up to `limit` chunks whose mesh or light changed since the last call. Edited chunks come first,
     // then the rest in order of change.
     std::vector<ChunkChange> takeChanges(std::size_t limit) { return changes_.take(limit); }
-    // Of these changes the chunks that are no longer on screen, before all others: they free memory.
+    // Takes only the changes of chunks that are no longer on screen: they free memory.
     std::vector<world::ChunkPos> takeHidden() { return changes_.takeHidden(); }
     // Takes all chunks off the screen. They are lit, meshed and shown again in the next updates.
     void hideAll();
     std::size_t waitingChanges() const { return changes_.size(); }
-    // Hands out the light of all visible chunks again, as to a renderer whose store of light is new.
+    // Reports the light of all visible chunks again, for a renderer with a new store of light.
     void resendLight();
 
-    // None where the chunk is absent.
+    // None if the chunk is absent.
     std::optional<ChunkStage> stageAt(world::ChunkPos pos) const { return stream::stageAt(table_, pos); }
-    // The light in a block; none where its chunk is not visible, above and below the world.
+    // The light in a block; none if its chunk is not visible, and above and below the world.
     std::optional<light::LightValue> lightAt(world::BlockPos pos) const;
     std::vector<TaskTime> taskTimes() const { return workers_.taskTimes(); }
-    std::size_t queuedCount() const;  // chunks that are loaded, lit or meshed now
+    std::size_t queuedCount() const;  // chunks that are being loaded, lit or meshed
     Progress progress() const;
-    // Of visible chunks' light, and of what chunks' own blocks give, kept until their neighbors are lit.
+    // Bytes of the light of visible chunks, and of local light, which is kept until the neighbors are lit.
     std::size_t lightBytes() const;
     std::size_t localLightBytes() const;
 
@@ -104,17 +105,17 @@ class ChunkPipeline {
     void showMesh(world::ChunkPos pos, mesh::MeshSectionSet meshSections);
 
     void cancelLoads();
-    void keepHouse();
+    void runHousekeeping();
     bool save(world::ChunkPos pos, ChunkRecord& record);
 
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;
     ChunkTable table_;
-    TileView tileView_;  // what borders on tiles
+    TileView tileView_;  // for the chunks that border on tiles
     world::ChunkPtr beyond_;
     ChangeQueue changes_;
     ChunkWorkers workers_;
-    // For the batch generator and the batch lighter, and how many chunks they have.
+    // Chunks for the batch generator and the batch lighter, and the number of those that they work on.
     std::deque<world::ChunkPos> toGenerate_, toLight_;
     std::size_t generating_ = 0, lighting_ = 0;
     PendingEdits toRelight_;

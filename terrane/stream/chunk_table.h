@@ -1,7 +1,7 @@
-// One record for each chunk in memory or on its way there, and the view around which they are ordered. The
-// data that the three schedulers share: residency.h decides what is loaded and unloaded, lighting.h what is
-// lit, meshing.h what is meshed again. None of them knows threads, clocks or blocks; chunk_pipeline.h runs
-// their work. One thread.
+// One record for each chunk that is loaded or being loaded, and the view that orders them: the data that the
+// three schedulers share. residency.h decides what is loaded and unloaded, lighting.h what is lit, meshing.h
+// what is meshed again. None of them uses threads, clocks or blocks; chunk_pipeline.h runs their work. One
+// thread.
 //
 //   (absent) ─► Loading ─► Loaded ─► Lighting ─► Visible
 //                            ▲ │ ▲──────┘ blocks changed meanwhile
@@ -9,7 +9,7 @@
 //                            │ (absent): nobody needed it for 5 s
 //                            └─────────────────── Visible: the view moved on
 //
-// Chunks within the view distance are to be visible, those one ring around them loaded, since a chunk can be
+// Chunks within the view distance become visible, and one ring around them is loaded, since a chunk can be
 // lit and meshed only while its eight neighbors are loaded.
 #pragma once
 
@@ -52,7 +52,7 @@ struct ChunkRecord {
     light::ChunkLightPtr light{};   // of visible chunks
 
     // Meshing again, of visible chunks.
-    mesh::MeshSectionSet toMesh = 0;  // what waits to be meshed
+    mesh::MeshSectionSet toMesh = 0;  // sections that wait to be meshed
     std::uint64_t meshJob = 0;        // the job that meshes all of it; 0: none, or its result is outdated
 };
 
@@ -71,8 +71,8 @@ struct ChunkTable {
     // Lighting: chunks before lightCursor in the view's order are Lighting or Visible, or not in view.
     std::size_t lightCursor = 0;
 
-    // Meshing: chunks with `toMesh`, after edits and for other reasons; some stand here twice, or are meshed
-    // by now. Jobs are numbered from 1.
+    // Meshing: chunks with `toMesh`, after edits and for other reasons; some are listed twice or already
+    // meshed. Jobs are numbered from 1.
     std::deque<world::ChunkPos> editedMeshes, otherMeshes;
     std::uint64_t lastMeshJob = 0;
     std::size_t meshJobCount = 0;  // on workers
@@ -84,7 +84,7 @@ std::optional<ChunkStage> stageAt(const ChunkTable& table, world::ChunkPos pos);
 bool isAt(const ChunkTable& table, world::ChunkPos pos, ChunkStage stage);
 std::size_t countOf(const ChunkTable& table, ChunkStage stage);
 
-// For the schedulers: keeps the counts. A new record is Loading.
+// For the schedulers: these keep the counts. A new record is Loading.
 ChunkRecord& addRecord(ChunkTable& table, world::ChunkPos pos);
 void eraseRecord(ChunkTable& table, world::ChunkPos pos);
 void setStage(ChunkTable& table, world::ChunkPos pos, ChunkRecord& record, ChunkStage stage);

@@ -13,8 +13,9 @@ namespace {
 constexpr std::array kTaskNames = {"load", "generate", "local light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
-// Jobs in flight a worker: enough that none waits for the next update, few enough that the queue follows the
-// camera. A job takes about a millisecond (docs/performance.md), so one for each that passes between updates.
+// Jobs in flight for each worker: enough that none waits for the next update, few enough that the queue
+// follows the camera. A job takes about a millisecond (docs/performance.md), so one for each millisecond
+// between updates.
 constexpr std::int64_t kMinJobsPerWorker = 8, kMaxJobsPerWorker = 128;
 
 }  // namespace
@@ -27,7 +28,7 @@ ChunkWorkers::~ChunkWorkers() {
     parts_.jobs.waitIdle();
 }
 
-// A job that throws is reported, so that nobody waits for a chunk that does not come: the pipeline's owner
+// Exceptions of jobs are reported, so that nobody waits for a chunk that never comes: the pipeline's owner
 // saves and ends.
 template <class Work>
 base::JobHandle ChunkWorkers::submit(base::JobPriority priority, Work work) {

@@ -1,5 +1,5 @@
-// Runs the pipeline's work on workers: each submit makes one job, whose result takeResults() gives.
-// Workers see immutable snapshots only. Used on the pipeline's thread.
+// Runs the pipeline's work on workers: each submit function makes one job, and takeResults() returns the
+// results. Workers see only immutable snapshots. Used on the pipeline's thread.
 #pragma once
 
 #include <chrono>
@@ -18,13 +18,13 @@ class ChunkWorkers {
     explicit ChunkWorkers(const PipelineParts& parts);
     ~ChunkWorkers();  // waits for all running jobs; its waiting ones do nothing
 
-    // Loads or generates a chunk and finds its local light. A source without a generator gives null where the
+    // Loads or generates a chunk and computes its local light. Without a generator, the result is null if the
     // store has no chunk.
     base::JobHandle submitLoad(base::JobPriority priority, world::ChunkPos pos, const ChunkSource& source);
-    // Finds the local light of a chunk that a batch generator made.
+    // Computes the local light of a chunk that a batch generator made.
     void submitLocalLight(base::JobPriority priority, world::ChunkPos pos,
                           std::shared_ptr<world::Chunk> chunk);
-    // Lights the chunk, and meshes it where workers do that.
+    // Lights the chunk, and meshes it if workers make meshes.
     void submitLighting(base::JobPriority priority, world::ChunkPos pos, ChunkNeighborhood around,
                         const mesh::MeshOptions& options);
     // Meshes a chunk that a batch lighter lit.
@@ -34,12 +34,12 @@ class ChunkWorkers {
     void submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
                     const mesh::MeshOptions& options);
 
-    // What is finished. Throws on what a job threw: nearly always that memory is short.
+    // Takes the results. Throws what a job threw, nearly always for lack of memory.
     WorkerResults::Lists takeResults();
     // Blocks until there is a result or the time is over.
     void waitForAny(std::chrono::milliseconds atMost) { results_->waitForAny(atMost); }
 
-    // How many jobs of a kind may be in flight, more where updates come rarely.
+    // The number of jobs of a kind that may be in flight, more if updates are rare.
     std::size_t jobLimit(std::chrono::nanoseconds sinceUpdate) const;
     std::vector<TaskTime> taskTimes() const;
 

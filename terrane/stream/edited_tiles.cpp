@@ -20,7 +20,7 @@ namespace {
 constexpr int kColumns = world::kChunkSize * world::kChunkSize;
 constexpr int kHalf = world::kChunkSize / 2;
 
-// Of a whole chunk, by block index.
+// Blocks of a whole chunk, by block index.
 using ChunkBlocks = std::vector<BlockId>;
 
 ChunkBlocks unpackChunk(const world::Chunk& chunk) {
@@ -32,7 +32,7 @@ ChunkBlocks unpackChunk(const world::Chunk& chunk) {
     return blocks;
 }
 
-// The lowest ground of all columns: z of the first opaque block from above, 0 where a column has none.
+// The lowest ground of all columns: z of the first opaque block from above, 0 if a column has none.
 int lowestGround(const world::DownsampleRule& rule, const ChunkBlocks& blocks) {
     std::bitset<kColumns> found;
     for (int z = world::kChunkHeight - 1; z > 0; --z) {
@@ -49,7 +49,7 @@ int lowestGround(const world::DownsampleRule& rule, const ChunkBlocks& blocks) {
 struct ChildBlocks {
     ChunkBlocks edited, generated;
     int seenFrom = 0;                    // lower blocks are not seen
-    std::bitset<kColumns> hasChanged{};  // columns that differ in what is seen
+    std::bitset<kColumns> hasChanged{};  // columns that differ visibly
 };
 
 ChildBlocks compareBlocks(const world::DownsampleRule& rule, const world::Chunk& edited,
@@ -63,7 +63,7 @@ ChildBlocks compareBlocks(const world::DownsampleRule& rule, const world::Chunk&
     return child;
 }
 
-// Column of a tile made of the four whose lowest x and y are these.
+// The column of a tile made of the four from x, y on.
 world::BlockColumn parentColumn(const world::DownsampleRule& rule, const ChunkBlocks& blocks, int x, int y,
                                 world::ColumnPos at) {
     std::array<world::BlockColumn, 4> four;
@@ -101,7 +101,7 @@ void writeColumns(const world::DownsampleRule& rule, const ChildBlocks& child, C
     }
 }
 
-// The tile with these blocks, which have no block state; null where they are its own.
+// The tile with these blocks, without block state; null if its blocks are the same.
 ChunkPtr withBlocks(const world::Chunk& tile, const ChunkBlocks& blocks) {
     std::shared_ptr<world::Chunk> changed;
     for (int s = 0; s < world::kSectionsPerChunk; ++s) {
@@ -119,7 +119,7 @@ ChunkPos childOf(ChunkPos tile, int quarter) {
     return world::offsetBy(firstChildOf(tile), quarter & 1, quarter >> 1);
 }
 
-// Generated chunks that are asked for again: a tile of one level is compared as a child on the next.
+// A cache of generated chunks: a tile of one level is compared as a child on the next.
 class GeneratedChunks {
   public:
     explicit GeneratedChunks(const gen::LevelGenerators& generators) : generators_(generators) {}

@@ -8,7 +8,7 @@ namespace {
 
 using world::ChunkPos;
 
-// Null where there is nothing to mesh any more.
+// Null if there is nothing to mesh any more.
 ChunkRecord* waitingRecord(ChunkTable& table, ChunkPos pos) {
     ChunkRecord* record = findRecord(table, pos);
     return record && record->toMesh != 0 ? record : nullptr;
@@ -21,7 +21,7 @@ void requestEditedMesh(ChunkTable& table, ChunkPos pos, mesh::MeshSectionSet mes
     if (!record || record->stage != ChunkStage::Visible) return;
     const bool isInJob = std::exchange(record->meshJob, 0) != 0;
     record->toMesh |= isInJob ? mesh::kAllMeshSections : meshSections;
-    // A run of edits in one chunk asks once.
+    // Edits of one chunk in a row are one request.
     if (table.editedMeshes.empty() || table.editedMeshes.back() != pos) table.editedMeshes.push_back(pos);
 }
 
@@ -49,7 +49,7 @@ std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit) {
     for (; popped.size() < limit && !table.otherMeshes.empty(); table.otherMeshes.pop_front()) {
         const ChunkPos pos = table.otherMeshes.front();
         ChunkRecord* record = waitingRecord(table, pos);
-        // What an edit touched in part waits among the edited ones.
+        // A chunk that an edit touched in part is among the edited ones.
         if (!record || record->toMesh != mesh::kAllMeshSections) continue;
         record->toMesh = 0;
         record->meshJob = ++table.lastMeshJob;

@@ -1,6 +1,6 @@
-// Which visible chunks are meshed again: the third of the pipeline's three schedulers (chunk_table.h). What
-// edits touched is meshed at once, before everything else; whole chunks, as when the options of meshing
-// change, are meshed by jobs and shown as before until then.
+// Schedules the meshing of visible chunks that changed: the third of the pipeline's three schedulers
+// (chunk_table.h). Sections that edits touched are meshed at once, before everything else; whole chunks, as
+// when the options of meshing change, are meshed by jobs and shown as before until then.
 #pragma once
 
 #include <cstddef>
@@ -11,24 +11,24 @@
 
 namespace terrane::stream {
 
-// Chunks that are not Visible are passed over: they are meshed when they are lit.
+// Ignores chunks that are not Visible: they are meshed when they are lit.
 void requestEditedMesh(ChunkTable& table, world::ChunkPos pos, mesh::MeshSectionSet meshSections);
 void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
 
 struct MeshRequest {
     world::ChunkPos pos;
-    mesh::MeshSectionSet meshSections = 0;  // all where a job was to mesh the chunk, or does
+    mesh::MeshSectionSet meshSections = 0;  // all if a job was to mesh the chunk
 };
-// Up to `limit` chunks that edits touched; their mesh is up to date then.
+// Takes up to `limit` chunks that edits touched; the caller meshes them at once.
 std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);
 
 struct MeshJob {
     world::ChunkPos pos;
     std::uint64_t number = 0;
 };
-// Up to `limit` whole chunks for workers. Each job ends with finishMeshJob().
+// Takes up to `limit` whole chunks for workers. Each job ends with finishMeshJob().
 std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit);
-// False where the result is outdated: the chunk was meshed since, or is not shown any more.
+// False if the result is outdated: the chunk was meshed since, or is not shown any more.
 bool finishMeshJob(ChunkTable& table, const MeshJob& job);
 
 // Chunks that wait or are being meshed; some may count twice.

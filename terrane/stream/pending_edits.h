@@ -1,4 +1,4 @@
-// Edits whose light is not found yet: each block once, as it was before the first of its edits.
+// Edits that are not relit yet: each block once, as it was before the first of its edits.
 #pragma once
 
 #include <vector>

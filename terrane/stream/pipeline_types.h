@@ -1,4 +1,4 @@
-// What goes into the chunk pipeline (chunk_pipeline.h) and what comes out of it: plain values.
+// Input and output of the chunk pipeline (chunk_pipeline.h): plain values.
 #pragma once
 
 #include <cstddef>
@@ -11,12 +11,12 @@
 
 namespace terrane::stream {
 
-// What became of a chunk on screen. Null: as before.
+// A change of a chunk on screen. Null: as before.
 struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
     mesh::MeshSectionSet meshSections = 0;  // of the mesh that changed; the others have no quads in it
-    bool needsMesh = false;                 // whoever takes the change makes the mesh: see MeshPolicy
+    bool needsMesh = false;                 // whoever takes the change is to make the mesh: see MeshPolicy
     light::ChunkLightPtr light;
     std::uint16_t bricks = 0;  // of the light that changed, a bit each
     bool isHidden = false;     // it is no longer on screen
@@ -30,19 +30,19 @@ struct Progress {
     bool isUpToDate() const { return complete() && remaining == 0; }
 };
 
-// What workers did so far, of one kind of task.
+// The work on one kind of task so far.
 struct TaskTime {
     const char* name = "";
     std::size_t count = 0;
     double microseconds = 0;  // of all
 };
 
-// Who meshes whole chunks: workers, or whoever takes the changes, as on the GPU, from
-// ChunkPipeline::meshBlocks(). Sections that edits touch are meshed by the pipeline either way: they are seen
-// in the next frame.
+// The maker of meshes of whole chunks: workers, or whoever takes the changes, as on the GPU, from
+// ChunkPipeline::meshBlocks(). The pipeline meshes sections that edits touch either way, so that edits are
+// visible in the next frame.
 enum class MeshPolicy : std::uint8_t { Workers, Caller };
 
-// What the pipeline works with; everything outlives it.
+// The parts that the pipeline uses; all outlive it.
 struct PipelineParts {
     base::JobSystem& jobs;
     const world::BlockRegistry& blocks;

@@ -64,8 +64,8 @@ ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& wo
     return around;
 }
 
-// Light reaches 15 blocks, less than a chunk: an edit changes light in its chunk's 3×3 alone. So light that
-// is found from scratch around the unlit ones, after the others, is right whatever these took from there.
+// Light reaches 15 blocks, less than a chunk: an edit changes only light in its chunk's 3×3. Chunks around
+// unlit ones are lit from scratch after the others, which corrects whatever these took from them.
 std::vector<light::LightChange> relightEdits(ChunkTable& table, const world::World& world,
                                              std::span<const world::BlockEdit> edits,
                                              const light::LightTable& lights) {

@@ -31,7 +31,7 @@ void changeLoadedAround(ChunkTable& table, ChunkPos pos, int change) {
     }
 }
 
-// Visible chunks become Loaded where `isPopped`.
+// Takes the visible chunks for which `isPopped` is true and makes them Loaded.
 template <class IsPopped>
 std::vector<ChunkPos> popVisibleWhere(ChunkTable& table, const IsPopped& isPopped) {
     std::vector<ChunkPos> popped;

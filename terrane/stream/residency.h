@@ -1,4 +1,4 @@
-// Which chunks are loaded and unloaded: the first of the pipeline's three schedulers (chunk_table.h).
+// Schedules loading and unloading of chunks: the first of the pipeline's three schedulers (chunk_table.h).
 #pragma once
 
 #include <cstddef>
@@ -10,25 +10,26 @@ namespace terrane::stream {
 
 constexpr std::chrono::seconds kUnloadAfter{5};
 
-// Moves the view (view_order.h). False where all is as before.
+// Moves the view (view_order.h). False if nothing changed.
 bool setView(ChunkTable& table, world::ChunkPos center, int distance, glm::vec2 direction = {});
 
-// Somebody else needs a chunk that is in the world: it is loaded soon and kept for 5 s.
+// Requests a chunk of the world for others than the view: it is loaded soon and kept for 5 s.
 void requestChunk(ChunkTable& table, world::ChunkPos pos, Time now);
 
-// Up to `limit` absent chunks that are to be loaded, most urgent first; they are Loading then.
+// Takes up to `limit` absent chunks to load, most urgent first, and makes them Loading.
 std::vector<world::ChunkPos> popLoadRequests(ChunkTable& table, std::size_t limit);
-// Nobody needs the chunk any more: its load may be cancelled. What was requested is always loaded.
+// Whether nobody needs the chunk any more, so that its load may be cancelled. Requested chunks are always
+// loaded.
 bool mayCancelLoad(const ChunkTable& table, world::ChunkPos pos);
-// A Loading chunk is Loaded, or will not come: then it is absent again.
+// A Loading chunk becomes Loaded; an abandoned one is absent again.
 void finishLoad(ChunkTable& table, world::ChunkPos pos, Time now);
 void abandonLoad(ChunkTable& table, world::ChunkPos pos);
 
-// Visible chunks that the view has left by more than one ring; they are Loaded then.
+// Takes the visible chunks that the view has left by more than one ring, and makes them Loaded.
 std::vector<world::ChunkPos> popHidden(ChunkTable& table);
-// All visible chunks; they are Loaded then, and come again where the view has them.
+// Takes all visible chunks and makes them Loaded; those in view are lit again.
 std::vector<world::ChunkPos> popVisible(ChunkTable& table);
-// Loaded chunks that nobody needed for 5 s. The caller saves them and erases their records.
+// Loaded chunks that nobody needed for 5 s. The caller saves and unloads them.
 std::vector<world::ChunkPos> findUnneeded(ChunkTable& table, Time now);
 void unload(ChunkTable& table, world::ChunkPos pos);
 

@@ -6,7 +6,7 @@ namespace {
 using world::BlockId;
 using world::BlockIndex;
 
-// Of the lowest section above which all is air.
+// The height of the sections, in blocks, above which all is air.
 int heightOf(const world::Chunk& tile) {
     int number = world::kSectionsPerChunk;
     while (number > 0 && tile.section(number - 1) == world::Section(world::kAir)) --number;
@@ -18,7 +18,7 @@ struct Column {
     int floor = 0;    // the highest block below the liquid; none: -1
 };
 
-// Of the liquid that is open to the sky; without any both are equal.
+// Surface and floor of the liquid that is open to the sky; equal if there is none.
 Column liquidAt(const world::Chunk& tile, const world::BlockRegistry& blocks, int x, int y, int height) {
     const auto block = [&](int z) { return tile.block(world::blockIndex(x, y, z)); };
     int z = height - 1;

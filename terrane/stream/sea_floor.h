@@ -1,4 +1,4 @@
-// The ground under deep water, as tiles show it. Any thread.
+// Simplifies the ground under deep water of tiles. Any thread.
 #pragma once
 
 #include "terrane/world/block_registry.h"
@@ -6,12 +6,12 @@
 
 namespace terrane::stream {
 
-// Blocks of water through which no ground is seen: by the light of far tiles none is left after 15
-// (render/water.glsl), by its own color hardly a twentieth.
+// The depth of water in blocks that hides the ground: the light of far tiles is gone after 15
+// (render/water.glsl), and hardly a twentieth of its own color is left.
 constexpr int kDeepestSeen = 24;
 
-// Raises ground that lies deeper than that under a liquid to that depth, with one kind of block: where a
-// quarter of a tile is sea that spares most of its quads, which nobody sees.
+// Raises ground that lies deeper than that under a liquid to that depth, with one kind of block: in tiles
+// with a quarter of sea that saves most quads, which nobody sees.
 void raiseDeepFloor(world::Chunk& tile, const world::BlockRegistry& blocks);
 
 }  // namespace terrane::stream

@@ -37,7 +37,7 @@ void remeshBorders(ChunkTable& table, const TileView& before, const TileView& no
     if (before == now) return;
     for (auto& [pos, record] : table.records) {
         if (openSides(before, pos) == openSides(now, pos)) continue;
-        record.isOutdated = true;  // what is lit and meshed now has the old sides
+        record.isOutdated = true;  // running jobs have the old sides
         requestWholeMesh(table, pos);
     }
 }

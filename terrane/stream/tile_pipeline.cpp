@@ -17,11 +17,12 @@ using world::ChunkPos;
 
 namespace {
 
-// A tile is seen from afar: few mesh sections are better than a fine cull.
+// Tiles are far away: few mesh sections are better than a fine cull.
 constexpr int kMeshSectionHeight = world::kChunkHeight / 2;
 // Enough that no worker waits for the next frame: a tile takes about a third of a millisecond.
 constexpr std::size_t kJobsPerWorker = 64;
-// After all chunks. The coarsest tiles come before all: without them there is nothing out there.
+// Tiles come after all chunks, but the coarsest ones before all: without them there is no land beyond the
+// chunks.
 constexpr base::JobPriority kFirst = -1, kAfterChunks = base::JobPriority{1} << 40;
 
 world::Chunk tileBlocks(const TileParts& parts, ChunkPos pos) {
@@ -33,7 +34,7 @@ world::Chunk tileBlocks(const TileParts& parts, ChunkPos pos) {
 
 }  // namespace
 
-// Filled by any thread; jobs hold it too, so that one that ends late finds it alive.
+// Filled by any thread; jobs share it, since they may end after the pipeline.
 struct TilePipeline::Results {
     struct Made {
         std::uint64_t job = 0;
@@ -97,8 +98,8 @@ void TilePipeline::takeResults() {
     results_->outdated.clear();
 }
 
-// What was begun for a tile that is not wanted any more is never taken for it later, when it is wanted again:
-// its blocks may be others by then.
+// The result for a tile that is no longer requested is not used when the tile is requested again: its blocks
+// may have changed.
 TileChanges TilePipeline::takeChanges() {
     TileChanges changes = updateTiles(table_);
     std::erase_if(jobs_, [&](const auto& entry) {

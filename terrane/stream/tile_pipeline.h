@@ -1,6 +1,6 @@
-// Makes the tiles that a view needs beyond its chunks, on worker threads: from the store where edits changed
-// them, else straight from the generator, without light and without neighbors. tile_table.h has the rules.
-// Used on the thread that owns the world; workers hand results back through a queue.
+// Makes the tiles that a view needs beyond its chunks, on worker threads: from the store if edits changed
+// them, else from the generator, without light and without neighbors. tile_table.h has the rules. Used on the
+// thread that owns the world; workers return results through a queue.
 #pragma once
 
 #include <chrono>
@@ -32,10 +32,10 @@ struct TileMesh {
     MeshPtr mesh;
 };
 
-// Tiles that are not any more what they were. Any thread may call it, also when the pipeline is gone.
+// Called with tiles that have changed. Any thread may call it, also when the pipeline is gone.
 using TileListener = std::function<void(std::span<const world::ChunkPos>)>;
 
-// Blocks and mesh of a tile. Any thread. Throws where there is no generator of the level.
+// Makes the mesh of a tile. Any thread. Throws if the level has no generator.
 MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
 
 class TilePipeline {
@@ -44,29 +44,28 @@ class TilePipeline {
     ~TilePipeline();  // waits for all running jobs; its waiting ones do nothing
 
     void setView(const TileView& view) { setTileView(table_, view); }
-    // A chunk of level 0 can be shown, or no longer.
+    // Sets whether a chunk of level 0 can be shown.
     void setChunkReady(world::ChunkPos pos, bool isReady) { stream::setChunkReady(table_, pos, isReady); }
-    // Tells the pipeline of tiles to be made again. The listener may outlive it.
+    // A listener that makes the pipeline make these tiles again. It may outlive the pipeline.
     TileListener tileListener() const;
-    // Takes in what workers finished, and gives out new work after all chunks that wait. Call each frame.
-    // What a worker threw is thrown on from here.
+    // Takes the results of workers and submits new work. Call each frame. Throws what a worker threw.
     void update(mesh::MergeMethod method);
     // Blocks until a worker may have finished a tile, or the time is over.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
-    // Up to `limit` tiles that are new. The caller can show them from here on.
+    // Takes up to `limit` new tiles, which the caller can show from now on.
     std::vector<TileMesh> takeMeshes(std::size_t limit);
-    // One of them found no room: it is taken again, unless the view has no place for it any more.
+    // Puts back a tile that found no room: it is taken again, unless the view has no place for it any more.
     void putBack(TileMesh mesh);
-    // What is to be shown, hidden and dropped, by what the caller has. Cancels the work on what is dropped.
+    // Tiles to show, hide and drop among those that the caller has. Cancels the work on dropped tiles.
     TileChanges takeChanges();
 
-    // The caller has nothing any more: everything comes again.
+    // The caller has dropped all tiles: all are made again.
     void forgetAll();
 
     const TileTable& table() const { return table_; }
     TaskTime taskTime() const;  // of tiles made so far, on all workers
-    // Tiles that are wanted and that the caller does not have.
+    // Requested tiles that the caller does not have.
     std::size_t missing() const { return missingTiles(table_); }
 
   private:
@@ -82,7 +81,7 @@ class TilePipeline {
     TileParts parts_;
     TileTable table_;
     std::vector<TileMesh> finished_;
-    std::unordered_map<std::uint64_t, Job> jobs_;  // given out and not over, by number
+    std::unordered_map<std::uint64_t, Job> jobs_;  // submitted and not finished, by number
     std::uint64_t jobCount_ = 0;
     mesh::MergeMethod method_{};  // of the last update
     std::shared_ptr<Results> results_;

@@ -15,7 +15,7 @@ using world::ChunkPtr;
 
 namespace {
 
-// How tiles follow from chunks: another rule gets another name, and all rows are built anew.
+// The version of the rules that derive tiles from chunks: rows of another version are built again.
 constexpr std::string_view kRules = "1";
 
 // The coarsest level of the widest view.

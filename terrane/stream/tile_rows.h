@@ -1,5 +1,4 @@
-// Keeps the tiles that edits change in the store, as rows that follow from the edited chunks. What is done
-// here is written down in docs/levels.md.
+// Keeps the tiles that edits change in the store, as rows derived from the edited chunks (docs/levels.md).
 #pragma once
 
 #include "terrane/base/result.h"
@@ -10,13 +9,13 @@
 
 namespace terrane::stream {
 
-// From now on the store writes such rows with the chunks that they follow from, and tells the listener,
+// From now on the store writes these rows with the chunks that they are derived from, and calls the listener,
 // unless empty. `generators` outlives the store.
 void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
                   const world::BlockRegistry& blocks, TileListener listener);
 
 // Builds the rows of a world that lacks them, after keepTileRows() and before tiles are loaded: takes some
-// milliseconds an edited chunk, and nothing where they are there. Where it fails the store is as before.
+// milliseconds for each edited chunk, and no time if the rows exist. If it fails, the store is unchanged.
 [[nodiscard]] base::Result<void> buildTileRows(store::ChunkStore& store);
 
 }  // namespace terrane::stream

@@ -14,29 +14,29 @@ using world::ChunkPos;
 
 namespace {
 
-// The coarsest level is so much coarser than the outermost ring: few tiles cover everything at once.
+// The coarsest level is so much coarser than the outermost ring that few tiles cover everything at once.
 constexpr int kCoarserFirst = 2;
-// Of the tiles that give way to others, these levels are made all the same, counted from the coarsest: what
-// is seen meanwhile is at most 2^3 times too coarse.
+// Every third level of divided tiles, counted from the coarsest, is made as well: the land shown while others
+// load is at most 2^3 times too coarse.
 constexpr int kLevelsBetween = 3;
 // A tile stays divided until the camera is this many of its widths beyond the border.
 constexpr int kStayDivided = 1;
-// Tiles come before they are within the horizon, chunks, and go as far beyond.
+// Tiles are made this many chunks before they are within the horizon, and dropped twice as far beyond it.
 constexpr int kEarly = 16;
 // Tiles of level 1 under the outermost chunks of level 0 are kept ready, since the chunks vanish at once.
-// They go when they lie twice as far inside.
+// They are dropped twice as far inside.
 constexpr int kStandby = 4;
-// Tiles of a level come in bands around the camera, so many tiles wide, row by row: neighbors, which share
-// much of their generation, then follow each other.
+// Tiles of a level are made in bands around the camera, so many tiles wide, row by row: neighbors, which
+// share much of their generation, then follow each other.
 constexpr int kBandTiles = 16;
-// Beyond all distances.
+// Larger than all distances.
 constexpr std::int64_t kFarthest = std::int64_t{1} << 40;
 
 std::int64_t widthOf(int level) {
     return std::int64_t{1} << level;
 }
 
-// `isKnown`: it has a record.
+// Whether the tile is within the horizon. `isKnown`: it has a record.
 bool isCovered(const TileView& view, ChunkPos tile, bool isKnown) {
     if (!world::isInWorld(tile)) return false;
     const std::int64_t beyond = tileDistance(view.center, tile) - view.horizon;
@@ -69,7 +69,7 @@ std::array<ChunkPos, 4> childrenOf(ChunkPos tile) {
 
 using Node = std::pair<const ChunkPos, TileRecord>;
 
-// One walk over the quad-tree: what is wanted, and what covers each column.
+// One walk over the quad-tree: finds the tiles to make, and the cover of each column.
 class Walk {
   public:
     Walk(TileTable& table, int coarsest) : table_(table), coarsest_(coarsest) {}
@@ -79,8 +79,8 @@ class Walk {
     std::vector<Node*> shown;
 
   private:
-    bool visit(ChunkPos tile, bool isWanted);
-    bool visitChildren(ChunkPos tile, bool isWanted);
+    bool visit(ChunkPos tile, bool isRequested);
+    bool visitChildren(ChunkPos tile, bool isRequested);
     bool isUseful(ChunkPos tile, bool isKnown, bool isWhole) const;
     void request(ChunkPos tile);
 
@@ -102,42 +102,43 @@ void Walk::visitAll() {
     }
 }
 
-// Adds what shows the tile to `shown`. False where some of it cannot be shown yet.
-bool Walk::visit(ChunkPos tile, bool isWanted) {
+// Adds all that shows the tile to `shown`. False if some of it cannot be shown yet.
+bool Walk::visit(ChunkPos tile, bool isRequested) {
     auto found = table_.records.find(tile);
     const bool isKnown = found != table_.records.end();
     if (!isCovered(table_.view, tile, isKnown)) return true;
     if (!isKnown) {
-        if (tile.level == 0 || !isWanted) return false;
+        if (tile.level == 0 || !isRequested) return false;
         found = table_.records.emplace(tile, TileRecord()).first;
     }
     auto& entry = *found;  // the table may grow below
     TileRecord& record = entry.second;
     record.visited = table_.walks;
-    record.isDivided = isWanted && divides(table_.view, tile, record.isDivided);
+    record.isDivided = isRequested && divides(table_.view, tile, record.isDivided);
     const std::size_t before = shown.size();
     bool isWhole = false;
     if (record.isDivided || (!record.isReady && record.isOpen))
         isWhole = visitChildren(tile, record.isDivided);
-    record.isWanted = isWanted && tile.level > 0 && (!record.isDivided || isUseful(tile, isKnown, isWhole));
-    if (record.isWanted && !record.isLoading && (!record.isReady || record.isStale)) request(tile);
+    record.isRequested =
+        isRequested && tile.level > 0 && (!record.isDivided || isUseful(tile, isKnown, isWhole));
+    if (record.isRequested && !record.isLoading && (!record.isReady || record.isStale)) request(tile);
     const bool showsItself = record.isReady && !isWhole;
     if (showsItself) {
         shown.resize(before);
         shown.push_back(&entry);
     }
-    // Where the tile itself is missing, a part of it is better than nothing.
+    // If the tile itself is missing, a part of it is better than nothing.
     record.isOpen = !showsItself && shown.size() > before;
     return showsItself || isWhole;
 }
 
-bool Walk::visitChildren(ChunkPos tile, bool isWanted) {
+bool Walk::visitChildren(ChunkPos tile, bool isRequested) {
     bool isWhole = true;
-    for (const ChunkPos child : childrenOf(tile)) isWhole = visit(child, isWanted) && isWhole;
+    for (const ChunkPos child : childrenOf(tile)) isWhole = visit(child, isRequested) && isWhole;
     return isWhole;
 }
 
-// Of a tile that is divided. `isWhole`: its children show all of it.
+// Whether a divided tile is to be made as well. `isWhole`: its children show all of it.
 bool Walk::isUseful(ChunkPos tile, bool isKnown, bool isWhole) const {
     if (tile.level == 1) {
         const int standby = isKnown ? 2 * kStandby : kStandby;
@@ -146,23 +147,23 @@ bool Walk::isUseful(ChunkPos tile, bool isKnown, bool isWhole) const {
     return !isWhole && (coarsest_ - tile.level) % kLevelsBetween == 0;
 }
 
-// The coarsest tiles first, then what is nearest.
+// The coarsest tiles come first, then the nearest.
 void Walk::request(ChunkPos tile) {
     const std::int64_t distance = tileDistance(table_.view.center, tile);
     const std::int64_t urgency = distance - distance % (kBandTiles * widthOf(tile.level));
     table_.requests.push_back({tile.level == coarsest_ ? urgency - kFarthest : urgency, tile});
 }
 
-// Hides and drops what the last walk neither shows nor wants. False where nothing is left of the record.
+// Hides and drops a node that the last walk neither shows nor requests. False if the record can be erased.
 bool keep(TileTable& table, Node& node, TileChanges& changes) {
     auto& [pos, record] = node;
-    if (record.visited != table.walks) record.isWanted = record.isDivided = record.isOpen = false;
+    if (record.visited != table.walks) record.isRequested = record.isDivided = record.isOpen = false;
     if (record.isShown && record.shown != table.walks) {
         record.isShown = false;
         changes.hidden.push_back(pos);
     }
     if (pos.level == 0) return record.isReady;
-    if (record.isShown || record.isWanted) return true;
+    if (record.isShown || record.isRequested) return true;
     if (record.isReady) changes.dropped.push_back(pos);
     table.loading -= record.isLoading ? 1 : 0;
     record.isReady = record.isLoading = record.isStale = false;

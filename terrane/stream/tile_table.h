@@ -1,5 +1,5 @@
-// Which chunks of which level cover the land out to the horizon: the rules, without threads, clocks or
-// blocks. tile_pipeline.h makes the tiles, view/world_view.h puts them on screen. One thread.
+// Decides which chunks of which level cover the land out to the horizon: the rules, without threads, clocks
+// or blocks. tile_pipeline.h makes the tiles, view/world_view.h puts them on screen. One thread.
 //
 // A tile is a chunk of level 1 or more: 16×16 columns, each 2^level blocks wide (world/coords.h). Tiles form
 // a quad-tree: a tile of level k covers four chunks of level k − 1. Level 0 covers the view distance; beyond
@@ -33,18 +33,18 @@ struct TileView {
 constexpr int kMinDetail = 8;
 constexpr int kMaxHorizon = 4096;
 
-// A chunk of level 0 that can be shown, a tile, or what lies between the two in the quad-tree.
+// A chunk of level 0 that can be shown, a tile, or a node between the two in the quad-tree.
 struct TileRecord {
     bool isReady = false;    // it can be shown
     bool isLoading = false;  // tiles: a request was taken
     bool isStale = false;    // tiles: to be made again; until then it is shown as it is
     bool isShown = false;
-    // As of the last walk over the quad-tree. A tile that is due to be divided stays so some way beyond the
-    // border: walking to and fro loads nothing again.
-    bool isWanted = false;                 // tiles: it is to be made or kept
+    // As of the last walk over the quad-tree. A divided tile stays divided some way beyond the border: moving
+    // to and fro loads nothing again.
+    bool isRequested = false;              // tiles: it is to be made or kept
     bool isDivided = false;                // children are to cover it
     bool isOpen = false;                   // children are shown in its place, or some of them
-    std::uint32_t visited = 0, shown = 0;  // the last walk that came here, that showed it
+    std::uint32_t visited = 0, shown = 0;  // the last walk that visited it, that showed it
 };
 
 struct TileRequest {
@@ -56,15 +56,14 @@ struct TileRequest {
 struct TileTable {
     TileView view;
     std::unordered_map<world::ChunkPos, TileRecord, world::ChunkPosHash> records;
-    std::vector<TileRequest>
-        requests;             // absent or stale tiles that are wanted, a heap with the most urgent in front
-    std::size_t loading = 0;  // tiles
+    std::vector<TileRequest> requests;  // absent or stale tiles to make, a heap with the most urgent in front
+    std::size_t loading = 0;            // tiles
     std::uint32_t walks = 0;
     bool isOutdated = true;  // something changed since updateTiles()
     bool hasGone = false;    // something that was shown cannot be any more
 };
 
-// What changed on screen, in no order. A tile that is dropped was hidden before or is hidden too.
+// Changes on screen, in no order. A tile that is dropped was hidden before or is hidden too.
 struct TileChanges {
     std::vector<world::ChunkPos> shown, hidden, dropped;
 };
@@ -73,36 +72,36 @@ struct TileChanges {
 int coarsestLevel(const TileView& view);
 // Chunks of level 0 between the chunk `center`, which is of level 0, and the nearest one that `tile` covers.
 std::int64_t tileDistance(world::ChunkPos center, world::ChunkPos tile);
-// Whether the view distance holds all chunks that the tile covers: of tiles of level 1 these chunks are
-// shown.
+// Whether the view distance holds all chunks that the tile covers: a tile of level 1 then gives way to its
+// chunks.
 bool isWithinView(const TileView& view, world::ChunkPos tile);
-// The chunk of the next level that covers this one; the one of four children with the lowest x and y.
+// The chunk of the next level that covers this one, and the child with the lowest x and y.
 world::ChunkPos parentOf(world::ChunkPos pos);
 world::ChunkPos firstChildOf(world::ChunkPos tile);
 
 void setTileView(TileTable& table, const TileView& view);
-// A chunk of level 0 can be shown, or no longer.
+// Sets whether a chunk of level 0 can be shown.
 void setChunkReady(TileTable& table, world::ChunkPos pos, bool isReady);
-// Up to `limit` tiles to make, most urgent first: the coarsest, then level by level from the camera on. They
+// Takes up to `limit` tiles to make, most urgent first: the coarsest, then those nearest to the camera. They
 // are loading then.
 std::vector<world::ChunkPos> popTileRequests(TileTable& table, std::size_t limit);
-// Whether somebody still waits for the tile: it is loading.
+// Whether the tile is loading.
 bool isAwaited(const TileTable& table, world::ChunkPos tile);
-// A loading tile can be shown.
+// A loading tile can be shown now.
 void finishTile(TileTable& table, world::ChunkPos tile);
-// One that is finished cannot be shown yet after all.
+// A finished tile cannot be shown yet after all.
 void unfinishTile(TileTable& table, world::ChunkPos tile);
-// The tile would be made otherwise now: it is made again where it is wanted. The same for all tiles.
+// Marks the tile, or all tiles, as stale: they are made again if requested.
 void outdateTile(TileTable& table, world::ChunkPos tile);
 void outdateAllTiles(TileTable& table);
-// Shows, hides and drops what the last changes ask for. One walk over the quad-tree, about half a millisecond
-// with some thousand tiles; nothing where nothing changed.
+// Updates what is shown, hidden and dropped. One walk over the quad-tree, about half a millisecond with some
+// thousand tiles; none if nothing changed.
 TileChanges updateTiles(TileTable& table);
 
-// How many chunks of each level are shown, from level 0 on: "1089 752 432". Empty without a horizon.
+// The number of shown chunks of each level, from level 0 on: "1089 752 432". Empty without a horizon.
 std::string shownLevels(const TileTable& table);
 
-// Tiles that are wanted and not there yet or stale, as of the last updateTiles().
+// Requested tiles that are absent or stale, as of the last updateTiles().
 inline std::size_t missingTiles(const TileTable& table) {
     return table.requests.size() + table.loading;
 }

@@ -9,7 +9,7 @@ namespace {
 
 using world::ChunkPos;
 
-// Square of the distance, of what lies behind up to twice.
+// 16 times the square of the distance, up to twice as much behind the camera.
 std::int64_t urgencyOf(ChunkPos offset, glm::vec2 direction) {
     const auto x = static_cast<float>(offset.x), y = static_cast<float>(offset.y);
     const float distance = std::sqrt(x * x + y * y);

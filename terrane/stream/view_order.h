@@ -1,5 +1,5 @@
-// The chunks that a view needs and the order in which they come: near ones first, those in front of the
-// camera before those behind it. Plain data and pure functions.
+// The chunks that a view needs and their order: near ones first, those in front of the camera before those
+// behind it. Plain data and pure functions.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ struct ViewOrder {
     int distance = -1;      // chunks, Chebyshev; -1: no view yet
     glm::vec2 direction{};  // in x and y, of length 1 or 0
 
-    // Of the needed chunks from the center, most urgent first, and the place of each of them in that list.
+    // The offsets of the needed chunks from the center, most urgent first, and the index of each offset in
+    // that list.
     std::vector<world::ChunkPos> offsets;
     std::vector<std::size_t> ranks;
 
@@ -27,7 +28,7 @@ struct ViewOrder {
     }
 };
 
-// A view's chunks are to be visible. One ring more is needed to light and mesh them.
+// A view's chunks become visible. One ring more is needed to light and mesh them.
 inline bool isInView(const ViewOrder& view, world::ChunkPos pos) {
     return world::chunkDistance(pos, view.center) <= view.distance;
 }
@@ -38,7 +39,7 @@ inline bool isNeeded(const ViewOrder& view, world::ChunkPos pos) {
 // Sets the view; sorts the offsets again only where distance or direction changed.
 void moveView(ViewOrder& view, world::ChunkPos center, int distance, glm::vec2 direction);
 
-// Of any chunk, in the view or not. The smaller the sooner.
+// The urgency of any chunk, in the view or not. The smaller the sooner.
 std::int64_t urgency(const ViewOrder& view, world::ChunkPos pos);
 
 // The place of a needed chunk in the order.

@@ -1,4 +1,4 @@
-// What the pipeline's jobs leave for its thread, and how long they took.
+// The results of the pipeline's jobs for its thread, and the time that they took.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ namespace terrane::stream {
 
 enum Task : std::size_t { kLoad, kGenerate, kLocalLight, kLight, kMesh, kTaskCount };
 
-// Filled by any thread. Jobs hold it too, so that one that ends late finds it alive.
+// Filled by any thread. Jobs share it, since they may end after the pipeline.
 struct WorkerResults {
     struct Load {
         world::ChunkPos pos;
@@ -48,9 +48,9 @@ struct WorkerResults {
     std::mutex mutex;
     std::condition_variable changed;
     Lists lists;                      // under the mutex
-    std::atomic<bool> isOver{false};  // nobody takes results any more: jobs that begin now do nothing
+    std::atomic<bool> isOver{false};  // no results are taken any more: jobs that begin now do nothing
 
-    // Runs work that gives a pointer, and counts it unless that is null. Any thread, without the mutex.
+    // Runs work that returns a pointer, and counts it unless that is null. Any thread, without the mutex.
     template <class Work>
     auto timed(std::size_t task, Work work) {
         const auto start = std::chrono::steady_clock::now();

@@ -8,8 +8,9 @@
 namespace terrane::world {
 namespace {
 
-// A block, at its densest: four times the Earth's, as means over the bands that screens show as red, green
-// and blue. At single wavelengths (680, 550, 440 nm) red would keep too much, and twilight be purple.
+// Absorption per block at the highest density: four times the Earth's, as means over the bands that screens
+// show as red, green and blue. Single wavelengths (680, 550, 440 nm) would keep too much red and make
+// twilight purple.
 constexpr glm::vec3 kOzoneAbsorption{11e-6f, 9e-6f, 0.6e-6f};
 constexpr float kOzoneAltitude = 6250, kOzoneHalfWidth = 3750;  // 25 km and 15 km, / 4
 

@@ -1,12 +1,12 @@
-// The air as a model: how much light it scatters and absorbs at each height. Sky, fog and the colors of sun
-// and moon all follow from it. Pure functions, any thread.
+// A model of the air: how much light it scatters and absorbs at each height. The colors of sky, fog, sun and
+// moon follow from it. Pure functions, any thread.
 //
 // Molecules (Rayleigh) and haze (Mie) get thinner exponentially with height; ozone lies in a layer and makes
 // the blue hour blue. Light that was scattered more than once is taken as equal from all sides (S. Hillaire,
 // A Scalable and Production Ready Sky and Atmosphere Rendering Technique, 2020; E. Bruneton, F. Neyret,
 // Precomputed Atmospheric Scattering, 2008). All lengths are a quarter of the Earth's and all densities four
-// times as large: the sky is the Earth's, and a mountain three kilometres away is blue as one twelve
-// kilometres away is there.
+// times as large: the sky looks like the Earth's, and a mountain three kilometres away is as blue as one
+// twelve kilometres away on the Earth.
 //
 // Lengths are in blocks, one block a metre. Altitude counts from kSeaLevel.
 #pragma once
@@ -21,10 +21,10 @@ constexpr float kAirTop = 25e3f;          // altitude where space begins, 100 km
 
 constexpr float kRayleighScale = 2000;  // altitude at which the density is 1/e, 8 km / 4
 constexpr float kHazeScale = 150;       // lower than the Earth's: valleys are hazier than peaks
-// Scattered a block at altitude 0, four times the Earth's (5.8, 13.6, 33.1) · 10^-6. The ratios 1 : 2 : 5 let
-// a shader find three shares from one (distance_fog.glsl).
+// Scattering per block at altitude 0, four times the Earth's (5.8, 13.6, 33.1) · 10^-6. The ratios 1 : 2 : 5
+// let a shader find three shares from one (distance_fog.glsl).
 constexpr glm::vec3 kRayleigh{26.4e-6f, 52.8e-6f, 132e-6f};
-constexpr float kHazeExtinction = 60e-6f;  // a block at altitude 0
+constexpr float kHazeExtinction = 60e-6f;  // per block at altitude 0
 constexpr float kHazeScattering = 54e-6f;
 constexpr float kHazeForward = 0.76f;  // asymmetry of its phase function
 
@@ -32,19 +32,19 @@ struct AirDensity {
     float rayleigh, haze, ozone;  // 1 where they are largest
 };
 AirDensity airDensity(float altitude);
-glm::vec3 extinction(const AirDensity& density);  // a block
+glm::vec3 extinction(const AirDensity& density);  // per block
 
-// Share of light that is left from space to the altitude, for a light whose direction has this sine of
-// elevation. 0 where the ground hides it. Integrated along the way: slow, exact to 1 %.
+// The share of light that is left from space to the altitude, for a light whose direction has this sine of
+// elevation. 0 if the ground hides it. Integrated along the path: slow, exact to 1 %.
 glm::vec3 transmittanceToSpace(float altitude, float sine);
 
-// Shares of scattered light that go on at an angle, a steradian: 1/4π on average.
+// Phase functions: the share of light scattered by an angle, per steradian; 1/4π on average.
 float rayleighPhase(float cosine);
 float hazePhase(float cosine);  // L. G. Henyey, J. L. Greenstein, Diffuse Radiation in the Galaxy, 1941
 
-// Length in blocks of sea-level haze with as much haze as the way `rise` up over `distance` from an altitude
-// has. Closed form of the integral of an exponential density (C. Wenzel, Real-time Atmospheric Effects in
-// Games, 2006).
+// The length in blocks of sea-level haze that equals the haze on a path from an altitude, `distance` long and
+// rising by `rise`. Closed form of the integral of an exponential density (C. Wenzel, Real-time Atmospheric
+// Effects in Games, 2006).
 float hazeLength(float altitude, float rise, float distance);
 
 }  // namespace terrane::world

@@ -12,7 +12,7 @@ namespace terrane::world {
 namespace {
 
 constexpr float kGroundAlbedo = 0.3f;
-// The ground's edge hides a disc, not a point: light fades over this much of the sine.
+// The horizon hides a disc, not a point: light fades over this much of the sine.
 constexpr float kHorizonFade = 0.01f;
 
 // Rows: equal steps of the root of the altitude. Columns: of the root of the sine over the horizon's sine.
@@ -65,10 +65,11 @@ struct Tables {
 };
 
 struct Gathered {
-    glm::vec3 light{0}, share{0};  // scattered once and seen from there; seen of light that is 1 everywhere
+    glm::vec3 light{0}, share{0};  // seen from there: light scattered once, and of light that is 1 everywhere
 };
 
-// Along a direction, with phase functions that are equal on all sides (Hillaire 2020, equations 5 to 8).
+// Integrates along a direction, with phase functions that are equal on all sides (Hillaire 2020, equations 5
+// to 8).
 Gathered gather(const Tables& tables, float altitude, glm::vec3 direction, glm::vec3 toLight) {
     constexpr int kSteps = 12;
     const float from = kPlanetRadius + altitude, top = kPlanetRadius + kAirTop, along = from * direction.z;
@@ -101,7 +102,7 @@ Gathered gather(const Tables& tables, float altitude, glm::vec3 direction, glm::
     return sum;
 }
 
-// Each further scattering sends on the same share: a geometric series.
+// Each further scattering keeps the same share of light: a geometric series.
 glm::vec3 Tables::scattered(float altitude, float sine) const {
     constexpr int kRings = 8, kAzimuths = 4;
     const glm::vec3 toLight(std::sqrt(std::max(1 - sine * sine, 0.0f)), 0, sine);

@@ -1,5 +1,5 @@
-// Light at a point of the air, by its altitude and the elevation of the light: two tables that are made by
-// the first call, in some 10 ms, and never change. Any thread.
+// Light at a point of the air, by its altitude and the elevation of the light, from two tables that the first
+// call makes in some 10 ms. Any thread.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -10,7 +10,7 @@ namespace terrane::world {
 
 // For a light of irradiance 1 above the air.
 struct AirLight {
-    glm::vec3 direct;  // irradiance that is left of it there
+    glm::vec3 direct;  // irradiance of the light that is left there
     glm::vec3 around;  // mean radiance of light that was scattered at least once, from all sides
 };
 // `altitude`: 0 … kAirTop. `sine`: of the light's elevation there.

@@ -1,4 +1,4 @@
-// Reads which behaviors a block of a content file has. Called by block_parser.cpp.
+// Reads the behaviors of a block of a content file. Called by block_parser.cpp.
 #pragma once
 
 #include "terrane/world/block_parser.h"
@@ -6,8 +6,8 @@
 
 namespace terrane::world {
 
-// Those that other keys stand for come first: the block's shape, growth and slots are read before. What is
-// wrong goes to the table's error.
+// Behaviors that other keys imply come first: the block's shape, growth and slots are read before. Errors go
+// to the table.
 void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorTable& behaviors);
 
 }  // namespace terrane::world

@@ -33,7 +33,7 @@ struct BehaviorTemplate {
 
 using BehaviorTemplatePtr = std::shared_ptr<const BehaviorTemplate>;
 
-// What one block says of a template.
+// One block's use of a template.
 struct BehaviorCall {
     BehaviorTemplatePtr behavior;
     BehaviorArguments arguments;

@@ -56,7 +56,7 @@ void fall(BlockUpdate& update, BlockPos pos) {
     if (end != pos) update.move(pos, end);
 }
 
-// Not where a block beside goes: overhangs of generated terrain stay as they are.
+// Only changes of the block below count: overhangs of generated terrain stay as they are.
 BlockBehavior falling() {
     return {.name = "falling",
             .placed = fall,

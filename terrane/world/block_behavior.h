@@ -1,6 +1,6 @@
-// What blocks do beside being drawn and lit: a behavior is a table of functions, named by the block types
-// that have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a BehaviorTable
-// before they read the block types. See docs/blocks.md.
+// Behaviors of blocks beyond their look and light: a behavior is a table of functions, named by the block
+// types that have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a
+// BehaviorTable before they read the block types. See docs/blocks.md.
 #pragma once
 
 #include <cstdint>
@@ -28,24 +28,25 @@ struct RemovedBlock {
     BlockEntityData data;
 };
 
-// Functions that are empty do nothing. All are called on the world's thread, while an edit is applied. Those
-// with a BlockUpdate change blocks through it and nothing else: light, meshes and saves see these changes as
-// parts of the edit. They depend on nothing but blocks, so that equal edits give equal worlds.
+// Empty functions do nothing. All are called on the world's thread, while an edit is applied. Those with a
+// BlockUpdate change blocks only through it: light, meshes and saves see these changes as parts of the edit.
+// They depend only on blocks, so that equal edits give equal worlds.
 struct BlockBehavior {
     std::string name;  // a-z, 0-9, _
-    // Whether the block can stand at `pos`. Where it cannot, it is not placed.
+    // Whether the block can stand at `pos`. If not, it is not placed.
     std::function<bool(const World&, const BlockRegistry&, BlockPos pos, BlockId id)> canStand = {};
-    // The block was put there by an edit or a behavior. Generated terrain and loaded chunks call nothing.
+    // Called when an edit or a behavior has placed the block; not for generated terrain and loaded chunks.
     std::function<void(BlockUpdate&, BlockPos pos)> placed = {};
-    // It was replaced by another block. `pos` has that one.
+    // Called when another block has replaced it. `pos` has that one.
     std::function<void(BlockUpdate&, BlockPos pos, const RemovedBlock&)> removed = {};
-    // The block beside it on `side` changed.
+    // Called when the block beside it on `side` has changed.
     std::function<void(BlockUpdate&, BlockPos pos, Face side)> neighborChanged = {};
-    // A player uses the block, as one opens a door.
+    // Called when a player uses the block, for example opens a door.
     std::function<void(BlockUpdate&, BlockPos pos)> used = {};
-    // Time passes: at random, every 68 s on average, while the block's state is not 0 (random_ticks.h).
+    // Called at random, every 68 s on average, while the block's state is not 0 (random_ticks.h).
     std::function<void(BlockUpdate&, BlockPos pos)> tick = {};
-    // The items that the block holds; a block whose behavior has this opens. An error where its data is none.
+    // The items that the block holds; a block whose behavior has this can be opened. An error if its data is
+    // no inventory.
     std::function<base::Result<Inventory>(const World&, const BlockRegistry&, BlockPos pos)> items = {};
 };
 
@@ -54,7 +55,7 @@ struct BehaviorTemplate;  // behavior_template.h
 
 class BehaviorTable {
   public:
-    // Takes the place of one with the same name.
+    // Replaces one with the same name.
     void add(BlockBehavior behavior);
     void addTemplate(BehaviorTemplate behavior);
     BehaviorPtr find(std::string_view name) const;  // null where there is none
@@ -66,9 +67,9 @@ class BehaviorTable {
     std::vector<std::shared_ptr<const BehaviorTemplate>> templates_;
 };
 
-// plant      needs ground: a full block, or its own kind (cactus); it goes when the block below goes
+// plant      needs ground: a full block, or its own kind (cactus); it is removed with the block below
 // crop       is placed at its youngest stage of growth and grows by ticks; its state counts the stages left
-// falling    falls through air and liquids when it is placed or when the block below goes
+// falling    falls through air and liquids when it is placed or when the block below changes
 // flows      of a liquid: it flows (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
 // and those of shape_behaviors.h; with parameters those of behavior_template.h
@@ -76,7 +77,7 @@ const BehaviorTable& builtInBehaviors();
 
 bool hasBehavior(const BlockType& type, std::string_view name);
 
-// The first behavior of a type that has the function; null where none has.
+// The first behavior of a type that has the function; null if none has.
 template <class Function>
 const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior::*function) {
     for (const BehaviorPtr& behavior : type.behaviors)

@@ -1,6 +1,5 @@
-// Block types before they have numbers: a description names its textures, and blocks that its behaviors name.
-// Read from a file (block_parser.h), or made by a program; BlockRegistry::fromDescriptions() makes types of
-// them. Plain values.
+// Descriptions of block types, which refer to textures and blocks by name. Read from a file (block_parser.h),
+// or made by a program; BlockRegistry::fromDescriptions() makes types of them. Plain values.
 #pragma once
 
 #include <array>
@@ -13,7 +12,7 @@
 
 namespace terrane::world {
 
-// What one face looks like.
+// The look of one face.
 struct FaceLook {
     std::string texture;
     AlphaMode alpha = AlphaMode::Unused;
@@ -34,10 +33,10 @@ struct BlockDescription {
     int line = 0;                     // of its table in the file
 };
 
-// A cube that hides what touches it: no face lets the eye through.
+// Whether the block is a cube without transparent faces, which hides what touches it.
 bool isOpaqueCube(const BlockDescription& block);
 
-// The boxes a shape fills where the file names none.
+// The default box of a shape.
 Box shapeBox(Shape shape);
 
 }  // namespace terrane::world

@@ -59,7 +59,7 @@ void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scop
             noteChangedSide(next, static_cast<Face>(face ^ 1));
             isTold = isTold || face == kFaceNegZ;
         }
-        // What a block stands on is what most ask for.
+        // Most behaviors look at the block below.
         if (scope == RestoreScope::All && !isTold) noteChangedSide(block.pos, kFaceNegZ);
     }
     maxCalls_ = calls_.size() + kMaxBehaviorCalls;
@@ -77,7 +77,7 @@ void BlockUpdate::setValue(BlockPos pos, const BlockValue& value) {
     if (value.data) chunk->shareBlockEntityData(blockIndex(pos), value.data);
 }
 
-// The event of the block that is new there tells of its data as well.
+// The event of a block that is new there covers its data as well.
 void BlockUpdate::setData(BlockPos pos, const BlockChange& change) {
     Chunk* chunk = world_.findWritable(pos);
     if (!chunk) return;
@@ -91,7 +91,7 @@ void BlockUpdate::setData(BlockPos pos, const BlockChange& change) {
     edits_.push_back({pos, id, id});
 }
 
-// Looks through a few; many are kept as a set, since a fill calls this for each of its blocks.
+// Few edits are searched linearly, many are kept as a set, since a fill calls this for each of its blocks.
 bool BlockUpdate::hasEdit(BlockPos pos) {
     constexpr std::size_t kFew = 64;
     if (edits_.size() - firstEdit_ <= kFew) {
@@ -146,7 +146,7 @@ void BlockUpdate::noteChangedSide(BlockPos pos, Face side) {
 
 void BlockUpdate::run() {
     for (std::size_t k = 0; k < calls_.size() && k < maxCalls_; ++k) {
-        const Call call = std::move(calls_[k]);  // it may move while it runs: others come behind it
+        const Call call = std::move(calls_[k]);  // new calls may reallocate the list while it runs
         runCall(call);
     }
     calls_.clear();
@@ -156,7 +156,7 @@ void BlockUpdate::runCall(const Call& call) {
     const bool isRemoval = call.removed.id != kAir;
     const BlockType& type = blocks_.type(isRemoval ? call.removed.id : call.id);
     for (const BehaviorPtr& behavior : type.behaviors) {
-        // What a behavior before did may have replaced the block.
+        // An earlier behavior may have replaced the block.
         if (!isRemoval && world_.block(call.pos) != call.id) return;
         if (isRemoval && behavior->removed) behavior->removed(*this, call.pos, call.removed);
         if (call.simple && (*behavior).*call.simple) ((*behavior).*call.simple)(*this, call.pos);

@@ -1,6 +1,6 @@
-// Changes of blocks in a world, with what follows from them by the behaviors of blocks (block_behavior.h): a
-// plant goes with its ground, sand falls.
-// terrane/game checks what players ask for and calls this; light, meshes and stores read the events.
+// Changes of blocks in a world and their consequences by the behaviors of blocks (block_behavior.h): a plant
+// is removed with its ground, sand falls. terrane/game checks commands of players and calls this; light,
+// meshes and stores read the events.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,7 @@
 
 namespace terrane::world {
 
-// What can be done to a block.
+// The kinds of changes of a block.
 struct SetBlock {
     BlockId id = kAir;
     std::uint16_t state = 0;  // behaviors may set another; 0 leaves the state of the same block as it is
@@ -31,7 +31,8 @@ struct RunTick {};   // calls the `tick` of its behaviors
 struct UseBlock {};  // calls their `used`
 using BlockChange = std::variant<SetBlock, SetState, SetEntityData, RunTick, UseBlock>;
 
-// Event: a block changed. `before` equals `after` where only its data did. A block that moves has two.
+// Event: a block changed. `before` equals `after` if only its state or data changed. A block that moves has
+// two.
 struct BlockEdit {
     BlockPos pos;
     BlockId before = kAir, after = kAir;
@@ -39,21 +40,20 @@ struct BlockEdit {
     bool operator==(const BlockEdit&) const = default;
 };
 
-// At most so many functions of behaviors run in one change; those after them are left out. A column of 255
-// blocks that fall needs 255 × 14.
+// The most functions of behaviors that run in one change; those after them are left out. A column of 255
+// falling blocks needs 255 × 14.
 constexpr std::size_t kMaxBehaviorCalls = 16384;
 
-// Which blocks that restore() sets are told of a neighbor that changed.
+// The blocks set by restore() whose `neighborChanged` is called.
 enum class RestoreScope : std::uint8_t {
-    None,    // none: what follows from the change is known already
-    Border,  // those that touch a block which is not restored: inside nothing falls or goes
-    All,     // every one: fences get their arms, plants inside lose their ground
+    None,    // none: the consequences are known already
+    Border,  // those that touch a block which is not restored: nothing inside falls or is removed
+    All,     // all: fences get their arms, plants without ground are removed
 };
 
-// A change of the world in progress, with what follows from it: each change appends its event and notes which
-// behaviors are to be called, run() calls them in the order in which they were noted. What they change is
-// noted behind that. Nothing happens where no chunk is loaded, above or below the world. On the world's
-// thread.
+// A change of the world in progress: each change appends its event and notes the behaviors to call; run()
+// calls them in this order. Calls that they cause come after these. Nothing happens where no chunk is loaded,
+// above and below the world. Used on the world's thread.
 class BlockUpdate {
   public:
     // `recorder` may be null.
@@ -68,11 +68,11 @@ class BlockUpdate {
     // Moves a block with its data; `from` becomes air. Calls neither `placed` nor `removed` of it. The block
     // stays where it is if it cannot stand at `to`.
     void move(BlockPos from, BlockPos to);
-    // Exactly these blocks, each once: behaviors are neither asked (`canStand`) nor told (`placed`,
-    // `removed`). `neighborChanged` is called for blocks that touch one of them, and for these by `scope`;
-    // these calls do not count toward kMaxBehaviorCalls.
+    // Sets exactly these blocks, each once, without calling `canStand`, `placed` and `removed`. Calls
+    // `neighborChanged` for blocks that touch one of them, and for these by `scope`; these calls do not count
+    // toward kMaxBehaviorCalls.
     void restore(std::span<const PlacedBlock> blocks, RestoreScope scope = RestoreScope::Border);
-    // Forgets which block states the section at `pos` has had: its palette names only those in it.
+    // Compacts the block states of the section at `pos`: its palette has only states that are in use.
     void compactState(BlockPos pos);
 
     void run();
@@ -81,7 +81,7 @@ class BlockUpdate {
     struct Call {
         std::function<void(BlockUpdate&, BlockPos)> BlockBehavior::*simple = nullptr;  // placed, tick or used
         BlockPos pos;
-        BlockId id = kAir;       // the call is left out where the block is another by then
+        BlockId id = kAir;       // the call is left out if the block is another by then
         Face side = kFaceCount;  // of neighborChanged
         RemovedBlock removed;    // of `removed`
     };
@@ -101,18 +101,18 @@ class BlockUpdate {
     std::vector<BlockEdit>& edits_;
     BlockRecorder* recorder_;
     std::size_t firstEdit_;
-    BlockSet edited_;  // of the edits since firstEdit_, as far as inSet_ counts
+    BlockSet edited_;  // blocks of the first inSet_ edits since firstEdit_
     std::size_t inSet_ = 0;
     std::vector<Call> calls_;
     std::size_t maxCalls_ = kMaxBehaviorCalls;
 };
 
-// Applies a change with all that follows from it, and appends one event for each block that changed, the one
-// at `pos` first; none where it cannot be applied or the same block is there already in the same state.
-// `recorder`, where given, gets the values that blocks had.
+// Applies a change with its consequences and appends one event for each block that changed, the one at `pos`
+// first; none if it cannot be applied or changes nothing. `recorder`, if given, gets the old values of
+// blocks.
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
                  std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
-// The same for BlockUpdate::restore(), as undo needs it.
+// The same for BlockUpdate::restore(), for undo.
 void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
                    std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
 

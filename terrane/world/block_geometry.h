@@ -1,4 +1,4 @@
-// Sides of a block's cell, and boxes in it. Plain values; any thread.
+// Faces of a block's cell, and boxes in it. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ
 
 // The cell beside a face of a block.
 constexpr BlockPos beside(BlockPos pos, Face face) {
-    // Around at the ends of the numbers, where no chunk is.
+    // Wraps around at the ends of the numbers, where no chunk is.
     const auto step = [&](std::int32_t at, int axis) {
         const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);

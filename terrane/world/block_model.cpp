@@ -29,7 +29,7 @@ ShapeBox upsideDown(ShapeBox box) {
 // Quarter turns from +y to each of the four sides, in the order of Face.
 constexpr std::array<int, 4> kTurnsToArm{1, 3, 2, 0};
 
-// Which of the cell's 16³ parts are filled.
+// The filled parts of the cell's 16³.
 using Volume = std::bitset<kCellParts>;
 
 bool isFilled(const Volume& volume, glm::ivec3 at) {
@@ -48,7 +48,7 @@ Volume volumeOf(std::span<const ShapeBox> boxes) {
     return volume;
 }
 
-// The parts of one plane of a side whose faces are seen, and their merging into rectangles.
+// The visible parts of one plane of a side, and their merging into rectangles.
 class Plane {
   public:
     Plane(const Volume& volume, Face side, int layer) : side_(side), layer_(layer) {
@@ -131,7 +131,7 @@ std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state
     std::vector<ShapeBox> boxes = isOther ? shape.other : shape.boxes;
     if (shape.hasFacing)
         for (ShapeBox& box : boxes) box = turned(box, state & kStateFacing);
-    // The state names sides of the world: they do not turn with the block.
+    // Arms are sides of the world: they do not turn with the block.
     for (int side = 0; side < 4; ++side) {
         if ((state >> (kStateArmShift + static_cast<unsigned>(side)) & 1) == 0) continue;
         for (const ShapeBox& arm : shape.arms)
@@ -155,7 +155,7 @@ std::vector<ShapeRectangle> surfaceOf(std::span<const ShapeBox> boxes) {
     return rectangles;
 }
 
-// Seen from outside, u runs to the right and v up; on level faces u along x.
+// Seen from outside, u runs to the right and v up; on horizontal faces u runs along x.
 shared::ShapeFace shapeFaceOf(const ShapeRectangle& rectangle) {
     constexpr float kPart = 1.0f / kSixteenths;
     const glm::vec3 base = kPart * glm::vec3(rectangle.min);

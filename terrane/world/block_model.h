@@ -1,10 +1,10 @@
-// Shapes that are data: boxes in a cell, in sixteenths of a block, turned as a block's state says. A content
-// file describes them ([[shape]]), block_registry.h makes models of them. Meshers read a model's faces,
-// collision and ray casts its boxes. Plain values; any thread.
+// Shapes from content files ([[shape]]): boxes in a cell, in sixteenths of a block, turned by the block's
+// state. block_registry.h makes models of them. Meshers read a model's faces, collision and ray casts its
+// boxes. Plain values; any thread.
 //
 // Bits of the block state that choose a form:
 //
-//   0–1  facing: quarter turns, seen from above against the clock, of what the file says
+//   0–1  facing: quarter turns of the shape in the file, counterclockwise seen from above
 //   2    upside down
 //   3    the other form: an open door, a torch on a wall
 //   4–7  an arm toward -x, +x, -y, +y
@@ -48,8 +48,8 @@ using ShapePtr = std::shared_ptr<const ShapeDescription>;
 
 struct ModelFace {
     std::uint16_t shapeFace = 0;  // index into the table of all shape faces
-    Face side = kFacePosZ;        // to which it looks, and whose material it has
-    bool isOnBorder = false;      // in the cell's side: an opaque cube beside hides it
+    Face side = kFacePosZ;        // the direction of the face, which gives its material
+    bool isOnBorder = false;      // at the side of the cell: an opaque cube beside hides it
 };
 
 struct ModelForm {
@@ -61,7 +61,7 @@ struct ModelForm {
 struct BlockModel {
     std::uint16_t stateMask = 0;   // bits of the state that choose a form
     std::vector<ModelForm> forms;  // stateMask + 1
-    // Whether it fills at least a quarter of the cell: from afar it is a cube, and otherwise not seen.
+    // Whether it fills at least a quarter of the cell: far tiles show it as a cube, others not at all.
     bool isBulky = false;
 
     const ModelForm& form(std::uint16_t state) const { return forms[state & stateMask]; }
@@ -69,15 +69,15 @@ struct BlockModel {
 
 struct BlockType;
 
-// What stops a body, and what a ray from the camera hits, in a state of the block.
+// The boxes that stop bodies, and those that rays from the camera hit, in a state of the block.
 std::span<const Box> collisionBoxes(const BlockType& type, std::uint16_t state);
 std::span<const Box> selectionBoxes(const BlockType& type, std::uint16_t state);
-// All of the latter.
+// The bounds of the selection boxes.
 Box selectionBounds(const BlockType& type, std::uint16_t state);
 
 // Bits of the state that choose a form.
 std::uint16_t formMask(const ShapeDescription& shape);
-// The boxes that a state stands for.
+// The boxes of a state.
 std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state);
 
 constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;

@@ -38,7 +38,7 @@ BlockType describeAir() {
 // Numbers materials and textures in order of first use.
 class Materials {
   public:
-    // Sets the type's materials. False where 16 bits do not suffice.
+    // Sets the type's materials. False if 16 bits do not suffice.
     bool numberFaces(BlockDescription& block) {
         bool fits = true;
         const auto set = [&](std::uint16_t& material, const FaceLook& face) {
@@ -59,7 +59,7 @@ class Materials {
     std::vector<std::string> takeTextures() { return std::move(textures_); }
 
   private:
-    // None where 16 bits do not suffice.
+    // None if 16 bits do not suffice.
     std::optional<std::uint16_t> number(const FaceLook& face, const BlockDescription& block) {
         const auto texture = static_cast<std::uint32_t>(
             textureNumbers_.try_emplace(face.texture, textureNumbers_.size()).first->second);
@@ -85,8 +85,7 @@ class Materials {
     std::vector<std::string> textures_;
 };
 
-// Through the holes of leaves more leaves are seen. From afar they are closed, and hide what lies behind
-// them; so they may not wave.
+// Leaves are closed from afar, and hide what lies behind them; so they may not wave.
 void lookFromAfar(BlockDescription& block) {
     for (FaceLook& face : block.faces) {
         if (face.alpha != AlphaMode::Test) continue;
@@ -97,7 +96,7 @@ void lookFromAfar(BlockDescription& block) {
     block.type.opaqueCube = isOpaqueCube(block);
 }
 
-// Thin models are not seen from afar, others are cubes.
+// From afar thin models are left out, and others are cubes.
 void simplifyModel(BlockDescription& block) {
     const bool isBulky = block.type.model->isBulky;
     block.type.shape = isBulky ? Shape::Cube : Shape::None;
@@ -109,7 +108,7 @@ auto tooManyFaces(const BlockDescription& block) {
                       block.file, block.line, kMaxNumbered);
 }
 
-// Names must be unique, and blocks that behaviors name must be there.
+// Names must be unique, and blocks that behaviors name must exist.
 base::Result<void> checkNames(std::span<const BlockDescription> blocks) {
     std::unordered_set<std::string_view> names{"air", "missing"};
     for (const BlockDescription& block : blocks)

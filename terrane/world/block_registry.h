@@ -18,15 +18,15 @@ struct BlockDescription;  // block_description.h
 
 class BlockRegistry {
   public:
-    // Reads the content file's text. `name` stands in errors, which read "name:line: key: what is wrong".
-    // Ids follow the order of the file; air is 0 and is not in the file. The last type added is "missing".
-    // `behaviors`: those that blocks may name.
+    // Reads the content file's text. Errors read "name:line: key: what is wrong". Ids follow the order of the
+    // file; air is 0 and is not in the file. The last type added is "missing". `behaviors`: those that blocks
+    // may name.
     [[nodiscard]] static base::Result<BlockRegistry> parse(
         std::string_view toml, std::string_view name, const BehaviorTable& behaviors = builtInBehaviors());
 
-    // The same from descriptions: those of several files, or made by a program. Names are unique and none of
-    // "air", "missing"; textures and blocks of behaviors are named as the registry is to know them. `name`
-    // stands in errors that are of no block.
+    // The same from descriptions, of several files or made by a program. Names are unique and none of "air",
+    // "missing"; behaviors name blocks as the registry does. Errors that belong to no block begin with
+    // `name`.
     [[nodiscard]] static base::Result<BlockRegistry> fromDescriptions(std::vector<BlockDescription> blocks,
                                                                       std::string_view name);
 
@@ -35,8 +35,8 @@ class BlockRegistry {
     const BlockType* find(std::string_view name) const;  // null where there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
 
-    // The same blocks with fewer faces, to be meshed for a view from afar: cubes with holes are closed, and
-    // stand still. Ids and textures are the same.
+    // The same blocks with fewer faces, for meshes of far tiles: cubes with holes are closed and not
+    // animated. Ids and textures are the same.
     BlockRegistry seenFromAfar() const;
 
     std::span<const Material> materials() const { return materials_; }

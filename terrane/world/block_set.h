@@ -1,5 +1,5 @@
-// A set of blocks: a bit a block, 8 KB for each chunk that has some. Hash sets of blocks leave the caches
-// where there are a hundred thousand. Plain value.
+// A set of blocks: a bit for each block, 8 KB for each chunk that has some. A hash set of a hundred thousand
+// blocks would not fit the caches. Plain value.
 #pragma once
 
 #include <unordered_map>
@@ -11,7 +11,7 @@ namespace terrane::world {
 
 class BlockSet {
   public:
-    // Whether it is new. `pos` is in the world's height.
+    // Whether the block is new in the set. `pos` is in the world's height.
     bool insert(BlockPos pos) {
         std::vector<bool>& blocks = chunks_[chunkOf(pos)];
         if (blocks.empty()) blocks.resize(kBlocksPerChunk);

@@ -1,5 +1,4 @@
-// What a block type is: look, light, collision. Types are content (assets/blocks.toml), read by
-// block_registry.h.
+// Block types: look, light, collision. Types are content (assets/blocks.toml), read by block_registry.h.
 #pragma once
 
 #include <array>
@@ -28,7 +27,7 @@ enum class Shape : std::uint8_t {
     Model,   // boxes in the cell, as its block state says (block_model.h)
 };
 
-// What the alpha channel of a face's texture means.
+// The meaning of the alpha channel of a face's texture.
 enum class AlphaMode : std::uint8_t {
     Unused,    // opaque
     Test,      // below one half: a hole
@@ -40,14 +39,14 @@ enum class AlphaMode : std::uint8_t {
 
 enum class Animation : std::uint8_t { None, TopWaves, WholeWaves, LiquidSurface };
 
-// Where filters of a face's texture may read, when a texel is smaller or larger than a pixel.
+// The texels that filters of a face's texture may read, when a texel is smaller or larger than a pixel.
 enum class Wrap : std::uint8_t {
     Quad,    // the texture repeats over a merged quad; filters stop at the quad's edge
     Repeat,  // filters reach over every edge to the opposite side of the texture: it tiles without seams
     Clamp,   // filters stop at the edge of each block's texture, inside a merged quad too
 };
 
-// How a face's texture is filtered.
+// The filter of a face's texture.
 enum class Filtering : std::uint8_t {
     Option,   // as the graphics option says (--sharp-filtering)
     Sharp,    // as with the option on
@@ -64,7 +63,7 @@ struct LiquidSurface {
     auto operator<=>(const LiquidSurface&) const = default;
 };
 
-// One configuration of drawn faces ("face context") with one texture.
+// A texture, and how faces with it are drawn.
 struct Material {
     std::uint16_t texture = 0;  // index into BlockRegistry::textures()
     AlphaMode alpha = AlphaMode::Unused;
@@ -88,7 +87,7 @@ struct BlockType {
     std::shared_ptr<const BlockModel> model;           // of Shape::Model
     std::array<std::uint16_t, kFaceCount> material{};  // index into BlockRegistry::materials()
     bool opaqueCube = false;                           // hides every face that touches it
-    // Of a plant that grows: the material by its block state, which counts the stages left; growth[0] for 1.
+    // Materials of a growing plant by block state, which counts the stages left; growth[0] for 1.
     std::vector<std::uint16_t> growth;
     LiquidSurface surface;                   // of a liquid
     bool innerFaces = false;                 // faces between two blocks of this type are drawn (leaves)
@@ -98,9 +97,9 @@ struct BlockType {
     Box selection;                           // what a ray from the camera hits
     bool selectable = true;                  // false: rays pass (air, water)
     bool generated = true;                   // appears in generated terrain (else placed only)
-    bool climbable = false;                  // who stands in it climbs
+    bool climbable = false;                  // characters in it climb
     std::string group;                       // of the palette of blocks
-    // What it does (block_behavior.h), in the order in which they are called.
+    // Behaviors (block_behavior.h) in the order in which they are called.
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;
     SoundMaterial sound = SoundMaterial::None;
     int slots = 0;  // of the behavior container: stacks of items it holds

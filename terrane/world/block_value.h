@@ -1,4 +1,4 @@
-// A block with everything that it keeps, and the values that blocks had before a change: undo, copies of
+// The full value of a block, and the recorded values of blocks before a change: for undo, and for copies of
 // blocks. Plain values; any thread.
 #pragma once
 
@@ -28,7 +28,7 @@ struct PlacedBlock {
 // The value at `pos`; air above and below the world and where no chunk is loaded.
 BlockValue blockValue(const World& world, BlockPos pos);
 
-// What blocks were before a change of the world touched them (block_edit.h).
+// Records the values of blocks before a change of the world (block_edit.h).
 class BlockRecorder {
   public:
     // Called before each write to a block.

@@ -11,8 +11,8 @@
 namespace terrane::world {
 namespace {
 
-// How fast a wanted velocity is taken on, 1/s: most of it within 1/14 s on the ground, within 1/3 s in the
-// air.
+// Rates at which velocity approaches its target, 1/s: most of it within 1/14 s on the ground, within 1/3 s in
+// the air.
 constexpr double kGroundGrip = 14, kAirGrip = 3, kWaterGrip = 5, kFlightGrip = 12;
 
 double approach(double value, double target, double grip) {
@@ -34,7 +34,7 @@ void accelerate(Character& c, const CharacterInput& input) {
         c.velocity.z = approach(c.velocity.z, upward * kSwimSpeed - 0.6, kWaterGrip);  // sinks slowly
     } else if (c.isClimbing) {
         steer(c, input, kClimbSpeed, kGroundGrip);
-        const double wanted = c.isBlocked && upward == 0 ? 1 : upward;  // who walks against a ladder climbs
+        const double wanted = c.isBlocked && upward == 0 ? 1 : upward;  // walking against a ladder climbs
         c.velocity.z = approach(c.velocity.z, wanted == 0 ? -0.5 : wanted * kClimbSpeed, kGroundGrip);
     } else {
         steer(c, input, input.runs ? kRunSpeed : kWalkSpeed, c.isOnGround ? kGroundGrip : kAirGrip);
@@ -43,7 +43,7 @@ void accelerate(Character& c, const CharacterInput& input) {
     }
 }
 
-// What is in the way and no higher than `height` is walked onto: up, along, down again.
+// The place after a step over an obstacle no higher than `height`: up, along, down again.
 glm::dvec3 steppedOver(const World& world, const BlockRegistry& blocks, glm::dvec3 feet, glm::dvec3 along,
                        double height = kStepHeight) {
     const double rise = sweep(world, blocks, characterBox(feet), {0, 0, height}).moved.z;
@@ -78,7 +78,7 @@ void move(const World& world, const BlockRegistry& blocks, Character& c) {
     c.isOnGround = lands;
 }
 
-// Whether a jump brings it farther than it gets now, against a block that is no higher than one.
+// Whether a jump over an obstacle no higher than a block brings the character farther.
 bool canJumpOver(const World& world, const BlockRegistry& blocks, const Character& c, glm::dvec2 direction) {
     constexpr double kBlock = 1.0 + kSkin, kAhead = 0.3;
     const glm::dvec3 along(direction * kAhead, 0);
@@ -92,7 +92,7 @@ bool isInClimbable(const World& world, const BlockRegistry& blocks, glm::dvec3 p
     return isInHeight(at.z) && blocks.type(world.block(at)).climbable;
 }
 
-// Whether the chunks that the box stands in are there, as far as the world goes.
+// Whether the chunks that the box is in are loaded.
 bool isLoadedUnder(const World& world, const Aabb& box) {
     const auto cell = [](double v) {
         constexpr std::numeric_limits<std::int32_t> kRange;
@@ -115,7 +115,7 @@ Character stepped(const World& world, const BlockRegistry& blocks, const Charact
                   const CharacterInput& input) {
     Character c = before;
     if (collides(world, blocks, characterBox(c.feet))) {
-        // What is not loaded counts as full: the character waits for the ground to come.
+        // Chunks that are not loaded count as full: the character waits for them.
         if (!isLoadedUnder(world, characterBox(c.feet))) return c;
         c.feet.z += kRunSpeed * kStepSeconds;
         c.velocity = {};

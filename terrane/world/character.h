@@ -1,5 +1,5 @@
-// A player who walks, jumps, swims and falls. Called at a fixed rate by whoever runs the game, on the thread
-// that owns the world; between two steps the image interpolates (characterEye).
+// A player who walks, jumps, swims and falls. Called at a fixed rate on the thread that owns the world;
+// characterEye() interpolates between two steps.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -22,10 +22,10 @@ struct Character {
     bool isOnGround = false;
     bool isSwimming = false;
     bool isClimbing = false;
-    bool isBlocked = false;  // by what is in its way, on the last step
+    bool isBlocked = false;  // by an obstacle, in the last step
 };
 
-// What the player wants. `direction`: over the ground, of length 0…1.
+// The player's input. `direction`: horizontal, of length 0…1.
 struct CharacterInput {
     glm::dvec2 direction{0};
     bool runs = false, jumps = false, dives = false;
@@ -33,14 +33,14 @@ struct CharacterInput {
     bool jumpsByItself = false;  // onto a block that is in the way
 };
 
-// kStepSeconds later. A character that stands inside of a block, as after one was placed on it, is lifted
-// out; one that reaches into a chunk that is not loaded waits for it.
+// The character kStepSeconds later. A character inside a block, as after one was placed on it, is lifted out;
+// one that reaches into a chunk that is not loaded waits for it.
 Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
                   const CharacterInput& input);
 
 Aabb characterBox(glm::dvec3 feet);
 
-// The eye at `share` (0…1) of the way between two steps. A step up is smoothed by it too.
+// The eye at `share` (0…1) between two steps. This smooths steps up, too.
 inline glm::dvec3 characterEye(const Character& before, const Character& now, double share) {
     return before.feet + (now.feet - before.feet) * share + glm::dvec3(0, 0, kEyeHeight);
 }

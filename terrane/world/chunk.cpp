@@ -77,7 +77,7 @@ bool operator==(const Chunk& a, const Chunk& b) {
 }
 
 std::size_t Chunk::memoryBytes() const {
-    // Of a hash table: a pointer a bucket; a link and an entry for each element.
+    // A hash table has a pointer for each bucket, and a link and an entry for each element.
     constexpr std::size_t kEntryBytes =
         sizeof(void*) + sizeof(std::pair<const BlockIndex, BlockEntityDataPtr>);
     std::size_t bytes = sizeof(Chunk) - sizeof(blocks_) - sizeof(blockState_);

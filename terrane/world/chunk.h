@@ -47,7 +47,7 @@ class Chunk {
     // Replaces a whole section's blocks; its block state becomes 0, block entity data of its blocks is freed.
     void setSection(int number, Section section);
     void setBlockStateSection(int number, Section section);
-    // Brings it to its smallest form; its values stay.
+    // Brings a section of block states to its smallest form; its values stay.
     void compactBlockState(int number) { blockState_[static_cast<std::size_t>(number)].compact(); }
 
     std::size_t memoryBytes() const;  // heap and object

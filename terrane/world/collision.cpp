@@ -57,7 +57,7 @@ bool overlapsBeside(const Aabb& a, const Aabb& b, int axis) {
     return true;
 }
 
-// How far `box` gets along one axis.
+// The distance that `box` moves along one axis.
 double sweepAlong(const World& world, const BlockRegistry& blocks, const Aabb& box, int axis, double motion) {
     Aabb way = box;
     (motion > 0 ? way.max : way.min)[axis] += motion;

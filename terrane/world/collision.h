@@ -1,8 +1,7 @@
-// A box that moves among blocks: what stops it. Called by whoever moves players and things, on the thread
-// that owns the world.
+// Moves a box among blocks, which stop it. Called on the thread that owns the world.
 //
-// Axis by axis, each in one sweep over all blocks on the way: however fast a box is, it never passes through
-// a block. What is not loaded stops it as well: nobody knows what is there.
+// Moves axis by axis, each in one sweep over all blocks on the way, so that no speed takes a box through a
+// block. Chunks that are not loaded count as full.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -22,16 +21,16 @@ struct Sweep {
     glm::bvec3 blocked{false};  // by axis: less far than asked for
 };
 
-// How far `box` gets by `motion` (at most kMaxMotion along each axis, the rest is cut off): first up or down,
-// then along x, then y. Stops kSkin before what it meets. A box that is inside of a block already can leave
-// it.
+// The distance that `box` moves by `motion` (cut to kMaxMotion along each axis): first up or down, then along
+// x, then y. Stops kSkin before an obstacle. A box that is already inside a block can leave it.
 Sweep sweep(const World& world, const BlockRegistry& blocks, const Aabb& box, glm::dvec3 motion);
 constexpr double kMaxMotion = 64, kSkin = 1.0 / 4096;
 
-// Whether something that collides is inside of the box; touching is not.
+// Whether a collision box of a block overlaps the box; touching does not count.
 bool collides(const World& world, const BlockRegistry& blocks, const Aabb& box);
 
-// Whether the point is in a liquid. The cell of a source counts as full, of what flows only what is filled.
+// Whether the point is in a liquid. The cell of a source counts as full, that of flowing liquid up to its
+// surface.
 bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 point);
 
 }  // namespace terrane::world

@@ -10,7 +10,7 @@ bool isName(std::string_view text) {
     return !text.empty() && text.find_first_not_of(kLetters) == std::string_view::npos;
 }
 
-// How an error shows a value of the file.
+// A value of the file as errors show it.
 std::string shown(const toml::node& node) {
     if (node.is_table()) return "a table";
     if (const toml::array* array = node.as_array()) return fmt::format("an array of {}", array->size());

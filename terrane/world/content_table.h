@@ -1,5 +1,5 @@
-// One table of a content file (TOML), read key by key with errors that say where and what. Used
-// by all that read such files. One thread.
+// One table of a content file (TOML), read key by key, with errors that name line and key. Used by the
+// readers of content files. One thread.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -30,11 +30,11 @@ std::string listed(const Names& names) {
     return text;
 }
 
-// Texts of a file may hold line breaks; an error is one line.
+// The message without line breaks, which texts of a file may have: an error is one line.
 std::string inOneLine(std::string message);
 
-// Readers return the key's value, or `fallback` where it is absent or wrong; what is wrong goes to the error
-// all tables of a file share, of which the first stays.
+// Readers return the key's value, or `fallback` if it is absent or wrong. All tables of a file share one
+// error, which keeps the first.
 class ContentTable {
   public:
     ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error)
@@ -64,7 +64,7 @@ class ContentTable {
 
     bool boolean(std::string_view key, bool fallback);
     bool booleanOf(const toml::node& value, std::string_view key);
-    // From `min` to `max`.
+    // A number from `min` to `max`.
     int numberOf(const toml::node& value, std::string_view key, int min, int max);
     double realOf(const toml::node& value, std::string_view key, double min, double max);
     std::string nameOf(const toml::node& value, std::string_view key);

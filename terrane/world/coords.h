@@ -22,8 +22,8 @@ constexpr int kBlocksPerChunk = static_cast<int>(shared::kBlocksPerChunk);
 constexpr std::int32_t kMinChunk = -(1 << 27);
 constexpr std::int32_t kMaxChunk = (1 << 27) - 1;
 
-// Levels 0…15. A chunk of level k has 16×16 columns, each 2^k blocks wide, and the height of every chunk.
-// Level 0 is the one that is played in.
+// Levels 0…15. A chunk of level k has 16×16 columns, each 2^k blocks wide, and the height of every chunk. The
+// game is played in level 0.
 constexpr int kMaxLevel = 15;
 
 struct ChunkPos {
@@ -64,7 +64,7 @@ constexpr BlockIndex blockIndex(BlockPos p) {
     return blockIndex(p.x & 15, p.y & 15, p.z);
 }
 
-// The block, or at higher levels the corner of the column of blocks, that lies lowest in x and y.
+// The block, or at higher levels the block of the column with the lowest x and y.
 constexpr BlockPos blockPos(ChunkPos c, BlockIndex i) {
     const std::int32_t width = columnWidth(c.level);
     return {(c.x * kChunkSize + (i & 15)) * width, (c.y * kChunkSize + ((i >> 4) & 15)) * width, i >> 8};

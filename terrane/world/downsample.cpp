@@ -27,7 +27,7 @@ Fill fillOf(const BlockType& type) {
     return Fill::Open;
 }
 
-// Ordered by the strongest color, then by all three.
+// Orders light by the strongest color, then by the sum of all three.
 std::uint16_t glowOf(const std::array<std::uint8_t, 3>& emission) {
     const int strongest = std::max({emission[0], emission[1], emission[2]});
     if (strongest < kMinFarEmission) return 0;
@@ -43,7 +43,7 @@ int thresholdOf(std::uint32_t hash) {
     return 1 + static_cast<int>(hash >> 30);
 }
 
-// Four blocks of a slice, 16 bits each: equal slices are found by one comparison.
+// Four blocks of a slice, 16 bits each: one comparison tells whether slices are equal.
 using Slice = std::uint64_t;
 
 Slice sliceAt(std::span<const BlockColumn, 4> children, std::size_t z) {
@@ -67,7 +67,7 @@ struct Candidates {
         rank = itsRank;
         ids[count++] = id;
     }
-    // The most frequent, of equal ones the first. Air where there are none.
+    // The most frequent, of equal ones the first. Air if there are none.
     BlockId choose() const {
         if (count == 0) return kAir;
         const auto end = ids.begin() + static_cast<std::ptrdiff_t>(count);
@@ -78,7 +78,7 @@ struct Candidates {
     }
 };
 
-// What the slice `slice` under the slice `above` becomes.
+// The block for the slice `slice` under the slice `above`.
 BlockId downsampleSlice(const DownsampleRule& rule, Slice slice, Slice above, std::uint32_t hash) {
     if (slice == blockOf(slice, 0) * Slice{0x0001000100010001}) {
         const DownsampleKind& kind = rule.kind(blockOf(slice, 0));
@@ -134,7 +134,8 @@ void downsampleColumn(const DownsampleRule& rule, std::span<const BlockColumn, 4
     bool isRepeated = false;
     for (std::size_t z = out.size(); z-- > 0;) {
         const Slice slice = sliceAt(children, z);
-        // A slice depends on itself and the one above: the third of equal ones is like the second.
+        // The result depends on a slice and the one above: the third of equal slices gives the same as the
+        // second.
         const bool isSame = slice == above;
         out[z] = isSame && isRepeated ? out[z + 1] : downsampleSlice(rule, slice, above, hash);
         isRepeated = isSame;

@@ -8,21 +8,21 @@
 namespace terrane::world {
 namespace {
 
-// The moon waits under the horizon from kMoonSets on; at kSunRises, in the dark, the sun takes its place.
-// From kSunSets to kMoonRises the other way round.
+// From kMoonSets the moon stays under the horizon; at kSunRises, in the dark, the sun takes its place. The
+// reverse from kSunSets to kMoonRises.
 constexpr float kMoonSets = 0.12f, kSunRises = 0.15f, kSunSets = 0.85f, kMoonRises = 0.88f;
 
-// The eye sees a light that is a hundredth as strong as a sixteenth: brightness grows with the power 0.6 of
+// To the eye a light a hundredth as strong is a sixteenth as bright: brightness grows with the power 0.6 of
 // luminance (near the exponents of S. S. Stevens, On the Psychophysical Law, 1957). So twilight and the
 // zenith are not black.
 constexpr float kEyePower = 0.6f;
-// From the curve to colors in which noon is as bright as it should be.
+// Factors from the curve to colors, chosen for the brightness of noon.
 constexpr float kSunScale = 0.90f, kAmbientScale = 2.75f, kSkyScale = 2.3f;
 // Colors of the sky are this much farther from grey than three samples of the spectrum give.
 constexpr float kVividness = 1.35f;
 
-// Light of the moon as the eye sees it, to that of the sun: far brighter than it is, so that one finds one's
-// way. The sky is darker than that, for the stars.
+// Moonlight in proportion to sunlight, as the eye sees it: far brighter than in nature, so that players can
+// see. The sky is darker than that, for the stars.
 struct LightScales {
     glm::vec3 direct, ambient, sky;
 };
@@ -31,7 +31,7 @@ constexpr glm::vec3 kMoonColor{0.62f, 0.92f, 1.6f};
 constexpr LightScales kMoon{kSunScale * 0.125f * kMoonColor, kAmbientScale * 0.03f * kMoonColor,
                             kSkyScale * 0.028f * kMoonColor};
 
-// What is left without sun and moon: faint light of the air itself and of stars.
+// Light without sun and moon: airglow and stars.
 constexpr glm::vec3 kNightAmbient{0.018f, 0.024f, 0.046f};
 constexpr glm::vec3 kNightZenith{0.0016f, 0.0024f, 0.0070f}, kNightHorizon{0.0048f, 0.0070f, 0.0165f};
 
@@ -52,7 +52,7 @@ const LightScales& scalesOf(bool isMoon) {
     return isMoon ? kMoon : kSun;
 }
 
-// A quarter as colorful as the sky: clouds and ground send back light of all colors.
+// A quarter as colorful as the sky: clouds and ground reflect light of all colors.
 glm::vec3 ambientOf(float sine, bool isMoon) {
     const glm::vec3 sky = asSeen(skyIrradiance(sine));
     return scalesOf(isMoon).ambient * glm::mix(glm::vec3(luminance(sky)), sky, 0.25f) + kNightAmbient;

@@ -1,5 +1,5 @@
 // The light and the sky at a time of day: pure functions, any thread. Colors come from the model of the air
-// (air.h); what a screen shows of them follows from a curve of the eye, which sees in twilight too.
+// (air.h); a response curve of the eye, which sees in twilight too, makes colors of a screen of them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,7 +15,7 @@ struct Environment {
     glm::vec3 ambientColor;    // of a level surface under the open sky alone
     glm::vec3 zenithColor;     // of the sky straight above
     glm::vec3 horizonColor;    // of the sky near the horizon, mean of all sides
-    glm::vec3 glowColor;       // by which the sky near the horizon is brighter under the light
+    glm::vec3 glowColor;       // added to the sky near the horizon under the light
     glm::vec3 discColor;       // of the sun or moon itself
     float discRadius;          // of the sun or moon, radians
     bool isMoon;               // the light is the moon

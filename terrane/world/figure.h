@@ -1,5 +1,5 @@
-// How a player looks to others at one moment: the place, the directions, the phase of its walk. Plain value,
-// made by game::FigureMotion, drawn by render.
+// The figure of a player at one moment: its place, its directions, the phase of its walk. Plain value, made
+// by game::FigureMotion, drawn by render.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Figure {
     float bodyYaw = 0;       // degrees
     float stride = 0;        // radians: phase of the legs, 2π is two steps
     float strideSize = 0;    // 0 stands … 1 runs
-    float swing = 0;         // of the right arm: 0 at rest, else the share of the swing that is over
+    float swing = 0;         // of the right arm: 0 at rest, else the finished share of the swing
     std::uint32_t look = 0;  // colors and hair follow from it
 };
 

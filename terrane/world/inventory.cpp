@@ -80,7 +80,7 @@ base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) 
     std::span<const std::byte> rest(data);
     const std::size_t slotCount = read16(rest.subspan(1));
     rest = rest.subspan(kHeaderBytes);
-    // Before memory is taken for slots: a slot has at least three bytes.
+    // Checked before memory is allocated: a slot has at least three bytes.
     if (slotCount * kSlotBytes > rest.size()) return base::fail("an inventory that is cut off");
     Inventory inventory(slotCount);
     for (ItemStack& stack : inventory) {

@@ -1,6 +1,5 @@
-// What a block with slots (a chest) holds: stacks of items, kept as the block's block entity data. Games
-// read, change and write it back: an edit by SetEntityData saves it with the chunk. Plain values,
-// any thread.
+// The items of a block with slots, such as a chest: stacks of items in the block's block entity data. An edit
+// by SetEntityData writes it back and saves it with the chunk. Plain values, any thread.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +12,7 @@
 
 namespace terrane::world {
 
-// An item is named, as block types are in saves: a name keeps its meaning when ids change.
+// Items are stored by name, like block types in saves: a name keeps its meaning when ids change.
 struct ItemStack {
     std::string item;  // empty: an empty slot
     std::uint16_t count = 0;
@@ -27,12 +26,11 @@ constexpr std::size_t kMaxItemName = 255;  // bytes
 using Inventory = std::vector<ItemStack>;  // a stack each slot
 
 // Puts `count` items into stacks of the same item that have room, then into empty slots, from the first on.
-// Returns how many found no room.
+// Returns the number that found no room.
 int addItems(Inventory& inventory, std::string_view item, int count);
-// Takes at most `count` items, from the last slot on. Returns how many there were.
+// Takes at most `count` items, from the last slot on. Returns the number taken.
 int takeItems(Inventory& inventory, std::string_view item, int count);
-// The same with one stack, which holds nothing or the same item: how many found no room, how many there were.
-// Counts are 0 or more in all four.
+// The same with one stack; nothing is added to a stack of another item. Counts are 0 or more in all four.
 int addToStack(ItemStack& stack, std::string_view item, int count);
 int takeFromStack(ItemStack& stack, int count);
 int countItems(const Inventory& inventory, std::string_view item);
@@ -40,7 +38,7 @@ int countItems(const Inventory& inventory, std::string_view item);
 // Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the
 // length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
 BlockEntityData encodeInventory(const Inventory& inventory);
-// An error where the bytes are no such inventory. `slots`: the block's; what lies beyond is kept.
+// An error if the bytes are no such inventory. `slots`: the block's; items beyond them are kept.
 [[nodiscard]] base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots);
 
 }  // namespace terrane::world

@@ -1,5 +1,5 @@
-// The surface of a chunk of any level as seen from above: how high its columns are and what color they have.
-// Far shadows and light from the ground are computed from it (render/land_map.h). Plain values; any thread.
+// The surface of a chunk of any level as seen from above: height and topmost block of its columns. Far
+// shadows and light from the ground are computed from it (render/land_map.h). Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ namespace terrane::world {
 struct LandTile {
     static constexpr std::size_t kColumns = static_cast<std::size_t>(kChunkSize) * kChunkSize;
 
-    // Of the columns, x + 16 y.
+    // By column, x + 16 y.
     std::array<std::uint16_t, kColumns> height{};  // blocks from z = 0 to the upper side of the topmost block
     std::array<BlockId, kColumns> ground{};        // the topmost block
     PackedColor tint = kNeutralTint;               // of the whole tile

@@ -19,7 +19,7 @@ void unsettle(BlockUpdate& update, BlockPos pos) {
     update.change(pos, SetState{static_cast<std::uint16_t>(state | kLiquidUnsettled)});
 }
 
-// Not ladders, nor what players use or keep things in.
+// Ladders, blocks that players use and blocks with slots are not washed away.
 bool isWashedAway(const BlockType& type) {
     if (type.id == kAir) return true;
     const bool holdsOn = type.climbable || type.slots > 0 || behaviorWith(type, &BlockBehavior::used);
@@ -28,7 +28,7 @@ bool isWashedAway(const BlockType& type) {
 
 enum class Room : std::uint8_t { Full, Free, Liquid };  // Free: liquid flows into it
 
-// By block id.
+// Rules by block id.
 struct FlowRules {
     explicit FlowRules(const BlockRegistry& blocks) : missing(blocks.missing()) {
         for (const BlockType& type : blocks.types()) {
@@ -53,7 +53,8 @@ struct FlowCell {
     bool isGroundFor(BlockId liquid) const { return room != Room::Free && id != liquid; }
 };
 
-// Reads cells; keeps the chunks that it read. It is gone before a chunk is written, which would copy it.
+// Reads cells and keeps their chunks. Must be destroyed before a chunk is written: a chunk that is held would
+// be copied.
 class FlowCells {
   public:
     FlowCells(const World& world, const FlowRules& rules) : world_(world), rules_(rules) {}
@@ -117,16 +118,15 @@ FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
     return now.is(liquid) ? FlowCell{kAir, 0, Room::Free} : now;
 }
 
-// May be true for a section without such a cell whose palette has had one.
+// May be true for a section without such a cell, if its palette still has such a state.
 bool mayBeUnsettled(const Section& states) {
-    const auto isUnsettled = [](std::uint16_t state) { return (state & kLiquidUnsettled) != 0; };
-    if (states.isUniform()) return isUnsettled(states.uniformValue());
-    return states.isDense() || std::ranges::any_of(states.palette(), isUnsettled);
+    const auto isSettled = [](std::uint16_t state) { return (state & kLiquidUnsettled) == 0; };
+    return !states.surelyAll(isSettled);
 }
 
 struct Unsettled {
     std::vector<BlockPos> cells;
-    std::vector<BlockPos> former;  // a block each of sections whose palette only has had such a state
+    std::vector<BlockPos> former;  // one block of each section whose palette has such a state without a cell
 };
 
 void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
@@ -209,8 +209,8 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
     return surface * (kMaxLiquidLevel + 1 - form) / (kMaxLiquidLevel + 1);
 }
 
-// Writes call behaviors, which unsettle the neighbors of what changes. Where one of them has put another
-// block by then, that stays.
+// Writes call behaviors, which unsettle the neighbors of changed blocks. If a behavior has put another block
+// into a cell by then, that stays.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
                         std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
     const FlowRules rules(blocks);

@@ -17,7 +17,7 @@ class ModelTable {
     // One model for all blocks of a shape.
     std::shared_ptr<const BlockModel> modelOf(const ShapePtr& shape);
 
-    // What mesh_gpu/block_table.h has bits for: faces of a form, and forms with their faces in all.
+    // Limits of the bits in mesh_gpu/block_table.h: faces of a form, and forms with their faces in all.
     static constexpr std::size_t kMaxFormFaces = 255, kMaxEntries = 60'000;
 
     bool fits() const {

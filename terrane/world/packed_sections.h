@@ -1,5 +1,5 @@
-// Sections as shaders read them (shared/packed_section.h): a list of heads, and their palettes and words one
-// after the other. Light and meshing each upload them to buffers of their own. No OpenGL; any thread.
+// Sections in the format of shaders (shared/packed_section.h): a list of heads, and their palettes and words
+// one after the other. Light and meshing upload them to buffers of their own. No OpenGL; any thread.
 #pragma once
 
 #include <vector>
@@ -22,8 +22,8 @@ struct PackedSections {
 // Appends the words of a section to the data, without a palette.
 void appendWords(PackedSections& packed, const Section& section);
 
-// Appends a section in the form that it has. The palette, or the one value, becomes entryOf(value); values of
-// dense sections stay. Returns its number.
+// Appends a section in its form. The palette, or the one value, becomes entryOf(value); values of dense
+// sections stay. Returns its number.
 template <typename EntryOf>
 shared::uint appendSection(PackedSections& packed, const Section& section, EntryOf entryOf) {
     const auto place = [&] { return static_cast<shared::uint>(packed.data.size()); };

@@ -1,4 +1,4 @@
-// Where somebody stands in the world and looks: players and cameras.
+// Position and direction of players and cameras.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -1,5 +1,5 @@
-// Which blocks a tick of time reaches: blocks with a behavior that has a tick, such as plants that grow.
-// Called by whoever runs the game, at a fixed rate.
+// The blocks that a tick of time reaches: those whose behavior has `tick`, such as growing plants. Called at
+// a fixed rate.
 #pragma once
 
 #include <chrono>
@@ -12,16 +12,16 @@
 
 namespace terrane::world {
 
-// Ticks come every 50 ms; each takes kTickPicks blocks of each section at random. A block's turn comes
-// every 4096 / 3 ticks, or 68 s, on average: wheat is grown after about three and a half minutes.
+// Ticks come every 50 ms; each takes kTickPicks blocks of each section at random. A block is taken every 4096
+// / 3 ticks, or 68 s, on average: wheat is grown after about three and a half minutes.
 constexpr std::chrono::milliseconds kTickLength{50};
 constexpr int kTickPicks = 3;
 
-// How far time passes around a player: chunks, Chebyshev.
+// Ticks reach this far around a player: chunks, Chebyshev.
 constexpr int kTickRadius = 8;
 
 // The blocks of these chunks to be changed by RunTick (block_edit.h); chunks that are not loaded have none.
-// `tick`: how many came before; the same world and number reach the same blocks. Looks only into sections
+// `tick`: the number of ticks before; the same world and number give the same blocks. Reads only sections
 // where some block has block state: a block whose state is 0 is at rest. On the world's thread.
 std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
                                    std::span<const ChunkPos> chunks);

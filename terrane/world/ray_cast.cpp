@@ -38,7 +38,7 @@ bool isFinite(const glm::dvec3& v) {
     return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-// None where the ray is no ray, or begins so far away that cells have no 64-bit numbers.
+// None if the ray is invalid, or begins so far away that cells have no 64-bit numbers.
 std::optional<LocalRay> localRay(const Ray& ray) {
     const double largest =
         std::max({std::abs(ray.direction.x), std::abs(ray.direction.y), std::abs(ray.direction.z)});

@@ -1,5 +1,5 @@
-// What a ray from the camera hits: the block that a player looks at, breaks or builds on. Called by the
-// application and by tools, on the thread that owns the world.
+// Finds the first block that a ray from the camera hits, which a player looks at, breaks or builds on. Called
+// by the application and by tools, on the thread that owns the world.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -65,8 +65,8 @@ void unpackIndices(const std::uint64_t* words, Indices& indices) {
         for (int i = 0; i < 64; i += Bits) *out++ = words[w] >> i & ((1u << Bits) - 1);
 }
 
-// Looks several blocks up at once, in a table of the values that each pattern of `kGroup` bits stands for:
-// two to four times as fast as looking each block up (1.9 µs a section at 4 bits, 0.9 µs at 1 bit). The table
+// Looks up several blocks at once, in a table of the values that each pattern of `kGroup` bits stands for:
+// two to four times as fast as looking up each block (1.9 µs a section at 4 bits, 0.9 µs at 1 bit). The table
 // has at most 256 entries, so that filling it is short against 4,096 blocks.
 template <int Bits>
 void unpackValues(const std::uint64_t* words, std::span<const Section::Value> palette, Section::Value* out) {
@@ -117,9 +117,9 @@ std::vector<std::uint64_t> denseWords(ConstValues values) {
 // Splits values into distinct ones, in order of their first block, and an index into these for each block.
 // Returns how many are distinct, or kMaxPalette + 1 as soon as there are more than a palette can hold.
 int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& palette, Indices& indices) {
-    // Where each value was last seen in a palette. An entry counts only where the palette confirms it, so
-    // that nothing needs clearing between calls (Briggs, Torczon: An Efficient Representation for Sparse
-    // Sets, 1993). 64 KiB, of which a call touches one byte a distinct value.
+    // The last palette index of each value. An entry counts only if the palette confirms it, so that nothing
+    // needs clearing between calls (Briggs, Torczon: An Efficient Representation for Sparse Sets, 1993). 64
+    // KiB, of which a call touches one byte a distinct value.
     thread_local std::array<std::uint8_t, 65536> position;
     // Most blocks are like those before: 16 are compared at once, then four, then each alone.
     constexpr int kRun = 4, kLongRun = 16;

@@ -1,6 +1,7 @@
 // A section: 16³ values of 16 bits (block ids or block state), stored as small as they allow.
 #pragma once
 
+#include <algorithm>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
@@ -29,9 +30,9 @@ class Section {
     // The smallest form of 4,096 values.
     static Section fromValues(std::span<const Value, kBlocksPerSection> values);
 
-    // The form that bits(), palette() and words() show of a section that is not uniform, as it is. `bits` is
-    // 1, 2, 4, 8 or 16 and `words` holds 64 · bits of them. Nothing where a block's index has no value in the
-    // palette, or the palette is longer than `bits` can tell apart.
+    // A section that is not uniform from its bits(), palette() and words(), in the same form. `bits` is 1, 2,
+    // 4, 8 or 16 and `words` holds 64 · bits of them. Nothing if the index of a block has no value in the
+    // palette, or if the palette is longer than `bits` can tell apart.
     static std::optional<Section> fromPacked(int bits, std::vector<Value> palette,
                                              std::vector<std::uint64_t> words);
 
@@ -43,8 +44,8 @@ class Section {
     }
     void set(int index, Value value);
     void unpack(std::span<Value, kBlocksPerSection> values) const;
-    // As unpack, with mapped[k] in place of palette()[k]: looks something up once a palette entry instead of
-    // once a block. Palette form only; mapped has the size of palette().
+    // Like unpack, with mapped[k] in place of palette()[k]: one lookup for each palette entry instead of each
+    // block. Palette form only; mapped has the size of palette().
     void unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const;
     void compact();
 
@@ -54,11 +55,19 @@ class Section {
 
     // Bits a block: 0 (uniform), 1, 2, 4, 8 (palette) or 16 (dense).
     int bits() const { return bits_; }
-    // Distinct values in order of index; may name values that no block has any more. Empty unless palette
+    // Distinct values in order of index; may have values that no block has any more. Empty unless palette
     // form.
     std::span<const Value> palette() const { return palette_; }
     // Palette form: indices, bits() each, lowest index in the lowest bits. Dense form: values, 16 bits each.
     std::span<const std::uint64_t> words() const { return words_; }
+
+    // True if all values surely meet the condition: false for dense sections, which are not searched, and
+    // for a palette with another value, even if no block has it any more.
+    template <class Condition>
+    bool surelyAll(const Condition& condition) const {
+        if (isUniform()) return condition(uniform_);
+        return !isDense() && std::all_of(palette_.begin(), palette_.end(), condition);
+    }
 
     std::size_t memoryBytes() const;  // heap and object
 

@@ -29,7 +29,7 @@ BlockId otherHalf(const BlockRegistry& blocks, BlockId id) {
 namespace {
 
 constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
-// By facing: where +y of the shape points.
+// By facing: the direction of +y of the shape.
 constexpr std::array<Face, 4> kAhead{kFacePosY, kFaceNegX, kFaceNegY, kFacePosX};
 
 bool supports(const World& world, const BlockRegistry& blocks, BlockPos pos, Face side) {
@@ -48,8 +48,8 @@ Face standsOrLeansAt(std::uint16_t state) {
     return (state & kStateOther) != 0 ? leansAt(state) : standsAt(state);
 }
 
-// A block that goes when the block at the side that its state names goes. Its state comes with it, so that
-// `placed` finds where there is nothing.
+// A block that is removed with its support, the block at the side that its state names. The state is set
+// before `placed` is called, which removes a block without support.
 BlockBehavior supported(std::string name, Face (*sideOf)(std::uint16_t)) {
     const auto goesWithout = [sideOf](BlockUpdate& update, BlockPos pos) {
         const Face side = sideOf(update.world().blockState(pos));
@@ -130,7 +130,7 @@ BlockBehavior door() {
                 }};
 }
 
-// Quarter turns against the clock from +y; yaw 90 looks along +y.
+// Quarter turns counterclockwise from +y; yaw 90 looks along +y.
 std::uint16_t facingOf(float yaw) {
     const int quarters = static_cast<int>(std::floor((yaw - 90) / 90 + 0.5f));
     return static_cast<std::uint16_t>(((quarters % 4) + 4) % 4);
@@ -154,7 +154,7 @@ std::uint16_t placedState(const BlockType& type, const Placement& placement) {
     const bool mayLean = hasBehavior(type, "leans") || hasBehavior(type, "stands_or_leans");
     std::uint16_t state = facingOf(placement.yaw);
     if (isAgainstSide && mayLean) {
-        // The wall lies against the face that is built on.
+        // The wall is at the side opposite to the face that is built on.
         const auto wall = static_cast<Face>(placement.face ^ 1);
         const auto facing = std::ranges::find(kAhead, wall) - kAhead.begin();
         state = static_cast<std::uint16_t>(facing | kStateOther);

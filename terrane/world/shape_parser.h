@@ -13,7 +13,7 @@
 
 namespace terrane::world {
 
-// `tables` may be null. Names must not be among `taken`. What is wrong goes to `error`.
+// `tables` may be null. Names must not be among `taken`. Errors go to `error`.
 std::vector<ShapePtr> readShapes(const toml::array* tables, std::span<const std::string_view> taken,
                                  std::string_view file, std::optional<std::string>& error);
 

@@ -1,5 +1,5 @@
-// Text on blocks: at most four lines, kept as block entity data of blocks with the behavior `sign`. Where it
-// stands on the block follows from the block's shape and state. Plain functions; any thread.
+// Text on blocks: at most four lines, stored as block entity data of blocks with the behavior `sign`. Its
+// place on the block follows from shape and state. Plain functions; any thread.
 #pragma once
 
 #include <array>
@@ -22,28 +22,28 @@ constexpr std::size_t kMaxSignBytes = 1 + kSignLines * kSignColumns * 4 + kSignL
 
 using SignText = std::array<std::string, kSignLines>;  // UTF-8
 
-// The characters of UTF-8; none where it is not valid. Surrogates and overlong forms are not.
+// The characters of UTF-8; none if it is invalid, as surrogates and overlong forms are.
 std::optional<std::u32string> charactersOf(std::string_view utf8);
 
-// How many bytes the first characters of a line have, as many as a sign takes. UTF-8 or not.
+// The number of bytes of the first kSignColumns characters of a line, which may be invalid UTF-8.
 std::size_t fittingBytes(std::string_view line);
 
-// An error where a line has too many characters, control characters or no valid UTF-8.
+// An error if a line has too many characters, control characters or invalid UTF-8.
 [[nodiscard]] base::Result<void> checkSign(const SignText& text);
-// Of a text that checkSign() takes.
+// Encodes a text that checkSign() accepts.
 BlockEntityData encodeSign(const SignText& text);
-// Any bytes may be given.
+// Takes any bytes; an error if they are no text.
 [[nodiscard]] base::Result<SignText> decodeSign(const BlockEntityData& data);
 
 // `sign`: a block whose data is text.
 BlockBehavior signBehavior();
 bool holdsText(const BlockType& type);
 
-// The side of a sign that has the text, seen from its front. In blocks, of the block's cell.
+// The side of a sign that has the text, seen from its front, in blocks from the corner of the block's cell.
 struct SignPlane {
     glm::dvec3 topLeft{0};
     glm::dvec3 right{0}, down{0};  // along the whole side
-    glm::dvec3 normal{0};          // toward who reads, of length 1
+    glm::dvec3 normal{0};          // toward the reader, of length 1
 };
 // None for blocks whose shape has no boxes. The side is that of the largest box.
 std::optional<SignPlane> signPlane(const BlockType& type, std::uint16_t state);
@@ -53,8 +53,8 @@ struct SignLine {
     double left = 0, top = 0;
     double height = 0;  // of the text
 };
-// Of line `number` from 0, whose width is `aspect` times its height: in the middle, smaller where it would
-// not fit.
+// The place of line `number` from 0, whose width is `aspect` times its height: in the middle, smaller if it
+// would not fit.
 SignLine lineOn(const SignPlane& plane, std::size_t number, double aspect);
 
 }  // namespace terrane::world

@@ -1,5 +1,5 @@
-// Light that the air scatters toward an eye near the ground: the sky. Pure functions, any thread; the first
-// call makes tables of the air that never change, in some 15 ms.
+// The sky: light that the air scatters toward an eye near the ground. Pure functions, any thread; the first
+// call makes tables of the air in some 15 ms.
 #pragma once
 
 #include <array>
@@ -11,8 +11,8 @@ namespace terrane::world {
 constexpr float kEyeAltitude =
     100;  // blocks over the sea: the sky is as seen from there, wherever the camera is
 
-// Share of the light of the sun or moon that reaches the eye, by the sine of its elevation. Through the
-// horizon it fades with the share of a disc of the radius kDiscFade that stands above.
+// The share of the light of the sun or moon that reaches the eye, by the sine of its elevation. At the
+// horizon it fades with the visible part of a disc of the radius kDiscFade.
 glm::vec3 directLight(float sine);
 constexpr float kDiscFade = 0.055f;  // radians
 
@@ -31,7 +31,7 @@ struct SkyTable {
     std::array<glm::vec3, std::size_t{kColumns} * kRows> radiance;
 };
 SkyTable skyTable(float sine);
-// Bilinear. A shader does the same (sky_color.glsl).
+// Bilinear; sky_color.glsl does the same.
 glm::vec3 sampled(const SkyTable& table, glm::vec3 direction, glm::vec3 toLight);
 
 }  // namespace terrane::world

@@ -1,4 +1,4 @@
-// What a block sounds like when one walks on it, places or breaks it.
+// Materials of blocks for the sounds of steps, placing and breaking.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ enum class SoundMaterial : std::uint8_t {
     Water
 };
 
-// In the content file and in the names of sounds, by SoundMaterial.
+// Names in content files and in names of sounds, by SoundMaterial.
 constexpr std::array<std::string_view, 11> kSoundMaterialNames{
     "none", "stone", "wood", "earth", "sand", "grass", "glass", "wool", "metal", "snow", "water"};
 

@@ -1,4 +1,4 @@
-// The key `sound` of a block in a content file.
+// Reads the key `sound` of a block in a content file.
 #pragma once
 
 #include "terrane/world/block_type.h"

@@ -31,7 +31,7 @@ class PaletteBuilder {
     std::unordered_map<std::uint32_t, std::uint32_t> indices_;
 };
 
-// The same blocks in other cells. `place` says where a block goes, `state` what its state becomes.
+// Moves blocks to other cells: `place` gives the new cell, `state` the new state of a block.
 template <class Place, class State>
 Structure moved(const Structure& from, glm::ivec3 size, Place place, State state) {
     Structure to{.size = size, .palette = from.palette, .cells = {}, .data = {}};

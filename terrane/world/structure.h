@@ -1,5 +1,5 @@
-// A box of blocks taken out of a world: it can be turned, mirrored, saved (store/structure_file.h) and put
-// into any world, whose block ids may be others. Plain values; any thread.
+// A box of blocks copied from a world: it can be turned, mirrored, saved (store/structure_file.h) and placed
+// in any world, also with other block ids. Plain values; any thread.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +14,8 @@
 
 namespace terrane::world {
 
-// A copy has 500,000 × 4 bytes of cells = 2 MB. To place it takes 168 bytes a block with its step to undo
-// (the plan, what was there, both values, the event): 84 MB, and half a second (docs/performance.md).
+// A copy has 500,000 × 4 bytes of cells = 2 MB. Placing takes 168 bytes a block with its step to undo (the
+// plan, the old blocks, both values, the event): 84 MB, and half a second (docs/performance.md).
 constexpr std::int64_t kMaxStructureBlocks = 500'000;
 
 struct StructureBlock {
@@ -44,10 +44,10 @@ struct Structure {
     friend bool operator==(const Structure& a, const Structure& b);  // data byte by byte
 };
 
-// The blocks of a box: at most kMaxStructureBlocks. Where no chunk is loaded they are air.
+// Copies the blocks of a box, at most kMaxStructureBlocks; air where no chunk is loaded.
 Structure copyBlocks(const World& world, const BlockRegistry& blocks, const BlockBox& box);
 
-// Turned about z by quarters against the clock, seen from above: a wall along x becomes one along y. The
+// Turned about z by quarters, counterclockwise seen from above: a wall along x becomes one along y. The
 // lowest corner stays the lowest corner.
 Structure turnedStructure(const Structure& structure, const BlockRegistry& blocks, int turns);
 Structure mirroredStructure(const Structure& structure, const BlockRegistry& blocks, MirrorAxis axis);

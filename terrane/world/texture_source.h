@@ -1,4 +1,4 @@
-// Where textures of blocks come from: content, resource packs, tests.
+// A source of textures of blocks: content, resource packs, tests.
 #pragma once
 
 #include <functional>

@@ -6,7 +6,7 @@
 namespace terrane::world {
 namespace {
 
-// 1/255 at least: a logarithm follows.
+// 1/255 at least, since its logarithm is taken.
 float channelOf(PackedColor color, int shift) {
     return static_cast<float>(std::max(color >> shift & 255u, 1u)) / 255.0f;
 }

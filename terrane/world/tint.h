@@ -1,5 +1,5 @@
-// The tint of columns: the color that grass has there. Made by generators (gen/builder.h), multiplied into
-// the textures of tinted faces (docs/blocks.md). Plain values; any thread.
+// The tint of columns: the color that grass has there. Made by generators (gen/builder.h), applied to the
+// textures of tinted faces (docs/blocks.md). Plain values; any thread.
 #pragma once
 
 #include <array>
@@ -21,12 +21,12 @@ constexpr PackedColor packColor(std::uint32_t red, std::uint32_t green, std::uin
 constexpr PackedColor kNeutralTint =
     packColor(shared::kNeutralTintRed, shared::kNeutralTintGreen, shared::kNeutralTintBlue);
 
-// Of the columns of a chunk of any level: x + 16 y.
+// Tints of the columns of a chunk of any level: x + 16 y.
 using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * kChunkSize>;
 
-// A color, 0…1 as stored (sRGB), where grass has the tint: each channel c becomes c ^ (log tint / log
-// neutral). Neutral becomes the tint, black and white stay, and no pale color turns white, as it would by a
-// factor. For what is shown; block_tint.glsl does the same.
+// Tints a color, 0…1 as stored (sRGB): each channel c becomes c ^ (log tint / log neutral). Neutral becomes
+// the tint, black and white stay, and no pale color turns white, as it would by a factor. For display;
+// block_tint.glsl does the same.
 glm::vec3 tinted(glm::vec3 color, PackedColor tint);
 
 }  // namespace terrane::world

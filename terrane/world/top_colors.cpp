@@ -18,7 +18,7 @@ glm::vec3 meanColor(const base::Image& image) {
 
 }  // namespace
 
-// Where alpha stands for light or for a share of the tint, a hole in the coverage is none.
+// Alpha that means glow or a share of the tint makes no holes.
 base::Result<TopColors> topColors(const BlockRegistry& blocks, const TextureSource& textures) {
     TopColors palette;
     for (const BlockType& type : blocks.types()) {

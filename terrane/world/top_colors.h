@@ -11,14 +11,14 @@
 
 namespace terrane::world {
 
-// Of a block's top face.
+// The color of a block's top face.
 struct TopColor {
     glm::vec3 mean{0.0f};  // sRGB, 0…255
     bool tinted = false;
 };
 using TopColors = std::vector<TopColor>;  // by block id
 
-// Blocks without a shape are black. Fails where a texture cannot be read; the message names it.
+// Blocks without a shape are black. Fails if a texture cannot be read; the message names it.
 base::Result<TopColors> topColors(const BlockRegistry& blocks, const TextureSource& textures);
 
 }  // namespace terrane::world

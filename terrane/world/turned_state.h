@@ -1,4 +1,4 @@
-// Block states of blocks that are turned or mirrored with what they are part of. Plain functions; any thread.
+// Block states of turned and mirrored blocks. Plain functions; any thread.
 #pragma once
 
 #include <cstdint>
@@ -9,10 +9,10 @@ namespace terrane::world {
 
 enum class MirrorAxis : std::uint8_t { X, Y };  // the coordinate that changes its sign
 
-// Bits of the state that follow from the blocks beside it (`connects`), not from what somebody built.
+// Bits of the state that follow from the neighbors of a block (`connects`).
 std::uint16_t armBits(const BlockType& type);
 
-// The state of the block after `turns` quarter turns about z, against the clock seen from above: +x becomes
+// The state of the block after `turns` quarter turns about z, counterclockwise seen from above: +x becomes
 // +y. Facing and arms turn, all else stays. Any number of turns, also below 0.
 std::uint16_t turnedState(const BlockType& type, std::uint16_t state, int turns);
 

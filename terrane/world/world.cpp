@@ -7,14 +7,14 @@
 namespace terrane::world {
 namespace {
 
-// The chunk to write to: itself where nobody else holds it, else a copy that takes its place.
+// The chunk to write to: itself if nobody else holds it, else a copy that replaces it.
 Chunk& writable(std::shared_ptr<Chunk>& chunk) {
     if (chunk.use_count() != 1) {
         chunk = std::make_shared<Chunk>(*chunk);
         return *chunk;
     }
-    // use_count() orders nothing: what a worker read before it let go of the chunk could still overlap the
-    // write that follows. Taking and dropping a reference is an acquire-release operation on the count, after
+    // use_count() does not order memory accesses: a worker's last reads of the chunk could overlap the
+    // following write. Taking and dropping a reference is an acquire-release operation on the count, after
     // the worker's.
     ChunkPtr(chunk).reset();
     return *chunk;

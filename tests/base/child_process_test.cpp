@@ -40,7 +40,7 @@ TEST_F(ChildProcessTest, TellsSignals) {
     EXPECT_EQ(end->exitCode, 128 + 9);
 }
 
-// Notes each run in a file; those after `crashes` of them succeed.
+// A script that records each run in a file and succeeds after `crashes` runs.
 std::string crashing(int crashes, const std::string& signal) {
     return "echo >> runs; [ $(wc -l < runs) -gt " + std::to_string(crashes) + " ] || kill -" + signal +
            " $$; echo done";

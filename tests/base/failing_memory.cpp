@@ -32,7 +32,7 @@ bool fails() {
 
 }  // namespace
 
-// The thread sanitizer has an operator new of its own, which cannot be replaced.
+// The thread sanitizer has its own operator new, which cannot be replaced.
 #if defined(__has_feature)
 #if __has_feature(thread_sanitizer)
 #define TERRANE_MEMORY_NEVER_FAILS

@@ -1,12 +1,12 @@
-// Memory that runs out when a test says so: allocations of the whole program fail. The test program links
-// failing_memory.cpp, which replaces operator new.
+// Makes allocations of the whole program fail. The test program links failing_memory.cpp, which replaces
+// operator new.
 #pragma once
 
 #include <climits>
 
 namespace terrane::base {
 
-// While it lives allocations by any thread fail: `count` of them, after `after` that do not.
+// While an object exists, allocations by any thread fail: `count` of them, after `after` successful ones.
 class FailingMemory {
   public:
     explicit FailingMemory(long after, long count = LONG_MAX);
@@ -24,7 +24,7 @@ namespace detail {
 inline thread_local int enoughMemory = 0;
 }
 
-// While it lives allocations of this thread succeed and are not counted: those of the test itself.
+// While an object exists, allocations of this thread succeed and are not counted: those of the test itself.
 class EnoughMemory {
   public:
     EnoughMemory() { ++detail::enoughMemory; }

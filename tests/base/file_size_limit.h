@@ -7,7 +7,7 @@
 
 namespace terrane::base {
 
-// No file may grow beyond the limit while this lives.
+// No file can grow beyond the limit while an object exists.
 class FileSizeLimit {
   public:
     explicit FileSizeLimit(rlim_t bytes) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {

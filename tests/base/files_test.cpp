@@ -39,7 +39,7 @@ TEST(Files, ReadingAFolderIsAnError) {
     EXPECT_EQ(result.error().message, folder.path().string() + ": cannot be read: Is a directory");
 }
 
-// Whatever a name stands for, reading it takes no more than a moment and the memory that was allowed.
+// Reading returns soon and within the allowed memory, whatever the name stands for.
 TEST(Files, OnlyRegularFilesAreRead) {
     const TempFolder folder;
     ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
@@ -53,7 +53,7 @@ TEST(Files, OnlyRegularFilesAreRead) {
 TEST(Files, LargeFilesAreRefused) {
     const TempFolder folder;
     ASSERT_TRUE(writeFile(folder / "large", ""));
-    std::filesystem::resize_file(folder / "large", std::uintmax_t{20} << 30);  // holds no blocks
+    std::filesystem::resize_file(folder / "large", std::uintmax_t{20} << 30);  // a sparse file
     EXPECT_EQ(readFile(folder / "large").error().message,
               (folder / "large").string() + ": cannot be read: it has more than 67108864 bytes");
     ASSERT_TRUE(writeFile(folder / "small", "12345"));

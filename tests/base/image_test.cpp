@@ -42,7 +42,7 @@ std::string palettePng() {
         "00000042004184bf8e620000000049454e44ae426082");
 }
 
-// Says 100,000 × 100,000 pixels in 69 bytes.
+// A header with 100,000 × 100,000 pixels in 69 bytes.
 std::string hugePng() {
     return fromHex(
         "89504e470d0a1a0a0000000d49484452000186a0000186a00806000000a8520bc8"

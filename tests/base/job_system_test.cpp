@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <atomic>
-#include <condition_variable>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <thread>
 
 #include "tests/base/failing_memory.h"
+#include "tests/base/job_gates.h"
 
 namespace terrane::base {
 namespace {
@@ -20,49 +19,6 @@ namespace {
 using testing::AnyOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
-
-// Opens once; waiting threads block until then.
-class Gate {
-  public:
-    void open() {
-        {
-            const std::lock_guard lock(mutex_);
-            isOpen_ = true;
-        }
-        opened_.notify_all();
-    }
-    void wait() {
-        std::unique_lock lock(mutex_);
-        opened_.wait(lock, [&] { return isOpen_; });
-    }
-
-  private:
-    std::mutex mutex_;
-    std::condition_variable opened_;
-    bool isOpen_ = false;
-};
-
-// Occupies one worker from construction until release.
-class Blocker {
-  public:
-    explicit Blocker(JobSystem& jobs) {
-        handle_ = jobs.submit(0, [this](const CancelToken&) {
-            started_.open();
-            released_.wait();
-        });
-        started_.wait();
-    }
-    ~Blocker() { release(); }
-    void release() {
-        released_.open();
-        handle_.wait();
-    }
-
-  private:
-    Gate started_;
-    Gate released_;
-    JobHandle handle_;
-};
 
 TEST(JobSystem, RunsWhatIsSubmitted) {
     JobSystem jobs(2);
@@ -363,95 +319,7 @@ TEST(JobSystem, AWorkerMayWaitForAnotherSystem) {
     EXPECT_EQ(value, 3);
 }
 
-TEST(ParallelFor, CallsEachIndexOnce) {
-    JobSystem jobs(4);
-    for (const std::size_t count : {0u, 1u, 2u, 3u, 1000u}) {
-        std::vector<int> calls(count, 0);
-        EXPECT_TRUE(parallelFor(jobs, count, [&](std::size_t i) { ++calls[i]; }));
-        EXPECT_THAT(calls, testing::Each(1)) << count;
-    }
-    EXPECT_EQ(jobs.queuedCount(), 0u);
-}
-
-TEST(ParallelFor, TheCallerDoesAllWhenTheWorkersAreBusy) {
-    JobSystem jobs(1);
-    Blocker blocker(jobs);
-    const std::thread::id self = std::this_thread::get_id();
-    std::size_t ranHere = 0;
-    EXPECT_TRUE(parallelFor(jobs, 20, [&](std::size_t) { ranHere += std::this_thread::get_id() == self; }));
-    EXPECT_EQ(ranHere, 20u);
-    EXPECT_EQ(jobs.queuedCount(), 0u) << "helpers that never started are gone";
-}
-
-TEST(ParallelFor, WorkersHelp) {
-    JobSystem jobs(1);
-    Gate bothInside;
-    std::atomic<int> insideCount{0};
-    // Two indices that wait for each other finish only on two threads.
-    EXPECT_TRUE(parallelFor(jobs, 2, [&](std::size_t) {
-        if (++insideCount == 2) bothInside.open();
-        bothInside.wait();
-    }));
-}
-
-TEST(ParallelFor, ReportsTheLowestFailingIndexAfterRunningAll) {
-    JobSystem jobs(4);
-    for (int round = 0; round < 20; ++round) {
-        std::atomic<int> callCount{0};
-        const Result<void> result = parallelFor(jobs, 100, [&](std::size_t i) {
-            ++callCount;
-            if (i % 30 == 17) throw std::runtime_error("bad " + std::to_string(i));
-        });
-        ASSERT_FALSE(result);
-        EXPECT_EQ(result.error().message, "index 17 of 100: bad 17");
-        EXPECT_EQ(callCount, 100);
-    }
-}
-
-TEST(ParallelFor, WorksOnWorkersAndNested) {
-    JobSystem jobs(2);
-    std::atomic<int> callCount{0};
-    const JobHandle handle = jobs.submit(0, [&](const CancelToken&) {
-        const Result<void> outer = parallelFor(jobs, 8, [&](std::size_t) {
-            const Result<void> inner = parallelFor(jobs, 8, [&](std::size_t) { ++callCount; });
-            EXPECT_TRUE(inner);
-        });
-        EXPECT_TRUE(outer);
-    });
-    handle.wait();
-    EXPECT_EQ(callCount, 64);
-}
-
-// Wherever memory runs out: the call returns or throws, and works again afterwards.
-TEST(ParallelFor, WithoutMemoryNobodyWaitsForEver) {
-    if (!FailingMemory::isPossible()) GTEST_SKIP() << "memory cannot be made to fail here";
-    JobSystem jobs(2);
-    long n = 0;
-    for (; n < 2000; ++n) {
-        bool hasFailed = false;
-        for (const long count : {1L, LONG_MAX}) {
-            std::atomic<int> calls = 0;
-            try {
-                const FailingMemory memory(n, count);
-                const Result<void> done = parallelFor(jobs, 20, [&](std::size_t i) {
-                    ++calls;
-                    if (i % 3 == 1) throw std::runtime_error("a message that needs memory of its own");
-                });
-                EXPECT_FALSE(done);
-                EXPECT_EQ(calls, 20);
-            } catch (const std::bad_alloc&) {
-            }
-            hasFailed = hasFailed || FailingMemory::hasFailed();
-            jobs.waitIdle();
-            EXPECT_TRUE(parallelFor(jobs, 20, [](std::size_t) {}));
-        }
-        if (!hasFailed) break;
-    }
-    EXPECT_GT(n, 10);
-    EXPECT_LT(n, 2000) << "in the end memory is enough";
-}
-
-// Wherever memory runs out: it is not there, or works with the threads that it has.
+// Wherever memory runs out, the constructor throws, or the system works with fewer threads.
 TEST(JobSystem, WithoutMemoryItHasFewerThreads) {
     if (!FailingMemory::isPossible()) GTEST_SKIP() << "memory cannot be made to fail here";
     int started = 0, refused = 0, withFewer = 0;

@@ -33,7 +33,7 @@ std::string dictionary(const NpyParts& parts) {
 }
 
 TEST(Npy, MatchesTheFormatByteForByte) {
-    // What numpy.save writes for numpy.array([[1, 2, 3], [4, 5, 6]], '<u2'), format version 1.0.
+    // The output of numpy.save for numpy.array([[1, 2, 3], [4, 5, 6]], '<u2'), format version 1.0.
     const std::string dict = "{'descr': '<u2', 'fortran_order': False, 'shape': (2, 3), }";
     const std::string data("\1\0\2\0\3\0\4\0\5\0\6\0", 12);
     const std::string expected =
@@ -79,7 +79,7 @@ TEST(Npy, CountsLongHeadersInBothLengthBytes) {
     EXPECT_EQ(parts.data, std::string(50, 'x'));
 }
 
-// The shape of what is written piece by piece is known at the end.
+// The shape of an array that is written in pieces is known at the end.
 TEST(Npy, AHeaderLeavesRoomForALargerShape) {
     const std::string first = npyHeader("<u2", {SIZE_MAX});
     const std::string last = npyHeader("<u2", {7}, first.size());

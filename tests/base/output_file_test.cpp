@@ -52,7 +52,7 @@ TEST(OutputFile, OfAnUnfinishedOneNothingStays) {
     EXPECT_EQ(folder.fileCount(), 1);
 }
 
-// As one that finds no memory, or is killed.
+// The process ends without finish(), as when it is killed.
 TEST(OutputFile, OfAProgramThatEndsMidwayNothingStays) {
     const TempFolder folder;
     const int unnamed = ::open((folder / ".").c_str(), O_TMPFILE | O_WRONLY, 0600);

@@ -13,7 +13,7 @@ Result<int> half(int n) {
     return fail(ErrorCode::BadInput, "{}: odd", n);
 }
 
-// An error goes on as it is, to results of another type.
+// An error converts unchanged to results of another type.
 Result<std::string> quarter(int n) {
     const auto first = half(n);
     if (!first) return tl::unexpected(first.error());
@@ -37,7 +37,7 @@ TEST(Result, WithoutACodeItIsAFailure) {
     EXPECT_TRUE(Result<void>());
 }
 
-// A bool can be made of a result: a copy must not become that.
+// A result converts to bool: a copy of a Result<bool> must not use that.
 TEST(Result, CopiesAreCopies) {
     Result<bool> no = false;
     const Result<bool> copy(no);

@@ -1,4 +1,4 @@
-// A folder of its own for one test, removed with everything in it at the end.
+// A folder for one test, removed with all its content at the end.
 #pragma once
 
 #include <unistd.h>

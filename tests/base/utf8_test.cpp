@@ -24,7 +24,7 @@ TEST(Utf8, WhatIsNone) {
     EXPECT_TRUE(isUtf8("Žluťoučký kůň, 木, 🌲"));
 }
 
-// Each code has one form, and no other bytes of its length are one.
+// Each code has exactly one valid form.
 TEST(Utf8, ExactlyTheCodesOfUnicode) {
     std::size_t count = 0;
     for (unsigned first = 0; first < 256; ++first)

@@ -53,7 +53,7 @@ TEST_F(ResourcePack, TexturesKeepTheirSizes) {
     EXPECT_EQ(texture("dirt").rgba, builtInTextures()("dirt").value().rgba);
 }
 
-// Textures of a content pack lie in a folder of its name.
+// Textures of a content pack are in a folder of its name.
 TEST_F(ResourcePack, AFolderHoldsTheTexturesOfAContentPack) {
     const auto blocks = world::BlockRegistry::fromDescriptions(
         [] {

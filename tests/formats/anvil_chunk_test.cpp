@@ -34,7 +34,7 @@ NbtTag paletteOf(const std::vector<NamedState>& palette) {
     return {list};
 }
 
-// Bit by bit, as the format is described.
+// Packs bit by bit, as the format is described.
 NbtTag packed(const std::vector<std::uint16_t>& blocks, std::size_t paletteSize, bool isAligned) {
     const auto bits = std::max<std::size_t>(4, static_cast<std::size_t>(std::bit_width(paletteSize - 1)));
     std::vector<std::uint64_t> words(isAligned ? (4096 + 64 / bits - 1) / (64 / bits) : 64 * bits);

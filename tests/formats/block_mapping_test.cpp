@@ -14,7 +14,7 @@ using testing::HasSubstr;
 
 class BlockMappingTest : public testing::Test {
   protected:
-    // "name" or "name/state" of what a text becomes.
+    // The block of a text as "name" or "name/state".
     std::string blockOf(std::string_view text) const {
         const auto state = namedState(text);
         EXPECT_TRUE(state) << text;
@@ -32,7 +32,7 @@ class BlockMappingTest : public testing::Test {
     }
 
     world::BlockRegistry blocks = *content::loadBlocks();
-    BlockMapping mapping = *builtInMapping(blocks);
+    BlockMapping mapping = *loadMapping(blocks, {});
 };
 
 TEST_F(BlockMappingTest, KnowsNames) {
@@ -46,7 +46,7 @@ TEST_F(BlockMappingTest, KnowsNames) {
     EXPECT_EQ(blockOf("minecraft:snow[layers=2]"), "white_carpet");
 }
 
-// South is +y and facing 0; quarters go on against the clock: east, north, west.
+// South is +y and facing 0; quarter turns go counterclockwise: east, north, west.
 TEST_F(BlockMappingTest, TurnsAndHalves) {
     EXPECT_EQ(blockOf("oak_stairs[facing=north,half=bottom]"), "oak_stairs/2");
     EXPECT_EQ(blockOf("oak_stairs[facing=west,half=top]"), "oak_stairs/7");

@@ -9,7 +9,6 @@
 #include <set>
 
 #include "terrane/content/built_in.h"
-#include "terrane/formats/gray_png.h"
 #include "terrane/mesh/chunk_mesher.h"
 
 namespace terrane::formats {
@@ -124,21 +123,6 @@ TEST_F(GlbMeshTest, AirIsNoModel) {
     GlbMesh mesh(blocks, textures);
     EXPECT_TRUE(mesh.add(mesh::meshAlone(world::Chunk(), blocks), glm::ivec3(0)));
     EXPECT_FALSE(mesh.finish("nothing"));
-}
-
-TEST(GrayPng, IsReadByAnotherReader) {
-    GrayImage gray{3, 2, 8, {0, 1, 255, 7, 200, 6}};
-    const auto image = base::decodePng(encodeGrayPng(gray), "gray");
-    ASSERT_TRUE(image) << image.error().message;
-    ASSERT_EQ(image->width, 3);
-    for (std::size_t k = 0; k < gray.values.size(); ++k) EXPECT_EQ(image->rgba[4 * k], gray.values[k]);
-    gray.bits = 16;
-    gray.values = {0, 257, 65535, 513, 40000, 25700};
-    const auto deep = base::decodePng(encodeGrayPng(gray), "gray");
-    ASSERT_TRUE(deep) << deep.error().message;
-    // Read as linear light by this reader: black and white stay.
-    EXPECT_EQ(deep->rgba[0], 0);
-    EXPECT_EQ(deep->rgba[8], 255);
 }
 
 }  // namespace

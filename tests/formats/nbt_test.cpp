@@ -121,7 +121,7 @@ TEST(Nbt, RefusesWhatIsDeepOrLarge) {
     std::string deep("\x0a\0\0", 3);
     for (int k = 0; k < 100; ++k) deep += std::string("\x0a\0\0", 3);
     EXPECT_THAT(nbtError(deep), HasSubstr("nested too deep"));
-    // Lists say how long they are: more than there are bytes.
+    // Lists with more elements than bytes.
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x09\0\0\x01\x7f\xff\xff\xff", 11)), HasSubstr("cut off"));
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x0c\0\0\x10\0\0\0\0\0", 12)), HasSubstr("cut off"));
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x09\0\0\0\0\0\0\x01\0", 12)), HasSubstr("list of nothing"));

@@ -73,7 +73,7 @@ TEST(Schematic, ComesBackTheSameForRandomVolumes) {
 
 TEST(Schematic, BlocksComeBackTheSame) {
     const world::BlockRegistry blocks = *content::loadBlocks();
-    const BlockMapping mapping = *builtInMapping(blocks);
+    const BlockMapping mapping = *loadMapping(blocks, {});
     std::mt19937 random(6);
     BlockVolume volume{{20, 20, 20}, {}, std::vector<std::uint16_t>(8000)};
     for (int k = 0; k < 700; ++k)
@@ -94,7 +94,7 @@ TEST(Schematic, ReadsEachVersion) {
         const auto volume = decodeSchematic(fileOf(small(version), isNested), LegacyIds());
         ASSERT_TRUE(volume) << version << volume.error().message;
         EXPECT_EQ(volume->size, glm::ivec3(2, 2, 1));
-        // Its x 1 is our x 0.
+        // The file's x 1 is our x 0.
         EXPECT_EQ(namesOf(*volume), (std::vector<std::string>{"minecraft:stone", "minecraft:air",
                                                               "minecraft:air", "minecraft:air"}));
     }

@@ -1,5 +1,5 @@
-// libFuzzer: a region file of any bytes, and any NBT as the chunk of one: read, mapped and made a chunk of
-// ours.
+// libFuzzer: any bytes as a region file, and any NBT as one of its chunks: read, mapped and converted to a
+// Terrane chunk.
 #include "terrane/content/built_in.h"
 #include "terrane/formats/minecraft_chunk.h"
 #include "terrane/formats/region_file.h"
@@ -11,7 +11,7 @@ using namespace terrane;
 
 struct Tables {
     world::BlockRegistry blocks = *content::loadBlocks();
-    formats::BlockMapping mapping = *formats::builtInMapping(blocks);
+    formats::BlockMapping mapping = *formats::loadMapping(blocks, {});
     formats::LegacyIds ids = *formats::builtInLegacyIds();
 };
 
@@ -35,7 +35,7 @@ void importChunk(std::string_view nbt, int shift) {
 
 }  // namespace
 
-// Reading the tables takes seconds under the sanitizers, which no input is to be blamed for.
+// Reads the tables first: under the sanitizers that takes seconds, which would count as the time of an input.
 extern "C" int LLVMFuzzerInitialize(int*, char***) {
     tables();
     return 0;

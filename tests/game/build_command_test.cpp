@@ -40,7 +40,7 @@ class BuildTest : public SessionTest {
     world::BlockId block(BlockPos pos) { return session_.world().block(pos); }
     std::size_t steps() { return session_.takeBack(kBuilder, HistoryWay::Undo).blocks; }
 
-    // Light as shown is that of lighting everything from scratch.
+    // The shown light equals lighting everything from scratch.
     void expectLightFromScratch(std::map<world::ChunkPos, light::ChunkLightPtr>& shown) {
         const light::LightTable table(contentBlocks());
         for (const stream::ChunkChange& change : takeChanges())
@@ -113,7 +113,7 @@ TEST_F(BuildTest, NoPlayerFillsTheLowestLayer) {
     EXPECT_EQ(session_.build({kNoPlayer, all}).changed, 4u) << "a script may";
 }
 
-// What stands on the box, falls into it or reaches for it.
+// Blocks on the box, beside it and falling into it react.
 TEST_F(BuildTest, NeighborsAreTold) {
     put({3, 3, kGroundHeight}, "dirt");
     put({3, 3, kGroundHeight + 1}, "poppy");
@@ -226,7 +226,7 @@ TEST_F(BuildTest, LightAfterALargeFillIsThatFromScratch) {
     }
 }
 
-// A sign's text is a step of its own, and comes back with the sign.
+// The text of a sign is a separate step, and comes back with the sign.
 TEST_F(BuildTest, TextOfASignIsUndone) {
     const BlockPos pos{5, 5, kGroundHeight};
     const auto say = [&](const world::BlockEntityData& data) {

@@ -25,7 +25,7 @@ class UndoTest : public SessionTest {
         return session_.blocks().type(session_.world().block(pos)).name;
     }
     world::BlockValue value(world::BlockPos pos) const { return world::blockValue(session_.world(), pos); }
-    // Of a box in reach, and what it could touch.
+    // All blocks of a box that edits can reach or affect.
     std::vector<world::BlockValue> values() const {
         std::vector<world::BlockValue> all;
         const world::BlockBox box{{-2, -2, kGroundHeight - 8}, {13, 13, kGroundHeight + 12}};
@@ -148,7 +148,7 @@ TEST_F(UndoTest, AnUndoneEditIsOnScreenWithTheNextUpdate) {
     EXPECT_TRUE(std::ranges::any_of(changes, isHere));
 }
 
-// Any blocks, with what falls, hangs, stands and connects: all back, all again, at every step.
+// Random blocks that fall, hang, stand and connect: all steps undone and redone.
 TEST_F(UndoTest, RandomEditsAreUndoneAndDoneAgain) {
     std::mt19937 random(20261124);
     const auto upTo = [&](int n) { return static_cast<int>(random() % static_cast<unsigned>(n)); };

@@ -40,7 +40,7 @@ struct Told {
     Pose pose;
 };
 
-// All frames until `end`, with the poses when they arrive.
+// All frames until `end`, with poses at their arrival.
 std::vector<Figure> framesOf(FigureMotion& motion, const std::vector<Told>& poses, double end) {
     std::vector<Figure> frames;
     std::size_t next = 0;
@@ -52,7 +52,7 @@ std::vector<Figure> framesOf(FigureMotion& motion, const std::vector<Told>& pose
     return frames;
 }
 
-// Somebody who walks along +x; poses are sent evenly and arrive up to `jitter` seconds late.
+// A player who walks along +x; poses are sent evenly and arrive up to `jitter` seconds late.
 std::vector<Told> walkAlongX(double interval, double jitter, double speed, double seconds) {
     std::minstd_rand random(1);
     std::uniform_real_distribution<double> late(0, jitter);
@@ -74,7 +74,7 @@ TEST(FigureMotion, IsWhereItBegan) {
     EXPECT_EQ(figure.swing, 0);
 }
 
-// From near and far, with poses that come late.
+// From near and far, with late poses.
 TEST(FigureMotion, WalksWithoutJumps) {
     constexpr double kSpeed = world::kWalkSpeed;
     for (const double interval : {0.1, 0.2, 0.5, 1.0}) {
@@ -86,7 +86,7 @@ TEST(FigureMotion, WalksWithoutJumps) {
                 EXPECT_GE(frames[k].eyes.x, frames[k - 1].eyes.x) << "goes back";
                 fastest = std::max(fastest, blocksBetween(frames[k - 1], frames[k]) / kFigureFrame);
             }
-            // What comes late is caught up with within the next interval.
+            // The figure makes up for a late pose within the next interval.
             EXPECT_LE(fastest, kSpeed * (1.05 + 1.5 * jitter / interval)) << interval << ' ' << jitter;
             // 1.2 intervals behind, and as much as the last pose was late.
             EXPECT_NEAR(frames.back().eyes.x, kSpeed * (12 - 1.2 * interval),
@@ -112,7 +112,7 @@ TEST(FigureMotion, StopsAtTheLastPose) {
     EXPECT_GT(frames[120].strideSize, 0.6f) << "walked before";
 }
 
-// The first pose after a long time tells nothing about how often they come.
+// The first pose after a long time tells nothing about the interval.
 TEST(FigureMotion, StartsAtOnceAfterStanding) {
     FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
     framesOf(motion, walkAlongX(0.1, 0, world::kWalkSpeed, 3), 30);
@@ -172,8 +172,7 @@ TEST(FigureMotion, LegsGoTheWayOfTheBody) {
     EXPECT_LT(strideOf(180), -0.1) << "backward";
 }
 
-// While the body goes over a foot, that is half of the time, the foot turns from one end of its swing to the
-// other.
+// While the body passes over a foot, half of the time, the foot turns from one end of its swing to the other.
 TEST(FigureMotion, FeetDoNotSlide) {
     for (const double speed : {1.0, 2.5, world::kWalkSpeed, world::kRunSpeed}) {
         FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
@@ -212,7 +211,7 @@ TEST(FigureMotion, TheArmSwingsOnce) {
     EXPECT_EQ(motion.at(timeAt(1.31)).swing, 0);
 }
 
-// Two poses that a slow network delivers together, and a frame of no length.
+// Two poses that a slow network delivers at once, and a frame of no length.
 TEST(FigureMotion, NothingIsDividedByZero) {
     FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
     motion.told({{1, 0, 80}, 0, 0}, timeAt(1));

@@ -30,7 +30,7 @@ class FootstepsTest : public testing::Test {
             for (int y = from.y; y <= to.y; ++y)
                 for (int x = from.x; x <= to.x; ++x) world::putBlock(world_, {x, y, z}, contentBlock(name));
     }
-    // As a game does: two steps of the character a frame.
+    // As in a game: two steps of the character a frame.
     std::vector<FootEvent> run(double seconds, const world::CharacterInput& input) {
         std::vector<FootEvent> events;
         for (double t = 0; t < seconds; t += kFrame) {

@@ -43,7 +43,7 @@ TEST(PlayerState, TheHandOfFormerSavesIsTheFirstSlot) {
     EXPECT_EQ(savedPlayer(store).hotbar, "1 sand");
 }
 
-// They belong to the world, not to whoever plays.
+// They belong to the world, not to the player.
 TEST(PlayerState, MovementAndTexturesComeBack) {
     store::MemoryStore store({1, "flat", 1});
     std::optional<PlayerState> saved;
@@ -56,7 +56,7 @@ TEST(PlayerState, MovementAndTexturesComeBack) {
     savePlayer(store, other, saved);
     EXPECT_EQ(savedPlayer(store).movement, "fast");
     EXPECT_EQ(savedPlayer(store).resourcePack, "/packs/wood");
-    // One that was taken back is none, also where it was saved by another program.
+    // A reset value is saved as empty, even if another program had set it.
     std::optional<PlayerState> unknown;
     savePlayer(store, kState, unknown);
     EXPECT_EQ(savedPlayer(store).resourcePack, "");

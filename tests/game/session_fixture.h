@@ -36,7 +36,7 @@ class SessionTest : public testing::Test {
   protected:
     SessionTest() { load(2); }
 
-    // Until all up to `distance` around the origin is lit and meshed.
+    // Updates until all chunks up to `distance` around the origin are lit and meshed.
     void load(int distance) {
         session_.pipeline().setView({0, 0}, distance);
         settle();

@@ -1,4 +1,4 @@
-// Water that flows in a session: with time, over saving and loading, back by undo, with its light.
+// Flowing water in a session: over time, over saving and loading, with undo, and its light.
 #include <filesystem>
 
 #include "terrane/store/sqlite_store.h"
@@ -109,7 +109,7 @@ TEST(SessionLiquid, GoesOnAfterSavingAndLoadingAsIfNothingHadBeen) {
     EXPECT_GT(waterBlocks(whole), 200);
 }
 
-// As one plays: a source placed by hand, undone when it has flooded the ground.
+// As in a game: a source that a player placed, undone after it has flooded the ground.
 TEST_F(SessionTest, UndoOfASourceLetsTheGroundRunDry) {
     session_.setPlayer(kLocalPlayer, {.position = {0.5, 0.5, kGroundHeight + 3.0}});
     const world::SetBlock source{contentBlock("water"), 0};

@@ -48,7 +48,7 @@ TEST_F(SessionTest, AChestIsBrokenOnlyWhenItIsEmpty) {
     EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::Applied);
 }
 
-// It holds all else: who dug through it would fall for ever.
+// A player who dug through the lowest layer would fall forever.
 TEST_F(SessionTest, NoPlayerBreaksTheLowestLayer) {
     session_.setPlayer(7, {.position = {5.5, 5.5, 2}});
     EXPECT_EQ(session_.edit(put({5, 5, 1}, "air", 7)), EditResult::Applied);
@@ -78,7 +78,7 @@ TEST_F(SessionTest, ABatchAnswersEachCommand) {
     EXPECT_EQ(session_.world().block(kOnGround), contentBlock("stone"));
 }
 
-// Edits, what is used, building and undoing, with what follows from them; not what the world does by itself.
+// Reports edits, uses, builds and undo with their consequences, but no changes by the world itself.
 TEST_F(SessionTest, ListenersHearWhatPlayersChanged) {
     std::vector<std::pair<PlayerId, std::vector<ChangedBlock>>> heard;
     session_.setChangeListener([&](PlayerId player, std::span<const ChangedBlock> changes) {
@@ -107,7 +107,7 @@ TEST_F(SessionTest, ListenersHearWhatPlayersChanged) {
     EXPECT_EQ(heard[5].second[0].after.id, world::kAir);
 }
 
-// As a server says they are: sand hangs in the air until the server lets it fall.
+// Blocks as a server sends them: sand hangs in the air until the server lets it fall.
 TEST_F(SessionTest, BlocksThatAreSetStayAsTheyAre) {
     const world::BlockValue sand{contentBlock("sand"), 0, {}}, poppy{contentBlock("poppy"), 0, {}};
     session_.setBlocks(std::vector<world::PlacedBlock>{
@@ -156,7 +156,7 @@ TEST_F(SessionTest, TimeLetsPlantsGrow) {
     EXPECT_NE(session_.clock.timeDay, before);
 }
 
-// Sand that falls is lit, meshed and saved as any edit.
+// Falling sand is lit, meshed and saved like any edit.
 TEST_F(SessionTest, SandThatFallsReachesTheStoreAndTheScreen) {
     const world::BlockPos high{5, 5, kGroundHeight + 9}, landing = kOnGround;
     session_.edit(put({5, 5, kGroundHeight + 8}, "stone"));
@@ -188,7 +188,7 @@ TEST_F(SessionTest, SandThatFallsReachesTheStoreAndTheScreen) {
     EXPECT_EQ(stored.chunk->block(world::blockIndex(high)), world::kAir);
 }
 
-// A fill and a clear through the door, over several chunks: light is that of lighting everything anew.
+// A fill and a clear by the session, over several chunks: the light equals lighting everything from scratch.
 TEST_F(SessionTest, LightAfterABatchIsThatFromScratch) {
     const auto fill = [&](std::string_view name) {
         std::vector<EditCommand> commands;

@@ -1,4 +1,4 @@
-// Surfaces straight from a generator are those of the chunks that it makes.
+// Surfaces from a generator equal those of the chunks that it makes.
 #include <random>
 #include <string>
 

@@ -33,7 +33,7 @@ struct PixelBox {
     }
 };
 
-// By the header's formula, over the eight corners of the chunk's box.
+// The bounds of the eight corners of the chunk's box, by the formula of the header.
 PixelBox boxOf(ChunkPos chunk, int zoom) {
     const double scale = zoom > 0 ? std::exp2(zoom) : 1, height = kIsometricHeight * std::exp2(zoom);
     PixelBox box{1e300, 1e300, -1e300, -1e300};
@@ -173,7 +173,7 @@ TEST(Isometric, WhatIsNearerHidesWhatIsFarther) {
     EXPECT_NEAR(red, 2, 2) << "all of it but one row of pixels is hidden";
 }
 
-// What chunksSeen() leaves out would change nothing.
+// Chunks that chunksSeen() leaves out would change nothing.
 TEST(Isometric, TilesShowAllThatReachesIntoThem) {
     std::mt19937 random(4);
     const auto randomSurface = [&] {
@@ -221,7 +221,7 @@ MapColors colorsWithLiquids() {
     return colors;
 }
 
-// The pixel of a height in the middle of a column that stands alone.
+// The pixel of a height in the middle of a single column.
 std::array<int, 4> topPixel(const SurfaceColumn& column, double z) {
     Surface surface{};
     surface[8 + 16 * 8] = column;

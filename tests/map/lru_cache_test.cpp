@@ -53,7 +53,7 @@ TEST(LruCache, WhatIsTooLargeIsNotKept) {
     EXPECT_TRUE(items.find(3));
 }
 
-// Against a list that is searched from its end.
+// Compared with a list that is searched from its end.
 TEST(LruCache, AreThoseOfASlowList) {
     struct Item {
         int key, value;

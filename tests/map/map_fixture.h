@@ -32,7 +32,7 @@ inline void PrintTo(const SurfaceColumn& column, std::ostream* out) {
 
 constexpr std::uint64_t kMapSeed = 1;
 
-// Of one seed, made once for all tests.
+// Generators of one seed, made once for all tests.
 inline const gen::LevelGenerators& generatorsOf(const std::string& name) {
     static std::map<std::string, gen::LevelGenerators> made;
     const auto found = made.find(name);
@@ -42,7 +42,7 @@ inline const gen::LevelGenerators& generatorsOf(const std::string& name) {
     return made.emplace(name, std::move(*generators)).first->second;
 }
 
-// For surfaces that may come from elsewhere alone.
+// Generators that fail: surfaces must come from elsewhere.
 inline const gen::LevelGenerators& noGenerators() {
     static const gen::LevelGenerators none(
         [](int) -> base::Result<gen::GeneratorGraph> { return base::fail("nothing is generated here"); },

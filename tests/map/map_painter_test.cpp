@@ -76,7 +76,7 @@ TEST(MapPainter, HighLevelsHaveNoTiles) {
     EXPECT_FALSE(MapPainter::tilesShowing({0, 0, 10}).empty());
 }
 
-// Four tiles that meet at a corner, painted at once by their painter's parts.
+// Four tiles that meet at a corner, painted as one image.
 base::Image fourTiles(const MapTile& first, std::span<const EditedChunk> edited) {
     const gen::LevelGenerators& generators = generatorsOf("overworld");
     SurfaceSource source({generators, contentKinds()});
@@ -102,7 +102,7 @@ bool isPartOf(const base::Image& part, const base::Image& whole, int x, int y) {
     return true;
 }
 
-// Lamps beside the borders between tiles.
+// Lamps beside the borders of tiles.
 std::vector<EditedChunk> chunksWithLamps() {
     std::vector<EditedChunk> edited;
     for (const ChunkPos pos : {ChunkPos{-1, 0}, ChunkPos{0, -1}, ChunkPos{-4, -3}})

@@ -35,7 +35,7 @@ TEST(Paint, FlatLandHasTheColorsOfItsBlocks) {
     for (std::size_t k = 3; k < image.rgba.size(); k += 4) EXPECT_EQ(image.rgba[k], 255) << "opaque";
 }
 
-// Light comes from the northwest: what rises toward the southeast lies in it.
+// Light comes from the northwest: slopes that rise toward the southeast are lit.
 TEST(Paint, SlopesAreLitFromTheNorthwest) {
     PaintedColumns land(3, 3);
     // A step up toward the east (smaller x), and one down.
@@ -128,7 +128,7 @@ TEST(Paint, LampsShineAtNight) {
     EXPECT_EQ(far.pixel(farImage, 7, 4), far.pixel(farImage, 8, 4));
 }
 
-// Its own color is that of the crown: what lies beneath is not seen.
+// The color is that of the crown; what lies beneath is not visible.
 TEST(Paint, ACrownOverWaterIsACrown) {
     MapColors colors = someColors();
     colors[kLamp] = {.mean = {0.2f, 0.5f, 0.1f}, .kind = SurfaceKind::Crown};

@@ -1,4 +1,4 @@
-// Columns to be painted, made by hand, and the pixels that they become.
+// Columns made by hand to be painted, and the pixels that they become.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace terrane::map {
 
-// Block 1 at z = 80 everywhere, with a margin around what is painted.
+// Block 1 at z = 80 everywhere, with a margin around the painted columns.
 class PaintedColumns {
   public:
     PaintedColumns(int width, int height, int margin = kReliefMargin, int level = 0)
@@ -21,7 +21,7 @@ class PaintedColumns {
         tint_ = {-1000, -1000, 200, 200, std::vector<world::PackedColor>(40000, world::kNeutralTint)};
     }
 
-    // x and y from the first column that is painted; the margin has negative ones.
+    // x and y from the first painted column; negative in the margin.
     SurfaceColumn& at(int x, int y) {
         return surfaces_
             .columns[static_cast<std::size_t>((y + margin_) * surfaces_.rect.width + x + margin_)];

@@ -16,7 +16,7 @@ using testing::HasSubstr;
 using Columns = std::vector<SurfaceColumn>;
 constexpr std::int64_t kPlenty = 64 << 20;
 
-// Columns that differ by number, and take about four bytes for each that is random.
+// Columns that depend on a number; each random one takes about four bytes.
 Columns numberedColumns(int number, int randomCount = 0) {
     Columns columns(kColumnsOfBlob, {static_cast<world::BlockId>(number), 1, 90, 80});
     std::mt19937 random(static_cast<unsigned>(number));
@@ -61,7 +61,7 @@ TEST_F(SurfaceCacheTest, OneFileKeepsItForTheNextProgram) {
     EXPECT_EQ(cache->find({3, -4, 2}), numberedColumns(5, 100));
 }
 
-// Rows of all sizes: those that share a page, those that leave half of one empty, and large ones.
+// Rows of all sizes: some share a page, some leave half of one empty, some are large.
 TEST_F(SurfaceCacheTest, TheFileStaysWithinItsBytes) {
     constexpr std::int64_t kMost = 400000;
     for (const int randomCount : {0, 250, 400, 700, 9000}) {
@@ -118,7 +118,7 @@ TEST_F(SurfaceCacheTest, WhatIsTooLargeIsNotKept) {
     EXPECT_LE(cache->bytes(), 20000);
 }
 
-TEST_F(SurfaceCacheTest, AnotherWorldBeginsAnew) {
+TEST_F(SurfaceCacheTest, AFileOfAnotherWorldIsReplaced) {
     open(kPlenty, "world 1")->put({0, 0, 0}, numberedColumns(1));
     {
         const auto cache = open(kPlenty, "world 2");
@@ -130,8 +130,8 @@ TEST_F(SurfaceCacheTest, AnotherWorldBeginsAnew) {
     EXPECT_FALSE(open(kPlenty, "world 1")->find({0, 0, 0}));
 }
 
-TEST_F(SurfaceCacheTest, ADamagedFileBeginsAnew) {
-    const auto expectAnew = [&] {
+TEST_F(SurfaceCacheTest, ADamagedFileIsReplaced) {
+    const auto expectEmpty = [&] {
         {
             const auto cache = open();
             EXPECT_FALSE(cache->find({0, 0, 0}));
@@ -141,18 +141,18 @@ TEST_F(SurfaceCacheTest, ADamagedFileBeginsAnew) {
     };
     store::writeAll(path_, "something else that is no database at all, and longer than a header of one: " +
                                std::string(200, 'x'));
-    expectAnew();
+    expectEmpty();
     std::string bytes = store::readAll(path_);
     std::fill(bytes.begin() + 100, bytes.begin() + 4096, 'x');
     store::writeAll(path_, bytes);
-    expectAnew();
+    expectEmpty();
     store::writeAll(path_, store::readAll(path_).substr(0, 5000));
-    expectAnew();
+    expectEmpty();
     store::writeAll(path_, "");
-    expectAnew();
+    expectEmpty();
 }
 
-TEST_F(SurfaceCacheTest, AFileWithOtherTablesBeginsAnew) {
+TEST_F(SurfaceCacheTest, AFileWithOtherTablesIsReplaced) {
     store::runSql(path_,
                   "CREATE TABLE origin (text TEXT); INSERT INTO origin VALUES ('2 world 1');"
                   "CREATE TABLE surfaces (other TEXT)");
@@ -216,7 +216,7 @@ TEST_F(SurfaceCacheTest, ThreadsMayUseItAtOnce) {
     EXPECT_LE(fileBytes(), 300000);
 }
 
-TEST_F(SurfaceCacheTest, AFileThatIsTooLargeBeginsAnew) {
+TEST_F(SurfaceCacheTest, AFileThatIsTooLargeIsReplaced) {
     {
         const auto cache = open();
         for (int k = 0; k < 20; ++k) cache->put({k, 0, 0}, numberedColumns(k, 5000));
@@ -251,7 +251,7 @@ TEST_F(SurfaceCacheTest, WhereWritingFailsItStops) {
         cache->put({1, 0, 0}, numberedColumns(1, 20000));
     }
     EXPECT_TRUE(cache->isBroken());
-    cache->put({2, 0, 0}, {});  // which is not looked at
+    cache->put({2, 0, 0}, {});  // ignored
     EXPECT_FALSE(cache->contains({2, 0, 0}));
 }
 

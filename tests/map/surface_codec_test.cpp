@@ -93,8 +93,8 @@ TEST(SurfaceCodec, BytesThatFollowAreAnError) {
     EXPECT_FALSE(decodeSurfaces(bytes));
 }
 
-// Files of former builds are read as long as their rows have the same form: a change here needs another
-// kForm in surface_cache.cpp.
+// Files of older builds are read as long as the form of rows is the same: a change here needs another kForm
+// in surface_cache.cpp.
 TEST(SurfaceCodec, RowsOfFormerBuildsAreRead) {
     constexpr std::uint8_t kRow[] = {
         0xaa, 0xcd, 0xae, 0x68, 0x29, 0x5c, 0x87, 0x45, 0x28, 0xb5, 0x2f, 0xfd, 0x00, 0x48, 0xfc, 0x00,

@@ -121,7 +121,7 @@ TEST_F(SurfaceSourceTest, ChunksOfARectangleAreRowByRow) {
         EXPECT_FALSE(world::isInWorld(chunk));
 }
 
-// Where the pillar of an edited chunk stands, at 3, 9 of it.
+// The column of the pillar of an edited chunk, at 3, 9.
 const SurfaceColumn& pillarOf(const SurfacePtr& surface) {
     return (*surface)[3 + 16 * 9];
 }
@@ -141,7 +141,7 @@ TEST_F(SurfaceSourceTest, EditedChunksAreThoseThatAreGiven) {
     EXPECT_TRUE(hasPillar(found[1]));
     EXPECT_FALSE(hasPillar(found[2]));
     EXPECT_FALSE(hasPillar(source.surfaces(chunks, {}).value()[1])) << "the memory stays unedited";
-    // Its other columns are as they were.
+    // Its other columns are unchanged.
     EXPECT_EQ((*found[1])[0], generatedSurface(overworld(), {-1, 0})[0]);
 }
 
@@ -158,7 +158,7 @@ TEST_F(SurfaceSourceTest, EditedChunksAreThoseOfTheStore) {
     EXPECT_TRUE(*found[1] == generatedSurface(overworld(), {3, 0})) << "the store has none";
     EXPECT_TRUE(hasPillar(found[2]));
     EXPECT_FALSE(hasPillar(source.surfaces(chunks, {}).value()[0])) << "nobody said that it is edited";
-    // What is loaded goes before what is saved.
+    // A chunk that is passed in has priority over the saved one.
     const auto live = std::make_shared<const world::Chunk>();
     const EditedChunk now[] = {{{2, 0}, live}};
     EXPECT_EQ(pillarOf(source.surfaces(chunks, now).value()[0]), SurfaceColumn());
@@ -225,7 +225,7 @@ TEST_F(SurfaceSourceTest, ABrokenCacheChangesNothing) {
     EXPECT_FALSE(cache->contains({1, 0, 4}));
 }
 
-// Has what a test says of each chunk, and counts how often it is asked.
+// Returns what a test sets for each chunk, and counts the calls.
 class ScriptedStore : public store::ReadableStore {
   public:
     std::map<ChunkPos, store::LoadedChunk> chunks;
@@ -279,7 +279,7 @@ TEST_F(SurfaceSourceTest, AChunkThatCouldNotBeReadIsAnError) {
     ASSERT_FALSE(found);
     EXPECT_EQ(found.error().code, base::ErrorCode::Io);
     EXPECT_EQ(found.error().message, "chunk 5,-6: the network broke");
-    // Those that are damaged, or too large for the memory, are generated, as in a game.
+    // Chunks that are damaged, or too large for the memory, count as generated, as in a game.
     unread.isOverBudget = true;
     const auto asGenerated = [&] {
         const auto surfaces = source.surfaces(chunks, edited);

@@ -68,7 +68,7 @@ TEST(TilesOfArea, SeenAskewTheyHaveAPointOfIt) {
             EXPECT_TRUE(touched.empty()) << "zoom " << zoom;
         }
     }
-    // Some have so small a corner of it that none of the points is there.
+    // Some tiles show so small a corner of it that none of the points is there.
     EXPECT_LT(withoutPoints * 10, withPoints);
 }
 

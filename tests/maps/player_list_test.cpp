@@ -1,4 +1,4 @@
-// Whom a server's map shows.
+// The players that a server's map shows.
 #include "apps/terrane/maps/player_list.h"
 
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ class PlayerListTest : public ::testing::Test {
   protected:
     PlayerListTest() { (void)net::logIn(ann_, net::testIdentity("Ann")); }
 
-    // Where Ann is, in blocks above or below the ground's highest opaque block.
+    // Moves Ann to a height in blocks above or below the ground's highest opaque block.
     void stand(int above) {
         net::ServerClient& client = server_.state().clients.begin()->second;
         world::Pose pose = net::poseOf(client.pose);

@@ -132,7 +132,7 @@ TEST(Content, TheNamesOfBlocksComeFromThePack) {
     EXPECT_EQ(content::blockName(german, *content.blocks->find("isles:step")), "Step");
 }
 
-// A block named by a behavior is the pack's own one.
+// Behaviors name the pack's own block.
 TEST(Content, BehaviorsWithParametersActOnBlocksOfThePack) {
     PackFiles files = glowFiles("isles");
     files["blocks.toml"] += R"(

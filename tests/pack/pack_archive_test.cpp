@@ -42,7 +42,7 @@ TEST(PackArchive, WhatIsNoneIsRefused) {
     }
 }
 
-// It says that it has 4 GiB.
+// A header with a size of 4 GiB.
 TEST(PackArchive, ClaimsOfSizeAreChecked) {
     store::Bytes archive = archiveOf(packOfFiles(glowFiles("isles")));
     for (int k = 4; k < 8; ++k) archive[static_cast<std::size_t>(k)] = std::byte{0xFF};

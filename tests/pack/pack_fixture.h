@@ -40,7 +40,7 @@ g:pass3D("ground", function(p)
 end)
 )";
 
-// A block with a texture, one of a built-in shape, and a generator.
+// A pack with a textured block, one of a built-in shape, and a generator.
 inline PackFiles glowFiles(const std::string& name) {
     return {{"pack.toml", infoOf(name, "version = \"1.2\"\n")},
             {"blocks.toml", kGlowBlocks},

@@ -16,7 +16,7 @@ struct Energy {
     double sum() const { return left + right; }
 };
 
-// Without a device: what would be heard is written into memory.
+// Without a device: the sound is written into memory.
 class SoundPlayerTest : public testing::Test {
   protected:
     static void SetUpTestSuite() { ::setenv("ALSOFT_DRIVERS", "null", 1); }
@@ -88,7 +88,7 @@ TEST_F(SoundPlayerTest, DistanceMakesItQuieter) {
 }
 
 TEST_F(SoundPlayerTest, DirectionIsHeard) {
-    // One looks along +x: +y is left.
+    // The listener looks along +x: +y is left.
     const Energy left = heardAt({0, 5, 0}), right = heardAt({0, -5, 0}), ahead = heardAt({5, 0, 0});
     EXPECT_GT(left.left, 4 * left.right);
     EXPECT_GT(right.right, 4 * right.left);

@@ -1,4 +1,4 @@
-// Chunks of an area, out of a world as it is saved and generated.
+// Chunks of an area from a world that is partly saved and partly generated.
 #include "terrane/stream/area_chunks.h"
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@ using world::ChunkPos;
 
 constexpr ChunkPos kUnread{3, 1};
 
-// Has a chunk that it cannot read, and is asked for chunks of the world alone.
+// A store with a chunk that it cannot read; it must be asked only for chunks of the world.
 class PickyStore : public store::MemoryStore {
   public:
     using MemoryStore::MemoryStore;

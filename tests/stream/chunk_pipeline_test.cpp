@@ -29,7 +29,7 @@ TEST_F(ChunkPipelineTest, EveryChunkInViewEndsVisible) {
     }
 }
 
-TEST_F(ChunkPipelineTest, NothingIsWantedWithoutAView) {
+TEST_F(ChunkPipelineTest, NothingIsRequestedWithoutAView) {
     update();
     jobs_.waitIdle();
     EXPECT_EQ(pipeline_->progress().inView, 0u);
@@ -118,7 +118,7 @@ TEST_F(ChunkPipelineTest, ChunksThatWereNeverVisibleAreNotRemoved) {
     setView({0, 0}, 0);
     update();
     jobs_.waitIdle();
-    update();  // all nine chunks are there, the mesh is asked for
+    update();  // all nine chunks are there, the mesh is requested
     setView({100, 0}, 0);
     EXPECT_EQ(take(kAll), 0u);
 }

@@ -1,4 +1,4 @@
-// The rules of streaming with a clock and workers of the test's own.
+// The rules of streaming, with the test's own clock and workers.
 #include "terrane/stream/chunk_table.h"
 
 #include <gtest/gtest.h>
@@ -28,7 +28,7 @@ class ChunkTableTest : public testing::Test {
   protected:
     static constexpr std::size_t kAll = 100000;
 
-    // Does everything there is to do.
+    // Does all work that there is.
     void settle() {
         for (;;) {
             const auto loads = popLoadRequests(table_, kAll);
@@ -146,7 +146,7 @@ TEST_F(ChunkTableTest, ARequestedChunkIsLoadedAndKept) {
     EXPECT_EQ(unloadAll(table_, now_ + seconds(8)).size(), 1u);
 }
 
-// Somebody who waits asks again every frame.
+// A waiting caller requests the chunk every frame.
 TEST_F(ChunkTableTest, WhatIsRequestedOftenIsLoadedOnce) {
     for (int frame = 0; frame < 100; ++frame) requestChunk(table_, {50, 50}, now_);
     requestChunk(table_, {51, 50}, now_);
@@ -202,8 +202,8 @@ TEST_F(ChunkTableTest, AMeshJobOfAChunkThatLeftTheViewIsDropped) {
     EXPECT_FALSE(finishMeshJob(table_, jobs[0])) << "it was lit and meshed since";
 }
 
-// Walks, jumps, edits, failures, results in any order: in the end everything in view is visible, what is far
-// is gone, and nothing is counted twice.
+// Moves, jumps, edits, failures and results in any order: in the end everything in view is visible, far
+// chunks are unloaded, and nothing is counted twice.
 TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {
     for (unsigned seed = 0; seed < 30; ++seed) {
         std::mt19937 random(seed);

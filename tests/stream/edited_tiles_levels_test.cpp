@@ -1,4 +1,4 @@
-// What is left of buildings, level by level, on flat land: grass at 80.
+// Remains of buildings, level by level, on flat land: grass at 80.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -15,7 +15,7 @@ using world::BlockPos;
 constexpr int kTop = 6;
 constexpr int kSpacing = 256;  // of the sites: none shares a column with the next at any level
 
-// The same thing at many places: what is left of one of them is chance, the mean is not.
+// The same building at many places: the remains of one are random, their mean is not.
 class Sites : public testing::Test {
   protected:
     void build(int perSide, int spacing, auto buildAt) {
@@ -29,7 +29,7 @@ class Sites : public testing::Test {
         }
         world_.update();
     }
-    // The mean area around a site, in blocks, of columns that hold.
+    // The mean area around a site, in blocks, of columns for which `holds` is true.
     double meanArea(int level, auto holds) {
         std::int64_t columns = 0;
         for (const BlockPos& site : sites_) {
@@ -39,8 +39,8 @@ class Sites : public testing::Test {
         }
         return std::ldexp(static_cast<double>(columns), 2 * level) / static_cast<double>(sites_.size());
     }
-    // Each column of the level stays or goes by itself, by the share of it that was covered: the variance of
-    // their number is below its mean.
+    // Each column of the level stays by chance, by the share of it that was covered: the variance of their
+    // number is below its mean.
     void expectArea(int level, double area, double expected) const {
         const double columns = std::ldexp(expected * static_cast<double>(sites_.size()), -2 * level);
         EXPECT_NEAR(area / expected, 1, 3 / std::sqrt(columns)) << "level " << level;

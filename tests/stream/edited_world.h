@@ -46,7 +46,7 @@ class EditedWorld {
         for (std::int64_t n = 0; n < box.blockCount(); ++n) set(box.blockAt(n), id);
     }
     void fill(const world::BlockBox& box, std::string_view name) { fill(box, contentBlock(name)); }
-    // As the generator made it.
+    // Restores the generated blocks.
     void restore(const world::BlockBox& box) {
         for (std::int64_t n = 0; n < box.blockCount(); ++n) {
             const world::BlockPos pos = box.blockAt(n);
@@ -60,7 +60,7 @@ class EditedWorld {
         }
     }
 
-    // Takes the edits since the last call into the tiles. Returns what changed.
+    // Updates the tiles after the edits since the last call. Returns the changes.
     std::vector<TileChange> update() {
         const std::vector<world::ChunkPos> changed(changed_.begin(), changed_.end());
         changed_.clear();
@@ -74,7 +74,7 @@ class EditedWorld {
     }
 
     const Tiles& tiles() const { return tiles_; }
-    // From all edited chunks, as if there were no tiles.
+    // Builds the tiles from all edited chunks, as if there were no tiles.
     Tiles tilesFromScratch() const {
         std::vector<world::ChunkPos> all;
         for (const auto& [pos, chunk] : chunks_) all.push_back(pos);

@@ -1,4 +1,4 @@
-// What edits do to light and mesh on screen.
+// Effects of edits on light and mesh on screen.
 #include <set>
 
 #include "terrane/shared/hash.h"
@@ -32,7 +32,7 @@ TEST_F(PipelineEditsTest, EditsMeshAgainTheChunksThatSeeThem) {
     EXPECT_EQ(changedBy({47, 5, 60}), (Chunks{{2, 0}})) << "the neighbor is not in view";
 }
 
-// Edits come faster than workers mesh: the meshes in between may be lost, the last may not.
+// Edits come faster than workers mesh: meshes in between may be dropped, the last may not.
 TEST_F(PipelineEditsTest, TheNewestMeshWins) {
     setView({0, 0}, 1);
     settle();
@@ -45,7 +45,7 @@ TEST_F(PipelineEditsTest, TheNewestMeshWins) {
     expectShowsTheView();
 }
 
-// Light and mesh that were on the way when a block changed are made again.
+// Light and mesh in progress when a block changes are computed again.
 TEST_F(PipelineEditsTest, ResultsOfOldBlocksAreDropped) {
     setView({0, 0}, 1);
     for (int step = 0; step < 200 && !pipeline_->progress().complete(); ++step) {
@@ -70,7 +70,7 @@ TEST_F(PipelineEditsTest, AnEditIsOnScreenInTheNextUpdate) {
     expectShowsTheView();
 }
 
-// All light is handed out again, all is meshed again, in many updates: edits do not wait for that.
+// All light is sent and all chunks are meshed again, over many updates: edits do not wait for that.
 TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
     constexpr ChunkPos kLast{5, 5};
     setView({0, 0}, 5);
@@ -106,7 +106,7 @@ TEST_F(PipelineEditsTest, EditsComeBeforeWhatIsShownAgain) {
     }
 }
 
-// As a new store of light needs: no quads go along.
+// As for a new store of light: no quads are sent with it.
 TEST_F(PipelineEditsTest, LightIsSentAgainWithoutMeshes) {
     setView({0, 0}, 1);
     settle();
@@ -201,7 +201,7 @@ TEST_F(PipelineEditsTest, AnEditMeshesOnlyTheMeshSectionsItTouches) {
     EXPECT_EQ(meshed, (std::map<ChunkPos, mesh::MeshSectionSet>{{{0, 0}, 0b1100}, {{1, 0}, 0b0100}}));
 }
 
-// Whatever is taken when, between edits and other options: what is shown is what meshing all again gives.
+// In any order of edits, other options and taken changes, the shown meshes equal meshing all from scratch.
 TEST_F(PipelineEditsTest, MeshSectionsOfManyEditsAddUp) {
     setView({0, 0}, 1);
     settle();
@@ -246,8 +246,7 @@ TEST_F(PipelineEditsTest, EditsSurviveWhileTheirChunkStaysInView) {
     expectShowsTheView();
 }
 
-// Where whole chunks are meshed elsewhere, edits still come with their mesh, but where the chunk has none
-// yet.
+// If the caller meshes whole chunks, edits still come with their mesh, unless the chunk has none yet.
 TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
     pipeline_ = nullptr;
     world_ = {};
@@ -282,8 +281,8 @@ TEST_F(PipelineEditsTest, MeshesOfWholeChunksAreLeftOut) {
     EXPECT_EQ(again, 9u);
 }
 
-// An edit where not all around is lit yet relights what is around it alone; the rest stays incremental. Light
-// is that of everything from scratch, in whatever order chunks came.
+// An edit with an unlit chunk around it relights only the chunks around it; others are relit incrementally.
+// The light equals lighting everything from scratch, in any order of chunks.
 TEST_F(PipelineEditsTest, EditsWhileTheViewLoads) {
     for (unsigned round = 0; round < 4; ++round) {
         pipeline_ = nullptr;

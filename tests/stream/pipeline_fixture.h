@@ -40,7 +40,7 @@ inline std::array<world::ChunkPtr, 9> chunksAround(const world::World& world, Ch
     return chunks;
 }
 
-// What the chunk must look like, made here and now.
+// The expected mesh of a chunk, made at once.
 inline mesh::ChunkMesh directMesh(const world::World& world, ChunkPos pos,
                                   const mesh::MeshOptions& options = {}) {
     return *meshOf(meshBlocksOf(chunksAround(world, pos)), contentBlocks(), options);
@@ -65,7 +65,7 @@ class PipelineTest : public testing::Test {
 
     void update() { pipeline_->update(now_); }
 
-    // Shows what changed, and says how much that was.
+    // Shows the changes and returns their number.
     std::size_t take(std::size_t limit) {
         const std::vector<ChunkChange> changes = pipeline_->takeChanges(limit);
         EXPECT_LE(changes.size(), limit);
@@ -88,7 +88,7 @@ class PipelineTest : public testing::Test {
             mesh::withMeshSections(*old, *change.mesh, change.meshSections));
     }
 
-    // As a renderer does that uploads nothing but the bricks which are said to have changed.
+    // As a renderer that uploads only the changed bricks.
     static light::ChunkLightPtr withBricks(const light::ChunkLightPtr& old, const ChunkChange& change) {
         if (!old) return change.light;
         auto light = std::make_shared<light::ChunkLight>(*old);
@@ -97,7 +97,7 @@ class PipelineTest : public testing::Test {
         return light;
     }
 
-    // Until the view is complete and no job is left.
+    // Updates until the view is complete and no job is left.
     void settle() {
         const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
         for (update(); !pipeline_->progress().isUpToDate(); update()) {
@@ -109,7 +109,7 @@ class PipelineTest : public testing::Test {
         take(kAll);
     }
 
-    // Six seconds in which nothing happens: only what the view needs stays in memory.
+    // Six seconds without changes: only what the view needs stays in memory.
     void rest() {
         settle();
         update();
@@ -141,7 +141,7 @@ class PipelineTest : public testing::Test {
         EXPECT_EQ(pipeline_->progress().visible, wanted);
     }
 
-    // As terrane/game does. False where nothing changed.
+    // Edits as terrane/game does. False if nothing changed.
     bool edit(world::BlockPos pos, const world::BlockChange& change) {
         std::vector<world::BlockEdit> edits;
         world::applyChange(world_, contentBlocks(), pos, change, edits);

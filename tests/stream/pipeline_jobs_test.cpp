@@ -1,4 +1,4 @@
-// Work that workers, batch generators and other askers take part in.
+// Work of workers and batch generators, and requests of others than the view.
 #include <future>
 #include <utility>
 
@@ -14,7 +14,7 @@ class PipelineJobsTest : public PipelineTest {};
 class BusyWorker {
   public:
     explicit BusyWorker(base::JobSystem& jobs) {
-        // What the job uses is its own: it may still look at it when this object is gone.
+        // The job shares what it uses, since it may end after this object.
         const auto started = std::make_shared<std::promise<void>>();
         jobs.submit(-1, [started, gate = gate_.get_future().share()](const base::CancelToken&) {
             started->set_value();
@@ -32,7 +32,7 @@ class BusyWorker {
     bool isOpen_ = false;
 };
 
-// Where frames are long workers get more at once, so that they are busy until the next one.
+// After long frames workers get more jobs at once, so that they are busy until the next frame.
 TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
     BusyWorker first(jobs_), second(jobs_);
     setView({0, 0}, 10);
@@ -46,7 +46,7 @@ TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
     EXPECT_EQ(pipeline_->queuedCount(), 2u * 128);
 }
 
-// The view does not come near, and moves all the time: what others asked for comes all the same.
+// The view stays away and moves all the time: requests of others are still loaded.
 TEST_F(PipelineJobsTest, WhatOthersAskForIsNotGivenUp) {
     BusyWorker first(jobs_), second(jobs_);
     setView({0, 0}, 1);
@@ -60,7 +60,7 @@ TEST_F(PipelineJobsTest, WhatOthersAskForIsNotGivenUp) {
     EXPECT_TRUE(world_.maybeChunkAt({40, 40}));
 }
 
-// A worker that fails ends the wait for what it should have brought.
+// A failing worker ends the wait for its result.
 TEST_F(PipelineJobsTest, WhatAWorkerThrowsIsThrownOn) {
     class FailingStore : public store::MemoryStore {
       public:
@@ -83,7 +83,7 @@ TEST_F(PipelineJobsTest, ChunksOthersAskForAreLoadedAndKept) {
     EXPECT_EQ(world_.maybeChunkAt({40, 40}), chunk);
 }
 
-// Batches of at most three, done two calls after they were submitted.
+// A generator with batches of at most three, done two calls after they were submitted.
 class SlowBatches : public gen::BatchGenerator {
   public:
     explicit SlowBatches(const gen::Generator& generator) : generator_(generator) {}
@@ -120,7 +120,7 @@ TEST_F(PipelineJobsTest, ABatchGeneratorMakesTheSame) {
     expectShowsTheView();
 }
 
-// Light of a batch comes some updates after it was asked for.
+// A lighter whose batches are done some updates after they were submitted.
 TEST_F(PipelineJobsTest, ABatchLighterMakesTheSame) {
     for (const MeshPolicy meshing : {MeshPolicy::Workers, MeshPolicy::Caller}) {
         const auto lighter = light::makeCpuLighter(lightTable());
@@ -137,7 +137,7 @@ TEST_F(PipelineJobsTest, ABatchLighterMakesTheSame) {
     }
 }
 
-// Edits while batches are on the way: the result is that of lighting and meshing all anew.
+// Edits while batches are in progress: the result equals lighting and meshing all from scratch.
 TEST_F(PipelineJobsTest, EditsOutdateBatches) {
     SlowBatches batches(generator_);
     const auto lighter = light::makeCpuLighter(lightTable());

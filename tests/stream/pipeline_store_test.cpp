@@ -1,4 +1,4 @@
-// Edits and the store: what changed is saved, comes back, and is not mixed up with what is generated.
+// Edits and the store: edited chunks are saved, loaded again, and not replaced by generated ones.
 #include "terrane/store/memory_store.h"
 #include "terrane/store/save_queue.h"
 #include "tests/stream/pipeline_fixture.h"
@@ -10,7 +10,7 @@ class PipelineStoreTest : public PipelineTest {
   protected:
     PipelineStoreTest() { restart(); }
 
-    // As the program does that is closed and started again.
+    // As a program that is closed and started again.
     void restart(bool storesGenerated = false) {
         pipeline_ = nullptr;
         world_ = {};
@@ -58,7 +58,7 @@ TEST_F(PipelineStoreTest, OnlyEditedChunksAreStored) {
     EXPECT_FALSE(store_.contains({1, 0}));
 }
 
-// With what the queue of a file waits for more they are there within two seconds.
+// Including the delay of a file's queue, edits are saved within two seconds.
 TEST_F(PipelineStoreTest, EditsAreHandedToTheStoreInTime) {
     setView({0, 0}, 1);
     settle();

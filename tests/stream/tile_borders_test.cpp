@@ -9,7 +9,7 @@ namespace {
 
 constexpr std::array<std::pair<int, int>, 4> kBeside = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
 
-// Shown is what lies in a tile of level 1 that the view distance holds whole.
+// The chunks of a tile of level 1 are shown if the view distance holds all of them.
 TEST(TileBorders, AreWhereShownChunksEnd) {
     std::mt19937 random(3);
     for (int n = 0; n < 50; ++n) {
@@ -38,7 +38,7 @@ TEST(TileBorders, AreNowhereWithoutTilesOrBeyondTheWorld) {
 
 class TileBordersTest : public PipelineTest {
   protected:
-    // What the chunk must look like where tiles lie beyond.
+    // The expected mesh of a chunk that borders on tiles.
     mesh::ChunkMesh expected(const TileView& view, ChunkPos pos) const {
         mesh::MeshBlocks blocks = meshBlocksOf(chunksAround(world_, pos));
         for (std::size_t side = 0; side < 4; ++side) {

@@ -17,7 +17,7 @@ using world::ChunkPos;
 
 class TilePipelineTest : public testing::Test {
   protected:
-    // Until all tiles are there, as a frame does it.
+    // Updates until all tiles are there, as frames do.
     void settle(TilePipeline& tiles) {
         for (;;) {
             tiles.update(mesh::MergeMethod::Greedy);
@@ -68,7 +68,7 @@ TEST_F(TilePipelineTest, ForgetsWhatTheViewLeft) {
     EXPECT_TRUE(shown_.empty());
 }
 
-// One for which there is no room is not shown, and comes again.
+// A tile for which there is no room is not shown, and comes again.
 TEST_F(TilePipelineTest, WhatIsPutBackComesAgain) {
     TilePipeline tiles(parts_);
     tiles.setView({{3, -4}, 4, 64, 8});
@@ -94,8 +94,8 @@ TEST_F(TilePipelineTest, WhatIsPutBackComesAgain) {
     EXPECT_TRUE(tiles.table().records.at(lost).isShown);
 }
 
-// While the only worker is busy the view goes elsewhere: what was asked for before is not made.
-TEST_F(TilePipelineTest, WhatIsNotWantedAnyMoreIsNotMade) {
+// The view moves away while the only worker is busy: earlier requests are not made.
+TEST_F(TilePipelineTest, TilesThatAreNoLongerRequestedAreNotMade) {
     base::JobSystem jobs(1);
     TilePipeline tiles({jobs, contentBlocks(), generators_});
     std::promise<void> released;

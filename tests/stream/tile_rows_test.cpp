@@ -24,7 +24,7 @@ class TileRowsTest : public testing::Test {
         ASSERT_TRUE(buildTileRows(store_));
     }
 
-    // The chunk with a roof of lamps over it, or as the generator makes it, by somebody's hand either way.
+    // The chunk with a roof of lamps over it, or as generated, saved as edited either way.
     void saveChunk(bool hasRoof) {
         auto chunk = std::make_shared<world::Chunk>(generators_.generate(kEdited));
         for (int n = 0; hasRoof && n < 256; ++n)
@@ -33,7 +33,7 @@ class TileRowsTest : public testing::Test {
         ASSERT_TRUE(store_.flush());
     }
 
-    // Until all tiles are there.
+    // Updates until all tiles are there.
     void settle(TilePipeline& tiles, mesh::MergeMethod method = mesh::MergeMethod::Greedy) {
         do {
             tiles.waitForWorkers(std::chrono::milliseconds(100));
@@ -103,7 +103,7 @@ TEST_F(TileRowsTest, TilesInViewAreMadeAgain) {
     for (const auto& [pos, mesh] : meshes_) EXPECT_EQ(*mesh, *before.at(pos)) << pos.x << ',' << pos.y;
 }
 
-// A mesh that was made before the edit and lies about while the view is elsewhere is not shown after it.
+// A mesh that was made before the edit and is kept while the view is elsewhere is not shown after it.
 TEST_F(TileRowsTest, WhatWasMadeBeforeAnEditIsNotTakenAfterIt) {
     TilePipeline tiles(parts_);
     keepRows(tiles.tileListener());
@@ -125,7 +125,7 @@ TEST_F(TileRowsTest, WhatWasMadeBeforeAnEditIsNotTakenAfterIt) {
     for (const auto& [pos, mesh] : meshes_) EXPECT_EQ(*mesh, *meshOf(pos)) << pos.x << ',' << pos.y;
 }
 
-// The save goes on where a generator has no levels above 0.
+// Saving works if a generator has no levels above 0.
 TEST_F(TileRowsTest, AGeneratorWithoutLevelsHasNone) {
     const gen::LevelGenerators flat(
         [](int level) -> base::Result<gen::GeneratorGraph> {

@@ -1,4 +1,4 @@
-// Random walks over the rules of tiles: after every step each column is shown once.
+// Random sequences over the rules of tiles: after every step each column is shown once.
 #include "terrane/stream/tile_table.h"
 
 #include <gmock/gmock.h>
@@ -14,7 +14,8 @@ namespace {
 
 using world::ChunkPos;
 
-// Tiles that are made after a while, chunks of level 0 that come and go with the view, and what is shown.
+// A model of tiles that are made after a while, chunks of level 0 that come and go with the view, and what is
+// shown.
 class Model {
   public:
     explicit Model(unsigned seed) : random_(seed) {}
@@ -61,7 +62,7 @@ class Model {
         while (missingTiles(table_) > 0) work(0, 1000);
     }
 
-    // Some of the tiles that are shown would be made otherwise now.
+    // Makes some of the shown tiles stale.
     void outdate(int count) {
         for (const ChunkPos pos : shown_) {
             if (pos.level > 0 && pick(0, 9) == 0 && count-- > 0) outdateTile(table_, pos);
@@ -69,7 +70,7 @@ class Model {
         apply();
     }
 
-    // How many chunks and tiles show the column of a chunk of level 0.
+    // The number of shown chunks and tiles that cover a chunk of level 0.
     int timesShown(ChunkPos chunk) const {
         int count = 0;
         for (ChunkPos pos = chunk;; pos = parentOf(pos)) {
@@ -201,7 +202,7 @@ TEST_P(TileWalk, EachColumnIsShownOnce) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, TileWalk, testing::Range(10u, 16u));
 
-// While everything comes for the first time a column is shown at most once.
+// While everything is loaded for the first time, a column is shown at most once.
 TEST(TileTable, NothingIsShownTwiceWhileItComes) {
     Model model(4);
     model.moveTo(viewAt(-3, 70));
@@ -211,7 +212,7 @@ TEST(TileTable, NothingIsShownTwiceWhileItComes) {
     }
 }
 
-// Walking to and fro over a border makes nothing again.
+// Moving to and fro over a border makes nothing again.
 TEST(TileTable, CirclingABorderMakesNothingNew) {
     Model model(5);
     const auto circle = [&] {
@@ -242,7 +243,7 @@ TEST(TileTable, AStaleTileIsMadeAgain) {
     EXPECT_EQ(model.shown(), shown);
 }
 
-// What changes while a tile is made comes too late for it.
+// A change while a tile is made comes too late for it.
 TEST(TileTable, ATileThatBecomesStaleWhileItIsMadeIsMadeTwice) {
     TileTable table;
     setTileView(table, {{0, 0}, 4, 64, 8});

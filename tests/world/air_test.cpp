@@ -21,7 +21,7 @@ TEST(Air, GetsThinnerWithHeight) {
         EXPECT_LE(low.ozone, 1);
     }
     EXPECT_LT(kHazeScattering, kHazeExtinction) << "haze gives back no more than it takes";
-    // As the shader has them.
+    // As in the shader.
     EXPECT_FLOAT_EQ(kRayleigh.y, 2 * kRayleigh.x);
     EXPECT_FLOAT_EQ(kRayleigh.z, 5 * kRayleigh.x);
 }
@@ -49,7 +49,7 @@ TEST(Air, TakesStraightUpWhatItsColumnHolds) {
     EXPECT_NEAR(transmittanceToSpace(0, 1).y, std::exp(-depth), 0.01f);
 }
 
-// Over the whole sphere a phase function gives back all light.
+// Integrated over the whole sphere, a phase function gives 1.
 TEST(Air, ScatteringLosesNoLight) {
     double rayleigh = 0, haze = 0;
     constexpr int kSteps = 20000;

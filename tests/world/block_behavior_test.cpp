@@ -76,7 +76,7 @@ TEST_F(FallingSand, SinksInWaterAndStaysOnPlants) {
     EXPECT_EQ(nameAt({5, 5, 2}), "sand");
 }
 
-// What was generated or loaded so stays so until the block below changes.
+// Generated and loaded sand stays until the block below changes.
 TEST_F(FallingSand, OnlyEditsBelowLetItFall) {
     putBlock(world_, {3, 4, 60}, sand_);
     put({4, 4, 60}, "stone");
@@ -127,7 +127,7 @@ class SlowColumns {
     std::array<Column, kSide * kSide> columns_{};
 };
 
-// Random edits: the columns are those of the slow rules, and the events tell of every change.
+// Random edits: the columns equal those of the slow rules, and the events cover every change.
 TEST_F(FallingSand, RandomEditsAreThoseOfSlowRules) {
     constexpr std::array<std::string_view, 7> kNames = {"air",   "air",   "sand", "sand",
                                                         "stone", "water", "poppy"};

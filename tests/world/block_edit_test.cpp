@@ -88,7 +88,7 @@ TEST_F(BlockEditTest, APlantIsNotPlacedWithoutGround) {
     EXPECT_EQ(world_.block({1, 2, 9}), kAir);
 }
 
-// What a block keeps beside its id: events with the same block before and after.
+// State and data of blocks: events have the same block before and after.
 TEST_F(BlockEditTest, DataOfBlocks) {
     const BlockPos pos{5, 7, 100}, above{5, 7, 256};
     const BlockId chest = contentBlock("chest");
@@ -126,8 +126,8 @@ TEST_F(BlockEditTest, AnUnsharedChunkIsNotCopied) {
     EXPECT_EQ(world_.maybeChunkAt({0, 0}).get(), before);
 }
 
-// A worker reads a snapshot and lets it go; from then on edits go to the very chunk it read. Thread
-// sanitizers see whether the reading is ordered before the writing: `done` itself orders nothing.
+// A worker reads a snapshot and releases it; from then on edits write to that chunk. Thread sanitizers check
+// that the reads are ordered before the writes: `done` itself orders nothing.
 TEST_F(BlockEditTest, EditsOfAChunkThatAWorkerHasRead) {
     for (int round = 1; round <= 200; ++round) {
         std::atomic<bool> done = false;

@@ -237,7 +237,7 @@ TEST(Content, WhatOnePlacesComesLastAndIsNotGenerated) {
     EXPECT_GT(models, 50u);
 }
 
-// Torches and ladders go with the wall at which they lean; doors have two halves.
+// Torches and ladders are removed with the wall at which they lean; doors have two halves.
 TEST(Content, WhatOnePlacesBehaves) {
     const auto behaviorOf = [](std::string_view name) { return content().find(name)->behaviors.at(0)->name; };
     EXPECT_EQ(behaviorOf("torch"), "stands_or_leans");
@@ -318,7 +318,7 @@ TEST(Content, Looks) {
     }
 }
 
-// Leaves are closed and stand still; all else looks as it does nearby.
+// Leaves are closed and not animated; all else looks as it does nearby.
 TEST(Content, SeenFromAfar) {
     const BlockRegistry far = content().seenFromAfar();
     ASSERT_EQ(far.types().size(), content().types().size());

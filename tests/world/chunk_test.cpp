@@ -205,7 +205,7 @@ TEST(Chunk, EqualNeedsEqualBlocks) {
     EXPECT_EQ(a, b);
 }
 
-// What a chunk must hold, told plainly.
+// The plain reference for one block of a chunk.
 struct PlainBlock {
     BlockId id = 0;
     std::uint16_t blockState = 0;

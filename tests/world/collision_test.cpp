@@ -92,8 +92,8 @@ TEST_F(CollisionTest, Liquids) {
     EXPECT_FALSE(isInLiquid(world_, contentBlocks(), {4.5, 3.5, 10.5}));
 }
 
-// However fast and wherever: the box never ends inside a block, and the way there, in steps of 1/64 block, is
-// free. It stops only where it could not have gone a hair farther.
+// At any speed and place the box never ends inside a block, and its path, in steps of 1/64 block, is free. It
+// stops only if it could not have gone any farther.
 TEST_F(CollisionTest, NeverTunnels) {
     std::mt19937 random(1);
     const auto between = [&](double low, double high) {

@@ -1,4 +1,4 @@
-// A lake behind a dam above a valley of 64×64 blocks, for tests and benchmarks of water that flows.
+// A lake behind a dam above a valley of 64×64 blocks, for tests and benchmarks of flowing water.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace terrane::world {
 
 constexpr int kDamX = 12, kLakeTop = 60;
-// Where water flows: more than the dam's chunks.
+// The chunks where water flows: more than those of the dam.
 inline const std::vector<ChunkPos> kDamArea = chunksWithin({2, 2}, 4);
 
-// Its chunks: the valley's 4×4 and one more around.
+// The chunks of the dam: the 4×4 of the valley and one more around.
 inline std::vector<ChunkPos> damChunks() {
     std::vector<ChunkPos> chunks;
     for (int y = -1; y <= 4; ++y)
@@ -57,7 +57,7 @@ inline void breakDam(World& world, const BlockRegistry& blocks, std::vector<Bloc
         for (int y = 12; y < 52; ++y) applyChange(world, blocks, {kDamX, y, z}, SetBlock{kAir}, edits);
 }
 
-// Of all blocks and their state.
+// The digest of all blocks and their states.
 inline std::string damDigest(const World& world) {
     base::Digest digest;
     for (const ChunkPos pos : damChunks()) {

@@ -1,4 +1,4 @@
-// Whether the mean cover of many columns stays as it is.
+// The mean cover of many columns stays the same.
 #include <gtest/gtest.h>
 
 #include <algorithm>

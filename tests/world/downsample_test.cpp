@@ -108,7 +108,7 @@ TEST(Downsample, TheStrongestLightStays) {
     }
 }
 
-// The rule of downsample.h once more, block by block: what the slice may become. Several where the hash
+// The rule of downsample.h once more, block by block: the possible blocks of the slice, several if the hash
 // decides.
 std::set<BlockId> slowSlice(const Children& c, std::size_t z, ColumnPos at) {
     const auto kind = [&](std::size_t i, std::size_t height) {

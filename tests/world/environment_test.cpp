@@ -28,7 +28,7 @@ bool isMoon(const Environment& e) {
     return e.discRadius < environmentAt(0.5f).discRadius;
 }
 
-// One step of the day may change a color by as much as a screen can just show.
+// A step of the day may change a color by at most the smallest difference of a screen.
 TEST(Environment, ColorsChangeWithoutJumps) {
     for (int step = 0; step < kSteps; ++step) {
         const auto now = colorsOf(environmentAt(timeOf(step))),
@@ -90,7 +90,7 @@ TEST(Environment, DayIsBrightAndBlue) {
     EXPECT_GT(environmentAt(0.2f).lightColor.x, 2 * environmentAt(0.2f).lightColor.z) << "dawn is red";
 }
 
-// As bright as a painter would have it: what scenes and presets were made for.
+// The brightness that scenes and presets were made for.
 TEST(Environment, NoonKeepsItsLevels) {
     const Environment noon = environmentAt(0.5f);
     EXPECT_NEAR(noon.lightColor.y, 0.79f, 0.1f);
@@ -107,7 +107,7 @@ TEST(Environment, UnderTheHorizonThereIsNoLightButTheSky) {
     }
 }
 
-// From the table as from the colors of the environment, at all times but where the light changes.
+// The table gives the colors of the environment, at all times except when the light changes.
 TEST(Environment, TableOfTheSkyHasItsColors) {
     for (const float time : {0.0f, 0.1f, 0.19f, 0.3f, 0.5f, 0.79f}) {
         const Environment e = environmentAt(time);

@@ -1,4 +1,4 @@
-// Small worlds in which water flows, for the tests of liquid_flow.h.
+// Small worlds with flowing water, for the tests of liquid_flow.h.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -41,7 +41,7 @@ struct FlowWorld {
     std::size_t tick(int radius = 6) {
         return flowLiquids(world, contentBlocks(), chunksWithin({0, 0}, radius), edits);
     }
-    // How many ticks until nothing is looked at.
+    // Runs ticks until no cell is unsettled; returns their number.
     int settle(int limit = 1000, int radius = 6) {
         int ticks = 0;
         while (ticks < limit && tick(radius) > 0) ++ticks;

@@ -1,4 +1,4 @@
-// A dam is broken above a valley: water comes to rest, and it comes to the same rest in any order.
+// A dam is broken above a valley: the water settles, and in any order to the same state.
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
@@ -87,7 +87,7 @@ TEST(LiquidDam, OrderOfLoadingDoesNotMatter) {
     EXPECT_EQ(digestsOf(first), digestsOf(second));
 }
 
-// Half of the valley comes when the other half is flooded already.
+// Half of the valley is loaded when the other half is already flooded.
 TEST(LiquidDam, ChunksThatComeLateEndUpTheSame) {
     Dam whole = loadedDam(1), late;
     breakDam(whole.world, contentBlocks(), whole.edits);
@@ -112,7 +112,7 @@ TEST(LiquidDam, ACopyOfTheChunksGoesOnTheSame) {
     EXPECT_EQ(digestsOf(whole), digestsOf(copied));
 }
 
-// From the lake to the valley nothing is left when the lake is taken away.
+// When the lake is removed, all flowing water runs dry.
 TEST(LiquidDam, RunsDryWithoutTheLake) {
     Dam dam = loadedDam(1);
     breakDam(dam.world, contentBlocks(), dam.edits);

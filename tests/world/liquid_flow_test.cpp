@@ -188,7 +188,7 @@ TEST_F(LiquidFlow, ARestoredCellThatFlowsIsLookedAt) {
     EXPECT_EQ(at({0, 4, 1}), '.');
 }
 
-// Events tell of all that changed, so that it is saved, and of the chunk beyond a border.
+// Events cover all changes, so that they are saved, and the chunk beyond a border.
 TEST_F(LiquidFlow, EventsTellOfEveryChange) {
     putBlock(world, {-1, 4, 1}, water);
     edits.clear();

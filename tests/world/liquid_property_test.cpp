@@ -1,4 +1,4 @@
-// Random worlds: flow compared with a slow automaton that looks at every cell, in any order of chunks.
+// Random worlds: flow compared with a slow automaton that computes every cell, in any order of chunks.
 #include <random>
 
 #include "tests/world/flow_world.h"
@@ -154,7 +154,7 @@ TEST(LiquidProperty, AnyStatesComeToRest) {
     }
 }
 
-// No water above a source, nor where no source was.
+// No water above a source, nor where there was no source.
 TEST(LiquidProperty, NeverRisesAboveItsSources) {
     for (unsigned seed = 60; seed < 66; ++seed) {
         FlowWorld flow;

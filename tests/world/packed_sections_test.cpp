@@ -7,7 +7,7 @@
 namespace terrane::world {
 namespace {
 
-// As packed_section.glsl reads it.
+// Reads as packed_section.glsl does.
 shared::uint valueAt(const PackedSections& packed, shared::uint number, shared::uint block) {
     const shared::PackedSection section = packed.sections[number];
     if (section.bits == 0) return packed.data[section.palette];

@@ -7,7 +7,7 @@
 
 namespace terrane::world {
 
-// False where no chunk is loaded.
+// False if no chunk is loaded.
 inline bool changeChunk(World& world, BlockPos pos, auto change) {
     const ChunkPtr old = world.maybeChunkAt(chunkOf(pos));
     if (!old || !isInHeight(pos.z)) return false;

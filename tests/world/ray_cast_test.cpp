@@ -194,7 +194,7 @@ struct Span {
     double enter = -1e300, leave = 1e300;
 };
 
-// Where the ray is inside a selection box, in coordinates relative to `corner`.
+// The part of the ray inside a selection box, in coordinates relative to `corner`.
 Span insideBox(const Ray& ray, BlockPos corner, BlockPos block, const Box& box) {
     Span span;
     const glm::dvec3 origin = ray.origin - glm::dvec3(corner.x, corner.y, corner.z);
@@ -213,7 +213,7 @@ Span insideBox(const Ray& ray, BlockPos corner, BlockPos block, const Box& box) 
     return span;
 }
 
-// Looks at every block of the cube: the nearest whose box the ray enters. No other order, no shared code.
+// Tests every block of the cube for the nearest box that the ray enters, without code of castRay().
 std::optional<RayHit> exhaustive(const World& world, const Ray& ray, BlockPos corner) {
     std::optional<RayHit> nearest;
     for (int i = 0; i < kFilledSide * kFilledSide * kFilledSide; ++i) {
@@ -229,7 +229,7 @@ std::optional<RayHit> exhaustive(const World& world, const Ray& ray, BlockPos co
     return nearest;
 }
 
-// The reported face lies where the ray enters: on that plane of the box.
+// The ray enters in the plane of the reported face.
 void expectOnFace(const Ray& ray, BlockPos corner, const World& world, const RayHit& hit) {
     if (hit.distance == 0) return;
     const int axis = hit.face / 2;
@@ -293,7 +293,7 @@ std::optional<RayHit> stepping(const World& world, const Ray& ray, double maxDis
     return std::nullopt;
 }
 
-// Stepping can miss a corner that is shorter than a step, never see anything earlier.
+// Stepping can miss a corner that is shorter than a step, but never finds an earlier hit.
 TEST(RayCast, EqualsStepping) {
     constexpr double kStep = 1 / 512.0, kReach = 16;
     const BlockPos corner{-6, -6, 20};

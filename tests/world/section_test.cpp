@@ -93,7 +93,7 @@ TEST(Section, EqualsPlainArray) {
             pair.writeRandomly(10000, distinct, static_cast<Section::Value>(random()), random);
             ASSERT_EQ(unpacked(pair.section), pair.plain);
             if (distinct <= 256) {
-                // What remains of earlier values goes, so that compact() can find a smaller form.
+                // Overwrites earlier values, so that compact() can find a smaller form.
                 const auto base = static_cast<Section::Value>(random());
                 for (int i = 0; i < kBlocksPerSection; ++i)
                     pair.set(i, static_cast<Section::Value>(base + i % distinct));
@@ -219,6 +219,24 @@ TEST(Section, EqualityIgnoresForm) {
     EXPECT_FALSE(formerlyMixed == Section(3));
     formerlyMixed.set(9, 3);
     EXPECT_EQ(formerlyMixed, Section(3));
+}
+
+TEST(Section, SurelyAllOfEachForm) {
+    const auto isEven = [](Section::Value value) { return value % 2 == 0; };
+    EXPECT_TRUE(Section(4).surelyAll(isEven));
+    EXPECT_FALSE(Section(5).surelyAll(isEven));
+    Section section(4);
+    section.set(7, 6);
+    EXPECT_TRUE(section.surelyAll(isEven));
+    section.set(8, 3);
+    EXPECT_FALSE(section.surelyAll(isEven));
+    section.set(8, 4);
+    EXPECT_FALSE(section.surelyAll(isEven)) << "the palette still has the odd value";
+    section.compact();
+    EXPECT_TRUE(section.surelyAll(isEven));
+    for (int k = 0; k < 1000; ++k) section.set(k, static_cast<Section::Value>(2 * k));
+    ASSERT_TRUE(section.isDense());
+    EXPECT_FALSE(section.surelyAll(isEven)) << "dense sections are not searched";
 }
 
 TEST(Section, CopiesAreIndependent) {

@@ -33,7 +33,7 @@ TEST(SkyLight, OfTheWholeSkyIsLessThanTheAirTakes) {
         const glm::vec3 sky = skyIrradiance(sine), sun = directLight(sine) * sine;
         for (int c = 0; c < 3; ++c) {
             EXPECT_GT(sky[c], 0);
-            // The ground sends some of it up again, three tenths of which the air sends back in part.
+            // The ground reflects three tenths of the light, of which the air scatters a part back.
             EXPECT_LT(sky[c] + sun[c], 1.1f * sine + 0.02f) << sine;
         }
     }
@@ -94,7 +94,7 @@ TEST(SkyLight, TableIsTheSkyBetweenItsTexels) {
     }
 }
 
-// The light need not stand toward +x.
+// The light may be in any direction, not only toward +x.
 TEST(SkyLight, TableTurnsWithTheLight) {
     const SkyTable table = skyTable(0.3f);
     const glm::vec3 a = sampled(table, direction(0.2f, 0.4f), direction(0.3f, 0)),

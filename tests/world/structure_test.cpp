@@ -34,7 +34,7 @@ class StructureTest : public testing::Test {
             blocks.push_back({box.blockAt(i), value});
         }
         BlockUpdate update(world_, contentBlocks(), edits_);
-        update.restore(blocks);  // and nothing that follows
+        update.restore(blocks);  // without consequences
         return copyBlocks(world_, contentBlocks(), box);
     }
     std::vector<BlockEdit> edits_;

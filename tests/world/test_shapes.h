@@ -1,11 +1,11 @@
-// Shapes of boxes for tests: what turns and can be upside down, what has arms, what opens.
+// Shapes of boxes for tests: with facing and halves, with arms, with another form.
 #pragma once
 
 #include <string>
 
 namespace terrane::world {
 
-// In the notation of content files; blocks come behind.
+// In the notation of content files; blocks follow.
 inline const std::string kTestShapes = R"(
 [[shape]]
 name = "stairs"

@@ -9,7 +9,7 @@ async function main (folder, version, [x0, z0, x1, z1]) {
   const Anvil = provider.Anvil(version)
   const anvil = new Anvil(folder)
   const isNumbered = registry.isOlderThan('1.13')
-  // Names as 1.13 has them; of numbers that its table lacks, by data 0.
+  // Names of 1.13; for numbers that its table lacks, by data 0.
   const nameOf = (stateId) => {
     if (!isNumbered) return 'minecraft:' + registry.blocksByStateId[stateId].name
     const text = legacy[`${stateId >> 4}:${stateId & 15}`] ?? legacy[`${stateId >> 4}:0`]
@@ -27,7 +27,7 @@ async function main (folder, version, [x0, z0, x1, z1]) {
   console.log(JSON.stringify(result))
 }
 
-// Only sections that are in the file: the reader makes up others of air.
+// The sections in the file; the reader adds others of air.
 function sectionsOf (raw) {
   const level = (raw.value.Level ?? raw).value
   const list = (level.Sections ?? level.sections)?.value.value ?? []

@@ -1,4 +1,5 @@
-// What npm's readers see in a file, as JSON. usage: node read_file.js glb|schem|vox FILE [VERSION OF MINECRAFT]
+// Prints a file as npm packages read it, as JSON. usage: node read_file.js glb|schem|vox FILE [VERSION OF
+// MINECRAFT]
 const fs = require('fs')
 
 async function readGlb (bytes) {
