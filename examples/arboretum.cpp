@@ -1,5 +1,5 @@
-// Draws one of each kind of tree, bush and stone on flat ground into a PNG file: a generator that stamps,
-// from its feet to the image. docs/worldgen.md shows the result.
+// Draws one of each kind of tree, bush and stone on flat ground into a PNG file: a complete path from a
+// generator with stamps to an image. docs/worldgen.md shows the result.
 //
 //     arboretum IMAGE.png [VARIANT]
 #include <cstdio>
@@ -24,7 +24,7 @@ using namespace terrane;
 using gen::trees::Kind;
 
 constexpr int kGround = 80;  // height of the grass
-constexpr int kRadius = 4;   // chunks that are drawn
+constexpr int kRadius = 4;   // chunks to draw
 constexpr int kSide = 2 * kRadius + 3;
 
 struct Place {
@@ -32,7 +32,7 @@ struct Place {
     int x, y;
 };
 
-// Three rows, the highest behind.
+// Three rows, the highest at the back.
 constexpr Place kPlaces[] = {
     {Kind::Spruce, -54, 22}, {Kind::Larch, -37, 25}, {Kind::Pine, -25, 22},        {Kind::OldOak, 0, 26},
     {Kind::Cypress, 20, 22}, {Kind::Baobab, 35, 24}, {Kind::Palm, 54, 21},         {Kind::Birch, -44, 4},
@@ -63,7 +63,7 @@ world::ChunkPos posOf(int k) {
     return {k % kSide - kRadius - 1, k / kSide - kRadius - 1};
 }
 
-// Lights all chunks, meshes those that have neighbors.
+// Lights all chunks and meshes those that have all neighbors.
 void show(const gen::Generator& generator, const world::BlockRegistry& blocks, render::Renderer& renderer) {
     std::vector<world::Chunk> chunks;
     for (int k = 0; k < kSide * kSide; ++k) chunks.push_back(generator.generate(posOf(k)));

@@ -24,7 +24,7 @@ namespace {
 using namespace terrane;
 using examples::kSceneRadius;
 
-constexpr int kSide = 2 * kSceneRadius + 3;  // chunks, with an empty ring that is not drawn
+constexpr int kSide = 2 * kSceneRadius + 3;  // chunks, with an empty border that is not drawn
 
 world::ChunkPos posOf(int k) {
     return {k % kSide - kSceneRadius - 1, k / kSide - kSceneRadius - 1};
@@ -36,7 +36,7 @@ world::World emptyWorld() {
     return world;
 }
 
-// Lights all chunks, meshes those that have neighbors.
+// Lights all chunks and meshes those that have all neighbors.
 void show(const world::World& world, const world::BlockRegistry& blocks, render::Renderer& renderer) {
     light::LightArea area{kSide, kSide, {}};
     for (int k = 0; k < kSide * kSide; ++k) area.chunks.push_back(world.maybeChunkAt(posOf(k)).get());
@@ -57,7 +57,7 @@ void show(const world::World& world, const world::BlockRegistry& blocks, render:
     }
 }
 
-// Light and shadows alone: what the two ways of sampling differ in.
+// Only light and shadows, which the two ways of sampling affect.
 base::Result<void> configure(render::Renderer& renderer, render::LightSampling sampling) {
     render::RenderOptions options;
     options.msaaSamples = 4;
@@ -103,7 +103,7 @@ base::Result<void> drawScenes(const std::string& folder, const world::BlockRegis
     return {};
 }
 
-// The fastest of some frames, milliseconds; 0 where the driver cannot.
+// The fastest of some frames in milliseconds; 0 if the renderer cannot be configured.
 double frameTime(render::Renderer& renderer, const render::FrameInput& input,
                  render::LightSampling sampling) {
     if (!configure(renderer, sampling)) return 0;
@@ -121,7 +121,7 @@ double frameTime(render::Renderer& renderer, const render::FrameInput& input,
 base::Result<void> measureLamps(const world::BlockRegistry& blocks,
                                 const std::function<base::Result<render::Renderer>()>& makeRenderer) {
     const examples::LightScene scene{"lamps", nullptr, {{-20.5, -30.5, 92.0}, 55, -20}, 0.0f};
-    constexpr int kPlaces = 10'000;  // so that the blocks are as many in all of them
+    constexpr int kPlaces = 10'000;  // the same number of blocks in all scenes
     for (const int count : {1, 100, kPlaces}) {
         auto renderer = makeRenderer();
         if (!renderer) return tl::unexpected(renderer.error());

@@ -18,11 +18,11 @@ constexpr int kGround = 80;  // the lowest block of air
 constexpr int kFirst = -16 * kSceneRadius, kEnd = 16 * (kSceneRadius + 1);
 
 void put(World& world, const BlockRegistry& blocks, BlockPos pos, BlockId id) {
-    std::vector<world::BlockEdit> edits;  // nobody shows this world while it is built
+    std::vector<world::BlockEdit> edits;  // ignored: the world is not on screen yet
     world::applyChange(world, blocks, pos, world::SetBlock{id}, edits);
 }
 
-// Blocks of the box, ends excluded.
+// Fills a box, the end excluded.
 void fill(World& world, const BlockRegistry& blocks, BlockPos from, BlockPos to, BlockId id) {
     for (int z = from.z; z < to.z; ++z) {
         for (int y = from.y; y < to.y; ++y) {
@@ -40,7 +40,7 @@ void buildGround(World& world, const BlockRegistry& blocks, std::string_view top
     fill(world, blocks, {kFirst, kFirst, kGround - 1}, {kEnd, kEnd, kGround}, idOf(blocks, top));
 }
 
-// A hollow with uneven walls in solid stone, a lamp of each color on its floor.
+// A cave with uneven walls in solid stone, a lamp of each color on its floor.
 void buildCave(World& world, const BlockRegistry& blocks) {
     fill(world, blocks, {kFirst, kFirst, 60}, {kEnd, kEnd, 110}, idOf(blocks, "stone"));
     for (int z = 70; z < 100; ++z) {
@@ -85,7 +85,7 @@ void buildGlassHouse(World& world, const BlockRegistry& blocks) {
     }
 }
 
-// Two rooms without a roof whose walls meet at an edge: red light here, none there.
+// Two rooms without a roof whose walls meet at an edge: one has red light, the other none.
 void buildCorner(World& world, const BlockRegistry& blocks) {
     buildGround(world, blocks, "grass");
     const BlockId stone = idOf(blocks, "stone");

@@ -1,4 +1,4 @@
-// Small worlds that show what light does. Used by light_images.cpp.
+// Small worlds that demonstrate light. Used by light_images.cpp.
 #pragma once
 
 #include <string_view>
@@ -17,15 +17,15 @@ struct LightScene {
     float timeDay;
 };
 
-// Worlds reach this many chunks from the middle one.
+// Chunks from the middle chunk to the border of a world.
 constexpr int kSceneRadius = 3;
 
-// Four lamps in a cave, a glass house at dusk; a corner that light must not pass, a lamp on open ground from
-// above.
+// Four lamps in a cave, a glass house at dusk, a corner that light must not pass, and a lamp on open ground
+// seen from above.
 const std::vector<LightScene>& lightScenes();
 
-// Blocks at so many random places of open ground, the first ones lamps of four colors, the others stone. One
-// lamp stands in the middle.
+// Sets blocks at `places` random positions on open ground: `lamps` of them are lamps of four colors, the rest
+// stone. The first lamp stands in the middle.
 struct LampCount {
     int lamps, places;
 };

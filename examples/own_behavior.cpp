@@ -1,5 +1,5 @@
-// A behavior of one's own: iron that rusts when water comes beside it, and rust that falls. Prints what an
-// edit does. Usage: own_behavior
+// A custom behavior: iron that rusts next to water, and rust that falls. Prints the effect of an edit. Usage:
+// own_behavior
 #include <cstdio>
 #include <memory>
 #include <vector>

@@ -1,5 +1,5 @@
-// A world of one's own without a window: blocks from a text, a generator from docs/worldgen.md, and what it
-// makes, seen from above. Usage: own_generator [SEED]
+// A custom world without a window: blocks from a text, a generator from docs/worldgen.md, and the generated
+// terrain printed as seen from above. Usage: own_generator [SEED]
 #include <cstdio>
 #include <cstdlib>
 #include <string>
@@ -47,7 +47,7 @@ int main(int argc, char** argv) {
     if (!graph) return std::fprintf(stderr, "%s\n", graph.error().message.c_str()), 1;
     const gen::Generator generator(std::move(*graph), argc > 1 ? std::strtoull(argv[1], nullptr, 10) : 1);
 
-    constexpr int kChunks = 5;  // along each side
+    constexpr int kChunks = 5;  // per side
     for (int cy = kChunks; cy-- > 0;) {
         std::string rows[world::kChunkSize];
         for (int cx = 0; cx < kChunks; ++cx) {

@@ -18,7 +18,7 @@ SECTION = 16 * 16 * 16
 
 
 def check_names(names, settings):
-    """The checksum over settings and names of blocks: the exclusive or of a hash of each row."""
+    """Compares the checksum of settings and block names: the exclusive or of a hash of each row."""
     rows = [xxhash.xxh64_intdigest(f"{name}\0{value}") for name, value in settings.items() if name != "checksum"]
     rows += [xxhash.xxh64_intdigest(name, 1 + number) for number, name in names.items()]
     if settings["checksum"] not in ("", str(functools.reduce(operator.xor, rows))):

@@ -30,7 +30,7 @@ namespace {
 using namespace terrane;
 
 constexpr const char* kGenerator = "ore_hills";
-constexpr int kGeneratorVersion = 1;  // a change that gives other blocks raises it
+constexpr int kGeneratorVersion = 1;  // increment when generated blocks change
 constexpr std::uint64_t kSeed = 7;
 constexpr int kViewDistance = 12, kHorizon = 256;  // chunks
 constexpr game::PlayerId kPlayer = 1;
@@ -38,10 +38,10 @@ constexpr game::PlayerId kPlayer = 1;
 void writeOreHills(gen::GeneratorBuilder& g) {
     using namespace gen;
     const auto height = g.field<Int>("height");
-    g.pass2D("land", [&](Pass& p) {  // once a column
+    g.pass2D("land", [&](Pass& p) {  // once per column
         p.set(height, Int(84.0f + p.perlin2D("hills", 32, {2.0f, 5.0f, 14.0f, 20.0f})));
     });
-    g.pass3D("ground", [&](Pass& p) {  // once a block
+    g.pass3D("ground", [&](Pass& p) {  // once per block
         const Int depth = p.read(height) - p.z();
         auto block = p.var(select(p.z() <= 80, p.block("water"), p.block("air")));
         p.if_(depth >= 0, [&] { block = select(depth < 1, p.block("grass"), p.block("stone")); });
@@ -61,7 +61,7 @@ gen::GeneratorCatalogue makeCatalogue() {
     return catalogue;
 }
 
-// Opens the world, or makes it.
+// Opens the world, creating it if needed.
 base::Result<game::SessionParts> openWorld(const std::string& path) {
     auto loaded = content::loadBlocks();
     if (!loaded) return tl::unexpected(loaded.error());
@@ -79,7 +79,7 @@ base::Result<game::SessionParts> openWorld(const std::string& path) {
     return game::SessionParts{blocks, std::move(*generators), std::move(*store), workers};
 }
 
-// The context of the window is current. Null where there is no display or no OpenGL 4.5.
+// Makes the window's context current. Null without a display or OpenGL 4.5.
 GLFWwindow* openWindow() {
     if (glfwInit() == GLFW_FALSE) return nullptr;
     glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
@@ -165,7 +165,7 @@ base::Result<void> play(GLFWwindow* window, game::SessionParts parts) {
 
         glm::ivec2 pixels;
         glfwGetFramebufferSize(window, &pixels.x, &pixels.y);
-        if (pixels.x == 0 || pixels.y == 0) continue;  // an icon
+        if (pixels.x == 0 || pixels.y == 0) continue;  // minimized
         if (pixels != size) {
             if (auto done = renderer->configure(pixels, graphics.render); !done) return done;
             size = pixels;
@@ -190,7 +190,7 @@ int main(int argc, char** argv) {
     if (!parts) return std::fprintf(stderr, "%s\n", parts.error().message.c_str()), 1;
     GLFWwindow* window = openWindow();
     if (!window) return std::fprintf(stderr, "no window with OpenGL 4.5 can be opened\n"), 1;
-    const auto played = play(window, std::move(*parts));  // all that is on the graphics card ends with it
+    const auto played = play(window, std::move(*parts));  // frees all OpenGL objects
     glfwTerminate();
     if (!played) return std::fprintf(stderr, "%s\n", played.error().message.c_str()), 1;
 }

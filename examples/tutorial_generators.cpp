@@ -10,7 +10,7 @@ void writeStep1(GeneratorBuilder& g) {
     g.pass3D("ground", [](Pass& p) { p.setBlock(select(p.z() <= 80, p.block("grass"), p.block("air"))); });
 }
 
-// Step 2: hills and lakes. A 2D pass computes the height once a column.
+// Step 2: hills and lakes. A 2D pass computes the height once per column.
 void writeStep2(GeneratorBuilder& g) {
     const auto height = g.field<Int>("height");
     g.pass2D("land", [&](Pass& p) {
@@ -24,7 +24,7 @@ void writeStep2(GeneratorBuilder& g) {
 
 namespace {
 
-// Steepness from the heights around, snow on high land.
+// Rock on steep ground, from the heights around, and snow on high ground.
 void setCover(Pass& p, Field<Int> height, Field<Block> cover) {
     const Int here = p.read(height);
     const Int dx = p.readAt(height, {1, 0}) - p.readAt(height, {-1, 0});
@@ -62,7 +62,7 @@ void writeStep3(GeneratorBuilder& g) {
     g.pass3D("ground", [&](Pass& p) { p.setBlock(solidBlock(p, height, cover)); });
 }
 
-// Step 4: caves. Noise in space is costly: it stands in an if_, so that layers of air and water skip it.
+// Step 4: caves. 3D noise is expensive: inside an if_ layers of air and water skip it.
 void writeStep4(GeneratorBuilder& g) {
     const auto height = g.field<Int>("height");
     const auto cover = g.field<Block>("cover");
@@ -76,7 +76,7 @@ void writeStep4(GeneratorBuilder& g) {
         });
         p.setBlock(block);
     });
-    // A last pass that sees what the caves left: mushrooms on their floors, tufts on the grass.
+    // A last pass that reads the blocks left by the caves: mushrooms on their floors, tufts on the grass.
     g.pass3D("plants", [&](Pass& p) {
         const Block below = p.blockInColumn(p.z() - 1);
         p.if_(p.blockHere() == p.block("air") && p.randomBool3D("grows", 0.1f, p.x(), p.y(), p.z()), [&] {
@@ -92,7 +92,7 @@ namespace {
 
 constexpr float kSea = 80.0f;
 
-// Land without its details: what rivers follow.
+// The terrain without details, which rivers follow.
 Float wideLand(Pass& p) {
     return 100.0f + p.perlin2D("wide land", 128, {5.0f, 10.0f, 20.0f, 30.0f, 40.0f});
 }
@@ -101,8 +101,8 @@ struct Land {
     Float ground, water;  // z
 };
 
-// Near water the ground goes to the height of the banks, whether it is higher or lower. Lakes come first, so
-// that a river keeps its banks where it comes to one.
+// Near water the ground approaches the height of the banks, from above or below. Lakes come first, so that a
+// river keeps its banks where it meets one.
 Land landWithRivers(Pass& p, const DrainageSample& s) {
     const Float land = wideLand(p) + p.perlin2D("small hills", 16, {1.0f, 2.0f, 3.0f});
     const Float shore = s.lakeDistance + p.perlin2D("shores", 16, {3.0f, 6.0f});

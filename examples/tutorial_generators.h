@@ -9,7 +9,7 @@ void writeStep1(gen::GeneratorBuilder& g);
 void writeStep2(gen::GeneratorBuilder& g);
 void writeStep3(gen::GeneratorBuilder& g);
 void writeStep4(gen::GeneratorBuilder& g);
-// Of the section on rivers.
+// The section on rivers.
 void writeRivers(gen::GeneratorBuilder& g);
 
 }  // namespace terrane::examples

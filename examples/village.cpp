@@ -20,7 +20,7 @@ using world::BlockPos;
 
 constexpr const char* kGenerator = "continents";
 constexpr std::uint64_t kSeed = 1;
-constexpr int kRadius = 4;  // chunks that are loaded
+constexpr int kRadius = 4;  // chunks to load
 constexpr int kStep = 13;   // blocks from house to house
 constexpr int kReach = 44;  // blocks from the middle to the last house
 constexpr int kJettyLength = 16;
@@ -33,7 +33,7 @@ struct Site {
     const std::string& nameAt(BlockPos pos) const {
         return session.blocks().type(session.world().block(pos)).name;
     }
-    // `state`: world/block_model.h.
+    // `state`: see world/block_model.h.
     void put(BlockPos pos, const char* name, std::uint16_t state = 0) {
         session.edit({.pos = pos, .change = world::SetBlock{id(name), state}, .expected = {}});
     }
@@ -43,7 +43,7 @@ struct Site {
             for (int y = a.y; y <= b.y; ++y)
                 for (int x = a.x; x <= b.x; ++x) put({x, y, z}, name, state);
     }
-    // The highest block of the ground or of the sea.
+    // The highest block of the ground or the sea.
     int groundAt(int x, int y) const {
         int z = world::kChunkHeight - 1;
         const auto isGround = [&](const std::string& name) {
@@ -62,7 +62,7 @@ void loadAround(game::Session& session, world::ChunkPos middle) {
         pipeline.waitForWorkers(std::chrono::milliseconds(100));
 }
 
-// Dry and nearly level: 7 × 7 blocks from the corner on.
+// Whether 7 × 7 blocks from the corner on are dry and nearly level.
 bool isGoodGround(const Site& site, int x, int y, int& ground) {
     int lowest = world::kChunkHeight, highest = 0;
     for (int k = 0; k < 49; ++k) {
@@ -75,7 +75,7 @@ bool isGoodGround(const Site& site, int x, int y, int& ground) {
     return highest - lowest <= 3;
 }
 
-// States of what has a facing.
+// Block states of blocks with a facing.
 constexpr std::uint16_t kTowardPosY = 0, kTowardNegY = 2, kTowardPosX = 3;
 
 // A gable roof along x over a house of seven blocks: steps that rise to the ridge from both sides.
@@ -143,7 +143,7 @@ int buildHouses(Site& site) {
     return count;
 }
 
-// From the shore into the sea, along x.
+// A jetty from the shore into the sea, along x.
 void buildJetty(Site& site) {
     int x = site.middle.x;
     const int y = site.middle.y, toSea = site.isWater(x - kReach, y) ? -1 : 1;

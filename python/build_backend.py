@@ -4,7 +4,7 @@
     build_backend.py OUT [BUILD]   builds the target terrane_python in the folder BUILD (build-wheel) and writes
                                    OUT/terrane-VERSION-cpXY-cpXY-linux_ARCH.whl, whose path it prints
 
-The wheel is for the Python that runs this, and needs the libraries of this system: it is no wheel for others.
+The wheel is for the Python that runs this, and needs the libraries of this system: it does not work on others.
 """
 import base64
 import hashlib
@@ -17,7 +17,7 @@ import sysconfig
 import zipfile
 
 SOURCE = pathlib.Path(__file__).resolve().parents[1]
-TIME = (1980, 1, 1, 0, 0, 0)  # of all files, so that equal contents are equal wheels
+TIME = (1980, 1, 1, 0, 0, 0)  # of all files, so that equal contents give equal wheels
 FILE_MODE = 0o100644 << 16
 
 
@@ -32,7 +32,7 @@ def tag():
 
 def build(folder):
     """The folder of the built package."""
-    if not (folder / "build.ninja").exists():  # made last: the first try may have lacked a library
+    if not (folder / "build.ninja").exists():  # written last: an earlier try may have lacked a library
         subprocess.run(["cmake", "-S", SOURCE, "-B", folder, "-G", "Ninja", "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON",
                         "-DTERRANE_TESTS=OFF", "-DTERRANE_BENCHMARKS=OFF", "-DTERRANE_WEB=OFF", "--log-level=WARNING",
                         f"-DTERRANE_PYTHON_PROGRAM={sys.executable}"], check=True, stdout=sys.stderr)

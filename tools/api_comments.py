@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Writes a header with its comments as Doxygen reads them: those in front of a declaration, and those behind one on its
-line. Doxygen's INPUT_FILTER (docs/Doxyfile). Usage: api_comments.py HEADER"""
+"""Prints a header with its comments in Doxygen's form, both before a declaration and after it on its line.
+Doxygen's INPUT_FILTER (docs/Doxyfile). Usage: api_comments.py HEADER"""
 import re
 import sys
 
@@ -9,7 +9,7 @@ BEHIND = re.compile(r"^(\s*[^\s/].*[;,{}]) +// (.*)$")
 
 
 def escaped(text):
-    """What means something else to Doxygen or HTML."""
+    """Escapes text that is special in Doxygen or HTML."""
     return re.sub(r"([<>#@\\&])", r"\\\1", text)
 
 

@@ -2,7 +2,7 @@
 from texture_tools import (BARK, GOLD, IRON, SIZE, STONE, WOOD, Image, Patches, bled, cobbles, hash01, mix, ramp,
                            settled, smooth, tone)
 
-# From shadow to light, as the cut wood of each tree.
+# From shadow to light, the cut wood of each tree.
 BOARDS = {
     "oak": WOOD,
     "birch": ramp("a08a5e b69f70 c8b284 d6c296 e2d1a8 eadcb8"),

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Compares two runs of the benchmarks and shows what got slower beyond noise.
+"""Compares two runs of the benchmarks and lists times that became slower beyond noise.
 
     compare_benchmarks.py BEFORE AFTER [--threshold PERCENT] [--all]
 
-Both are what a bench_… program wrote with --benchmark_format=json (--benchmark_out=FILE), or both results.jsonl of
-`terrane bench`. Times are compared by their medians. Something is slower when its median grew by more than the
-threshold (15 % unless told) and the middle halves of its repetitions do not overlap. Exit code: 0 nothing is slower,
-1 something is, 2 the files cannot be compared. What only one of the runs has is named and does not count.
+Both files are output of a bench_… program with --benchmark_format=json (--benchmark_out=FILE), or both results.jsonl of
+`terrane bench`. Times are compared by their medians. A time is slower if its median grew by more than the threshold
+(15 % by default) and the middle halves of its repetitions do not overlap. Exit code: 0 nothing is slower, 1 something
+is, 2 the files cannot be compared. Times of only one run are listed and do not count.
 """
 
 import argparse
@@ -18,17 +18,17 @@ TO_NANOSECONDS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
 DEFAULT_THRESHOLD = 15.0  # per cent; the same code varies by that much between runs on a shared machine
 # Members of a measurement of `terrane bench` that are times in milliseconds: less is better.
 TIMES = ("milliseconds", "passes", "tasks", "flight")
-# What these hold that is no time of the program: counts, and how long was flown.
+# Members of these that are not times of the program: counts, and the duration of the flight.
 NO_TIMES = ("count", "frames", "by_second", "seconds_of_flight", "chunks_missing_on_landing",
             "frames_over_twice_the_median", "of_these_by_loading")
 
 
 class BadInput(Exception):
-    """One line that names what is wrong and where."""
+    """One line that names the error and its place."""
 
 
 def read(path):
-    """Kind of the file, and its times by name: lists, one number a repetition."""
+    """Kind of the file, and its times by name: lists with one number per repetition."""
     try:
         with open(path, encoding="utf-8") as file:
             text = file.read()
@@ -44,8 +44,8 @@ def read(path):
 
 
 def read_google(path, benchmarks):
-    """Processor time of each repetition; where there are only aggregates, their median. Of a benchmark that measures by the
-    clock, since other threads or the disk work for it, the time by the clock."""
+    """CPU time of each repetition; with aggregates only, their median. Wall time for benchmarks that use it because other
+    threads or the disk work for them."""
     times, medians = {}, {}
     for run in benchmarks:
         try:
@@ -67,7 +67,7 @@ def read_lines(path, text):
     """Times of each run of each cell, by command line and place in the result."""
     lines = text.split("\n")
     times, number = {}, 0
-    for number, line in enumerate(lines[:-1], 1):  # what follows the last end of a line was cut short
+    for number, line in enumerate(lines[:-1], 1):  # text after the last line end is truncated
         try:
             value = json.loads(line)
             if number == 1:
@@ -99,7 +99,7 @@ def numbers_in(value, name):
 
 
 def middle_half(times):
-    """First and third quartile; of few repetitions, the least and the greatest."""
+    """First and third quartile; with few repetitions, minimum and maximum."""
     if len(times) < 4:
         return min(times), max(times)
     first, _, third = statistics.quantiles(times, n=4, method="inclusive")
@@ -107,7 +107,7 @@ def middle_half(times):
 
 
 class Change:
-    """What became of one time."""
+    """The change of one time."""
 
     def __init__(self, name, before, after, threshold):
         self.name = name
@@ -130,12 +130,12 @@ def shown(nanoseconds):
 
 
 def compare(before, after, threshold):
-    """Changes of what both have, by name."""
+    """Changes of the times that both have, by name."""
     return [Change(name, before[name], after[name], threshold) for name in sorted(before) if name in after]
 
 
 def report(before, after, threshold, shows_all):
-    """Prints the changes; whether something is slower."""
+    """Prints the changes; returns whether something is slower."""
     changes = compare(before, after, threshold)
     slower = [c for c in changes if c.is_slower]
     for change in changes:

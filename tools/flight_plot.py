@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 """Plots the flights of tools/flight_trace.sh. Usage: flight_plot.py FOLDER   (writes FOLDER/flight.svg)
 
-Of four flights (generating and from a save, at view distances 16 and 32) what each frame took and how much of that was
-loading, beside frames from the same places with nothing left to load.
+For four flights (generating and from a save, at view distances 16 and 32): the time of each frame and its part for
+loading, next to frames from the same places with everything loaded.
 """
 
 import pathlib

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Flies 20 s at full speed at view distances 16 and 32, once while the world is generated and once from a save, and plots
-# what each frame took, beside frames from the same places with nothing left to load. Usage: tools/flight_trace.sh [PROGRAM [FOLDER]]   (build/terrane, out/flight)
-# Offscreen at 320x180, so that drawing in software does not decide. tools/flight_plot.py draws the plot.
+# the time of each frame, next to frames from the same places with everything loaded. Usage: tools/flight_trace.sh [PROGRAM [FOLDER]]   (build/terrane, out/flight)
+# Offscreen at 320x180, so that software rendering does not dominate. tools/flight_plot.py draws the plot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=$(realpath "${1:-build/terrane}")
@@ -19,7 +19,7 @@ fly() {
     "$program" flight-bench --generator overworld --size 320x180 --preset low --view-distance "$distance" --trace "$name.json" -o "$name.csv" "$@"
 }
 
-# What the land alone takes to draw where the flight is after 0, 2, … 20 s.
+# Measures frames without loading at the positions of the flight after 0, 2, … 20 s.
 stand() {
     local distance=$1 at frame
     for second in {0..20..2}; do

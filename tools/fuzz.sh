@@ -37,12 +37,12 @@ build_fuzzers() {
 }
 [[ -n ${FUZZ_BUILD:-} ]] || build_fuzzers
 
-# Files that the library opens by name lie in memory, where a fuzzer that was ended leaves them, too.
+# Files that the library opens by name are in memory; a killed fuzzer leaves them there.
 TMPDIR=$(mktemp -d "$([[ -d /dev/shm ]] && echo /dev/shm || echo "${TMPDIR:-/tmp}")/terrane-fuzz.XXXXXX")
 export TMPDIR
 trap 'rm -rf "$TMPDIR"' EXIT
 
-# One fuzzer for its time; its last lines where it found a fault.
+# Runs one fuzzer for its time; prints its last lines if it found an error.
 fuzz() {
     local name=$1 max_length=4096
     local log="$BUILD_FOLDER/$name.log" corpus="$BUILD_FOLDER/corpus/$name"
@@ -51,12 +51,12 @@ fuzz() {
     local folders=("$corpus") options=()
     [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
     [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")
-    # What earlier runs found, without what reaches no more (libFuzzer's -merge=1).
+    # Inputs found by earlier runs, reduced to those that add coverage (libFuzzer's -merge=1).
     if [[ ! -d $corpus ]]; then
         mkdir -p "$corpus"
         [[ ! -f tests/fuzz/corpus/$name.tar.gz ]] || tar -xf "tests/fuzz/corpus/$name.tar.gz" -C "$corpus"
     fi
-    # A thread keeps up to 64 MiB for a chunk that says it is that large, and zstd as much; an image takes 256 MiB.
+    # A thread keeps up to 64 MiB for a chunk with that size in its header, and zstd as much; an image takes 256 MiB.
     if ! "$BUILD_FOLDER/fuzz_$name" -max_total_time="$SECONDS_TO_RUN" -max_len="$max_length" -timeout=10 \
         -rss_limit_mb=1536 -artifact_prefix="$BUILD_FOLDER/$name-" -print_final_stats=1 "${options[@]}" \
         "${folders[@]}" >"$log" 2>&1; then

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the hotbar, the compass, the arm and the place's facts cost: shows and hides them in turn in a window on a virtual
-display, and compares the times of frames. Usage: hud_cost.py PROGRAM [ROUNDS]
+"""Measures the cost of the hotbar, the compass, the arm and the position overlay: shows and hides them in turn in a window
+on a virtual display, and compares frame times. Usage: hud_cost.py PROGRAM [ROUNDS]
 
 Prints the median frame of all rounds with and without them, in milliseconds. Needs Xvfb and xdotool."""
 import csv
@@ -16,8 +16,8 @@ import virtual_display
 
 SIZE = (1280, 720)
 SECONDS = 4       # of each turn
-SETTLE = 0.7      # after a key, left out
-COMPLETE = 30     # until all in view is there
+SETTLE = 0.7      # ignored after a key
+COMPLETE = 30     # until the view is complete
 
 
 def main():
@@ -33,7 +33,7 @@ def main():
         display.xdotool("windowmove", window, 0, 0, "windowfocus", window)
         start = time.monotonic()
         time.sleep(COMPLETE)
-        display.xdotool("key", "F7")  # where one is
+        display.xdotool("key", "F7")  # position overlay
         turns, shown = [], True
         for _ in range(2 * rounds):
             begin = time.monotonic() - start

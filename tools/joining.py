@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""What it takes to join a world of others, in bytes: Terrane and Luanti, one after the other on this machine.
+"""Measures the bytes to join a server's world: Terrane and Luanti, one after the other on this machine.
 
-In each world 1,000 blocks were changed in sight of where players begin, who see 256 blocks far. Terrane: a bot joins,
-until it knows all edits in sight; what its TLS connection carried both ways is counted. Luanti (Debian: minetest,
-minetest-server, xvfb): a client on a virtual screen joins through a proxy that counts bytes of UDP both ways; it turns
-round and round, since the server sends what is ahead first, until nothing new comes. The first visitor has none of the
-game's pictures and sounds, the second has them from the first."""
+In each world 1,000 blocks near the spawn were changed; players see 256 blocks. Terrane: a bot joins until it knows all
+edits in view; the bytes of its TLS connection are counted in both directions. Luanti (Debian: minetest, minetest-server,
+xvfb): a client on a virtual screen joins through a proxy that counts bytes of UDP in both directions; it keeps turning,
+since the server sends blocks ahead first, until nothing new arrives. The first visit includes the game's images and
+sounds, the second has them cached."""
 import argparse
 import json
 import pathlib
@@ -22,7 +22,7 @@ from server_tools import Server, bots_command
 
 EDITS = 1000
 CHUNKS = 16
-CLIENTS = ("/usr/games/minetest", "/usr/games/luanti")  # of Debian 12, of later releases
+CLIENTS = ("/usr/games/minetest", "/usr/games/luanti")  # Debian 12; later releases
 SERVERS = ("/usr/lib/minetest/minetestserver", "/usr/lib/luanti/luantiserver")
 QUIET_BYTES, QUIET_SECONDS, LONGEST_SECONDS = 20_000, 20, 400
 
@@ -98,10 +98,10 @@ class Proxy(threading.Thread):
                         self.down += len(data)
                         self.front.sendto(data, client)
                 except ConnectionRefusedError:
-                    pass  # the server is not there yet
+                    pass  # the server has not started yet
 
     def wait_until_quiet(self):
-        """Seconds until no more than QUIET_BYTES came in QUIET_SECONDS, and what had come by then."""
+        """Seconds until at most QUIET_BYTES arrive in QUIET_SECONDS, and the bytes received by then."""
         start, history = time.monotonic(), []
         while True:
             now = time.monotonic() - start

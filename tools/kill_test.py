@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Kills a program that edits and saves, again and again, and looks at what is left.
+"""Repeatedly kills a program that edits and saves, and checks the save.
 
-    kill_test.py SAVE_LOOP PROGRAM [KILLS]     8 kills unless told otherwise
+    kill_test.py SAVE_LOOP PROGRAM [KILLS]     8 kills by default
 
-SAVE_LOOP is the test program tests/store/save_loop, PROGRAM is terrane, or "-" to leave out terrane check. After each
+SAVE_LOOP is the test program tests/store/save_loop, PROGRAM is terrane, or "-" to skip terrane check. After each
 kill (SIGKILL, at a random moment) the file must pass SQLite's integrity check and terrane check, hold every save
 that was reported as durable, and have exactly the tiles that follow from its chunks. Needs nothing but Python; exits
 with 1 when something is lost or damaged."""
@@ -15,20 +15,20 @@ import sys
 import tempfile
 import time
 
-LONGEST_SECONDS = 0.4  # to live, after the first report
+LONGEST_SECONDS = 0.4  # lifetime after the first report
 
 
 def run_and_kill(loop, save, first, generator):
-    """Starts the loop, kills it after a while. The last number it reported as durable; None if it reported nothing."""
+    """Starts the loop and kills it after a while. Returns the last number reported as durable, or None."""
     process = subprocess.Popen([loop, save, str(first)], stdout=subprocess.PIPE, text=True)
-    if generator.random() < 0.7:  # else also while the file is opened or made
+    if generator.random() < 0.7:  # else the kill may hit opening or creating the file
         reported = process.stdout.readline()
         time.sleep(generator.random() * LONGEST_SECONDS)
     else:
         reported = ""
         time.sleep(generator.random() * 0.05)
     process.kill()
-    lines = (reported + process.stdout.read()).split("\n")[:-1]  # without one that was cut short
+    lines = (reported + process.stdout.read()).split("\n")[:-1]  # without a truncated line
     process.wait()
     if process.returncode != -9:
         sys.exit(f"kill_test: {loop} ended by itself with {process.returncode}")
@@ -55,8 +55,8 @@ def main():
             reported = run_and_kill(loop, save, durable + 1, generator)
             durable = durable if reported is None else reported
             if durable == 0:
-                continue  # perhaps there is no file yet
-            if number % 2:  # the log is read by the other checks, and by the loop, in turns
+                continue  # there may be no file yet
+            if number % 2:  # in turn the log is replayed by the other checks and by the loop
                 answer = integrity(save)
                 if answer != [("ok",)]:
                     sys.exit(f"kill_test: kill {number}: integrity_check says {answer}")

@@ -1,5 +1,5 @@
-"""Paints what grows and lies on the land beyond the first set: trees by kind, rocks, soils, plants. Used by
-paint_textures.py, which has the table of all textures and says what alpha means."""
+"""Paints more textures of terrain: trees by kind, rocks, soils, plants. Used by paint_textures.py, which has the table
+of all textures and explains alpha."""
 import math
 
 from texture_tools import (ALL, CREAM, GRASS, NO_GLOW, SIZE, STEM, WOOD, Image, Patches, apart, bled,

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""A game's server whose map is under attack: do its ticks suffer, does its memory grow?
+"""Measures the ticks and the memory of a game server while its map is under attack.
 
-Bots walk and build. In turn nobody and everybody attacks the map: 1,000 clients that send a byte of a header a second, or
-never read a large answer; clients that send giant headers, nonsense, bodies and paths out of the folder, as fast as they
-can. A line is printed for each time: ticks, when another player hears of an edit, memory, connections. Ends with 1 where a
-limit does not hold."""
+Bots walk and build. In turn there is no attack and all attacks: 1,000 clients that send one byte of a header per second,
+or never read a large answer; clients that send giant headers, garbage, bodies and paths out of the folder, as fast as
+they can. Prints a line for each phase: ticks, delay until another player gets an edit, memory, connections. Exit code 1
+if a limit is exceeded."""
 import argparse
 import json
 import pathlib
@@ -50,7 +50,7 @@ class Attack:
         return socket.create_connection(("127.0.0.1", self.port), timeout=5)
 
     def be_slow(self, count):
-        """Those that the server closes come again."""
+        """Opens slow connections; reconnects those that the server closes."""
         clients = []
         while not self.isOver.wait(1):
             while len(clients) < count and not self.isOver.is_set():
@@ -58,7 +58,7 @@ class Attack:
                     client = self.connect()
                 except OSError:
                     break
-                if len(clients) % 4 == 0:  # asks for much, and never reads
+                if len(clients) % 4 == 0:  # requests a large answer, and never reads it
                     client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
                     client.sendall(b"GET /leaflet.js HTTP/1.1\r\nHost: x\r\n\r\n" * 50)
                 clients.append(client)
@@ -96,7 +96,7 @@ def metrics(port):
 
 
 def measure(server, web, seconds, attack):
-    """Ticks of the server's lines that lie wholly in the time, and the most memory."""
+    """Ticks in the server's statistics during the phase, and the peak of memory."""
     attacker = Attack(web, attack, 3) if attack else None
     before = len(server.statistics.read_text().splitlines())
     connections = delays = 0

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""How fast a map is for browsers, on this machine.
+"""Measures the speed of a browser map on this machine.
 
-cold: tiles that were never painted, at one pixel a block and at 16 blocks a pixel, by one thread; CPU time of the program
-      a tile, and so tiles a second and core.
-warm: the same tiles again, asked for by 64 clients at a time: tiles a second, and how long an answer takes.
-disk: bytes of the file that keeps surfaces, after all tiles of a radius were seen (--radius; takes long).
+cold: tiles that were never painted, at one pixel per block and at 16 blocks per pixel, by one thread; CPU time of the
+      program per tile, and so tiles per second and core.
+warm: the same tiles again, requested by 64 clients at a time: tiles per second, and the time of an answer.
+disk: bytes of the file that caches surfaces, after all tiles of a radius were requested (--radius; takes long).
 """
 import argparse
 import pathlib
@@ -21,7 +21,7 @@ WARM_CLIENTS = 64
 
 
 class Map:
-    """`terrane map --http` with a folder of its own."""
+    """`terrane map --http` with its own folder."""
 
     def __init__(self, program, folder, *arguments):
         self.log = open(folder / "map.log", "w+", encoding="utf-8")
@@ -61,7 +61,7 @@ def measure_cold(program, zoom, count):
     with tempfile.TemporaryDirectory(prefix="terrane-map-") as folder:
         shown = Map(program, pathlib.Path(folder), "--threads", "1")
         try:
-            # The first ones load what the program needs.
+            # The first requests initialize the program.
             check(ask_all(shown.address, [f"/tiles/day/{zoom}/{x}/1000.png" for x in range(4)], 1))
             before, begun = shown.metrics(), time.perf_counter()
             answers = ask_all(shown.address, around(zoom, count), 2)

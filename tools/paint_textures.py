@@ -9,7 +9,7 @@ This script and the textures it paints are CC0: everything is drawn here from sc
 always gives the same pixels, because the only source of variety is hash01(); the seeds are picked by eye,
 for stones so even that none stands out where a texture repeats.
 
-What alpha says depends on the texture's kind (see TEXTURES): opaque = 255; test = 0 or 255; glow = share
+The meaning of alpha depends on the texture's kind (see TEXTURES): opaque = 255; test = 0 or 255; glow = share
 of light the texel emits; test+glow = 0 hole, 128 no glow, 255 full glow; blend = coverage; tint = share of the tint
 that the texel takes.
 """

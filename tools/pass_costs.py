@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Writes what each pass of a frame costs with each preset, as a Markdown table.
+"""Prints the cost of each pass of a frame with each preset, as a Markdown table.
 
     pass_costs.py PROGRAM [--runs N] [--frames N] [--size WxH] [--view-distance N] [--scene NAME]
 
-Runs PROGRAM render --json for every preset, N times in turn, so that a slow minute hits all of them. A figure is the
-median of the runs, each of which tells the median of its frames: milliseconds of the GPU. The last row is a preset's
-passes in all against those of low: `relativeCost` of terrane/render/render_options.cpp."""
+Runs PROGRAM render --json for every preset, N times in turn, so that a slow minute affects all of them. A number is the
+median over runs of the median over frames, in milliseconds of the GPU. The last row is the sum of a preset's passes
+relative to low: `relativeCost` of terrane/render/render_options.cpp."""
 import argparse
 import json
 import os
@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 PRESETS = ("low", "medium", "high", "ultra", "thesis")
-# As a frame draws them.
+# In drawing order.
 PASSES = ("cull", "shadow map", "surfaces", "depth pyramid", "cull again", "surfaces again", "fill holes", "sky",
           "ambient occlusion", "shade", "peel", "shade layers", "god rays", "depth of field", "final")
 
@@ -33,7 +33,7 @@ def measure(options, preset, image):
 
 
 def median_runs(options):
-    """By preset, the medians of the runs: milliseconds by pass, of a frame."""
+    """Medians of the runs by preset: milliseconds by pass, and of a frame."""
     runs = {preset: [] for preset in PRESETS}
     with tempfile.TemporaryDirectory() as folder:
         image = os.path.join(folder, "image.png")
@@ -49,7 +49,7 @@ def median_runs(options):
 
 
 def cell(milliseconds):
-    """Empty where a pass does nothing."""
+    """Empty if a pass does nothing."""
     if milliseconds < 0.05:
         return ""
     return f"{milliseconds:.1f}" if milliseconds < 10 else f"{milliseconds:.0f}"

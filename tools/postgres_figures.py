@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""What a world in PostgreSQL costs beside one in a file, in turn on one machine; figures as JSON.
+"""Compares a world in PostgreSQL with one in a file, in turn on one machine; prints JSON.
 
     tools/postgres_figures.py PROGRAM [ROUNDS]      3
 
-- workers: chunks a second of one worker and of two, one thread each;
-- cpu: seconds of CPU to generate and write an area into a file, and into PostgreSQL with those of the server;
-- loading: from both, what is seen within 16 chunks (`terrane render`): until all is lit and meshed, and of that the time
-  of reading and decoding chunks;
-- bytes a chunk.
-The database commits to the disk (fsync).
+- workers: chunks per second of one worker and of two, one thread each;
+- cpu: CPU seconds to generate and write an area into a file, and into PostgreSQL including the server's;
+- loading: the view within 16 chunks (`terrane render`) from both: time until all is lit and meshed, and its part for
+  reading and decoding chunks;
+- bytes per chunk.
+The database commits to disk (fsync).
 """
 import json
 import os
@@ -26,7 +26,7 @@ AREA, AREA_CHUNKS = "-128,-128,128,128", 256 * 256  # of workers: 64 whole squar
 
 
 def processor_seconds_of(pids):
-    """Of processes, with their children that ended."""
+    """CPU seconds of processes and of their ended children."""
     ticks = 0
     for pid in pids:
         fields = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()
@@ -41,7 +41,7 @@ def server_pids(postgres):
 
 
 def run(*command):
-    """Its standard output, and the CPU seconds that it took."""
+    """Returns the standard output and the CPU seconds."""
     before = os.times()
     done = subprocess.run([str(word) for word in command], check=True, capture_output=True, text=True)
     after = os.times()
@@ -49,7 +49,7 @@ def run(*command):
 
 
 def workers(program, postgres, schema, count):
-    """Chunks a second of so many workers together, from the first's begin to the last's end."""
+    """Chunks per second of several workers together, from the start of the first to the end of the last."""
     url = postgres.url(schema)
     run(program, "work", url, "--area", AREA, "--add-only")
     start = time.monotonic()

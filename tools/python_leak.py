@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Whether calls of the package leave memory behind: prints resident memory before and after 10,000 calls.
+"""Checks calls of the package for leaks: prints resident memory before and after 10,000 calls.
 
-    PYTHONPATH=build/python tools/python_leak.py [ROUNDS]   a round is 10 calls; 1,000 unless told otherwise
+    PYTHONPATH=build/python tools/python_leak.py [ROUNDS]   a round is 10 calls; 1,000 by default
 """
 import gc
 import os
@@ -11,7 +11,7 @@ import numpy as np
 import terrane
 
 CALLS_OF_ROUND = 10
-ROUNDS_OF_WORLD = 20  # from one World to the next, whose block types take 0.2 s
+ROUNDS_OF_WORLD = 20  # rounds per World, whose block types take 0.2 s to load
 
 
 def resident_bytes():
@@ -20,7 +20,7 @@ def resident_bytes():
 
 
 def play_round(world, number):
-    """One call of each kind; positions repeat, so that caches fill while it warms up."""
+    """One call of each kind; positions repeat, so that caches fill during warm-up."""
     x, y = 7 * (number % 8), 5 * (number % 4)
     blocks = world.blocks((x, y, 60, x + 40, y + 40, 100))
     world.light((x, y, 70, x + 8, y + 8, 90))
@@ -41,7 +41,7 @@ def play_round(world, number):
 
 
 def growth(rounds, warm_rounds):
-    """Resident bytes after warming up, and after so many rounds more."""
+    """Resident bytes after warm-up, and after the given number of rounds."""
     world = terrane.World(seed=1, generator="overworld", threads=2)
     for number in range(warm_rounds):
         play_round(world, number)

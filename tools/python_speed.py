@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The speed of World.blocks() against that of `terrane generate`: the same area, in turn, medians and their ratio.
+"""Compares the speed of World.blocks() with `terrane generate`: the same area, in turn; prints medians and their ratio.
 
     PYTHONPATH=build/python tools/python_speed.py PROGRAM [--generator NAME] [--radius R] [--threads N] [--rounds N]
 """

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plays at random in a window on a virtual display: keys, mouse, wheel, clicks, the panel, options, resizing.
+"""Plays randomly in a window on a virtual display: keys, mouse, wheel, clicks, the panel, options, resizing.
 
 Usage: random_player.py PROGRAM [MINUTES] [--seed N] [--title] [--folder DIR]
 
@@ -32,21 +32,21 @@ PRESSED = ("F1", "F2", "F3", "F4", "F5", "F6", "F11", "F12", "o", "p", "i", "m",
            "b", "g", "x", "r", "f", "Delete", "ctrl+c", "ctrl+v", "ctrl+s", "ctrl+o")
 TAKEN = ("water", "water", "sand", "torch", "door", "stairs", "sign", "chest", "fence", "lamp")  # from the palette
 MENU = ("Return", "Return", "Down", "Right", "Escape", "t")
-# How much more memory a game may have later: caches fill, textures and buffers double, and a view distance that was
-# chosen in the panel brings chunks (0.4 MB each with what a software renderer keeps for them, more under sanitizers).
+# Allowed growth of memory during a game: caches fill, textures and buffers double, and a view distance chosen in the
+# panel adds chunks (0.4 MB each including data of a software renderer, more under sanitizers).
 GROWTH = 1.5
 MEGABYTES_A_CHUNK = 0.8
 BAD = re.compile(r"warning|error|AddressSanitizer|LeakSanitizer|runtime error", re.IGNORECASE)
 
 
 class Player:
-    """The program and what is done to it."""
+    """The program, and random input to it."""
 
     def __init__(self, program, folder, options, display):
         seed = options.seed
         self.random, self.display, self.folder = random.Random(seed), display, folder
         variables = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": str(folder), "XDG_DATA_HOME": str(folder),
-                     # Drivers keep memory until the process ends; what the program leaks grows.
+                     # Drivers keep memory until the process ends; leaks of the program show as growth.
                      "ASAN_OPTIONS": "detect_leaks=0:abort_on_error=1", "UBSAN_OPTIONS": "print_stacktrace=1"}
         self.log = open(folder / "log.txt", "w+", encoding="utf-8")
         self.pressed = PRESSED + (MENU if options.title else ())
@@ -76,7 +76,7 @@ class Player:
         return int(pages) * os.sysconf("SC_PAGESIZE")
 
     def act(self):
-        """One thing, as likely as people do it."""
+        """One random action, weighted as in real games."""
         choice, xdotool = self.random.random(), self.display.xdotool
         if choice < 0.30:
             key = self.random.choice(HELD)
@@ -121,7 +121,7 @@ class Player:
                 next_look = time.monotonic() + 1
 
     def close(self):
-        """By the menu, or from the title where it has come to that. Esc may end the typing or close a chest first."""
+        """Quits by the menu, or from the title. Esc may first end text input or close a chest."""
         for key in self.down:
             self.display.xdotool("keyup", key)
         deadline = time.monotonic() + 2 * HANG_SECONDS
@@ -131,7 +131,7 @@ class Player:
                 raise RuntimeError("the program does not answer")
             self.display.xdotool("windowfocus", self.window, "keydown", "Escape")
             time.sleep(1)
-            self.display.xdotool("keyup", "Escape", "key", "q")  # quits where the menu is open now
+            self.display.xdotool("keyup", "Escape", "key", "q")  # quits if the menu is open now
             time.sleep(1)
         return self.process.returncode
 
@@ -142,9 +142,9 @@ class Player:
 
 
 def growth(statistics):
-    """What is wrong with the memory, from the program's own statistics of each frame; None where nothing is.
+    """Describes growth of memory, from the program's statistics of each frame; None if there is none.
 
-    Compares the most in the last quarter of the time with the most in the second one."""
+    Compares the maximum in the last quarter of the time with the maximum in the second one."""
     rows = list(csv.DictReader(statistics.read_text(encoding="ascii").splitlines()))
     if not rows:
         return "no statistics were written"

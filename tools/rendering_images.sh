@@ -38,7 +38,7 @@ save ocean
 "$program" render --preset high --view-distance 16 --size 960x540 --at=3650,-2100,200 --look=62,-9 --time 0.225 -o dawn.png
 save dawn
 
-# Where examples are built: their hamlet by the sea.
+# The hamlet by the sea of the example program, if it was built.
 village=$(dirname "$program")/village
 if [[ -x "$village" ]]; then
     "$village" hamlet.sqlite 3466,-1690

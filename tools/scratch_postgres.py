@@ -1,10 +1,10 @@
-"""A PostgreSQL server of its own in a folder, for tests and benchmarks: started, stopped, killed, thrown away.
+"""A temporary PostgreSQL server in a folder, for tests and benchmarks: started, stopped, killed, removed.
 
     with ScratchPostgres() as server:
         subprocess.run([program, "generate", "--radius", "8", "--world", server.url()])
 
-PostgreSQL does not run as root: its own user, postgres, gets the folder then. Without fsync nothing outlives a power
-cut, but kills; `durable=True` is for measuring.
+PostgreSQL does not run as root: the user postgres then owns the folder. Without fsync data survive kills but not a
+power failure; `durable=True` is for measurements.
 """
 
 import glob
@@ -45,7 +45,7 @@ class ScratchPostgres:
     def _run(self, name, *arguments, check=True):
         as_user = (["setpriv", "--reuid", "postgres", "--regid", "postgres", "--clear-groups", "--"]
                    if os.geteuid() == 0 else [])
-        # The server that pg_ctl starts must not keep our pipes open.
+        # The server that pg_ctl starts must not keep the pipes of this process open.
         return subprocess.run([*as_user, f"{programs()}/{name}", "-D", f"{self.folder}/data", *arguments], check=check,
                               stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
@@ -64,7 +64,7 @@ class ScratchPostgres:
         return f"postgresql://postgres@127.0.0.1:{self.port}/postgres?schema={schema}"
 
     def query(self, sql):
-        """The answer of psql, rows by lines, columns by |."""
+        """The output of psql: a row per line, columns separated by |."""
         return subprocess.run(["psql", "-X", "-q", "-A", "-t", "-c", sql,
                                f"postgresql://postgres@127.0.0.1:{self.port}/postgres"], check=True,
                               capture_output=True, text=True).stdout.strip()

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Kills a server under load, again and again, and looks at what is left.
+"""Repeatedly kills a server under load, and checks the world.
 
-    server_kill_test.py PROGRAM [KILLS [BOTS]]     4 kills of a server of 20 bots unless told otherwise
+    server_kill_test.py PROGRAM [KILLS [BOTS]]     4 kills of a server with 20 bots by default
 
-Bots build all the time. After each kill (SIGKILL, at a random moment, some while the bots come back) the server is
-started anew, and all bots have to come back by themselves. In the end every block that the server said to have kept
-has to be in the world. Needs nothing but Python; exits with 1 where something is lost or somebody stays away."""
+Bots build all the time. After each kill (SIGKILL, at a random moment, sometimes while bots reconnect) the server is
+restarted, and all bots must reconnect by themselves. At the end every block that the server acknowledged must be in the
+world. Needs nothing but Python; exit code 1 if a block is lost or a bot does not return."""
 import json
 import pathlib
 import random
@@ -18,7 +18,7 @@ import time
 
 from server_tools import Server, bots_command
 
-BACK_SECONDS = 60  # in which all have to be there
+BACK_SECONDS = 60  # in which all bots must have joined
 
 
 def joined(server):
@@ -26,7 +26,7 @@ def joined(server):
 
 
 def wait_for_all(server, bots, count):
-    """Seconds until all are there."""
+    """Seconds until all bots have joined."""
     start = time.monotonic()
     while len(joined(server)) < count:
         if bots.poll() is not None:
@@ -38,7 +38,7 @@ def wait_for_all(server, bots, count):
 
 
 class Volume:
-    """Numbers of the blocks of an area, as terrane dump writes them."""
+    """Block ids of an area, from terrane dump."""
 
     def __init__(self, program, world, chunks, file):
         low = [min(chunk[axis] for chunk in chunks) for axis in (0, 1)]
@@ -55,7 +55,7 @@ class Volume:
 
 
 def check_blocks(program, world, acknowledged, folder):
-    """The number of blocks that were looked at. Where one was taken away, water or sand may be, but no other."""
+    """Returns the number of checked blocks. A removed block may be replaced by water or sand, but by no other."""
     lines = [line.split() for line in acknowledged.read_text().splitlines()]
     blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines if name != "?"]
     if not blocks:

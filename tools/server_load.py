@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""How a server does with many players: server and bots on this machine, one number of bots after the other.
+"""Measures a server with increasing numbers of bots on this machine.
 
 For each number a new world of the default generator is served, bots join, walk and build (one in ten), and a line is
-printed: ticks of the server, when another player hears of an edit, bytes, memory. server_load_plot.py draws them."""
+printed: ticks of the server, delay until another player gets an edit, bytes, memory. server_load_plot.py draws them."""
 import argparse
 import json
 import pathlib
@@ -17,10 +17,10 @@ COLUMNS = ("bots", "tick_ms_median", "tick_ms_p99", "tick_ms_worst_p99", "seen_m
 
 
 def windows_with(statistics, count):
-    """The lines of the time when all were there."""
+    """The statistics while all bots were connected."""
     lines = [json.loads(line) for line in statistics.read_text().splitlines()]
     full = [line for line in lines if line["players"] == count]
-    return full[1:] or full  # the first one has joins in it
+    return full[1:] or full  # the first one includes joins
 
 
 def measure(program, folder, count, options):

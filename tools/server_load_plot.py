@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws what server_load.py prints. Usage: server_load_plot.py TABLE SVG
+"""Plots the output of server_load.py. Usage: server_load_plot.py TABLE SVG
 
 Needs matplotlib and pandas (Debian: python3-matplotlib, python3-pandas)."""
 import sys

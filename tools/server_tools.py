@@ -17,7 +17,7 @@ class Server:
             [program, "serve", "--world", url or self.world, "--address", "127.0.0.1", "--port", str(port), "--max-players",
              "4096", "--statistics", self.statistics, *arguments],
             stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log,
-            # Its key, where the world has no folder.
+            # For its key, if the world is not a file.
             env={**os.environ, "XDG_DATA_HOME": str(folder)})
         self.port = self.wait_for_port()
 
@@ -29,7 +29,7 @@ class Server:
         raise RuntimeError(f"the server ended: {self.output()}")
 
     def output(self):
-        """Since it began."""
+        """The log since the start."""
         self.log.seek(self.begin)
         return self.log.read()
 

@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Several servers of one world in PostgreSQL, bots spread over them, of which all build; one server is killed.
+"""Several servers of one world in PostgreSQL, with bots spread over them; one server is killed.
 
     tools/shared_world_test.py PROGRAM [BOTS [SECONDS [SERVERS [BUILDERS]]]]      300, 60, 3, 0.1
 
 Before the kill, edits are timed from one server's bot to another server's (seen_ms_p99); after it the bots of the killed
-server must be on the others within 5 s. At the end all is stopped; then each block that a bot was told is kept must be in the
-world, the history must have no gap, all of it must be in the chunks, and far tiles must follow from these.
+server must be on the others within 5 s. At the end all is stopped; then each acknowledged block must be in the world,
+the history must have no gap and match the chunks, and far tiles must match the chunks.
 """
 import json
 import pathlib
@@ -33,7 +33,7 @@ def online(postgres):
 
 
 def seconds_until_back(postgres, count, gone):
-    """From now on until all players are on servers other than the one that is gone."""
+    """Seconds from now until all players are on the remaining servers."""
     start = time.monotonic()
     while time.monotonic() - start < 30:
         if int(postgres.query(f"SELECT count(*) FROM terrane.online WHERE server <> {gone}")) >= count:
@@ -43,13 +43,13 @@ def seconds_until_back(postgres, count, gone):
 
 
 def kept_blocks(folder, name):
-    """Position to block, as the bots were told; "?" where nobody knows."""
+    """Position to acknowledged block; "?" if it is undecided."""
     lines = [line.split() for line in (folder / f"{name}.txt").read_text().splitlines()]
     return {(int(x), int(y), int(z)): block for x, y, z, block in lines}
 
 
 def blocks_of_world(program, url, positions, folder):
-    """By dumping the area around all positions, from the chunks as they are saved."""
+    """Dumps the area around all positions from the saved chunks."""
     chunks = [(x >> 4, y >> 4) for x, y, _ in positions]
     x0, y0 = min(x for x, _ in chunks), min(y for _, y in chunks)
     x1, y1 = max(x for x, _ in chunks) + 1, max(y for _, y in chunks) + 1
@@ -75,7 +75,7 @@ def tiles_digest(postgres):
 
 
 def derive_tiles_again(program, postgres, folder):
-    """All of them, from the chunks, by a server that misses the mark that they are there."""
+    """Derives all tiles again from the chunks, by a server that finds no mark of existing tiles."""
     postgres.query("DELETE FROM terrane.settings WHERE name = 'tiles'")
     (folder / "again").mkdir()
     return Server(program, folder / "again", 0, url=postgres.url()).stop()
@@ -94,7 +94,7 @@ def main():
             (folder / str(n)).mkdir()
             servers.append(Server(program, folder / str(n), 0, "--generator", GENERATOR,
                                   "--spawn-radius", "100", url=postgres.url()))
-        # Until each has heard of the others.
+        # Until the servers know each other.
         time.sleep(3)
         quiet = start_bots(program, servers, count, seconds / 2, builders, "quiet", folder)
         before = json.loads(quiet.communicate()[0])
@@ -107,7 +107,7 @@ def main():
         servers.pop().stop(signal.SIGKILL)
         back = seconds_until_back(postgres, count, gone)
         after = json.loads(bots.communicate()[0])
-        # What the killed server left is saved by the others.
+        # The other servers save the pending edits of the killed one.
         end = time.monotonic() + 60
         while time.monotonic() < end and postgres.query("SELECT count(*) FROM terrane.servers") != str(len(servers)):
             time.sleep(0.5)
@@ -128,7 +128,7 @@ def main():
           f"{before['seen_ms_median']:.0f} ms, 99 %: {before['seen_ms_p99']:.0f} ms (decided {before['decided_ms_p99']:.0f}); "
           f"after a kill all were back within {back:.1f} s, {after['cuts']} cuts; {len(kept)} blocks kept, {len(lost)} lost; "
           f"history {left[0]}, saved {left[1]}, rows {left[2]}, tiles {tiles.split('|')[0]}")
-    # Times are judged where there are many bots: a test of some on a busy machine says nothing of them.
+    # Times are checked only with many bots: a short test on a busy machine is too noisy.
     is_measured = count >= 100
     if back > (5 if is_measured else 30):
         problems.append("not all bots were back in time")

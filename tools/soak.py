@@ -46,7 +46,7 @@ def parse():
 
 
 class Soak:
-    """All that runs."""
+    """All running processes."""
 
     def __init__(self, options, postgres):
         self.program, self.folder, self.postgres = options.program.resolve(), options.folder, postgres
@@ -71,7 +71,7 @@ class Soak:
         return found | ({"bots": self.bots.process} if self.bots.process else {})
 
     def ended(self):
-        """Who ended without being asked to."""
+        """Names of processes that ended with an error."""
         return [name for name, process in self.processes().items() if process.poll() not in (None, 0)]
 
     def run(self, minutes, pause):
@@ -79,7 +79,7 @@ class Soak:
         events = Events(self, pause)
         while time.monotonic() < end:
             left = end - time.monotonic()
-            if minutes * 60 - left > QUIET_SECONDS / 4:  # the servers have their land
+            if minutes * 60 - left > QUIET_SECONDS / 4:  # the servers have generated their terrain
                 self.bots.keep_running(self.servers, left)
             if left > QUIET_SECONDS:
                 events.update()
@@ -90,7 +90,7 @@ class Soak:
         return []
 
     def stop(self):
-        """Players first, so that all they did is with the servers; problems."""
+        """Stops players first, so that all their edits reach the servers; returns problems."""
         problems = []
         for window in self.windows:
             window.rest()

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the memory of a soak, and when what was killed. Usage: soak_plot.py FOLDER SVG (FOLDER of soak.py)
+"""Plots the memory of a soak, and the times of its events. Usage: soak_plot.py FOLDER SVG (FOLDER of soak.py)
 
 Needs matplotlib (Debian: python3-matplotlib)."""
 import json

@@ -1,4 +1,4 @@
-"""What tools/synthesize_sounds.py makes sounds of: noise, filters, resonators, envelopes. Samples are lists of floats,
+"""Building blocks of tools/synthesize_sounds.py: noise, filters, resonators, envelopes. Samples are lists of floats,
 filters return new lists, and `add` sums into one. Standard library only; the same seed gives the same samples.
 """
 import math
@@ -6,7 +6,7 @@ import pathlib
 import random
 import wave
 
-RATE = 22050  # samples a second
+RATE = 22050  # samples per second
 FULL = 32767
 
 
@@ -43,7 +43,7 @@ def swell(signal, peak=0.4):
 
 
 def biquad(signal, b0, b1, b2, a1, a2, turns=1):
-    """`turns` = 2: of a signal that repeats, as it sounds when it has always been repeating."""
+    """`turns` = 2: for a looping signal, in its steady state."""
     out = []
     x1 = x2 = y1 = y2 = 0.0
     for _ in range(turns):
@@ -81,7 +81,7 @@ def band(signal, frequency, q=1.0, turns=1):
 
 
 def add(total, signal, at=0, gain=1.0, wraps=False):
-    """Adds `signal` from sample `at` on; what passes the end is lost, or goes on at the beginning."""
+    """Adds `signal` from sample `at` on; samples past the end are dropped or wrap around."""
     count = len(total)
     for k, value in enumerate(signal):
         if at + k >= count and not wraps:
@@ -174,5 +174,5 @@ def write(path, signal):
 
 
 def generator_of(name):
-    """One of its own for each sound, so that a new one changes no other."""
+    """A random generator per sound, so that a new sound changes no other."""
     return random.Random("terrane " + name)

@@ -33,7 +33,7 @@ def varied(rng, modes, spread=0.04):
     return [(f * rng.uniform(1 - spread, 1 + spread), t, level * rng.uniform(0.8, 1.2)) for f, t, level in modes]
 
 
-# --- Materials: what a foot, a hand that places and a blow that breaks make of them ------------------------
+# --- Materials: sounds of steps, placing and breaking -------------------------------------------------------
 
 def stone(rng, kind):
     grit = {"step": 9, "place": 7, "break": 42}[kind]

@@ -1,4 +1,4 @@
-"""What the textures are painted with: hash, color ramps, images, patches. Used by paint_textures.py."""
+"""Building blocks of textures: hash, color ramps, images, patches. Used by paint_textures.py."""
 import math
 
 SIZE = 16

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Makes docs/images/together_*.jpg: two windows on one server, in each of which the other player and what that one
-builds is seen. Usage: together_images.py PROGRAM FOLDER
+"""Makes docs/images/together_*.jpg: two windows on one server, each showing the other player and its blocks.
+Usage: together_images.py PROGRAM FOLDER
 
-Needs xvfb, xdotool, x11-apps and ffmpeg (Debian), and the tests' scripts beside it."""
+Needs xvfb, xdotool, x11-apps and ffmpeg (Debian), and the scripts of the tests."""
 import pathlib
 import subprocess
 import sys
@@ -18,7 +18,7 @@ from server_tools import Server  # noqa: E402
 SIZE = (800, 450)
 SEED = 1
 POSES = {"Ann": "111.5 15.5 93.7 180 -22", "Bob": "101.5 16.5 93.7 -6 -8"}  # x y z yaw pitch, near the spawn
-# What Ann builds: a slot of her hotbar, steps of the mouse from the column before, blocks.
+# Columns that Ann builds: slot of the hotbar, mouse motion from the last column, number of blocks.
 COLUMNS = ((2, (-160, 0), 3), (2, (320, 0), 3), (1, (-60, 0), 1), (1, (-60, 0), 1))
 
 
@@ -37,7 +37,7 @@ class Player:
         self.game.press("F6")
 
     def build(self, columns):
-        self.game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.5)  # takes the mouse
+        self.game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.5)  # captures the mouse
         for slot, turn, height in columns:
             self.game.press(str(slot))
             self.display.xdotool("mousemove_relative", "--", *turn)
@@ -63,7 +63,7 @@ def main():
         folder = pathlib.Path(name)
         server = Server(program, folder, 0, "--seed", str(SEED))
         ann, bob = Player(first, server, "Ann", folder), Player(second, server, "Bob", folder)
-        time.sleep(30)  # the land is there, shaders are compiled
+        time.sleep(30)  # until the terrain is loaded and shaders are compiled
         ann.build(COLUMNS)
         time.sleep(3)
         for player in (ann, bob):

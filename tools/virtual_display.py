@@ -1,4 +1,4 @@
-"""A screen that nobody sees, for tests of the window. Needs Xvfb and xdotool (Debian: xvfb, xdotool)."""
+"""A virtual screen, for tests of the window. Needs Xvfb and xdotool (Debian: xvfb, xdotool)."""
 import os
 import subprocess
 
@@ -9,7 +9,7 @@ class Display:
     """A virtual X server on a number that it chooses itself."""
 
     def __init__(self, size, repeats_keys=False):
-        """A key that is held repeats its letter where asked for: on a busy machine one that is only pressed would, too."""
+        """Key repeat is off by default: on a busy machine a short press would repeat too."""
         self.size = size  # pixels
         self.options = [] if repeats_keys else ["-r"]
 
@@ -17,7 +17,7 @@ class Display:
         read_end, write_end = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{self.size[0]}x{self.size[1]}x24", "-nolisten", "tcp",
-             "-noreset", *self.options],  # else it starts anew whenever its last window closes
+             "-noreset", *self.options],  # else it restarts whenever its last window closes
             pass_fds=(write_end,), stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:

@@ -1,5 +1,5 @@
-"""Clients of a map's web server, for measurements: many connections on one thread, each asks again once it has its answer.
-A request is a path; answers have a Content-Length."""
+"""Clients of a map's web server, for measurements: many connections on one thread, each sends the next request after its
+answer. A request is a path; answers have a Content-Length."""
 import selectors
 import socket
 import time
@@ -24,8 +24,8 @@ class Client:
         self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: map\r\n\r\n".encode())
 
     def take(self):
-        """Reads what is there; the seconds since ask() once the answer is whole, None before. Raises ConnectionError where
-        the server ended the connection."""
+        """Reads available data. Returns the seconds since ask() once the answer is complete, None before. Raises
+        ConnectionError if the server closed the connection."""
         data = self.socket.recv(1 << 18)
         if not data:
             raise ConnectionError("closed")
@@ -42,7 +42,7 @@ class Client:
 
 
 def ask_all(address, paths, clients):
-    """Asks for each path once, with so many connections at a time. Gives (seconds, status, bytes) of each answer."""
+    """Requests each path once, on the given number of connections. Returns (seconds, status, bytes) of each answer."""
     answers, waiting = [], iter(paths)
     selector = selectors.DefaultSelector()
     busy = 0

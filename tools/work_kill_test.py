@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Workers of a world in PostgreSQL, of which a random one is killed each second, while the database restarts.
+"""Kills a random worker of a world in PostgreSQL every second, while the database restarts.
 
     tools/work_kill_test.py PROGRAM [RADIUS [KILLS [WORKERS [GENERATOR]]]]      96, 60, 4, voronoi
 
-At the end each chunk is there once, and the digest is that of one process that generates into memory. Killed workers are
-started again at once. The database is stopped after a third of the kills, and killed after two thirds.
+At the end each chunk exists once, and the digest equals that of one process that generates in memory. Killed workers are
+restarted at once. The database is stopped after a third of the kills, and killed after two thirds.
 """
 
 import json
@@ -28,7 +28,7 @@ def status(program, url):
 
 
 def disturb(program, server, workers, radius, generator, kills):
-    """Kills a random worker each second; says how many were killed while they worked."""
+    """Kills a random worker each second; returns the number of kills during work."""
     killed = 0
     for n in range(kills):
         time.sleep(1)

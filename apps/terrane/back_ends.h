@@ -1,4 +1,4 @@
-// --backend: whether the CPU or the GPU does work that both can do. Both give the same. The header knows no
+// --backend: whether the CPU or the GPU does work that both can do. Results are equal. This header is free of
 // OpenGL: back_ends_gpu.cpp implements it for both, back_ends_cpu.cpp for a build without graphics.
 #pragma once
 
@@ -15,14 +15,14 @@ namespace terrane::app {
 
 enum class Backend : std::uint8_t { Auto, Cpu, Gpu };
 
-// Auto is the CPU: beside the one graphics card measured, an NVIDIA H200, 16 threads load a view in a quarter
-// of the time or less, and leave the GPU to the frames (docs/performance.md, NVIDIA H200).
+// Auto is the CPU: on the one machine measured with a graphics card, an NVIDIA H200, 16 threads load a view
+// in a quarter of the time or less, and leave the GPU to the frames (docs/performance.md, NVIDIA H200).
 void addBackendOption(CLI::App& command, Backend& backend, const std::string& description);
 
-// A worker on a back end, and the OpenGL context that it works in, if it does.
+// A worker on a back end, and its OpenGL context if it runs on the GPU.
 template <class Worker>
 struct OnBackend {
-    std::shared_ptr<void> context;  // outlives what lives in it
+    std::shared_ptr<void> context;  // null on the CPU; outlives the worker
     std::unique_ptr<Worker> worker;
 };
 

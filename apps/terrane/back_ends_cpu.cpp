@@ -1,4 +1,4 @@
-// A build without graphics: the CPU does everything.
+// Back ends of a build without graphics: always the CPU.
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/open_session.h"
 

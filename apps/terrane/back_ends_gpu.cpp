@@ -14,7 +14,7 @@ namespace {
 
 using Context = std::shared_ptr<gpu::HeadlessContext>;
 
-// A context to work in, or null where the CPU is to do it.
+// A headless context for work on the GPU; null for work on the CPU.
 base::Result<Context> openContext(Backend backend) {
     if (!usesGpu(backend)) return nullptr;
     auto context = gpu::HeadlessContext::create({});
@@ -22,7 +22,7 @@ base::Result<Context> openContext(Backend backend) {
     return std::make_shared<gpu::HeadlessContext>(std::move(*context));
 }
 
-// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of what implements Worker in the
+// `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of a class that implements Worker in the
 // context.
 template <class Worker, class MakeCpu, class MakeGpu>
 base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& makeCpu,

@@ -1,4 +1,4 @@
-// --backend of commands that draw: who generates, lights and meshes the world on screen.
+// --backend of commands that draw: whether workers or the GPU generate, light and mesh the world on screen.
 #pragma once
 
 #include "apps/terrane/back_ends.h"
@@ -6,11 +6,12 @@
 
 namespace terrane::app {
 
-// Whether the GPU is to do the work.
+// True for Backend::Gpu; Auto is the CPU (back_ends.h).
 bool usesGpu(Backend backend);
 
-// `generators`: the world's is one of them. Null where workers are to do all. Else `parts` use the back ends
-// from here on. The context is current.
+// Makes the GPU back ends and sets `parts` to use them; null if workers do the work. `generators` include the
+// world's generator. The OpenGL context is current. Always uses the built-in shaders, not those of
+// --shader-root.
 base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
                                                                 const gen::GeneratorCatalogue& generators,
                                                                 Backend backend);

@@ -30,7 +30,7 @@ const HeldPack* packWith(const ClientPacks& packs, const pack::PackHash& hash) {
     return found == packs.packs.end() ? nullptr : &*found;
 }
 
-// Whether the player's own pack, or a file of the cache, is the pack with the hash.
+// Adds the pack, read from the player's packs or from the cache, if it has this hash.
 bool addIfEqual(ClientPacks& packs, base::Result<pack::Pack> read, const pack::PackHash& hash) {
     if (!read || pack::hashOf(*read) != hash) return false;
     packs.packs.push_back({hash, std::move(*read)});
@@ -58,7 +58,7 @@ bool findHere(ClientPacks& packs, const net::PackOffer& offer) {
     return addIfEqual(packs, pack::packOf(std::as_bytes(std::span(*bytes)), file.string()), offer.hash);
 }
 
-// Deletes the files that were used longest ago until the rest fits.
+// Deletes the least recently used files until the rest fits kMaxCacheBytes.
 void pruneCache(const fs::path& folder) {
     struct CacheFile {
         fs::path path;
@@ -124,7 +124,7 @@ base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const n
 }
 
 base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer, const store::Bytes& archive) {
-    if (packWith(packs, offer.hash)) return {};  // another connection of the same program was faster
+    if (packWith(packs, offer.hash)) return {};  // another connection of this program was faster
     auto pack = pack::packOf(archive, fmt::format("{} of the server", base::printable(offer.name)));
     if (!pack) return tl::unexpected(pack.error());
     if (pack::hashOf(*pack) != offer.hash)

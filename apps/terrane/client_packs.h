@@ -1,5 +1,5 @@
-// The content packs of a server's world, as a client gets them: its own where it has the same, else from its
-// cache, else from the server. The hash decides, never the name. On the thread of the link.
+// The content packs of a server's world, as a client gets them: from the player's packs, else from the cache,
+// else from the server. Packs are identified by their hash, not by name. Runs on the thread of the link.
 #pragma once
 
 #include <filesystem>
@@ -14,38 +14,38 @@
 
 namespace terrane::app {
 
-// The most that a client takes of a server.
+// Limit on all packs of a server together.
 constexpr std::size_t kMaxServerPackBytes = std::size_t{64} << 20;
 
 struct HeldPack {
     pack::PackHash hash{};
     pack::Pack pack;
-    bool isSent = false;  // by the server
+    bool isSent = false;  // the server sent it in this run
 };
 
 struct ClientPacks {
-    std::filesystem::path cache;           // folder; empty: nothing is kept
-    bool acceptsAll = false;               // whether the server may send whatever its world needs
-    std::vector<pack::PackHash> accepted;  // that the player lets the server send
+    std::filesystem::path cache;           // folder; empty: no cache
+    bool acceptsAll = false;               // the server may send every pack that its world needs
+    std::vector<pack::PackHash> accepted;  // packs that the player lets the server send
     std::vector<HeldPack> packs;
-    std::vector<net::PackOffer> missing;  // of the last offer, not accepted: the player decides
+    std::vector<net::PackOffer> missing;  // packs of the last offer that the player has to accept
 };
 
-// $XDG_CACHE_HOME/terrane/packs, $HOME/.cache/terrane/packs where that is not set; empty where neither is. It
-// may be deleted at any time.
+// $XDG_CACHE_HOME/terrane/packs, else $HOME/.cache/terrane/packs; empty if neither variable is set. The
+// folder may be deleted at any time.
 std::filesystem::path packCacheFolder();
 
-// For net::LinkEvents. An error where packs are missing and the player did not accept them, or where they are
-// too large.
+// Returns the numbers of the offered packs that the server has to send, for net::LinkEvents. Fails if the
+// player did not accept one of them, or if they exceed kMaxServerPackBytes.
 [[nodiscard]] base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs,
                                                                    const net::WorldOffer& offer);
-// Takes what the server sent into `packs` and the cache, where it has the hash that was offered.
+// Adds a pack from the server to `packs` and to the cache. Fails if its hash is not the offered one.
 [[nodiscard]] base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer,
                                           const store::Bytes& archive);
 // The blocks and generators of the server's world, once no pack is missing.
 [[nodiscard]] base::Result<pack::Content> contentOf(const ClientPacks& packs, const net::WorldOffer& offer);
 
-// What a server tells of its content. An error where it has more packs than clients take.
+// The packs that a server offers its clients. Fails if they exceed the limits of clients.
 [[nodiscard]] base::Result<net::ServerContent> serverContent(const pack::Content& content);
 
 // "isles 1.0 (12 KB), ores (3 KB)"

@@ -1,5 +1,5 @@
-// Commands, flags and values that have another name since 0.2. The old names are understood for one version:
-// on the command line, in settings.toml and in path files. No help lists them.
+// Commands, flags and values that were renamed in 0.2. The old names are accepted for one version: on the
+// command line, in settings.toml and in path files. The help does not list them.
 #pragma once
 
 #include <span>
@@ -9,11 +9,11 @@
 
 namespace terrane::app {
 
-// A flag without dashes, or one value of an option. Names that never changed come back as they are.
+// The current name of a flag without dashes, or of a value of an option. Other names are returned unchanged.
 std::string_view currentFlag(std::string_view name);
 std::string_view currentValue(std::string_view value);
 
-// The command line in today's names: the command is arguments[1], flags are --name or --name=value.
+// The command line with current names: arguments[1] is the command, flags are --name or --name=value.
 std::vector<std::string> withCurrentNames(std::span<const char* const> arguments);
 
 }  // namespace terrane::app

@@ -1,10 +1,10 @@
-// What `terrane info` says of the graphics driver.
+// Facts about the graphics driver for `terrane info`.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
 namespace terrane::app {
 
-nlohmann::json graphicsInfo();  // {"error": …} where there is none
+nlohmann::json graphicsInfo();  // {"error": …} without a driver
 
 }  // namespace terrane::app

@@ -16,12 +16,12 @@ struct GraphicsOptions {
     render::GraphicsChoices choices;
     render::View view = render::View::Color;
     std::string resourcePack;      // folder; empty: none
-    std::optional<int> gpuMemory;  // MiB; none: as the driver tells
+    std::optional<int> gpuMemory;  // MiB; none: from what the driver reports
     std::string shaderRoot;
     bool debugGl = false;
 };
 
-// `preset`: where none is asked for.
+// `preset`: the default of --preset.
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset);
 
 void addGpuMemoryOption(CLI::App& command, std::optional<int>& mebibytes);  // --gpu-memory

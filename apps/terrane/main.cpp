@@ -1,6 +1,6 @@
-// terrane: reads the command line, runs one command, reports. Exit codes: 0 done, 1 a save is damaged
-// (check), something could not be read (copy, import) or a measurement failed (bench), 2 bad input or a
-// missing means.
+// terrane: parses the command line, runs one command and reports its result. Exit codes: 0 success; 1 a save
+// is damaged (check), something could not be read (copy, import) or a measurement failed (bench); 2 bad input
+// or a missing requirement.
 #include <execinfo.h>
 
 #include <cstdio>
@@ -24,12 +24,12 @@ using namespace terrane;
 
 constexpr int kBadInput = 2;
 
-// What is thrown, as by a system without memory or threads left, is reported like any other failure.
+// Exceptions, such as those of a system without memory or threads left, are reported like other failures.
 base::Result<void> run(const app::CommandEntry& command) {
     try {
         return command.run();
     } catch (const std::exception& error) {
-        // Text that is longer than the buffer fails while it is printed.
+        // A text longer than the buffer already fails while it is printed.
         if (std::ferror(stdout) != 0) return base::fail("standard output cannot be written");
         return base::fail("{}: {}", command.parser->get_name(), base::textOf(error));
     }
@@ -44,7 +44,7 @@ base::Result<void> runTraced(const app::CommandEntry& command, const std::string
     return result ? written : result;
 }
 
-// What the program ends with: results that could not be written are none.
+// The exit code of the program: a run whose results could not be written has failed.
 int withOutputWritten(int exitCode) {
     std::cout.flush();
     if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
@@ -52,14 +52,14 @@ int withOutputWritten(int exitCode) {
     return kBadInput;
 }
 
-// glibc loads the unwinder of threads when it needs it first, and ends the process where there is no memory
-// for that any more.
+// glibc loads the library that unwinds threads at its first use, and aborts if there is no memory left for
+// it.
 void loadUnwinder() {
     void* frame = nullptr;
     backtrace(&frame, 1);
 }
 
-// With the command that is meant where none is named.
+// Inserts the default command if none is named.
 std::vector<std::string> argumentsOf(int argc, char** argv) {
     std::vector<std::string> named = app::withCurrentNames({argv, static_cast<std::size_t>(argc)});
     const std::string_view first = argc > 1 ? argv[1] : "";
@@ -69,7 +69,7 @@ std::vector<std::string> argumentsOf(int argc, char** argv) {
     return named;
 }
 
-// The exit code, where the arguments say all: help, or a mistake.
+// Returns an exit code if parsing ends the program: after help or an error.
 std::optional<int> parse(CLI::App& parser, const std::vector<std::string>& named) {
     if (named.size() > 1 && !named[1].starts_with('-')) {
         if (const auto unknown = app::unknownCommand(parser, named[1])) {
@@ -113,7 +113,7 @@ int main(int argc, char** argv) try {
         return kBadInput;
     }
     return kBadInput;
-} catch (const std::exception& error) {  // memory is too short even for a message
+} catch (const std::exception& error) {  // there was no memory to format a message
     std::fprintf(stderr, "terrane: error: %s\n", base::textOf(error));
     return kBadInput;
 }

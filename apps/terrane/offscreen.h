@@ -1,4 +1,4 @@
-// A world and what draws it, without a window: what render, record and flight-bench begin with.
+// A world with its renderer and without a window, for render, record and flight-bench.
 #pragma once
 
 #include <memory>
@@ -22,23 +22,23 @@ struct OffscreenOptions {
     GraphicsOptions graphics;
     Backend backend = Backend::Cpu;
     store::WorldAccess access = store::WorldAccess::ReadOnly;
-    double meshMilliseconds = view::WorldView::kNoHurry;  // of a frame, on the GPU
+    double meshMilliseconds = view::WorldView::kNoHurry;  // GPU time for meshing per frame
 };
 
-// The parts refer to each other by address: made in place, destroyed in reverse order. Used on the thread
-// that made it.
+// The parts refer to each other by address: constructed in place, destroyed in reverse order. Used on the
+// thread that made it.
 struct Offscreen {
-    // With the options' size, quality, view distance and mesher set up.
+    // Sets up size, quality, view distance and mesher from the options.
     static base::Result<std::unique_ptr<Offscreen>> create(const OffscreenOptions& options);
 
-    // Fails where the graphics driver reported errors.
+    // Fails if the graphics driver reported errors.
     base::Result<void> finish() const;
 
     gpu::HeadlessContext context;
     gpu::ShaderLoader shaders;
     gpu::DeviceInfo device;
-    render::GraphicsSettings graphics;            // at first
-    std::unique_ptr<view::GpuBackEnds> backEnds;  // null: workers do all
+    render::GraphicsSettings graphics;            // initial settings
+    std::unique_ptr<view::GpuBackEnds> backEnds;  // null: workers do the work
     std::unique_ptr<game::Session> session;
     render::Renderer renderer;
     std::optional<view::WorldView> view;

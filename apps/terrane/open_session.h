@@ -1,4 +1,4 @@
-// The world that the command line names, opened for a command: its store and its generator.
+// Opens the world that the command line names: its store and its generator.
 #pragma once
 
 #include <memory>
@@ -10,16 +10,16 @@
 
 namespace terrane::app {
 
-// Of a world that is made by the options.
+// The identity of a new world made with these options.
 store::WorldIdentity identityOf(const WorldOptions& options, const pack::Content& content);
 
-// Null where no world is named. Else `options` get its seed and generator; the world is refused, and left as
-// it is, where they ask for others. A world that is not there is made, but for ReadOnly.
+// Opens the named world, creating it unless access is ReadOnly; null if none is named. Fails, and leaves the
+// world unchanged, if `options` ask for another seed or generator; sets both in `options` to the world's.
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(
     WorldOptions& options, const SaveOptions& save, store::WorldAccess access, const pack::Content& content,
     store::WorldSharing sharing = store::WorldSharing::Alone);
 
-// The graph of level 0.
+// The generator's graph at level 0.
 base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content);
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content);
 
@@ -28,8 +28,8 @@ struct OpenedWorld {
     game::SessionParts parts;  // with the content's blocks
 };
 
-// What a session is made of, with workers for everything. Without a named world edits last until the program
-// ends. `options` get the seed and generator of the world.
+// The parts of a session that uses workers for all jobs. Without a named world edits are lost at exit. Sets
+// seed and generator in `options` to the world's.
 base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                            store::WorldAccess access,
                                            store::WorldSharing sharing = store::WorldSharing::Alone);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <filesystem>
 #include <thread>
 
@@ -39,7 +40,7 @@ world::ChunkArea parseArea(const std::string& text) {
     return area;
 }
 
-// What could be the name of a file in a folder that is there.
+// An error unless the text names a file, existing or not, in an existing folder.
 std::string isInAFolder(const std::string& text) {
     const std::filesystem::path path(text), folder = path.parent_path();
     std::error_code ignored;
@@ -50,15 +51,15 @@ std::string isInAFolder(const std::string& text) {
     return {};
 }
 
-// What could be a store::WorldLocation.
+// An error unless the text can be a store::WorldLocation.
 std::string isALocation(const std::string& text) {
     if (text.empty()) return "\"\" does not name a world";
     const bool isFile = store::worldLocation(text).kind == store::WorldLocation::Kind::File;
     return isFile ? isInAFolder(text) : std::string();
 }
 
-// Files are written beside their name and renamed, so the folder counts. What is no regular file is refused
-// by base::writeFile(), too, but after the work.
+// An error unless base::writeFile() can write the file: it writes a temporary file beside it and renames
+// that, so the folder must be writable.
 std::string isWritable(const std::string& text) {
     const std::filesystem::path path(text);
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
@@ -70,7 +71,7 @@ std::string isWritable(const std::string& text) {
     return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
 }
 
-// The name of a file that can be written.
+// Checks that a file of this name can be written.
 CLI::Validator newFile() {
     const auto check = [](const std::string& text) {
         const std::string wrong = isInAFolder(text);
@@ -79,7 +80,7 @@ CLI::Validator newFile() {
     return CLI::Validator(check, "");
 }
 
-// The name of a file says what is in it.
+// Checks the ending of a file name, which selects the format.
 CLI::Validator endingIn(const std::vector<std::string>& endings) {
     const auto check = [=](const std::string& text) -> std::string {
         const std::string name = CLI::detail::to_lower(text);
@@ -119,6 +120,20 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
     }
     if (numbers.size() != count) throw CLI::ValidationError(fmt::format("{}, got \"{}\"", form, text));
     return numbers;
+}
+
+base::Result<std::vector<std::int32_t>> parseWholeNumbers(const std::string& text, std::size_t count,
+                                                          const std::string& form, std::int32_t low,
+                                                          std::int32_t high) {
+    std::vector<std::int32_t> whole;
+    for (const double number : parseNumbers(text, count, form)) {
+        if (number != std::floor(number) || number < low || number > high)
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}: expected whole numbers within the world, got \"{}\"",
+                              form.substr(0, form.find(':')), text);
+        whole.push_back(static_cast<std::int32_t>(number));
+    }
+    return whole;
 }
 
 CLI::Validator numberFrom(double low, double high) {
@@ -242,6 +257,19 @@ void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area) {
         .add_option_function<std::string>(
             "--area", [&](const std::string& text) { area = parseArea(text); }, "Chunks, the end excluded")
         ->type_name("X0,Y0,X1,Y1");
+}
+
+void addAreaOptions(CLI::App& command, AreaOptions& options, int maxRadius, const std::string& description) {
+    auto* radius =
+        command.add_option("--radius", options.radius, description)->check(numberFrom(0, maxRadius));
+    addAreaOption(command, options.area);
+    command.get_option("--area")->excludes(radius);
+}
+
+std::optional<world::ChunkArea> areaOf(const AreaOptions& options) {
+    if (options.area || !options.radius) return options.area;
+    const int r = *options.radius;
+    return world::ChunkArea{-r, -r, r + 1, r + 1};
 }
 
 unsigned threadCount(const WorldOptions& options) {

@@ -1,11 +1,14 @@
-// Options that several commands share, as the command line has them.
+// Command line options that several commands share.
 #pragma once
 
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -16,22 +19,32 @@
 namespace terrane::app {
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
-// --content, which addWorldOptions() adds, too.
+// Adds --content alone; addWorldOptions() includes it.
 void addContentOption(CLI::App& command, WorldOptions& options);
-// "X0,Y0,X1,Y1", the end excluded; not empty and inside the world.
+// --area "X0,Y0,X1,Y1" in chunks, the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
-// --world: NAME, FILE or URL. The folder of a file must be there.
+// --radius and --area, of which the command line has at most one.
+struct AreaOptions {
+    std::optional<int> radius;  // (2R+1)² chunks around 0,0
+    std::optional<world::ChunkArea> area;
+};
+// `description`: of --radius, which is 0 to `maxRadius`.
+void addAreaOptions(CLI::App& command, AreaOptions& options, int maxRadius, const std::string& description);
+// None if neither option is given.
+std::optional<world::ChunkArea> areaOf(const AreaOptions& options);
+
+// --world: NAME, FILE or URL. The folder of a file must exist.
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
-// --world, --recreate and what else says how a world is saved, of commands that make one where none is there.
+// --world, --recreate, --regenerate and --store-generated, for commands that create a missing world.
 void addSaveGameOptions(CLI::App& command, SaveOptions& save);
-// A world as an argument: NAME, FILE or URL.
+// A required positional argument that names a world: NAME, FILE or URL.
 void addWorldArgument(CLI::App& command, const std::string& name, std::string& world,
                       const std::string& description);
 void addRecreateOption(CLI::App& command, SaveOptions& save);
 
-// -o: the file to write. Refused before the work starts where it cannot be written later, or where its name
-// has none of these endings, whatever the case; no endings: any name.
+// -o: the file to write. Checked before the work starts: its folder must be writable and its name must have
+// one of these endings, ignoring case; no endings: any name.
 void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,
                      const std::string& description);
 
@@ -74,7 +87,29 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
         ->default_str(defaultValue);
 }
 
+// Fails for a given option that only other formats have. A Format has a `name` and lists its `options`,
+// except those that all formats have.
+template <class Format>
+base::Result<void> checkFormatOptions(const CLI::App& command, const std::vector<Format>& formats,
+                                      const Format& chosen) {
+    for (const Format& format : formats) {
+        for (const std::string_view option : format.options) {
+            const bool isKnown = std::ranges::find(chosen.options, option) != chosen.options.end();
+            if (!isKnown && !command.get_option(std::string(option))->empty())
+                return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", option, chosen.name);
+        }
+    }
+    return {};
+}
+
 // "1,2.5,-3": exactly `count` numbers. Throws CLI::ValidationError.
 std::vector<double> parseNumbers(const std::string& text, std::size_t count, const std::string& form);
+
+// As parseNumbers(), but fails for numbers that are not integers from `low` to `high`. `form` starts with the
+// option and a colon.
+[[nodiscard]] base::Result<std::vector<std::int32_t>> parseWholeNumbers(const std::string& text,
+                                                                        std::size_t count,
+                                                                        const std::string& form,
+                                                                        std::int32_t low, std::int32_t high);
 
 }  // namespace terrane::app

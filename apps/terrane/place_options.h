@@ -1,4 +1,4 @@
-// Where a camera stands and when: --scene, --at, --look, --time.
+// Options for the pose of a camera and the time of day: --scene, --at, --look, --time.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ namespace terrane::app {
 struct PlaceOptions {
     const content::Scene* scene = nullptr;
     std::optional<std::vector<double>> at, look;  // X, Y, Z in blocks; yaw, pitch in degrees
-    std::optional<float> time;                    // of day
+    std::optional<float> time;                    // of day, 0…1
 };
 
 void addPlaceOptions(CLI::App& command, PlaceOptions& options);
 
-// `otherwise`: what the options do not say. Fails for a place outside the world.
+// `otherwise` is used for values without an option. Fails for a position outside the world.
 base::Result<content::Scene> placeOf(const PlaceOptions& options, const content::Scene& otherwise);
 
-// Where no generator is named, a scene's is meant; the help of --generator says so.
+// With --scene the default generator is the scene's; the help of --generator says so.
 void nameSceneGenerator(CLI::App& command);
 WorldOptions worldOf(const PlaceOptions& place, WorldOptions world);
 

@@ -1,4 +1,4 @@
-// Figures of many measured values.
+// Quantiles of measured values.
 #pragma once
 
 #include <algorithm>
@@ -7,7 +7,7 @@
 
 namespace terrane::app {
 
-// The value that so large a share (0 to 1) does not exceed; 0 of no values.
+// The value that a `share` (0 to 1) of the values does not exceed; 0 without values.
 inline double quantile(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto at =

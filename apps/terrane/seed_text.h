@@ -1,4 +1,4 @@
-// A seed as people write it. Pure; any thread.
+// Parses a seed: a number or any text. Pure; any thread.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@ namespace terrane::app {
 
 struct WrittenSeed {
     std::uint64_t seed = 0;
-    std::string text;  // that stands for it (base::hash64); empty where a number was written
+    std::string text;  // the text whose base::hash64 is the seed; empty for a number
 };
 
-// A number from 0 to 2^64 − 1, or any other text. A number that is no seed is not a text either: nobody would
-// find the world again. An empty text is an error.
+// A number from 0 to 2^64 − 1, or any other text. Fails for an empty text and for a whole number out of
+// range.
 [[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
 
 }  // namespace terrane::app

@@ -40,7 +40,7 @@ struct SettingsText {
     toml::table table;
 };
 
-// Empty where there is no file.
+// Empty if there is no file.
 base::Result<SettingsText> readSettings(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return SettingsText();
@@ -60,7 +60,7 @@ std::optional<std::string> valueOf(const SettingValues& values, const std::strin
     return found != values.end() ? std::optional(found->second) : std::nullopt;
 }
 
-// Settings and what they become; none: they go.
+// New values by setting; none: the setting is removed.
 using Changes = std::map<std::string, std::optional<std::string>>;
 
 Changes changesOf(const SettingValues& before, const SettingValues& after,
@@ -75,9 +75,9 @@ Changes changesOf(const SettingValues& before, const SettingValues& after,
     return changes;
 }
 
-// Bytes in front of a place, which the parser names by line and letter, both from 1.
+// The byte offset of a position of the parser: line and code point, both counted from 1.
 std::size_t offsetOf(std::string_view text, toml::source_position place) {
-    std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // a byte order mark is no letter
+    std::size_t at = text.starts_with("\xEF\xBB\xBF") ? 3 : 0;  // the parser does not count a byte order mark
     for (toml::source_index line = 1; line < place.line; ++line) at = text.find('\n', at) + 1;
     for (toml::source_index letter = 1; letter < place.column && at < text.size(); ++letter) {
         do ++at;
@@ -97,14 +97,13 @@ struct Replacement {
     std::string text;
 };
 
-// False where the file has the key by a former name.
+// False if the file has the key under its former name.
 bool isWritten(std::string_view text, const toml::key& key) {
     const std::size_t begin = offsetOf(text, key.source().begin), end = offsetOf(text, key.source().end);
     return text.substr(begin, end - begin).find(key.str()) != std::string_view::npos;
 }
 
-// Of the value alone, of key and value where the file has a former name, or of the lines where the setting
-// goes.
+// Replaces the value; key and value if the file has the former name; or removes the lines of the setting.
 Replacement replacementOf(std::string_view text, const toml::key& key, const toml::node& node,
                           const std::optional<std::string>& value) {
     const std::size_t end = offsetOf(text, node.source().end);
@@ -116,7 +115,7 @@ Replacement replacementOf(std::string_view text, const toml::key& key, const tom
             newline == std::string_view::npos ? text.size() : newline + 1, ""};
 }
 
-// Everything else, comments too, stays as it is; what is new comes last.
+// The rest of the text stays, comments too; new settings are appended.
 std::string withChanges(const SettingsText& settings, const Changes& changes) {
     std::string text = settings.text, added;
     std::vector<Replacement> replacements;
@@ -128,7 +127,7 @@ std::string withChanges(const SettingsText& settings, const Changes& changes) {
             added += name + " = " + tomlOf(*value) + '\n';
         }
     }
-    // From the end, so that the places of the others stay.
+    // From the end, so that the offsets before it stay valid.
     std::ranges::sort(replacements, std::greater<>(), &Replacement::begin);
     for (const Replacement& part : replacements) text.replace(part.begin, part.end - part.begin, part.text);
     if (text.empty()) text = "# Settings of Terrane: options of `terrane play` (see its --help).\n";
@@ -156,7 +155,7 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
     const toml::table& table = read->table;
     const CLI::Option* preset = command.get_option_no_throw("--preset");
     const bool standsAlone = preset && preset->count() > 0;
-    // In the order of the options: a preset comes before what is changed of it.
+    // In the order of the options: the preset precedes the options that change it.
     for (const CLI::Option* option : command.get_options()) {
         const std::string name = option->get_single_name();
         const bool isGraphics = std::find(graphics.begin(), graphics.end(), name) != graphics.end();
@@ -166,7 +165,7 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
     }
     for (const auto& [key, node] : table) {
         if (command.get_option_no_throw("--" + std::string(key.str()))) continue;
-        return applyOne(file, command, key, node);  // which says that there is none
+        return applyOne(file, command, key, node);  // fails: there is no such setting
     }
     return {};
 }
@@ -176,7 +175,7 @@ base::Result<void> writeChanges(const fs::path& file, const SettingValues& befor
     if (file.empty() || before == after) return {};
     const auto settings = readSettings(file);
     if (!settings) return tl::unexpected(settings.error());
-    std::error_code ignored;  // what is wrong shows when the file is written
+    std::error_code ignored;  // an error shows when the file is written
     fs::create_directories(file.parent_path(), ignored);
     return base::writeFile(file, withChanges(*settings, changesOf(before, after, graphics)));
 }

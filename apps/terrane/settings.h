@@ -1,5 +1,5 @@
-// What a user chose in the window, kept between sessions in a TOML file. Each setting is an option of
-// `terrane play` of the same name: the file gives options that the command line leaves out.
+// Settings that the user changed in the window, kept in a TOML file. Each is an option of `terrane play` with
+// the same name: the file sets options that the command line does not.
 #pragma once
 
 #include <filesystem>
@@ -15,21 +15,20 @@ class App;
 
 namespace terrane::app {
 
-// $XDG_CONFIG_HOME/terrane/settings.toml, where that variable is no absolute path
-// $HOME/.config/terrane/settings.toml; empty where there is neither.
+// $XDG_CONFIG_HOME/terrane/settings.toml, else $HOME/.config/terrane/settings.toml; empty if neither variable
+// holds an absolute path.
 std::filesystem::path settingsPath();
 
 using SettingValues = std::map<std::string, std::string>;  // option without dashes, value
 
-// Sets those of `command`'s options that the command line did not. A preset on the command line stands alone:
-// `graphics`, the names of single graphics options, are then left out. Nothing where there is no file. Errors
-// name the file, the line and what is wrong.
+// Sets the options of `command` that the command line does not set. A preset on the command line overrides
+// the file's graphics options, named in `graphics`. Does nothing without a file. Errors name the file and the
+// line.
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 
-// Writes what differs between `before` and `after`, as a user changed it; all else in the file stays,
-// comments and order too, so that options of one command line do not become settings. Another preset replaces
-// all of the `graphics` options. Makes the file and its folder; a link stays one.
+// Writes the differences between `before` and `after`; the rest of the file stays, comments and order too. A
+// changed preset replaces all `graphics` options. Creates the file and its folder; a symbolic link stays one.
 base::Result<void> writeChanges(const std::filesystem::path& file, const SettingValues& before,
                                 const SettingValues& after, const std::vector<std::string>& graphics);
 

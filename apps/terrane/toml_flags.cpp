@@ -9,7 +9,7 @@
 namespace terrane::app {
 namespace {
 
-// As it would be written on the command line.
+// The value as written on the command line.
 std::string textOf(const toml::node& value) {
     if (const auto text = value.value_exact<std::string>()) return *text;
     std::ostringstream out;
@@ -48,7 +48,7 @@ void useCurrentNames(toml::table& table) {
         }
     }
     for (const toml::key& key : former) {
-        // Moved, so that errors still name its line.
+        // Keeps the source position, so that errors name the line.
         table.insert(toml::key(currentFlag(key.str()), toml::source_region(key.source())),
                      std::move(*table.get(key.str())));
         table.erase(key.str());

@@ -1,4 +1,4 @@
-// Flags of the command line that get their values from a TOML file.
+// Sets command line flags from values of a TOML file.
 #pragma once
 
 #include <toml++/toml.h>
@@ -11,11 +11,11 @@ class Option;
 
 namespace terrane::app {
 
-// As if the value stood behind the flag. The error says what is wrong with the value, not where it stands.
+// Sets the flag as if the value followed it on the command line. Errors do not name the line.
 base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value);
 
-// Keys of the table, and of tables in it, that are former names of flags become today's. Where both stand the
-// former one goes.
+// Renames keys of the table and of nested tables from former to current flag names. If both exist, the former
+// one is dropped.
 void useCurrentNames(toml::table& table);
 
 }  // namespace terrane::app

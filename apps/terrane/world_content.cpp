@@ -12,7 +12,7 @@ base::Result<pack::Content> loadContent(const WorldOptions& options, const SaveO
     auto packs = pack::readPacks(options.content);
     if (!packs) return tl::unexpected(packs.error());
     if (!save.world.empty()) {
-        // Where it cannot be read whoever opens the world says why.
+        // If the world cannot be read, opening it reports the error.
         const auto metadata = store_postgres::anyWorldMetadata(store::worldLocation(save.world));
         if (metadata)
             if (auto added = pack::addPacks(*packs, pack::rememberedPacks(*metadata)); !added)
@@ -31,7 +31,7 @@ base::Result<pack::Content> loadInstalledContent(const WorldOptions& options) {
     all.content.insert(all.content.end(), installed.begin(), installed.end());
     auto content = loadContent(all);
     if (content || installed.empty()) return content;
-    // One of them cannot be used: each by itself, with a line for what is wrong.
+    // At least one pack is unusable: add them one by one, and log each error.
     WorldOptions good = options;
     content = loadContent(good);
     for (const std::string& name : installed) {

@@ -1,8 +1,8 @@
 ---@meta
--- What scripts of generators can use, for editors that read LuaCATS annotations (lua-language-server). The program
--- does not read this file. docs/lua.md tells more.
+-- Everything that generator scripts can use, for editors that read LuaCATS annotations (lua-language-server). The
+-- program does not read this file. See also docs/lua.md.
 
----A whole number of 32 bits at each column or voxel. Lua's whole numbers may stand for one.
+---A 32-bit integer at each column or voxel. Lua integers are converted.
 ---@class Int
 ---@operator add(Int|integer): Int
 ---@operator sub(Int|integer): Int
@@ -17,7 +17,7 @@
 ---@operator shl(Int|integer): Int
 ---@operator shr(Int|integer): Int
 
----A number of 32 bits at each column or voxel. Lua's numbers may stand for one.
+---A 32-bit float at each column or voxel. Lua numbers are converted.
 ---@class Float
 ---@operator add(Float|number): Float
 ---@operator sub(Float|number): Float
@@ -32,7 +32,7 @@
 ---@operator bor(Bool|boolean): Bool
 ---@operator bnot: Bool
 
----A block at each column or voxel. A block's name may stand for one.
+---A block at each column or voxel. Names of blocks are converted.
 ---@class Block
 
 ---@class Vec2
@@ -63,7 +63,7 @@
 ---@field y Int
 ---@field z Int
 
----Comparisons, which all expressions have as methods: Lua's own give no expressions.
+---Comparisons as methods of all expressions: Lua's own operators cannot return expressions.
 ---@class Expression
 local Expression = {}
 
@@ -97,7 +97,7 @@ function Expression:eq(other) end
 ---@return Bool
 function Expression:ne(other) end
 
----A value of each column that one pass writes and later ones read.
+---A value per column that one pass writes and later passes read.
 ---@class Field
 
 ---Rivers and lakes, from g:drainage.
@@ -105,10 +105,10 @@ function Expression:ne(other) end
 
 ---A value that changes while a pass is written.
 ---@class Variable
----@field value any  -- what it is now; assignments inside if_ hold where its condition does
+---@field value any  -- current value; assignments inside if_ take effect where the condition is true
 local Variable = {}
 
----What a generator is written with; the global `g` is the only one.
+---Declares the generator; the global `g` is the only instance.
 ---@class Generator
 ---@field step integer  -- blocks from one column to the next: 1, 2, 4, … by level
 local Generator = {}
@@ -195,7 +195,7 @@ function Pass:read(field) end
 ---@return any
 function Pass:readAt(field, dx, dy) end
 
----How a field of Float changes a block.
+---The gradient of a Float field, per block.
 ---@param field Field
 ---@return Vec2
 function Pass:slope(field) end
@@ -278,14 +278,14 @@ function Pass:perlin2D(name, size, weights) end
 ---@return Float
 function Pass:perlin3D(name, size, weights) end
 
----The noise, and a random number for each column for what faded of it.
+---The noise, with faded octaves replaced by a random number for each column.
 ---@param name string
 ---@param size integer
 ---@param weights number[]
 ---@return Float
 function Pass:perlin2DWithGrain(name, size, weights) end
 
----How the noise changes a block.
+---The gradient of the noise, per block.
 ---@param name string
 ---@param size integer
 ---@param weights number[]
@@ -345,7 +345,7 @@ function Pass:voronoi2D(name, size, maxPoints) end
 ---@return { distance: Float, ratio: Float, offset: IVec3 }
 function Pass:voronoi3D(name, size, maxPoints, exponent) end
 
----Where the column lies among rivers and lakes.
+---The position of the column relative to rivers and lakes.
 ---@param map Drainage
 ---@return { distance: Float, halfWidth: Float, level: Float, flow: Float, lakeDistance: Float, lakeLevel: Float }
 function Pass:drainage(map) end
@@ -493,13 +493,13 @@ function lerp(a, b, t) end
 ---@return Float
 function smoothstep(low, high, v) end
 
----Toward minus infinity; the divisor is 1 or more. The same as a // b.
+---Division rounded toward minus infinity; the divisor is 1 or more. The same as a // b.
 ---@param a Int|integer
 ---@param b Int|integer
 ---@return Int
 function floorDivide(a, b) end
 
----What is left of it, 0…b − 1. The same as a % b.
+---The remainder of floorDivide(), 0…b − 1. The same as a % b.
 ---@param a Int|integer
 ---@param b Int|integer
 ---@return Int
@@ -556,27 +556,27 @@ function dot(a, b) end
 ---@return Float
 function length(v) end
 
----What fades of a noise's value at a step, as a standard deviation.
+---The standard deviation of a noise's octaves that fade at a step.
 ---@param weights number[]
 ---@param size integer
 ---@param step integer
 ---@return number
 function lostDeviation(weights, size, step) end
 
----What fades of a noise's slope along an axis.
+---The same for the noise's slope along an axis.
 ---@param weights number[]
 ---@param size integer
 ---@param step integer
 ---@return number
 function lostSlope(weights, size, step) end
 
----What is left of cells of `size` blocks at a step, 0…1.
+---The share, 0…1, of cells of `size` blocks that remains at a step.
 ---@param size integer
 ---@param step integer
 ---@return number
 function shareLeft(size, step) end
 
----One of a kind's shapes by a hash, as points of p:scatter have it.
+---One of a kind's shapes, chosen by a hash such as those of p:scatter's points.
 ---@param kind TreeKind
 ---@param hash Int|integer
 ---@return Int
@@ -590,7 +590,7 @@ function error(message, level) end
 ---@param list any[]
 function ipairs(list) end
 
----Goes through a table in the order of its keys: numbers, texts, booleans.
+---Iterates over a table in the order of its keys: numbers, strings, booleans.
 ---@param t table
 function pairs(t) end
 
@@ -608,7 +608,7 @@ function tostring(v) end
 ---@return string
 function type(v) end
 
----A line of the log when level 0 is recorded, 20 at most.
+---Prints a line to the log while level 0 is recorded, at most 20.
 ---@param ... any
 function print(...) end
 
@@ -620,7 +620,7 @@ function assert(condition, message) end
 string = {}
 function string.byte(s, i, j) end
 function string.char(...) end
----Where a text stands within another, from `init` on; no patterns.
+---Finds a text in another, from `init` on; no patterns.
 ---@param s string
 ---@param text string
 ---@param init? integer

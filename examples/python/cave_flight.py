@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""An animation: a cut through the ground that moves on over the land, with the map above it.
+"""Makes an animation: a vertical section through the ground that moves over the terrain, with the map above it.
 
     PYTHONPATH=build/python examples/python/cave_flight.py -o caves.mp4   or .gif
 
@@ -14,9 +14,9 @@ import terrane
 matplotlib.use("Agg")
 from matplotlib import animation, colors, pyplot  # noqa: E402
 
-WIDTH, AHEAD = 480, 240  # blocks across, and to fly
+WIDTH, AHEAD = 480, 240  # blocks: width, and length of the flight
 FRAMES, FRAMES_A_SECOND = 60, 12
-# Colors by words in names of blocks, the first that fits.
+# Colors by words in names of blocks; the first match counts.
 COLORS = {"air": "#bcd9f2", "water": "#2f6fb5", "lava": "#ff7a1a", "grass": "#5d9b3c", "leaves": "#3c7a34", "log": "#6a4a2a",
           "sand": "#dcc98c", "snow": "#f4f7fa", "ice": "#b9dcee", "dirt": "#7a5a3a", "gravel": "#9a9490", "ore": "#c79a3a",
           "glow": "#ffe27a", "granite": "#8d6f66", "stone": "#77777c", "clay": "#a3a8b5", "mud": "#5a4a3c"}

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Compares the land of two generators: how much of it lies how high, how steep it is, and its power spectrum.
+"""Compares the terrain of two generators: distribution of heights and slopes, and power spectrum.
 
     PYTHONPATH=build/python examples/python/height_study.py -o heights.png [--generators continents overworld]
 
@@ -16,20 +16,20 @@ from matplotlib import colors, pyplot  # noqa: E402
 
 STEP = 8  # blocks from one column to the next
 SIDE = 2048  # columns
-MEAN = 4  # columns a side whose mean height slopes are found from: heights alone are whole numbers
-NEAR = 1024  # blocks a side of the map of single columns
+MEAN = 4  # columns per side; slopes use mean heights, since single heights are integers
+NEAR = 1024  # blocks per side of the map of single columns
 SEA_LEVEL = 80
 
 
 def slopes(heights):
-    """Degrees of slope, and the mean height there, by squares of MEAN columns."""
+    """Slope in degrees and mean height of squares of MEAN columns."""
     means = heights.reshape(SIDE // MEAN, MEAN, SIDE // MEAN, MEAN).mean((1, 3))
     along_y, along_x = np.gradient(means, STEP * MEAN)
     return np.degrees(np.arctan(np.hypot(along_x, along_y))), means
 
 
 def radial_spectrum(heights):
-    """Wavelengths in blocks, and the mean power of all directions at each."""
+    """Wavelengths in blocks, and the mean power over all directions at each."""
     window = np.hanning(len(heights))
     waves = np.fft.rfft2((heights - heights.mean()) * window[:, None] * window)
     power = np.abs(waves) ** 2 / heights.size

@@ -8,8 +8,7 @@ Each file cubes/NNNN.npz has 50 cubes:
     light   uint8 [n, z, y, x, 2]    levels of 4 bits: sun | red << 4, green | blue << 4
     corners int64 [n, 3]             x, y, z of each cube
     names   str [ids]
-Cubes lie around the surface of the ground, anywhere within 16 km of the origin. Threads work at a time,
-one for each CPU core.
+Cubes contain the surface of the ground, anywhere within 16 km of the origin. One thread per CPU core works on files.
 """
 import argparse
 import os
@@ -21,7 +20,7 @@ import numpy as np
 import terrane
 
 CUBES_OF_FILE = 50
-REACH = 16_000  # blocks: what the generator keeps of rivers serves many cubes
+REACH = 16_000  # blocks; small enough that many cubes share the generator's cached rivers
 
 
 def random_corner(world, random, side):

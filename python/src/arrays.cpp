@@ -24,7 +24,7 @@ struct Mapping {
 ZeroedMemory mappedMemory(std::size_t bytes) {
     void* memory = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
     if (memory == MAP_FAILED) throw std::bad_alloc();
-    (void)madvise(memory, bytes, MADV_HUGEPAGE);  // a wish: without them all is the same, slower
+    (void)madvise(memory, bytes, MADV_HUGEPAGE);  // optional: only affects speed
     auto mapping = std::make_unique<Mapping>(Mapping{memory, bytes});
     py::capsule owner(mapping.get(), [](void* given) {
         const std::unique_ptr<Mapping> owned(static_cast<Mapping*>(given));

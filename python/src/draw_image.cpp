@@ -19,7 +19,7 @@
 namespace terrane::python {
 namespace {
 
-// Reads the store of an opened world, which it keeps open.
+// Reads the store of an opened world, and keeps the world open.
 class SharedReader : public store::ReadableStore {
   public:
     explicit SharedReader(std::shared_ptr<volume::OpenedWorld> world) : world_(std::move(world)) {}
@@ -75,7 +75,7 @@ base::Result<game::SessionParts> partsOf(const DrawnWorld& world) {
         false};
 }
 
-// On the thread of the context. Objects end in the opposite order.
+// Called on the thread of the context.
 base::Result<base::Image> drawInContext(game::SessionParts parts, const world::TextureSource& textures,
                                         const ImageRequest& request) {
     const auto context = gpu::HeadlessContext::create({});

@@ -1,5 +1,5 @@
-// Draws one image of an opened world without a window. Makes an OpenGL context of its own for each image, on
-// a thread of its own, so that contexts of the caller stay as they are. Any thread, one image at a time each.
+// Draws one image of an opened world without a window. Each image has its own OpenGL context on its own
+// thread, so contexts of the caller stay unchanged. Any thread.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -23,7 +23,7 @@ struct ImageRequest {
     float fieldOfView = 70;     // degrees, vertical
     float timeDay = 0.5f;       // 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk
     int viewDistance = 16;      // chunks in full detail
-    int horizon = 0;            // chunks that land goes on for, 0: not beyond the view distance
+    int horizon = 0;            // chunks of coarse terrain; 0: none beyond viewDistance
     std::string preset = "high";
 };
 
@@ -33,7 +33,7 @@ struct DrawnWorld {
     unsigned threads = 1;
 };
 
-// BadInput where a value is out of range, Failed where the machine cannot draw.
+// BadInput if a value is out of range, Failed if the machine cannot draw.
 [[nodiscard]] base::Result<base::Image> drawImage(const DrawnWorld& world, const ImageRequest& request);
 
 }  // namespace terrane::python

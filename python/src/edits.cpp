@@ -16,7 +16,7 @@ volume::BlockArea boxAt(std::int64_t x, std::int64_t y, std::int64_t z, const py
         throw Failure(
             {base::ErrorCode::BadInput,
              fmt::format("blocks: expected an id or an array [z, y, x], got {} dimensions", blocks.ndim())});
-    constexpr std::int64_t kFar = std::int64_t{1} << 40;  // sums do not overflow
+    constexpr std::int64_t kFar = std::int64_t{1} << 40;  // sums cannot overflow
     if (std::min({x, y, z}) < -kFar || std::max({x, y, z}) > kFar)
         throw Failure({base::ErrorCode::BadInput, fmt::format("{},{},{}: outside the world", x, y, z)});
     const auto side = [&](int axis) { return blocks.ndim() == 0 ? py::ssize_t{1} : blocks.shape(axis); };
@@ -25,7 +25,7 @@ volume::BlockArea boxAt(std::int64_t x, std::int64_t y, std::int64_t z, const py
     return area;
 }
 
-// Ids of any integer type; those that no uint16 holds are refused.
+// Ids of any integer type; refuses values that do not fit uint16.
 std::vector<world::BlockId> narrowed(const py::array& blocks) {
     if (blocks.dtype().kind() != 'i' && blocks.dtype().kind() != 'u')
         throw Failure({base::ErrorCode::BadInput, "blocks: expected integers"});
@@ -58,7 +58,7 @@ std::int64_t setBlocks(const PyWorld& self, std::int64_t x, std::int64_t y, std:
     const py::array array = py::array::ensure(blocks);
     if (!array) throw py::error_already_set();
     const volume::BlockArea area = boxAt(x, y, z, array);
-    // Without a copy where it is laid out as the library reads it.
+    // Without a copy if the array has the library's layout.
     if (py::isinstance<py::array_t<world::BlockId, py::array::c_style>>(array)) {
         const auto values = py::array_t<world::BlockId, py::array::c_style>::ensure(array);
         return write(self, area, {values.data(), static_cast<std::size_t>(values.size())});
@@ -70,11 +70,11 @@ std::int64_t setBlocks(const PyWorld& self, std::int64_t x, std::int64_t y, std:
 
 void addEditMethods(WorldClass& world) {
     world.def("set_blocks", &setBlocks, py::arg("x"), py::arg("y"), py::arg("z"), py::arg("blocks"),
-              R"(Sets blocks from x, y, z on, and returns how many changed.
+              R"(Sets blocks from x, y, z on, and returns the number of changed blocks.
 
 blocks: an id, the name of a block, or an array of ids [z, y, x] (uint16 is not copied). Exactly these blocks are
-set: sand does not fall. A saved world has them on the disk after flush() or close(), at the latest. An id that is
-no block's is refused, and nothing changes.)");
+set: sand does not fall. A saved world has them on disk after flush() or close() at the latest. An unknown id is an
+error, and nothing changes.)");
 }
 
 }  // namespace terrane::python

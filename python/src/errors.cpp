@@ -42,7 +42,7 @@ constexpr const char* kErrorDoc =
     "code: str, one of failed, bad_input, not_found, io, damaged, incompatible, busy, unsupported,\n"
     "out_of_resources, refused.";
 
-// Lives as long as the interpreter.
+// Lives until the interpreter ends.
 PyObject* errorType = nullptr;
 
 void raise(const base::Error& error) {

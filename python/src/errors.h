@@ -1,4 +1,4 @@
-// Errors of the library as Python's exception terrane.Error, and long work without Python's lock.
+// Maps errors of the library to Python's exception terrane.Error, and runs long work without Python's lock.
 #pragma once
 
 #include <pybind11/pybind11.h>
@@ -12,7 +12,7 @@
 
 namespace terrane::python {
 
-// Thrown where Python called; becomes terrane.Error.
+// Thrown in functions called by Python; becomes terrane.Error.
 struct Failure : std::exception {
     explicit Failure(base::Error theError) : error(std::move(theError)) {}
     const char* what() const noexcept override { return error.message.c_str(); }
@@ -25,11 +25,12 @@ T valueOr(base::Result<T> result) {
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-// For work on the calling thread: every 50 ms it looks whether the user pressed Ctrl+C. To be called without
+// A callback for work on the calling thread: checks every 50 ms whether the user pressed Ctrl+C. Call without
 // Python's lock.
 volume::GoesOn untilInterrupted();
 
-// Runs work() without Python's lock and returns its value. Throws Failure, and what a signal handler raised.
+// Runs work() without Python's lock and returns its value. Throws Failure, or the exception of a signal
+// handler.
 template <class Work>
 auto withoutLock(const Work& work) {
     auto result = [&] {

@@ -1,4 +1,4 @@
-// The extension module terrane._terrane, of which the package terrane is made.
+// The extension module terrane._terrane, imported by the package terrane.
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 

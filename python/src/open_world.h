@@ -1,5 +1,4 @@
-// Finds block types and generators and opens worlds for Python: the one place that knows where they come
-// from. Any thread, without Python's lock.
+// Finds block types and generators and opens worlds for Python. Any thread, without Python's lock.
 #pragma once
 
 #include <memory>
@@ -15,44 +14,44 @@ namespace terrane::python {
 
 constexpr unsigned kMaxThreads = 256;
 
-// Where a call says nothing.
+// A generated world; the values are the defaults.
 struct NewWorld {
     std::uint64_t seed = 1;
     std::string generator = "continents";
     std::vector<std::string> content;  // packs: names or paths
 };
 
-// An existing world, or one to be created.
+// An existing world, or a new one.
 struct SavedWorld {
     std::string location;  // a name, a file or a URL (store/world_location.h)
     bool isReadOnly = false;
-    bool isCreated = false;  // where it is not there
-    // What it must be, or is created with.
+    bool isCreated = false;  // if it does not exist
+    // Required values of an existing world, or values for a new one.
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
-    std::vector<std::string> content;  // packs beside those that it remembers
+    std::vector<std::string> content;  // packs besides those that it remembers
 };
 
-// A world's parts with the content that they are made from.
+// The parts of a world, and their content.
 struct WorldSources {
     pack::Content content;
     volume::WorldParts parts;
 };
 
-// The built-in ones, and those of packs.
+// The names of built-in generators and of those of packs.
 [[nodiscard]] base::Result<std::vector<std::string>> generatorNames(const std::vector<std::string>& content);
 
-// The generator of a world, at all levels. The content's block types outlive it.
+// The generators of a world at all levels. The content's block types outlive them.
 [[nodiscard]] base::Result<gen::LevelGenerators> generatorsOf(const store::WorldIdentity& identity,
                                                               const pack::Content& content);
 
-// As many threads as the machine has for 0. BadInput beyond kMaxThreads.
+// The machine's thread count for 0. BadInput beyond kMaxThreads.
 [[nodiscard]] base::Result<unsigned> threadCountOf(int threads);
 
-// A generated world whose edits last as long as it.
+// A generated world in memory: edits last as long as the object.
 [[nodiscard]] base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned threads);
 
-// Errors of store_postgres::openAnyWorld().
+// Opens a saved world. Fails as store_postgres::openAnyWorld().
 [[nodiscard]] base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads);
 
 }  // namespace terrane::python

@@ -58,14 +58,14 @@ void addRenderMethods(WorldClass& world) {
     world.def(
         "render", &renderImage, py::arg("position"), py::arg("yaw") = 0.0f, py::arg("pitch") = 0.0f,
         py::arg("size") = py::make_tuple(640, 360),
-        R"(An image of the world as the program draws it: uint8 [height, width, 3], red, green, blue (sRGB).
+        R"(An image of the world, drawn as by the program: uint8 [height, width, 3], red, green, blue (sRGB).
 
 position: (x, y, z) of the eyes, blocks. yaw: degrees, 0 looks along x, 90 along y. pitch: degrees, 90 looks up.
 size: (width, height), pixels, up to 8,192 each.
 time: of day, 0 midnight, 0.2 dawn, 0.5 noon (default), 0.8 dusk. view_distance: chunks in full detail, 1 to 64,
-16. horizon: chunks that land goes on for beyond them, 0 to 4,096; 0, the default: none. preset: low, medium, high
+16. horizon: chunks of coarse terrain, 0 to 4,096; 0, the default: none. preset: low, medium, high
 (default), ultra, thesis. field_of_view: degrees, vertical, 70.
-Each call makes an OpenGL 4.5 context without a window. Raises Error where the machine has none.)");
+Each call makes an OpenGL 4.5 context without a window. Raises Error if the machine has none.)");
 }
 
 }  // namespace terrane::python

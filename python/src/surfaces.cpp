@@ -23,7 +23,7 @@ volume::ColumnArea columnsFrom(const py::sequence& where, int step) {
     return valueOr(volume::columnsOver(levelOfStep(step), x0, y0, x1, y1));
 }
 
-// `member`: which of the arrays is read.
+// `member` selects the array to read.
 template <class T>
 py::array_t<T> readColumns(const PyWorld& self, const volume::ColumnArea& area, bool isGround,
                            std::span<T> volume::SurfaceArrays::*member) {
@@ -46,11 +46,11 @@ void addSurfaceMethods(WorldClass& world) {
                 return readColumns(self, columnsFrom(area, step), ground, &volume::SurfaceArrays::heights);
             },
             py::arg("area"), py::arg("step") = 1, py::kw_only(), py::arg("ground") = false,
-            R"(The z of the topmost block of each column: int16 [y, x], -1 where there is none.
+            R"(The z of the topmost block of each column: int16 [y, x], -1 if there is none.
 
 area: (x0, y0, x1, y1) in blocks, the end excluded. step: blocks from one column to the next, a power of two up to
-32,768: columns are those of a level of detail, and the area is widened to multiples of the step. ground: looks
-through water and trees; trees that stand in water count as water. Plants that one walks through never count. At
+32,768: columns are those of a level of detail, and the area is widened to multiples of the step. ground: ignores
+water and trees; trees in water count as water. Plants without collision never count. At
 most 2^28 columns.)")
         .def(
             "surface",
@@ -58,7 +58,7 @@ most 2^28 columns.)")
                 return readColumns(self, columnsFrom(area, step), ground, &volume::SurfaceArrays::blocks);
             },
             py::arg("area"), py::arg("step") = 1, py::kw_only(), py::arg("ground") = false,
-            "The ids of the blocks whose z heights() gives: uint16 [y, x], 0 (air) where there is none.");
+            "The ids of the blocks at the heights of heights(): uint16 [y, x], 0 (air) if there is none.");
 }
 
 }  // namespace terrane::python

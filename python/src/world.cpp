@@ -61,8 +61,8 @@ void addOpening(py::module_& module, WorldClass& world) {
               py::arg("content") = otherwise.content,
               R"(A generated world in memory. Edits last as long as the object.
 
-seed: 0 to 2^64 - 1. generator: one of terrane.generators(content). threads: that work on a call at a time, 0: as
-many as the machine has. content: names or paths of content packs.)");
+seed: 0 to 2^64 - 1. generator: one of terrane.generators(content). threads: threads per call, 0: one per CPU
+thread of the machine. content: names or paths of content packs.)");
     module.def(
         "open",
         [](const std::string& location, bool isReadOnly, bool isCreated, std::optional<std::uint64_t> seed,
@@ -74,9 +74,10 @@ many as the machine has. content: names or paths of content packs.)");
         py::arg("content") = std::vector<std::string>(),
         R"(Opens a saved world: the NAME of one, a FILE ("a.sqlite", "folder/a"), or a URL ("postgresql://host/name").
 
-read_only: the save stays as it is, and edits last as long as the object. create: makes the world where there is
-none. seed, generator: what a new world is made with; a world that is there must have them. content: names or paths of content packs, beside those that the world
-remembers. Raises Error, with the code not_found, busy (another program writes it), incompatible, damaged, and others.)");
+read_only: the save is not changed, and edits last as long as the object. create: creates a missing world. seed,
+generator: of a new world; an existing world must have them. content: names or paths of content packs, besides those
+that the world remembers. Raises Error with the code not_found, busy (another program writes it), incompatible, damaged,
+and others.)");
 }
 
 void addProperties(WorldClass& world) {
@@ -86,7 +87,7 @@ void addProperties(WorldClass& world) {
         .def_property_readonly(
             "generator", [](const PyWorld& self) { return self.identity().generator; },
             "str: the name of the world's generator.")
-        .def_property_readonly("threads", &PyWorld::threads, "int: threads that work on a call at a time.")
+        .def_property_readonly("threads", &PyWorld::threads, "int: worker threads per call.")
         .def_property_readonly("location", &PyWorld::location,
                                "str: the name, file or URL of a saved world; empty for one in memory.")
         .def_property_readonly("closed", &PyWorld::isClosed, "bool: whether close() was called.")
@@ -125,14 +126,14 @@ PyWorld::PyWorld(WorldSources sources, std::string location)
     identity_ = opened_->store().identity();
 }
 
-// The store writes what waits.
+// Destroying the store writes pending data.
 PyWorld::~PyWorld() {
     const py::gil_scoped_release unlocked;
     if (getpid() == process_)
         opened_.reset();
     else
         new std::shared_ptr<volume::OpenedWorld>(
-            std::move(opened_));  // its threads are the parent's: leave it
+            std::move(opened_));  // after a fork: its threads exist in the parent only, so leak it
 }
 
 std::shared_ptr<volume::OpenedWorld> PyWorld::opened() const {
@@ -158,11 +159,11 @@ void PyWorld::close() {
 
 void addWorld(py::module_& module) {
     WorldClass world(module, "World",
-                     R"(A world: generated land, and what was built in it.
+                     R"(A world: generated terrain and its edits.
 
 Arrays of blocks and light are by [z, y, x], arrays of columns by [y, x]; z is up, 0 to 255, and x and y are any
-32-bit integers. Areas are in blocks and exclude their end. All methods may be called by several threads at a
-time; they release Python's lock while they work.)");
+32-bit integers. Areas are in blocks and exclude their end. All methods may be called by several threads at
+once; they release Python's lock while they work.)");
     addOpening(module, world);
     addProperties(world);
     addAreaMethods(world);

@@ -1,5 +1,5 @@
-// Python's World: an opened world and what Python may do with it. Methods run with Python's lock, and give it
-// up while they work.
+// Python's class World: an opened world and its methods. Methods start with Python's lock, and release it
+// while they work.
 #pragma once
 
 #include <pybind11/numpy.h>
@@ -15,7 +15,7 @@
 
 namespace terrane::python {
 
-// What a World shares with calls in progress: closing waits for none of them.
+// The opened world is shared with running calls, so that close() does not wait for them.
 class PyWorld {
   public:
     PyWorld(WorldSources sources, std::string location);
@@ -23,8 +23,7 @@ class PyWorld {
     PyWorld(const PyWorld&) = delete;
     PyWorld& operator=(const PyWorld&) = delete;
 
-    // Throws Failure where the world is closed, or was opened by another process (a fork has its threads
-    // not).
+    // Throws Failure if the world is closed, or was opened by another process (a fork lacks its threads).
     std::shared_ptr<volume::OpenedWorld> opened() const;
     const pack::Content& content() const { return content_; }
     bool isClosed() const { return opened_ == nullptr; }
@@ -33,7 +32,7 @@ class PyWorld {
     unsigned threads() const { return threads_; }
 
     void flush() const;
-    void close();  // flushes; does nothing the second time
+    void close();  // flushes; a second call does nothing
 
   private:
     pack::Content content_;
@@ -46,7 +45,7 @@ class PyWorld {
 
 using WorldClass = pybind11::class_<PyWorld, std::shared_ptr<PyWorld>>;
 
-// The methods by subject, each in a file of its own.
+// Adds methods by subject, one file each.
 void addAreaMethods(WorldClass& world);     // areas.cpp
 void addSurfaceMethods(WorldClass& world);  // surfaces.cpp
 void addEditMethods(WorldClass& world);     // edits.cpp

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Whatever is wrong on the command line: one line that says what, exit code 2, and nothing written.
+"""Errors on the command line: one line that names the error, exit code 2, and nothing written.
 
 Usage: bad_input_test.py PROGRAM"""
 import os
@@ -14,7 +14,7 @@ GENERATE = ("generate", "--radius", "0")
 DUMP = ("dump", "--area", "0,0,1,1", "-o", "{npy}")
 MAP = ("map", "--radius", "0", "-o", "{png}")
 
-# Arguments, and what the line must say. {out}, {png} and {npy} are files that could be written, {folder} the folder they are in.
+# Arguments, and text that the line must contain. {out}, {png} and {npy} are writable files, {folder} is their folder.
 CASES = [
     # Commands
     (("frobnicate",), "frobnicate"),
@@ -22,7 +22,7 @@ CASES = [
     (("blocks", "extra"), "extra"),
     (("info", "--frobnicate"), "--frobnicate"),
     (("generate", "--radius", "0", "render"), "render"),
-    # Misspelled names: all of them, in their order, before what else is wrong or missing
+    # Misspelled names: all of them, in order, before other errors
     (("rendr",), "error: unknown command rendr; did you mean render? (see terrane --help)"),
     (("rendr", "--scene", "ocean", "--help"), "unknown command rendr; did you mean render?"),
     (("genrate", "--radius", "0"), "unknown command genrate; did you mean generate?"),
@@ -165,6 +165,11 @@ CASES = [
     ((*GENERATE, "--world", "{program}"), "not a SQLite file"),
     ((*GENERATE, "--recreate"), "--world"),
     ((*DUMP, "--world", "{folder}/nothing.sqlite"), "no such file"),
+    (("export", "npy", "-o", "{npy}", "--box", "0,0,0,1.5,1,1"), "--box: expected whole numbers within the world"),
+    (("export", "npy", "-o", "{npy}", "--area", "0,0,1,1", "--bits", "16"), "--bits does not go with npy"),
+    (("import", "vox", "{program}", "--world", "{out}", "--at", "1,2,3e9"), "--at: expected whole numbers within the world"),
+    # Bots
+    (("bots", "--connect", "localhost", "--keys", "{program}"), "{program}/bot0.key"),
     # Files
     (("render", "--scene", "ocean"), "--output"),
     (("dump", "--area", "0,0,1,1"), "--output"),
@@ -218,7 +223,7 @@ class BadInput(ProgramTest):
                 self.assertIn(hint.format(**names), done.stderr)
                 self.assertEqual(written, [], "something was written")
 
-    # Nobody means an empty value. Some options mean their default by it.
+    # Empty values are errors, except for options that then use their default.
     def test_an_empty_value_of_every_option(self):
         enough = {"render": ("--scene", "cave", "-o", "{png}"), "record": ("--path", "{out}", "--frames-dir", "{folder}/f"),
                   "flight-bench": ("--json",), "generate": ("--radius", "0"), "map": ("--radius", "0", "-o", "{png}"),
@@ -239,7 +244,7 @@ class BadInput(ProgramTest):
                 tried += 1
         self.assertGreater(tried, 60)
 
-    # root can write everywhere but in file systems that take nothing.
+    # root can write everywhere except in read-only file systems.
     def test_a_folder_that_nothing_can_be_written_in(self):
         closed = self.folder / "closed"
         closed.mkdir(0o500)
@@ -264,7 +269,7 @@ class BadInput(ProgramTest):
             self.assertEqual(done.returncode, 2, f"{arguments}: {done.stderr}")
             self.assertIn("terrane: error: standard output cannot be written\n", done.stderr, arguments)
 
-    # A window needs a display; there is nothing else that could be shown.
+    # A window needs a display.
     def test_play_without_a_display(self):
         for arguments in ((), ("play",), ("--view-distance", "2")):
             done = run(*arguments)

@@ -36,7 +36,7 @@ TEST(Plan, HasEachCellOnce) {
                 ElementsAre("render --scene a", "render"));
 }
 
-// Every group of the plan, quick and whole: names that can be files, and something to measure.
+// Every group of the plan, quick and complete, has a valid file name and something to measure.
 TEST(Plan, IsWhole) {
     BenchSettings near;
     near.viewDistance = near.farthest = 1;
@@ -51,14 +51,14 @@ TEST(Plan, IsWhole) {
     }
 }
 
-// What reads a save has a run before it that fills the save.
+// A run that reads a save has a run before it that fills the save.
 TEST(Plan, FillsSavesBefore) {
     for (const Cell& cell : uniqueCells(planGroups({}))) {
         EXPECT_EQ(cell.before.empty(), keyOf(cell).find("--world") == std::string::npos) << keyOf(cell);
     }
 }
 
-// What --quick leaves out is left out.
+// --quick has far fewer measurements.
 TEST(Plan, QuickIsMuchLess) {
     const std::size_t quick = uniqueCells(planGroups(quickSettings())).size();
     EXPECT_LT(quick, 130u);

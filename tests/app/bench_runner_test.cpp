@@ -16,8 +16,8 @@ const Cell kMeasured{{"info"}, {}};
 
 class BenchRunnerTest : public testing::Test {
   protected:
-    // In place of the program: it crashes so many times, then prints a result. Gives the last line of
-    // results.
+    // Replaces the program by one that crashes `crashes` times, then prints a result. Returns the last line
+    // of the results.
     nlohmann::json measureWith(int crashes) {
         const std::filesystem::path program = folder_ / "program";
         std::ofstream(program) << "#!/bin/sh\necho >> runs\n[ $(wc -l < runs) -gt " << crashes

@@ -12,10 +12,10 @@ import support
 from support import ProgramTest
 
 TOOLS = pathlib.Path(__file__).parents[2] / "tools"
-PYTHON = "/usr/bin/python3"  # the one that Debian's packages of libraries are for
+PYTHON = "/usr/bin/python3"  # the interpreter for which Debian packages libraries
 HANG_SECONDS = 600
 TINY = ("--quick", "--size", "64x36", "--view-distance", "1")
-# Command lines by table that tools/bench_report.py asks for, as JSON. Arguments: its folder, results.
+# Prints the command lines by table that tools/bench_report.py needs, as JSON. Arguments: its folder, results.
 WANTED_CELLS = """
 import json, pathlib, sys
 sys.path.insert(0, sys.argv[1])

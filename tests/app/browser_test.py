@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Maps in a real browser: Chromium without a window, driven as a person would. Usage: browser_test.py PROGRAM
+"""Maps in a real browser: headless Chromium with simulated input. Usage: browser_test.py PROGRAM
 
-Needs chromium, chromium-driver and python3-selenium; skipped where they are missing. TERRANE_SCREENSHOTS names a folder
+Needs chromium, chromium-driver and python3-selenium; skipped if they are missing. TERRANE_SCREENSHOTS names a folder
 for images of the page."""
 import os
 import pathlib
@@ -49,7 +49,7 @@ class Program(support.RunningProgram):
 
 
 class Page:
-    """What a test does with the page."""
+    """Actions on the page."""
 
     def __init__(self, test, browser):
         self.test, self.browser = test, browser
@@ -71,7 +71,7 @@ class Page:
         raise AssertionError(f"{what} does not come; the page says {self.js('return document.body.innerText')!r}")
 
     def wait_for_tiles(self):
-        """All images in view are there, whole."""
+        """Waits until all images in view are loaded completely."""
         self.wait_until("""
             const tiles = [...document.querySelectorAll('.leaflet-tile')];
             return tiles.length > 0 && tiles.every(
@@ -116,7 +116,7 @@ class BrowserTest(ProgramTest):
     def start(self, *arguments):
         program = Program(self.folder, *arguments)
         self.addCleanup(program.clean_up)
-        # Closed before the program ends: it would say that nobody answers.
+        # Closed before the program ends: it would log failed requests.
         self.addCleanup(self.browser.get, "about:blank")
         return program
 
@@ -125,7 +125,7 @@ class BrowserTest(ProgramTest):
 
 
 class Looking(BrowserTest):
-    """A world that nobody plays."""
+    """A map without a game server."""
 
     def test_every_zoom_and_panning(self):
         self.page.open(self.show_map().url + "#296,104,2,day")
@@ -359,7 +359,7 @@ class Playing(BrowserTest):
         port = self.server.url.rsplit(":", 1)[1].strip("/")
         self.server.say("stop")
         self.page.wait_until("return document.getElementById('notice').innerText.includes('does not answer')", "a word of it")
-        self.browser.get_log("browser")  # it says that nobody answers
+        self.browser.get_log("browser")  # clear failed requests
         self.start("serve", "--world", self.folder / "w.sqlite", "--address", "127.0.0.1", "--port", "0", "--http", port)
         self.page.wait_until("return document.getElementById('notice').hidden", "the server")
         self.page.wait_for_tiles()

@@ -24,10 +24,10 @@ def is_dark(red, green, blue):
 
 
 class BuildingScript(ProgramTest):
-    """What tests of building do."""
+    """Actions for building."""
 
     def play(self, display, places, hand, start):
-        """Places are bookmarks: F6 goes from one to the next, from the first on."""
+        """Places are bookmarks: F6 goes from one to the next, starting with the first."""
         (self.folder / "terrane").mkdir(exist_ok=True)
         (self.folder / "terrane" / "bookmarks.txt").write_text("".join(place + "\n" for place in places))
         save = self.folder / "terrane" / "home.sqlite"
@@ -44,11 +44,11 @@ class BuildingScript(ProgramTest):
         game.open()
         game.wait_for_image(SIZE)
         self.pause = game.pause_after("F1")  # no help in the image
-        game.tap(1, *MIDDLE, self.pause)  # takes the mouse
+        game.tap(1, *MIDDLE, self.pause)  # captures the mouse
         return game
 
     def keep(self, display, game, name):
-        """The window as a PNG, where somebody wants to look at it."""
+        """Saves the window as a PNG if TERRANE_SCREENSHOTS is set."""
         folder = os.environ.get("TERRANE_SCREENSHOTS")
         if not folder:
             return
@@ -67,7 +67,7 @@ class BuildingScript(ProgramTest):
             time.sleep(self.pause)
 
     def click_here(self, display, game, button):
-        """With Shift: the place where the player is."""
+        """Clicks with Shift: selects the player's position."""
         display.xdotool("keydown", "shift")
         time.sleep(self.pause / 4)
         display.xdotool("click", button)
@@ -76,7 +76,7 @@ class BuildingScript(ProgramTest):
         time.sleep(self.pause)
 
     def count(self, name):
-        """Blocks of this name around the places."""
+        """The number of blocks of this name around the places."""
         numbers = {}
         for line in self.succeed("blocks").splitlines():
             words = line.split()
@@ -94,7 +94,7 @@ class BuildingScript(ProgramTest):
 
 class Building(BuildingScript):
     def play_with_box(self, display):
-        """With a box of 6 x 2 x 4 blocks selected in front of the player, and bricks in the hand."""
+        """Plays with a box of 6 x 2 x 4 blocks selected in front of the player, and bricks in the hand."""
         game = self.play(display, ("5.5 8.5 81.5 0 0", "10.5 9.5 84.5 0 0", "8.5 -3.5 88.5 90 -35"), "bricks", 3)
         self.press(game, "b", "F6")
         self.click_here(display, game, 1)
@@ -122,25 +122,25 @@ class Building(BuildingScript):
             self.press(game, "ctrl+o")
             self.keep(display, game, "files")
             self.press(game, "Return")
-            display.xdotool("click", 1)  # before what stands there
+            display.xdotool("click", 1)  # in front of the existing blocks
             game.wait_for(lambda: self.count("bricks") > 48)
-            self.press(game, "Escape", "Escape")  # ends pasting, puts the tool away
+            self.press(game, "Escape", "Escape")  # ends pasting, closes the tool
             self.close(game)
             self.assertGreater(file.stat().st_size, 40)
 
     def test_the_panel_of_the_tool_has_buttons(self):
         with window_support.Display() as display:
             game = self.play_with_box(display)
-            game.tap(2, *MIDDLE, self.pause)  # gives the cursor back
+            game.tap(2, *MIDDLE, self.pause)  # frees the cursor
             self.keep(display, game, "buttons")
             game.tap(1, *FILL_BUTTON, self.pause)
             game.wait_for(lambda: self.count("bricks") == 48)
             game.tap(2, *MIDDLE, self.pause)
-            self.press(game, "Escape")  # puts the tool away
+            self.press(game, "Escape")  # closes the tool
             self.close(game)
 
     def dark_share(self, display, game):
-        """Of the middle of the image, where the sign is."""
+        """The share of dark pixels in the middle of the image, where the sign is."""
         shot = display.screenshot(game.window)
         spots = [shot.color(x, y) for x in range(MIDDLE[0] - 70, MIDDLE[0] + 70) for y in range(MIDDLE[1] - 80, MIDDLE[1])]
         return sum(is_dark(*color) for color in spots) / len(spots)

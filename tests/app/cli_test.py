@@ -9,7 +9,7 @@ from support import Image, ProgramTest, run
 COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 
-# Name: opacity to light, emission. Of all blocks that the game starts with.
+# Light opacity and emission by name.
 BLOCKS = {
     "air": (0, [0, 0, 0]), "stone": (15, [0, 0, 0]), "dirt": (15, [0, 0, 0]), "grass": (15, [0, 0, 0]),
     "sand": (15, [0, 0, 0]), "snow": (15, [0, 0, 0]), "glowing_ore": (15, [2, 1, 0]), "oak_log": (15, [0, 0, 0]),
@@ -72,7 +72,7 @@ class FormerNames(ProgramTest):
         for text in texts:
             for name in (*self.FLAGS, "aggregation"):
                 self.assertNotRegex(text, rf"(?<![\w-]){name}(?![\w-])")
-            # As a command: in lists of them, before its options, and as a title.
+            # The name as a command: in lists, before its options, and as a title.
             self.assertNotRegex(text, r"(?m)^ *fly\b|'fly\b|\bterrane fly\b|flight-bench fly\b|\bfly flight-bench\b")
 
 

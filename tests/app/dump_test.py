@@ -60,7 +60,7 @@ class Dump(ProgramTest):
         for x, y in ((0, 0), (15, 31), (8, 16)):
             self.assertEqual(lights[0].column(x, 31 * 16 + y), lights[1].column(x, y), "across the end of a square")
 
-    # One quad a chunk: 65 x 64 chunks are more than an area could have when it was held in memory.
+    # Quads of several squares, one per chunk.
     def test_an_area_may_be_large(self):
         quads = self.dump("quads", "-3,-2,62,62", *FLAT)
         self.assertEqual(quads.shape, (65 * 64,))
@@ -81,7 +81,7 @@ class Dump(ProgramTest):
         self.assertLess(large - small, 64 << 10, "KiB more; the file has 136 MiB")
 
     def limited(self, limit_bytes, *arguments):
-        """Runs where no file may grow larger, as on a full disk."""
+        """Runs with a limit on file sizes, which acts like a full disk."""
         def bound():
             resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes))
             signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
@@ -98,7 +98,7 @@ class Dump(ProgramTest):
             self.assertEqual(list(self.folder.iterdir()), [], what)
 
     def writes(self, pid):
-        """Whether a process has a file of this test's folder open, be it one without a name."""
+        """Whether a process has a file of this test's folder open, even an unlinked one."""
         opened = []
         for link in pathlib.Path(f"/proc/{pid}/fd").iterdir():
             with contextlib.suppress(FileNotFoundError):  # closed meanwhile

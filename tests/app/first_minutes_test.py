@@ -10,7 +10,7 @@ import title_test
 import window_support
 from support import HANG_SECONDS, Npy
 
-# The house stands in the air, where no generator has land: a floor of two layers, and a wall behind.
+# The house is in the air, above the terrain of every generator: a floor of two layers, and a wall at the back.
 FLOOR, EYES = 231, 235
 CORNERS = ((1, 1, FLOOR - 1), (10, 10, FLOOR), (1, 10, FLOOR + 1), (10, 10, FLOOR + 3))
 STAIRS, DOOR, TORCH, LAMP, POND, MISTAKE = (3, 3), (5, 3), (7, 3), (3, 6), (7, 6), (5, 6)
@@ -25,7 +25,7 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         return [*corners, *spots, f"5.5 -3.5 {EYES} 90 -30"]
 
     def there(self):
-        """The names of the blocks, by place."""
+        """Returns a function from a position to the name of its block in the saved world."""
         names = {}
         for line in self.succeed("blocks").splitlines():
             words = line.split()
@@ -37,12 +37,12 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         return lambda x, y, z: names[volume[(x * 16 + y) * 256 + z]]
 
     def look(self, display, player):
-        """The next place, once it is in the image."""
+        """Goes to the next place, and waits until it is drawn."""
         self.press(player, "F6")
         player.settle()
 
     def mark(self, display, player):
-        """Takes the box between this place and the next."""
+        """Selects the box between the next two places."""
         self.look(display, player)
         self.click_here(display, player, 1)
         self.look(display, player)
@@ -53,10 +53,10 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         return int(chosen) < len(blocks) and blocks[int(chosen)] == block
 
     def take(self, player, name, block):
-        """A block from the palette, into the hand."""
+        """Takes a block from the palette into the hand."""
         player.press_once("Tab")
         player.type(name)
-        player.settle()  # what is typed is in the image, so that what changes then is what Return does
+        player.settle()  # the typed text is drawn: a later change is the effect of Return
         player.press_once("Return")
         player.wait_for(lambda: self.is_in_hand(block))
         player.settle()
@@ -76,7 +76,7 @@ class FirstMinutes(title_test.TitleScript, building_test.BuildingScript):
         player.choose()  # Create
         player.wait_for(lambda: self.setting("World", "camera"))
         self.pause = player.pause_after("F1")
-        player.tap(1, *building_test.MIDDLE, self.pause)  # takes the mouse
+        player.tap(1, *building_test.MIDDLE, self.pause)  # captures the mouse
         player.press("m")  # through everything
         player.wait_for(lambda: self.setting("World", "movement") == "fast")
         return player

@@ -11,7 +11,7 @@ class Font : public testing::Test {
     void SetUp() override { ImGui::CreateContext(); }
     void TearDown() override { ImGui::DestroyContext(); }
 
-    // As ImguiLayer makes it.
+    // Makes the font as ImguiLayer does.
     static const ImFont& made(const char* file) {
         addFont(13, file);
         unsigned char* pixels = nullptr;

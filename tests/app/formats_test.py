@@ -1,11 +1,11 @@
 #!/usr/bin/python3
-"""Files of other programs, in and out: what the program makes of them is what readers of npm see in them.
+"""Imports and exports files of other programs, and compares them with readers from npm.
 
 Usage: formats_test.py PROGRAM NPM_FOLDER
 
-npm fetches the packages of tests/formats/node into NPM_FOLDER. Where it is not there, or has no network, the tests are
+npm fetches the packages of tests/formats/node into NPM_FOLDER. Without npm or a network the tests are
 skipped with the reason (exit code 77). TERRANE_ALL_CHUNKS=1 compares all chunks of the region files of twelve versions, which
-takes minutes; else a few chunks of six versions, each of which stores blocks in another way or has other names."""
+takes minutes; else a few chunks of six versions, which differ in the format or the names of blocks."""
 import collections
 import gzip
 import json
@@ -25,7 +25,7 @@ from support import ProgramTest, run
 NODE = pathlib.Path(__file__).parent.parent / "formats" / "node"
 npm_folder = None
 
-# Blocks whose names become these, whatever their properties.
+# Blocks that map to these names, whatever their properties.
 SAME = {"air": "air", "cave_air": "air", "stone": "stone", "granite": "stone", "bedrock": "stone", "dirt": "dirt",
         "grass_block": "grass", "gravel": "gravel", "sand": "sand", "water": "water", "oak_log": "oak_log",
         "oak_leaves": "oak_leaves", "clay": "clay", "coal_ore": "stone", "iron_ore": "stone", "deepslate": "basalt"}
@@ -34,12 +34,12 @@ VERSIONS = ("1.8.9", "1.12.2", "1.13.2", "1.16", "1.18.2", "1.21.1")
 
 
 def fetch_packages():
-    """Why they are not there, or nothing."""
+    """Returns the reason why the packages are missing, or None."""
     npm = shutil.which("npm")
     if not npm or not shutil.which("node"):
         return "npm and node are not installed"
     wanted = (NODE / "package-lock.json").read_text()
-    mark = npm_folder / "installed.json"  # written when all is there
+    mark = npm_folder / "installed.json"  # written last
     if not mark.exists() or mark.read_text() != wanted:
         npm_folder.mkdir(parents=True, exist_ok=True)
         for name in ("package.json", "package-lock.json"):
@@ -101,7 +101,7 @@ class Minecraft(ProgramTest):
             area = (min(c[0] for c in chunks), min(c[1] for c in chunks), max(c[0] for c in chunks) + 1,
                     max(c[1] for c in chunks) + 1)
         folder = self.folder / version / "region"
-        shutil.copytree(region.parent, folder)  # the reader opens files to write
+        shutil.copytree(region.parent, folder)  # the reader opens files for writing
         expected = node("count_blocks.js", folder, version, *area)
         world, report = self.folder / f"{version}.sqlite", self.folder / f"{version}.json"
         done = run("import", "minecraft", region.parent.parent if region.parent.name == "region" else folder.parent,
@@ -247,7 +247,7 @@ class Volumes(ProgramTest):
         self.succeed("export", "schem", "--world", world, box, "-o", copies[0])
         after = node("read_file.js", "schem", copies[0], "1.20.1")
         self.assertEqual(after["size"], before["size"])
-        # What has a block of its own comes back in its place, with its properties.
+        # Blocks with an exact counterpart return at their position with their properties.
         compared = 0
         for old, new in zip(before["blocks"], after["blocks"]):
             name = old.split("{")[0]
@@ -258,7 +258,7 @@ class Volumes(ProgramTest):
                 facing = [json.loads(block[len(name):])["facing"] for block in (old, new)]
                 self.assertEqual(*facing)
         self.assertGreater(compared, 5000)
-        # Once more: the same to the bit.
+        # A second round gives the same bytes.
         again = self.folder / "again.sqlite"
         self.succeed("import", "schem", copies[0], "--world", again, "--generator", "flat", "--at", "100,100,20")
         self.succeed("export", "schem", "--world", again, "--box",
@@ -310,7 +310,7 @@ class Volumes(ProgramTest):
 
 
 def png_rows(path):
-    """Of a gray PNG whose rows have the filter "Sub"."""
+    """The rows of a gray PNG with filter type "Sub"."""
     import zlib
     data, at, packed = pathlib.Path(path).read_bytes(), 8, b""
     while at < len(data):
@@ -358,7 +358,7 @@ class Glb(ProgramTest):
         corners = triangles_of(path)
         places = corners[:, :, :3].astype("f8")
         normals = corners[:, :, 3:6]
-        # Plants are open planes, oblique ones.
+        # Plants are single oblique planes.
         straight = (numpy.abs(normals[:, 0]).max(axis=1) > 0.99)
         across = numpy.cross(places[:, 1] - places[:, 0], places[:, 2] - places[:, 0])
         self.assertTrue((numpy.einsum("ij,ij->i", across, normals[:, 0]) > 0).all())
@@ -366,7 +366,7 @@ class Glb(ProgramTest):
         if not others - {names.index("grass_tuft")}:
             self.assertAlmostEqual(signed, float(numpy.isin(volume, list(cubes)).sum()), places=3)
         self.assertGreater(signed, 0)
-        # x stays, our y is -z of the file, our z its y.
+        # x stays, y is -z of the file, z is its y.
         low, high = places.min(axis=(0, 1)), places.max(axis=(0, 1))
         filled = numpy.argwhere(volume != 0)
         self.assertEqual((low[0], high[0]), (filled[:, 2].min(), filled[:, 2].max() + 1))

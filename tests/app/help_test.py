@@ -18,7 +18,7 @@ class HelpTest(ProgramTest):
     variables = {}
 
     def make_worlds(self, *names):
-        """After the script was made: worlds are looked for at completion time."""
+        """Makes worlds after the script: they are searched at completion time."""
         folder = self.folder / "data" / "terrane"
         folder.mkdir(parents=True, exist_ok=True)
         for name in names:
@@ -155,7 +155,7 @@ class Zsh(HelpTest):
                            "compadd() { print -l ${(P)2}; }; _terrane_worlds")
         self.assertEqual(sorted(found), ["", "castle", "hills 2", "home"])
 
-    # The shell's own check of specifications, without a terminal: it reports wrong ones.
+    # The shell's own check of specifications, which reports wrong ones; without a terminal.
     def test_specifications_are_understood(self):
         for command in self.commands:
             self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; " f"source {self.script('zsh')}; "

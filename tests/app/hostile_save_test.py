@@ -1,4 +1,4 @@
-"""Saves that somebody made to harm who opens them: each command that reads one says so in one line and ends.
+"""Malicious saves: each command that reads one ends with a one-line error.
 
 Usage: hostile_save_test.py PROGRAM
 """
@@ -14,7 +14,7 @@ from support import ProgramTest, run
 
 ENDLESS = ("CREATE VIEW chunks AS WITH RECURSIVE n(key) AS (SELECT 1 UNION ALL SELECT key + 1 FROM n) "
            "SELECT key, 0 AS origin, x'' AS data FROM n")
-# What is done to the save, and what the message must have.
+# A change to the save, and text that the message must contain.
 CASES = [
     ("DROP TABLE chunks", 'the table "chunks" is missing'),
     (f"DROP TABLE chunks; {ENDLESS}", 'it has the view "chunks"'),
@@ -27,7 +27,7 @@ CASES = [
 
 
 def swollen_chunk(key, stone, megabytes):
-    """2 KB for a chunk of that many MiB: its last block has them as block entity data, all zeros (RFC 8878)."""
+    """2 KB that decompress to a chunk of that many MiB: its last block has zeros as block entity data (RFC 8878)."""
     blocks = struct.pack("<BH", 0, stone) * 16 + bytes(3) * 16
     content = blocks + struct.pack("<IHI", 1, 65535, megabytes << 20)
     frame = struct.pack("<IBB", 0xFD2FB528, 0, 0x38) + struct.pack("<I", len(content) << 3)[:3] + content
@@ -45,7 +45,7 @@ class HostileSaves(ProgramTest):
         self.save = self.folder / "a.sqlite"
 
     def change(self, sql):
-        """A copy of the good save after the SQL of somebody else."""
+        """A copy of the good save, changed by SQL."""
         for path in self.folder.glob("a.sqlite*"):
             path.unlink()
         shutil.copy(self.good, self.save)
@@ -78,7 +78,7 @@ class HostileSaves(ProgramTest):
                 self.assertEqual(done.stderr, "")
             self.assertEqual(self.save.read_bytes(), before, sql)
 
-    # 48 chunks of 60 MiB each: 2.8 GiB in 120 KB. What does not fit is told once.
+    # 48 chunks of 60 MiB each: 2.8 GiB in 120 KB. A lack of memory is reported once.
     def test_a_small_file_does_not_take_all_memory(self):
         self.change("DELETE FROM chunks")
         with sqlite3.connect(self.save) as database:
@@ -103,7 +103,7 @@ class HostileSaves(ProgramTest):
                 child.returncode = os.waitstatus_to_exitcode(status)
                 self.assertEqual(child.returncode, 0, said)
                 self.assertLess(used.ru_maxrss, 1600 << 10, "KiB at the most")
-                if command[0] == "dump":  # the others hold few chunks at once
+                if command[0] == "dump":  # the others hold few chunks at a time
                     self.assertEqual(said.count("more than may be in memory"), 1, said)
         done = run("check", self.save)
         self.assertEqual(done.returncode, 0, done.stdout)

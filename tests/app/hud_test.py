@@ -20,7 +20,7 @@ class Hud(building_test.BuildingScript):
         game.wait_for(lambda: is_it(self.setting(name)))
 
     def hold(self, game, key):
-        """Long enough for a dialog: what is down within one frame is missed."""
+        """Holds a key long enough for a dialog, which misses presses within one frame."""
         game.display.xdotool("keydown", key)
         time.sleep(self.pause)
         game.display.xdotool("keyup", key)
@@ -31,14 +31,14 @@ class Hud(building_test.BuildingScript):
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
             self.press(game, "3")
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble stone_bricks"))
-            game.click(2)  # what is looked at
+            game.click(2)  # picks the targeted block
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble grass"))
             self.hold(game, "Tab")
             self.keep(display, game, "palette")
             game.type("chest")
             self.hold(game, "Return")
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("2 bricks cobble chest"))
-            self.press(game, "ctrl+5")  # Control is for sinking
+            self.press(game, "ctrl+5")  # Control sinks
             self.wait_for_setting(game, "hotbar", lambda hotbar: hotbar.startswith("4 bricks"))
             self.press(game, "3")
             display.xdotool("click", 4)  # the wheel
@@ -54,7 +54,7 @@ class Hud(building_test.BuildingScript):
             self.wait_for_setting(game, "places", lambda places: places == "100.5 -40.5 95 180 -20 far away\n")
             self.keep(display, game, "places")
             self.press(game, "Escape", "F7")
-            self.press(game, "h")  # where the world begins
+            self.press(game, "h")  # to the spawn
             self.wait_for_setting(game, "camera", lambda camera: not camera.startswith("100.5 "))
             self.keep(display, game, "facts")
             game = self.again(display, game)
@@ -64,7 +64,7 @@ class Hud(building_test.BuildingScript):
     def test_a_held_key_that_opens_a_text_field_does_not_type_into_it(self):
         with window_support.Display(repeats_keys=True) as display:
             game = self.play(display, ("8.5 8.5 84 0 -89",), "bricks", 1)
-            # The display repeats it; the last repetition shares no frame with what is typed.
+            # The display repeats the key; its last repetition is not in a frame with typed text.
             display.xdotool("keydown", "n", "sleep", "2.5", "keyup", "n", "sleep", "1.5")
             game.type("no")
             self.hold(game, "Return")
@@ -84,7 +84,7 @@ class Hud(building_test.BuildingScript):
             self.press(game, "F12")
             game.wait_for(lambda: list(folder.glob("*.png")))
             self.keep(display, game, "screenshot")
-            # Its white border, near the right edge; without what lies over the image it stays.
+            # Its white border, near the right edge, stays when the HUD is hidden.
             def is_bordered():
                 shot = display.screenshot(game.window)
                 return any(min(shot.color(shot.width - 11 - x, 40)) > 250 for x in range(4))

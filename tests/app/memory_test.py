@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""The program with too little memory: it ends by itself, in one line that says so, and damages no save.
+"""The program with too little memory: it ends with a one-line error and damages no save.
 Usage: memory_test.py PROGRAM
 
-Each command runs under limits of its address space (RLIMIT_AS) from where the system can just load the program to
-where all works. Six limits each; with TERRANE_MEMORY_STEP=KIB in the environment one every so many KiB. What draws is
-not run here: Mesa's software renderer ends the process by itself where it gets no memory (LLVM: "Unable to allocate
-section memory!"). So does, rarely, the C library, for variables of threads; that is passed over."""
+Each command runs under limits of its address space (RLIMIT_AS), from the least that loads the program to the least that
+suffices. Six limits each; with TERRANE_MEMORY_STEP=KIB in the environment one per so many KiB. Commands that draw are
+not tested: Mesa's software renderer aborts the process without memory (LLVM: "Unable to allocate section memory!").
+Rarely the C library does so too, for thread-local variables; that is ignored."""
 import functools
 import os
 import re
@@ -18,9 +18,9 @@ from support import ProgramTest
 
 KIB, MIB = 1 << 10, 1 << 20
 HANG_SECONDS = 300  # a guard against hangs: commands take less than a second
-CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of ours
+CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of the program
 COUNT = 6  # of limits
-INFORMATION = re.compile(r"terrane: (?!error: )")  # all but errors
+INFORMATION = re.compile(r"terrane: (?!error: )")  # log lines except errors
 GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
 
@@ -33,7 +33,7 @@ def run_within(limit, arguments):
 
 
 def first_limit(low, high, step, holds):
-    """A limit for which something holds that does not hold `step` below."""
+    """A limit that meets the condition, while the limit `step` below does not."""
     while high - low > step:
         middle = (low + high) // 2
         low, high = (low, middle) if holds(middle) else (middle, high)
@@ -42,7 +42,7 @@ def first_limit(low, high, step, holds):
 
 @functools.cache
 def limit_to_load():
-    """From here on the system can load the program."""
+    """The least limit at which the system can load the program."""
     return first_limit(4 * MIB, 64 * MIB, 256 * KIB,
                        lambda limit: run_within(limit, ["--version"]).returncode != CANNOT_BE_LOADED)
 
@@ -53,7 +53,7 @@ class Memory(ProgramTest):
         self.save = self.folder / "save.sqlite"
 
     def limits(self, run):
-        """Where all works is not one limit: threads take memory in another order each time."""
+        """The limits to test. The least sufficient one varies: threads allocate memory in a different order each time."""
         loads = limit_to_load()
         works = first_limit(loads, 512 * MIB, 4 * MIB, lambda limit: run(limit).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
@@ -71,7 +71,7 @@ class Memory(ProgramTest):
             self.assertRegex(errors[0], r"\Aterrane: error: .*(memory|no thread can be started)", case)
 
     def assertNoDamage(self, case):
-        """Whatever a run left can be looked through, and is a whole save or none."""
+        """A save left by a run can be checked and is complete, or there is none."""
         if not self.save.exists():
             return
         done = support.run("check", self.save)

@@ -21,7 +21,7 @@ class NameTags : public testing::Test {
         names_ = names;
         return shownNames(kScreen, camera_, names_, {world_, contentBlocks()});
     }
-    // Between the camera and what is farther than 5 blocks ahead.
+    // A wall 5 blocks in front of the camera.
     void wallOf(std::string_view block) {
         for (int z = 95; z < 106; ++z)
             for (int y = -8; y < 8; ++y) world::putBlock(world_, {5, y, z}, contentBlock(block));

@@ -1,4 +1,4 @@
-"""Content packs through the command line: made, checked, listed, used by worlds that remember them, sent by servers."""
+"""Content packs on the command line: created, checked, listed, remembered by worlds, sent by servers."""
 import json
 import shutil
 import subprocess
@@ -49,7 +49,7 @@ class Packs(support.ProgramTest):
         self.terrane("packs", "init", "isles")
         world = self.folder / "w.sqlite"
         self.terrane("generate", "--radius", "1", "--world", world, "--content", "isles", "--generator", "isles:hills")
-        # Not named again. Blocks that are there are not generated again.
+        # The pack is not named again, and existing chunks are not generated again.
         self.terrane("generate", "--radius", "1", "--world", world)
         shutil.move(self.packs / "isles", self.folder / "elsewhere")
         told = self.terrane("generate", "--radius", "1", "--world", world, code=2)
@@ -109,7 +109,7 @@ class Packs(support.ProgramTest):
                                         "--generator", "isles:hills", "--address", "127.0.0.1", "--port", "0")
         self.addCleanup(server.clean_up)
         port = server.wait_for(r"on port (\d+)")[1]
-        # Bots have no packs of their own: another folder of data.
+        # Bots use another data folder, without packs.
         bare = self.environment | {"XDG_DATA_HOME": str(self.folder / "empty")}
         done = subprocess.run([support.program(), "bots", "--connect", f"127.0.0.1:{port}", "--count", "2", "--seconds", "1",
                                "--behaviour", "build"], capture_output=True, text=True, timeout=support.HANG_SECONDS,

@@ -25,9 +25,9 @@ TEST(PlayFlow, AWorldBringsItsWayToMoveAndItsTextures) {
     saved.resourcePack = "pack";
     EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Fast);
     EXPECT_EQ(settingsWith(saved, {}).resourcePack, "pack");
-    saved.resourcePack = "";  // taken back by the player
+    saved.resourcePack = "";  // reset by the player
     EXPECT_EQ(settingsWith(saved, {}).resourcePack, "");
-    // The command line is stronger.
+    // The command line takes precedence.
     EXPECT_EQ(settingsWith(saved, {.movement = true}).movement, game::Movement::Gravity);
     EXPECT_EQ(settingsWith(saved, {.resourcePack = true}).resourcePack, "default");
     saved.movement = "teleport\n\x1b[31m";
@@ -60,7 +60,7 @@ TEST(PlayFlow, MovementNamesLeadBack) {
     EXPECT_EQ(movementNamed(""), std::nullopt);
 }
 
-// The flight behind the title is slow and closed, and looks along its way.
+// The flight behind the title is slow and closed, and looks ahead.
 TEST(TitleBackground, FliesInACircle) {
     const glm::dvec3 center(100, -50, 90);
     const world::Pose start = flightPose(center, 0);

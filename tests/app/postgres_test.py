@@ -71,7 +71,7 @@ class World(Postgres):
         done = run("check", self.url)
         self.assertEqual(done.returncode, 1)
         self.assertIn("damage: chunk -1,-1: ", done.stdout)
-        # Generating puts it aside and makes it anew.
+        # Generating sets it aside and generates it again.
         run("generate", "--radius", "1", "--world", self.url)
         self.assertRegex(self.succeed("check", self.url), "1 damaged chunks were put aside before\ngood\n")
 
@@ -183,7 +183,7 @@ class Copy(Postgres):
         self.assertEqual(self.digest(20, "--world", self.url), self.digest(20, "--generator", "flat"))
 
     def test_a_copy_of_a_world_that_may_only_be_read(self):
-        """Players and history, too: nothing is written where they come from."""
+        """Copies players and history too, and writes nothing to the source."""
         server = Server(support.program(), self.folder, 0, "--generator", "flat", url=self.url)
         self.succeed("bots", "--connect", f"127.0.0.1:{server.port}", "--count", "3", "--seconds", "4",
                      "--builders", "1")

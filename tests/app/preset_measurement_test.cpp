@@ -14,7 +14,7 @@ struct Measured {
     double framesPerSecond = 0;
 };
 
-// `frame`: of each time since the start, with a preset.
+// `frameOf` returns the frame at a time since the start with a preset.
 template <class FrameOf>
 Measured measure(FrameOf frameOf) {
     PresetMeasurement measurement;
@@ -55,7 +55,7 @@ TEST(PresetMeasurement, APresetDearerThanExpectedGivesWay) {
 
 TEST(PresetMeasurement, AnIncompleteViewMayOnlySayThatLowIsTooDear) {
     EXPECT_NEAR(measure([](double, auto) { return Frame{0.1, 100, false}; }).seconds, 1, 0.11);
-    // Cheap frames at first, dear ones when all chunks are there.
+    // Cheap frames at first, expensive ones when all chunks are loaded.
     const Measured measured = measure([](double time, auto) {
         return time < 3.5 ? Frame{0.01, 0.01, false} : Frame{0.02, 20, true};
     });

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""The example reader of saves, which follows docs/file-format.md alone, against what the program reads.
-Usage: read_save_test.py PROGRAM. Ends with 77 where Python has no zstandard or xxhash."""
+"""Compares the example reader of saves, which follows docs/file-format.md alone, with the program.
+Usage: read_save_test.py PROGRAM. Exit code 77 if Python has no zstandard or xxhash."""
 import json
 import os
 import pathlib
@@ -14,7 +14,7 @@ try:
     import xxhash
     import zstandard
 except ImportError:
-    # Debian's packages are for Debian's Python, which need not be the one that the build found.
+    # Debian's packages are for Debian's Python, which may not be the one of the build.
     OTHER = "/usr/bin/python3"
     if os.path.realpath(sys.executable) == os.path.realpath(OTHER) or "TERRANE_SECOND_TRY" in os.environ:
         print("skipped: needs python3-zstandard and python3-xxhash")
@@ -71,7 +71,7 @@ class ReadSave(ProgramTest):
         return struct.pack("<Q", xxhash.xxh64_intdigest(rest, seed)) + rest
 
     def reseal(self, save, seed_of):
-        """New checksums of all chunks, by a function from key and origin."""
+        """Recomputes the checksums of all chunks, by a function of key and origin."""
         for key, origin, data in save.execute("SELECT key, origin, data FROM chunks").fetchall():
             save.execute("UPDATE chunks SET data = ? WHERE key = ?", [self.sealed(data[8:], seed_of(key, origin)), key])
 
@@ -94,7 +94,7 @@ class ReadSave(ProgramTest):
         after = self.assertSame(-7, 13)
         self.assertEqual(after.count("snow"), before.count("stone"))
 
-    # Every form that a section can have, also those that the program does not write itself.
+    # All valid forms of a section, including those that the program does not write.
     def test_every_form_of_a_section(self):
         rng = random.Random(5)
         with sqlite3.connect(self.save) as save:
@@ -132,7 +132,7 @@ class ReadSave(ProgramTest):
         self.assertEqual([names[v] for v in struct.unpack("<65536H", out.read_bytes())], blocks)
         self.assertIn("chunk -7,13 of level 0 was not saved", self.reader(self.save, -7, 13).stderr)
         for number in (2, 1):
-            with sqlite3.connect(self.save) as save:  # as formats 1 and 2 have the others
+            with sqlite3.connect(self.save) as save:  # as in formats 1 and 2
                 save.execute("DELETE FROM chunks WHERE key >= ?", [1 << 56])
                 save.execute("DELETE FROM settings WHERE name = 'checksum'")
                 self.reseal(save, lambda key, origin: 0)

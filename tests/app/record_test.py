@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""terrane record, end to end: videos as ffprobe sees them, frames, edits, errors. Usage: record_test.py PROGRAM"""
+"""terrane record, end to end: videos according to ffprobe, frames, edits, errors. Usage: record_test.py PROGRAM"""
 import json
 import os
 import signal
@@ -10,7 +10,7 @@ import support
 from support import Image, ProgramTest, run
 
 SMALL = ("--size", "160x90", "--view-distance", "2", "--preset", "low")
-# Level ground of grass at z = 80, which every camera here looks down on.
+# Flat grass at z = 80, on which every camera here looks down.
 HEAD = 'generator = "flat"\n'
 KEY = "[[shot.key]]\nat = [8.5, 8.5, 90]\nlook = [0, -89]\n"
 
@@ -68,7 +68,7 @@ class Video(RecordTest):
                      "--until", "1.25")
         self.assertEqual(int(self.probe(video)[0]["nb_read_frames"]), 6)
 
-    # The colors that go in come out: neither swapped nor upside down.
+    # Colors survive encoding, neither swapped nor upside down.
     def test_colors(self):
         lamp = shot(1, "[[shot.edit]]\nfrom = [0, 0, 80]\nto = [16, 8, 80]\nblock = \"lamp_red\"\n")
         image = self.frames(HEAD + lamp, "--fps", "1", "--light", "classic")[0]
@@ -173,7 +173,7 @@ class Frames(RecordTest):
             self.assertNotEqual(frames[a], frames[b])
         self.assertGreater(min(frames[2][45][80]), 150, "snow is white")
 
-    # What was built is there when one comes back, long after it was unloaded; also in a part of the video.
+    # Edits are still there after a journey on which they were unloaded; also if only a part of the video is recorded.
     def test_edits_outlive_a_journey(self):
         build = '[[shot.edit]]\nfrom = [0, 0, 84]\nto = [16, 16, 84]\nblock = "snow"\n'
         away = shot(12, key=KEY.replace("[8.5, 8.5, 90]", "[5000, 8.5, 90]"))

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Pictures and flights from the command line: render, flight-bench. Usage: render_test.py PROGRAM"""
+"""Images and flights from the command line: render, flight-bench. Usage: render_test.py PROGRAM"""
 import json
 import re
 
@@ -24,7 +24,7 @@ class FlightBench(ProgramTest):
             self.assertAlmostEqual(whole, parts, delta=0.5 + 0.5 * whole)
         frames, x = re.search(r"(\d+) frames to (-?\d+),8,120", done.stderr).groups()
         self.assertEqual(int(frames), len(rows) - 1)
-        self.assertGreater(int(x), 20)  # 60 blocks a second, but long frames move no farther than a quarter of one
+        self.assertGreater(int(x), 20)  # 60 blocks per second; a long frame moves at most a quarter of that
 
     def test_statistics_as_json(self):
         for backend in ("cpu", "gpu"):
@@ -61,7 +61,7 @@ class Render(ProgramTest):
             self.assertEqual(text, "")
 
     def test_land_goes_on_to_the_horizon(self):
-        """Without an option, too."""
+        """Also without an option."""
         place = ("render", "--scene", "landscape", "--preset", "low", "--debug-gl", "--size", "64x36", "--view-distance", "2")
         near, far = self.folder / "near.png", self.folder / "far.png"
         self.succeed(*place, "--horizon", "0", "-o", near)
@@ -183,7 +183,7 @@ class Render(ProgramTest):
         self.assertLess(night.rows[18][32][1], green, "darker at night")
 
     def test_a_resource_pack_changes_the_faces_it_has(self):
-        # Down on the flat world: nothing but the tops of grass is seen.
+        # Looks down on the flat world: only tops of grass are visible.
         view = (*FLAT, "--at", "8.5,8.5,100", "--look", "0,-90", "--time", "0.5", "--distance-fog", "off")
         before, _ = self.render("before.png", *view)
         pack = self.folder / "pack"

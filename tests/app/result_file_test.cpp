@@ -20,7 +20,7 @@ class ResultFileTest : public testing::Test {
   protected:
     void write(const std::string& text) const { std::ofstream(path) << text; }
     std::string text() const { return *base::readFile(path); }
-    // Why the file is refused; empty where it is not.
+    // The error of a refused file; empty if it is accepted.
     std::string refusal(const json& settings = kSettings) const {
         const auto file = ResultFile::resume(path, settings);
         return file ? std::string() : file.error().message;

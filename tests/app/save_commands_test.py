@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""generate, dump, check and copy with saves, also while another process plays them. Usage: save_commands_test.py PROGRAM"""
+"""generate, dump, check and copy with saves, also while another process has them open. Usage: save_commands_test.py PROGRAM"""
 import fcntl
 import json
 import os
@@ -120,7 +120,7 @@ class Saves(ProgramTest):
         self.succeed("map", *area, "-o", plain, *FLAT)
         self.succeed("map", *area, "-o", drawn, "--world", self.save)
         self.assertEqual(plain.read_bytes(), drawn.read_bytes(), "the save has the generator, too")
-        middle = (2**27 << 28) + 2**27  # chunk 0,0: what nobody edited is as generated
+        middle = (2**27 << 28) + 2**27  # chunk 0,0: unedited blocks are as generated
         self.edit_chunk(middle, self.sql(f"SELECT data FROM chunks WHERE key = {middle}")[0][0])
         self.sql("UPDATE blocks SET name = 'sand_' WHERE name = 'sand'")
         self.sql("UPDATE blocks SET name = 'sand' WHERE name = 'grass'")
@@ -135,7 +135,7 @@ class Saves(ProgramTest):
         self.assertEqual(self.save.read_bytes(), before)
 
     def edit_chunk(self, key, data):
-        """Puts what an editor made into the save in place of a chunk."""
+        """Replaces a chunk of the save by edited data."""
         with sqlite3.connect(self.save) as database:
             database.execute("INSERT OR REPLACE INTO chunks VALUES (?, 1, ?)", (key, support.seal(data, key, 1)))
         database.close()
@@ -162,7 +162,7 @@ class Saves(ProgramTest):
         self.assertEqual(self.save.read_bytes(), before)
 
     def run_here(self, *arguments):
-        """Runs where worlds by name lie in the folder of the test."""
+        """Runs with the test's folder as the folder of named worlds."""
         variables = {**support.environment(), "XDG_DATA_HOME": str(self.folder)}
         return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True, cwd=self.folder,
                               timeout=support.HANG_SECONDS, env=variables, check=False)
@@ -210,7 +210,7 @@ class Saves(ProgramTest):
         self.assertRefused(done, "there is none")
         self.succeed("generate", "--world", self.save, "--radius", "0", *FLAT)
         before = self.save.read_bytes()
-        self.succeed(*view, "--world", self.save)  # most of what it draws is generated
+        self.succeed(*view, "--world", self.save)  # most chunks in view are generated
         self.assertEqual(self.save.read_bytes(), before)
         self.assertEqual(sorted(path.name for path in self.folder.iterdir()), sorted([out.name, self.save.name]))
 
@@ -231,7 +231,7 @@ class Saves(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(json.loads(done.stdout)["damaged_chunks"],
                          [{"x": -1, "y": -1, "level": 0, "problem": "the checksum is wrong"}])
-        # Generating repairs it and keeps what was there.
+        # Generating repairs it and keeps the damaged data.
         self.succeed("generate", "--world", self.save, "--radius", "1", *FLAT)
         report = json.loads(self.succeed("check", self.save, "--json"))
         self.assertEqual((report["damaged"], report["chunks"], report["quarantined"]), (False, 9, 1))
@@ -255,7 +255,7 @@ class PlayedSaves(ProgramTest):
         self.area = ("--area", "-2,-2,3,3")
 
     def look(self):
-        """What each command writes: name, arguments."""
+        """Arguments of each command that writes, by name."""
         return {"check": ("check", self.save),
                 "dump": ("dump", *self.area, "--world", self.save, "-o", self.folder / "out.npy"),
                 "map": ("map", *self.area, "--world", self.save, "-o", self.folder / "out.png"),
@@ -263,7 +263,7 @@ class PlayedSaves(ProgramTest):
                            "--preset", "low", "--world", self.save, "-o", self.folder / "out.png")}
 
     def hold_open(self):
-        """Keeps the lock and a connection as the program does, with an edit that is in the log alone."""
+        """Keeps the lock and a connection as the program does, with an edit that is only in the log."""
         lock = open(f"{self.save}-lock", "w", encoding="ascii")
         self.addCleanup(lock.close)
         fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
@@ -277,7 +277,7 @@ class PlayedSaves(ProgramTest):
         return database
 
     def files(self):
-        """Not read by this process: that would end SQLite's locks."""
+        """The contents of the files, read by another process: closing them in this one would release SQLite's locks."""
         names = [str(self.save), f"{self.save}-wal", f"{self.save}-lock"]
         return subprocess.run(["cksum", *names], capture_output=True, check=True).stdout
 

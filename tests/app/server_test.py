@@ -1,4 +1,4 @@
-"""The program of a build without graphics: what a server needs, and no library that draws."""
+"""The program of a build without graphics: it can serve, and links no graphics library."""
 import subprocess
 
 import support

@@ -23,7 +23,7 @@ class Settings : public testing::Test {
         text << std::ifstream(file_).rdbuf();
         return text.str();
     }
-    // The lines that are settings.
+    // The lines with settings.
     std::vector<std::string> lines() const {
         std::istringstream in(written());
         std::vector<std::string> found;
@@ -44,7 +44,7 @@ TEST_F(Settings, NothingIsWrittenWhereNothingChanged) {
 }
 
 TEST_F(Settings, OnlyWhatChangedIsWritten) {
-    // As after: play --view-distance 40 --full-screen, and M pressed.
+    // Like `play --view-distance 40 --full-screen` and a press of M.
     ASSERT_TRUE(writeChanges(file_, {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "walls"}},
                              {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "gravity"}},
                              kGraphics));
@@ -62,7 +62,7 @@ TEST_F(Settings, WhatTheFileHasBesidesStays) {
 TEST_F(Settings, AnotherPresetReplacesAllOfGraphics) {
     std::filesystem::create_directories(file_.parent_path());
     write("clouds = 'on'\nmovement = 'fast'\npreset = 'high'\n");
-    // "clouds = on" is what the preset before has anyway, so it stands in neither.
+    // "clouds = on" is the former preset's value, so neither map has it.
     ASSERT_TRUE(
         writeChanges(file_, {{"preset", "high"}}, {{"preset", "low"}, {"shadows", "1024"}}, kGraphics));
     EXPECT_EQ(lines(), (Lines{"movement = 'fast'", "preset = 'low'", "shadows = '1024'"}));
@@ -147,7 +147,7 @@ TEST_F(Settings, ALinkStaysOne) {
     std::filesystem::create_directories(file_.parent_path());
     const std::filesystem::path target = folder_ / "dotfiles.toml";
     std::filesystem::create_symlink("../dotfiles.toml", file_);
-    for (const char* movement : {"fast", "walls"}) {  // at first the link leads nowhere
+    for (const char* movement : {"fast", "walls"}) {  // the link is dangling at first
         ASSERT_TRUE(writeChanges(file_, {}, {{"movement", movement}}, kGraphics));
         EXPECT_TRUE(std::filesystem::is_symlink(file_));
         EXPECT_TRUE(std::filesystem::is_regular_file(target));

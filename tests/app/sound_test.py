@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Plays in the program's window and listens: OpenAL writes what would be heard into a file. Usage: sound_test.py PROGRAM
+"""Plays in the program's window and checks the sound that OpenAL writes to a file. Usage: sound_test.py PROGRAM
 
 Needs Xvfb (without it the test is skipped, exit code 77), xdotool and xwd; Debian's packages are xvfb, xdotool and
 x11-apps."""
@@ -16,7 +16,7 @@ sys.path.append(str(pathlib.Path(__file__).parent))
 import window_support  # noqa: E402
 from window_support import FLAT, SIZE, Display, Game, is_green  # noqa: E402
 
-HEADER_BYTES = 68  # of the WAV file that OpenAL writes
+HEADER_BYTES = 68  # of OpenAL's WAV file
 
 
 class Sound(ProgramTest):
@@ -42,7 +42,7 @@ class Sound(ProgramTest):
         return game
 
     def loudest(self, file, since=0):
-        """Of the samples after the byte `since`, 0 to 1."""
+        """The peak of the samples after the byte `since`, 0 to 1."""
         data = file.read_bytes()[max(since, HEADER_BYTES) & ~3:]
         samples = array.array("h", data[:len(data) & ~3])
         return max((abs(sample) for sample in samples), default=0) / 32768
@@ -55,7 +55,7 @@ class Sound(ProgramTest):
             game = self.play(display, "--sound-volume", "1")
             if "this build has no sounds" in game.output():
                 self.skipTest("this build has no sounds")
-            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
             time.sleep(1)
             before = file.stat().st_size
             wind = self.loudest(file, before // 2)

@@ -1,4 +1,4 @@
-"""What the tests of the program share: running it, and reading the files it writes with the standard library."""
+"""Shared by the tests of the program: runs it, and reads its files with the standard library."""
 import ast
 import os
 import pathlib
@@ -35,12 +35,12 @@ def program():
 
 
 def environment(display=None, settings=None):
-    """That of this process with no other display server than the one named, and settings and worlds in a folder (they
-    are then in terrane/) or none."""
+    """The environment of this process, with only the given display server, and with settings and worlds in terrane/ of a
+    folder, or none."""
     variables = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
     if display:
         variables["DISPLAY"] = display
-    # Where nothing can be made, not even by root.
+    # Nothing can be created there, not even by root.
     variables["XDG_CONFIG_HOME"] = variables["XDG_DATA_HOME"] = str(settings or "/dev/null")
     return variables
 
@@ -52,7 +52,7 @@ def run(*arguments, display=None):
 
 
 class RunningProgram:
-    """The program while it goes on: what it logs, and its console."""
+    """A running program: its log, and its console."""
 
     def __init__(self, folder, *arguments):
         self.log = tempfile.TemporaryFile(mode="w+")
@@ -64,7 +64,7 @@ class RunningProgram:
         return self.log.read()
 
     def wait_for(self, pattern):
-        """The match of what it logs; an error where it ends without."""
+        """Returns the match in the log; fails if the program ends without one."""
         deadline = time.monotonic() + HANG_SECONDS
         while time.monotonic() < deadline:
             if found := re.search(pattern, self.output()):
@@ -114,7 +114,7 @@ def _rotate(value, bits):
 
 
 def xxh64(data, seed):
-    """xxHash64 by its specification, for changing saves."""
+    """xxHash64 as specified, for changes to saves."""
     p, mask, at = _PRIMES, 2**64 - 1, 0
 
     def mix(lane, word):
@@ -169,7 +169,7 @@ def _unfilter(kind, row, above, step):
 
 
 class Image:
-    """A PNG of 8 bits a channel; rows of (red, green, blue)."""
+    """A PNG with 8 bits per channel; rows of (red, green, blue)."""
 
     def __init__(self, path):
         data = pathlib.Path(path).read_bytes()
@@ -202,7 +202,7 @@ class Image:
 
 
 def write_png(path, width, height, color):
-    """One color everywhere: (red, green, blue, alpha)."""
+    """Writes an image of one color: (red, green, blue, alpha)."""
     def chunk(kind, data):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = (b"\0" + bytes(color) * width) * height

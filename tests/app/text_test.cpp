@@ -20,7 +20,7 @@ std::string contentOf(const std::filesystem::path& file) {
     return text.str();
 }
 
-// The text of adjacent string literals that begin at `at`; empty where there is none.
+// The text of adjacent string literals that begin at `at`; empty if there are none.
 std::string literalAt(std::string_view source, std::size_t at) {
     std::string text;
     while (true) {
@@ -35,7 +35,7 @@ std::string literalAt(std::string_view source, std::size_t at) {
     }
 }
 
-// Of all calls tr("…"), tr_("…") and trLater("…"); "…" itself stands in comments.
+// The texts of all calls tr("…"), tr_("…") and trLater("…"); "…" itself occurs in comments.
 std::set<std::string> textsIn(std::string_view source) {
     std::set<std::string> texts;
     for (const std::string_view call : {"tr(", "tr_(", "trLater("}) {
@@ -63,7 +63,7 @@ std::set<std::string> textsOfKeys() {
     std::set<std::string> texts;
     for (const KeyHelpLine& line : keyHelpLines()) {
         texts.insert(line.action);
-        // Names of single keys are the same everywhere.
+        // Names of single keys are not translated.
         const bool isWords =
             line.keys.find("button") != line.keys.npos || line.keys.find("wheel") != line.keys.npos;
         if (isWords) texts.insert(line.keys);

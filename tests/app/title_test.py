@@ -13,14 +13,14 @@ import window_support
 from support import HANG_SECONDS, ProgramTest
 
 SIZE = (480, 300)
-# A world behind the title that stands still: what changes then is what a key did.
+# The world behind the title is still, so only keys change the image.
 USUAL = ("--size", f"{SIZE[0]}x{SIZE[1]}", "--view-distance", "2", "--horizon", "0", "--samples", "1", "--reduced-motion",
          "--animation", "off", "--clouds", "off")
 CLOSED = re.compile(r"closed after \d+ frames at (\S+)$", re.MULTILINE)
 
 
 class Player(window_support.Game):
-    """The program and somebody with a keyboard."""
+    """The program and a simulated keyboard."""
 
     def __init__(self, display, folder, *arguments):
         self.display, self.window = display, None
@@ -32,8 +32,8 @@ class Player(window_support.Game):
         return self.display.screenshot(self.window).pixels
 
     def settle(self, seconds=3, still=0.6):
-        """Waits until the image stays as it is, or as a world in which time passes: no longer than `seconds`. It must stay
-        for `still` seconds, and longer where it takes long to change."""
+        """Waits until the image stops changing, or changes only with the time of day: at most `seconds`. It must be unchanged
+        for `still` seconds, and for longer after slow changes."""
         start = changed = time.monotonic()
         before, longest = self.pixels(), 0.2
         while time.monotonic() - start < seconds and time.monotonic() - changed < max(still, 3 * longest):
@@ -44,7 +44,7 @@ class Player(window_support.Game):
                 before, changed = now, time.monotonic()
 
     def press_once(self, *keys):
-        """Waits after each until the image has changed and stays: for longer where the change takes long."""
+        """Waits after each key until the image has changed and is stable, for longer after slow changes."""
         for key in keys:
             before, start = self.pixels(), time.monotonic()
             with self.asleep():
@@ -58,12 +58,12 @@ class Player(window_support.Game):
         self.press_once(*keys, "Return")
 
     def places(self):
-        """Where the worlds that were played were left."""
+        """The positions at which played worlds were left."""
         return CLOSED.findall(self.output())
 
 
 class TitleScript(ProgramTest):
-    """What tests of the title do."""
+    """Actions on the title screen."""
 
     def setUp(self):
         super().setUp()
@@ -79,7 +79,7 @@ class TitleScript(ProgramTest):
         return player
 
     def quit(self, player):
-        """From the main page."""
+        """Quits from the main page."""
         player.press("q")
         self.assertEqual(player.process.wait(HANG_SECONDS), 0, player.output())
         self.assertNotRegex(player.output(), "error|warning")
@@ -92,11 +92,11 @@ class TitleScript(ProgramTest):
             with contextlib.closing(sqlite3.connect(f"file:{self.worlds / world}.sqlite?mode=ro", uri=True)) as database:
                 row = database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()
                 return row[0] if row else None
-        except sqlite3.OperationalError:  # not there yet
+        except sqlite3.OperationalError:  # no table yet
             return None
 
     def is_played(self, world):
-        """Who plays a world writes its number into the lock; who shows it does not."""
+        """Whether a process plays the world: it then writes its id into the lock, unlike one that only shows it."""
         lock = self.worlds / f"{world}.sqlite-lock"
         return lock.exists() and lock.read_text() != ""
 
@@ -107,8 +107,8 @@ class TitleScript(ProgramTest):
         start = time.monotonic()
         player.press("t")
         player.wait_for(lambda: len(player.places()) > left)
-        # The game's last image stays until the title is there. Its world stands still once it is loaded, some time after
-        # the first image.
+        # The game's last image stays until the title is drawn. The title's world is still once it is loaded, some time
+        # after the first image.
         before, deadline = player.pixels(), time.monotonic() + 8
         while player.pixels() == before and time.monotonic() < deadline:
             time.sleep(0.05)
@@ -119,7 +119,7 @@ class Title(TitleScript):
     def test_a_new_world_is_made_left_and_continued(self):
         with window_support.Display() as display:
             player = self.open(display)
-            player.choose()  # New world: nothing else is there
+            player.choose()  # New world: the only entry
             player.choose()  # Create
             player.wait_for(lambda: self.setting("World", "camera"))
             self.assertEqual(self.setting("World", "generator"), "continents")
@@ -134,7 +134,7 @@ class Title(TitleScript):
             self.leave_for_title(player)
             first, second = player.places()
             self.assertEqual(first, second)
-            # Another world begins as worlds do.
+            # A new world starts with default settings.
             player.choose("Down", "Down")
             player.choose()
             player.wait_for(lambda: self.setting("World 2", "camera"))
@@ -160,7 +160,7 @@ class Title(TitleScript):
             player.settle()
             player.press_once("Down", "Right", "Right", "Right")
             player.choose()  # Copy
-            player.press_once("Return")  # by the name that is proposed
+            player.press_once("Return")  # with the proposed name
             player.wait_for(lambda: self.names() == ["hut", "hut copy"])
             player.settle()
             player.press_once("Down", "Down", "Right", "Right", "Right", "Right")
@@ -214,7 +214,7 @@ class Title(TitleScript):
         with window_support.Display() as display:
             player = self.open(display)
             player.choose("Up")  # Worlds
-            player.choose()  # plays the one there is: a message
+            player.choose()  # plays the only world: a message
             player.choose()  # OK
             player.press_once("Escape")
             self.quit(player)

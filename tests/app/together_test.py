@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Two windows on one server: what one player builds the other sees. Usage: together_test.py PROGRAM
+"""Two windows on one server: each player sees the blocks of the other. Usage: together_test.py PROGRAM
 
 Needs what window_support.py needs. TERRANE_SCREENSHOTS names a folder for images of the windows."""
 import os
@@ -15,7 +15,7 @@ from window_support import SIZE, is_green, is_grey
 
 
 class Server(support.RunningProgram):
-    """A server of a flat world, on a port that is free."""
+    """A server of a flat world on a free port."""
 
     def __init__(self, folder):
         self.world = folder / "world.sqlite"
@@ -62,10 +62,10 @@ class Together(ProgramTest):
     def test_what_one_builds_the_other_sees(self):
         with window_support.Display() as first, window_support.Display() as second:
             ann = self.join(first, "Ann", "8.5 8.5 84 0 -89")
-            bob = self.join(second, "Bob", "3.5 8.5 84 0 -26")  # it looks at the same block
+            bob = self.join(second, "Bob", "3.5 8.5 84 0 -26")  # looks at the same block
             ann.wait_for_ground(is_green)
             bob.wait_for_ground(is_green)
-            ann.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+            ann.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
             ann.press("2")  # cobble
             keep(second, bob, "before")
             first.xdotool("click", 3)
@@ -112,7 +112,7 @@ class JoinFromTheTitle(title_test.TitleScript):
         address = f"127.0.0.1:{self.server.port}"
         with window_support.Display() as display:
             player = self.open(display)
-            player.choose("Down")  # Join a server: no world is there to continue
+            player.choose("Down")  # Join a server: there is no world to continue
             player.type(address)
             player.press_once("Tab")
             player.type("Eve")

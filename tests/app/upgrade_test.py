@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A world that 0.1.0 saved is read, brought to the present format and kept, as docs/upgrade.md tells.
+"""A world saved by 0.1.0 is read, converted to the current format and kept (docs/upgrade.md).
 Usage: upgrade_test.py PROGRAM
 
 tests/saves/overworld_0.1.sqlite is from the window of 0.1.0: --generator overworld --seed 7 --view-distance 2, with some
@@ -13,7 +13,7 @@ import support
 from support import Npy, ProgramTest
 
 SAVE = pathlib.Path(__file__).resolve().parents[1] / "saves" / "overworld_0.1.sqlite"
-# Chunks around the edits, and of the names of their blocks as `terrane dump` of 0.1.0 wrote them.
+# Chunks around the edits, and the digest of their block names as written by `terrane dump` of 0.1.0.
 AREA, NAMES = "-1,-8,2,-5", "0edf03d2181ba7e7e5ad05951308bf7e0601552ff9077ad50a1cd8bbd9e6c69f"
 
 
@@ -49,7 +49,7 @@ class Upgrade(ProgramTest):
         self.assertTrue(checked.endswith("good\n"), checked)
 
     def test_land_beside_the_save_goes_on_without_a_step(self):
-        """What 0.1.0 stored of generated chunks is what is generated today."""
+        """Generated chunks stored by 0.1.0 equal those generated now."""
         out = self.folder / "generated.npy"
         area = "-2,-8,0,-5"  # stored, not edited
         self.succeed("dump", f"--area={area}", "--generator", "overworld", "--seed", 7, "-o", out)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A content pack that changes while it is played: the land is made anew, edits stay. Usage: watch_test.py PROGRAM
+"""A content pack that changes during the game: terrain is regenerated, edits stay. Usage: watch_test.py PROGRAM
 
 Needs what window_support.py needs."""
 import json
@@ -49,7 +49,7 @@ class Watch(ProgramTest):
         with window_support.Display() as display:
             game = self.play(display, world, SIZE)
             game.wait_for_ground(is_green)
-            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
             display.xdotool("click", 1)
             game.wait_for_ground(is_brown)
             self.script.write_text("p:oops(")
@@ -73,7 +73,7 @@ class Watch(ProgramTest):
             world.rename(self.folder / "away.sqlite")
             game.wait_for(game.is_warned)
             self.script.write_text(SCRIPT % "stone")
-            game.wait_for(game.asks_to_lose)  # before the world is opened anew
+            game.wait_for(game.asks_to_lose)  # before the world is opened again
             game.quit_unsaved()
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"error: .*w.sqlite: deleted or moved .*; not saved: \d+ chunks\n")

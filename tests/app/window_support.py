@@ -1,4 +1,4 @@
-"""What tests of the window share: a virtual display, screenshots, the running program and its keys.
+"""Shared by tests of the window: a virtual display, screenshots, the running program and its keys.
 
 Needs Xvfb (without it the tests are skipped, exit code 77), xdotool and xwd; Debian's packages are xvfb, xdotool and
 x11-apps."""
@@ -42,10 +42,10 @@ class Screenshot:
         header = struct.unpack(">25I", data[:100])
         header_bytes, version, _, depth, self.width, self.height = header[:6]
         self.stride = header[12]
-        self.step = self.stride // self.width  # bytes a pixel; for some visuals the header counts the bits used
+        self.step = self.stride // self.width  # bytes per pixel; for some visuals the header has the used bits
         if version != 7 or depth < 24:
             raise ValueError(f"unexpected window dump: version {version}, depth {depth}")
-        self.pixels = data[header_bytes + 12 * header[19]:]  # behind the color map
+        self.pixels = data[header_bytes + 12 * header[19]:]  # after the color map
 
     def color(self, x, y):
         """Red, green, blue."""
@@ -62,7 +62,7 @@ class Screenshot:
         return found
 
 
-# What kind of ground a color is of: grass, earth, stone.
+# Classify the color of the ground: grass, earth, stone.
 def is_green(red, green, blue):
     return green > 1.1 * max(red, blue)
 
@@ -90,12 +90,12 @@ class Game:
     def open(self):
         self.window = self.wait_for(
             lambda: self.display.xdotool("search", "--onlyvisible", "--name", "^Terrane$"))
-        # Without a window manager nobody else gives the window its place and the keys.
+        # There is no window manager that places the window and gives it the focus.
         self.display.xdotool("windowmove", self.window, 0, 0)
         self.display.xdotool("windowfocus", self.window)
 
     def wait_for(self, condition):
-        """What the condition gives once it is true."""
+        """Returns the result of the condition once it is true."""
         deadline = time.monotonic() + HANG_SECONDS
         while time.monotonic() < deadline:
             result = condition()
@@ -107,15 +107,15 @@ class Game:
         raise RuntimeError(f"nothing happens: {self.output()}")
 
     def wait_for_image(self, size, x0=0, y0=0):
-        """Waits for a window of this size with an image: a world has many colors, an undrawn window one, beside the texts
-        over it, which reach no edge at the right."""
+        """Waits for a window of this size with an image of a world: at the right edge, which has no text, a world has many
+        colors, an undrawn window one."""
         def is_drawn():
             image = self.display.screenshot(self.window)
             return (image.width, image.height) == size and len(image.colors(max(x0, image.width - 6), y0)) > 5
         self.wait_for(is_drawn)
 
     def wait_for_ground(self, is_it):
-        """Waits for a color (red, green, blue) of the block that one looks down on, beside the crosshair."""
+        """Waits for a color (red, green, blue) of the block below the player, next to the crosshair."""
         self.wait_for(lambda: is_it(*self.display.screenshot(self.window).color(SIZE[0] // 2 + 8, SIZE[1] // 2 + 8)))
 
     # In a window as large as the screen:
@@ -124,15 +124,15 @@ class Game:
         return red > 3 * max(green, blue)
 
     def is_warned(self):
-        """That saving fails."""
+        """Whether the notice that saving fails is shown."""
         return self.is_red(18)
 
     def asks_to_lose(self):
-        """Whether to quit although saving fails."""
+        """Whether the question to quit unsaved is shown."""
         return self.is_red(194)
 
     def quit_unsaved(self):
-        """The button that says so."""
+        """Clicks the button to quit unsaved."""
         self.click(1, 322, 228)
 
     def press(self, key):
@@ -140,7 +140,7 @@ class Game:
 
     @contextlib.contextmanager
     def asleep(self):
-        """The program sleeps meanwhile: its keys go down and up within one frame, however long frames take."""
+        """Suspends the program, so that keys are pressed and released within one frame, however long it takes."""
         self.process.send_signal(signal.SIGSTOP)
         try:
             yield
@@ -152,8 +152,8 @@ class Game:
             self.display.xdotool("type", text)
 
     def pause_after(self, key):
-        """Presses a key that changes the image. What is waited for is two frames or so: on a busy machine they take
-        long, and so must pauses."""
+        """Presses a key that changes the image, and returns a pause that scales with the time of the change, about two
+        frames: on a busy machine pauses must be longer."""
         before, start = self.display.screenshot(self.window).pixels, time.monotonic()
         self.press(key)
         self.wait_for(lambda: self.display.screenshot(self.window).pixels != before)
@@ -162,28 +162,28 @@ class Game:
         return pause
 
     def press_alone(self, key, pause=0.5):
-        """Down and up within one frame, with time for some frames before the next key."""
+        """Presses and releases a key within one frame, with time for some frames before the next key."""
         with self.asleep():
             self.press(key)
         time.sleep(pause)
 
     def click(self, button, x=SIZE[0] // 2, y=SIZE[1] // 2, pause=0.3):
         self.display.xdotool("mousemove", "--window", self.window, x, y)
-        time.sleep(pause)  # some frames, in which the program sees the cursor there
+        time.sleep(pause)  # some frames, so that the program sees the cursor there
         self.display.xdotool("mousedown", button)
         time.sleep(pause)
         self.display.xdotool("mouseup", button)
         time.sleep(pause)
 
     def tap(self, button, x, y, pause):
-        """A click too short to act twice."""
+        """Clicks too briefly for a repeated action."""
         self.display.xdotool("mousemove", "--window", self.window, x, y)
         time.sleep(pause)
         self.display.xdotool("click", button)
         time.sleep(pause)
 
     def close(self, open_things=0):
-        """The exit code, and where the camera was at the end."""
+        """Quits. Returns the exit code, the number of frames and the last position of the camera."""
         self.quit(open_things)
         code = self.process.wait(HANG_SECONDS)
         found = re.search(r"closed after (\d+) frames at (\S+),(\S+),(\S+)$", self.output(), re.MULTILINE)
@@ -192,7 +192,7 @@ class Game:
         return code, int(found[1]), tuple(float(found[k]) for k in (2, 3, 4))
 
     def quit(self, open_things=0):
-        """By the menu. What is open (the panel, a chest) is closed first, each by an Escape of its own."""
+        """Quits by the menu, after one Escape for each open thing (the panel, a chest)."""
         for _ in range(open_things + 1):
             self.pause_after("Escape")
         self.press("q")
@@ -203,7 +203,7 @@ class Game:
 
 
 def main():
-    """Of each program that tests a window."""
+    """The entry point of all tests with a window."""
     if not shutil.which("Xvfb"):
         print("1 test skipped: Xvfb is not installed (Debian: xvfb)")
         sys.exit(SKIPPED)

@@ -25,13 +25,13 @@ class Window(ProgramTest):
         usual = ("--size", f"{size[0]}x{size[1]}", "--view-distance", "6", "--samples", "1", "--horizon", str(horizon))
         game = Game(display, self.folder, (*usual, *arguments))
         self.addCleanup(game.log.close)
-        self.addCleanup(game.process.kill)  # nothing where it has ended
+        self.addCleanup(game.process.kill)  # no effect if it has ended
         game.open()
         game.wait_for_image(size)
         return game
 
     def close(self, game, open_things=0):
-        """Where the camera was at the end."""
+        """Quits, and returns the last position of the camera."""
         code, frames, place = game.close(open_things)
         self.assertEqual(code, 0, game.output())
         self.assertGreater(frames, 0)
@@ -53,7 +53,7 @@ class Window(ProgramTest):
             game.wait_for_image(LARGER, y0=SIZE[1])
             end = self.close(game)
             distance = sum((a - b) ** 2 for a, b in zip(start, end)) ** 0.5
-            self.assertGreater(distance, 5, f"the camera stayed at {end}")  # farther than one falls or walks
+            self.assertGreater(distance, 5, f"the camera stayed at {end}")  # farther than a fall or a walk
 
     def test_keys_are_taken_before_there_is_an_image(self):
         cache = self.folder / "no shaders yet"
@@ -65,12 +65,12 @@ class Window(ProgramTest):
             for key in ("F12", "F3", "F4", "F2", "m", "l", "F12"):
                 game.press(key)
             game.wait_for_image(SIZE)
-            self.assertEqual(self.screenshots(), [])  # of what was not there yet
-            # Again and again: the panel's image comes before the world's.
+            self.assertEqual(self.screenshots(), [])  # the world is not drawn yet
+            # Repeated: the panel is drawn before the world.
             game.wait_for(lambda: game.press("F12") or self.screenshots())
             self.close(game, open_things=1)
 
-    # Above the flat world, whose ground is grass at z = 80 on earth: one block fills the middle of the image.
+    # Above the flat world, which has grass on earth at z = 80: one block fills the middle of the image.
     def look_down(self, display, *arguments):
         (self.folder / "terrane").mkdir(exist_ok=True)
         (self.folder / "terrane" / "bookmarks.txt").write_text("8.5 8.5 84 0 -89\n")
@@ -87,7 +87,7 @@ class Window(ProgramTest):
             display.xdotool("keydown", "w")
             time.sleep(1)
             display.xdotool("keyup", "w")
-            game.press("F6")  # back
+            game.press("F6")  # to the bookmark
             game.wait_for_ground(is_green)
             display.xdotool("click", 1)
             game.wait_for_ground(is_brown)
@@ -142,8 +142,8 @@ class Window(ProgramTest):
             self.set_setting(save, "camera", f"8.5 8.5 {top + 4} 0 -89")
             game = self.play(display, *options)
             game.click(1)  # takes the mouse
-            display.xdotool("click", 1)  # breaks what is in the middle: pressed and released at once
-            # Others see what is saved, while it is played.
+            display.xdotool("click", 1)  # breaks the block in the middle: pressed and released within a frame
+            # Other processes can read the save during the game.
             game.wait_for(lambda: self.highest_block(save) == top - 1)
             self.assertRegex(self.succeed("check", save), r"(?s)\Aopen in another program \(process \d+\): .*\ngood\n\Z")
             self.succeed("map", "--radius", "1", "--world", save, "-o", self.folder / "map.png")
@@ -157,7 +157,7 @@ class Window(ProgramTest):
 
 
     def test_without_options_everything_is_saved(self):
-        """The world, the place, the time and the block in the hand outlive even a kill, wherever the program runs."""
+        """The world, the position, the time and the block in the hand survive even a kill, in any working directory."""
         save = self.folder / "terrane" / "flat-1.sqlite"
         with Display() as display:
             game = self.look_down(display, "--movement", "medium", "--time", "0.6")
@@ -165,7 +165,7 @@ class Window(ProgramTest):
             display.xdotool("click", 1)
             game.wait_for_ground(is_brown)
             game.press("p")
-            # Other programs may read meanwhile.
+            # Other programs may read the save meanwhile.
             game.wait_for(lambda: float(self.setting(save, "time")) > 0.61 and self.has_edits(save))
             game.process.kill()
             game.process.wait(HANG_SECONDS)
@@ -193,12 +193,12 @@ class Window(ProgramTest):
             game.wait_for_ground(is_brown)
             self.close(game)
             self.assertEqual(list(self.folder.glob("**/*.sqlite")), [])
-            # Neither where nothing can be saved: that is told before anything is built.
+            # If nothing can be saved, the player is told before building.
             game = Game(display, self.folder, FLAT, data="/dev/null")
             self.addCleanup(game.log.close)
             self.assertEqual(game.process.wait(HANG_SECONDS), 2)
             self.assertRegex(game.output(), r"\Aterrane: error: /dev/null/terrane: .*\(--no-save plays without saving\)\n\Z")
-            # Where that does not help it is not said.
+            # The hint is not given where it does not help.
             self.succeed("generate", "--world", self.folder / "a.sqlite", "--radius", "0", *FLAT)
             game = Game(display, self.folder, ("--world", "a.sqlite", "--seed", "9"))
             self.addCleanup(game.log.close)
@@ -269,10 +269,10 @@ class Window(ProgramTest):
             pause = game.pause_after("F1")
             game.tap(1, *middle, pause)
             game.tap(3, *middle, pause)
-            game.tap(3, *slot, pause)  # takes one out again: it is in the hand, instead of stone
+            game.tap(3, *slot, pause)  # takes one out: it replaces the stone in the hand
             game.press("Escape")
             time.sleep(pause)
-            game.tap(1, *middle, pause)  # breaks nothing: the other chest is in it still
+            game.tap(1, *middle, pause)  # breaks nothing: the other chest is still in it
             game.tap(3, *middle, pause)
             game.tap(3, *slot, pause)
             game.press("Escape")
@@ -354,16 +354,16 @@ class Window(ProgramTest):
             time.sleep(pause)
             self.assertIsNone(game.process.poll())
             game.press("Escape")
-            game.wait_for(lambda: self.brightness(display, game) < 0.8 * before)  # the menu, the world behind it is dark
+            game.wait_for(lambda: self.brightness(display, game) < 0.8 * before)  # the menu darkens the world
             display.xdotool("keydown", "w")
             time.sleep(pause)
             display.xdotool("keyup", "w")
             game.press("Escape")
             game.wait_for(lambda: self.brightness(display, game) > 0.95 * before)
-            self.assertEqual(self.close(game), start)  # nobody moved in the menu
+            self.assertEqual(self.close(game), start)  # no movement in the menu
 
     def brightness(self, display, game):
-        """Of the sky's corner, over which nothing is drawn."""
+        """The brightness of a corner of the sky, which has no overlay."""
         return max(1, sum(display.screenshot(game.window).color(4, 4)))
 
     def test_who_chooses_a_preset_is_not_measured(self):
@@ -420,7 +420,7 @@ class Window(ProgramTest):
             code, _, _ = game.close()
             self.assertEqual(code, 0, game.output())
             self.assertIn('warning: the save\'s time of day is no number from 0 to 1: "nan"', game.output())
-            self.close(self.play(display, "--world", "home"))  # there is a time again
+            self.close(self.play(display, "--world", "home"))  # a time is stored again
 
     def test_keys_do_nothing_else_while_one_types(self):
         size = (480, 720)
@@ -428,7 +428,7 @@ class Window(ProgramTest):
             game = self.play(display, *FLAT, size=size)
             game.press("F2")
             display.xdotool("keydown", "Control_L")
-            game.click(1, 258, 116, pause=1)  # the field of view's slider: a number can be typed in its place
+            game.click(1, 258, 116, pause=1)  # the field of view's slider: a number can be typed
             display.xdotool("keyup", "Control_L")
             for key in ("m", "9", "Return", "m"):
                 game.press_alone(key)
@@ -443,12 +443,12 @@ class Window(ProgramTest):
         with Display(size) as display:
             game = self.play(display, *FLAT, size=size)
             pause = game.pause_after("F2")
-            for name in ("no", "pk"):  # the first is not there: a message says so, and all stays
+            for name in ("no", "pk"):  # the first does not exist: a message, and no change
                 game.click(1, 258, 676, pause)  # the field of the folder
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
                     game.press_alone(key, pause)
                 time.sleep(2 * pause)
-            # The ground at the window's lower left, beside what is in the hand.
+            # The ground at the window's lower left, next to the hand.
             red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
             self.assertGreater(red, 2 * max(blue, green))
             self.close(game, open_things=1)
@@ -462,7 +462,7 @@ class Window(ProgramTest):
         red = "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(1, 0, 0, 1); }\n"
 
         def write(path, text):
-            """At once: a file that is seen while it is written is read twice."""
+            """Writes atomically: a partially written file would be read twice."""
             path.with_suffix(".new").write_text(text)
             path.with_suffix(".new").replace(path)
 
@@ -479,7 +479,7 @@ class Window(ProgramTest):
             complaint = "debug_view.frag.glsl: the shader does not compile"
             game.wait_for(lambda: complaint in game.output())
             self.assertTrue(is_red(display, game))
-            game.press_alone("l")  # needs a variant of the wrong shader: the light stays as it is, and the game goes on
+            game.press_alone("l")  # needs a variant of the broken shader: the light stays unchanged, and the game continues
             game.wait_for(lambda: game.output().count(complaint) == 2)
             wrong.unlink()
             write(shader, red.replace("1, 0, 0", "0, 0, 1"))
@@ -500,7 +500,7 @@ class Window(ProgramTest):
             game.open()
             game.wait_for_image(twice)
             pause = game.pause_after("F2")
-            # The slider of the view distance lies twice as far from the panel's corner as on other screens.
+            # The slider of the view distance is twice as far from the panel's corner as on other screens.
             game.click(1, 120, 186, pause)
             self.close(game, open_things=1)
         self.assertRegex(self.lines_of_settings()[0], r"\Aview-distance = '1[0-9]'\Z")

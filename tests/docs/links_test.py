@@ -3,8 +3,8 @@
 
 - Relative links and images name files that exist; "#heading" names a heading, by the anchors that GitHub makes.
 - Each page of docs/ can be reached by links from docs/index.md.
-- Commands in code ("terrane map --radius 8") have subcommands and options that PROGRAM knows. CHANGELOG.md, which names
-  former ones, is left out, and so is everything without PROGRAM, or where it is built without graphics.
+- Commands in code ("terrane map --radius 8") use subcommands and options of PROGRAM. CHANGELOG.md, which names former
+  ones, is skipped; so are all commands without PROGRAM, or if it is built without graphics.
 """
 
 import concurrent.futures
@@ -18,7 +18,7 @@ import unittest
 
 HANG_SECONDS = 60
 START = "docs/index.md"
-# Code that is no command of the program: an option that a tutorial adds, bytes that a client signs.
+# Code that is not a command of the program: an option that a tutorial adds, bytes that a client signs.
 EXCEPTIONS = {("docs/contributing.md", "terrane render has no option --sepia"),
               ("docs/protocol.md", "terrane has no subcommand login")}
 
@@ -34,7 +34,7 @@ OPTION = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 
 
 def blanked(text):
-    """Spaces in place of all characters but line ends, so that line numbers stay."""
+    """The text with all characters but line ends replaced by spaces, to keep line numbers."""
     return re.sub(r"[^\n]", " ", text)
 
 
@@ -63,7 +63,7 @@ class Page:
                 kept.append("")
             elif line.startswith("    ") and line.strip() and follows_blank:
                 self.code.append((number, line.strip()))
-                # In a list these may be paragraphs: their links count.
+                # In a list an indented line may be a paragraph: check its links.
                 kept.append(line if in_list else "")
                 continue  # the next indented line belongs to the same block
             else:
@@ -96,7 +96,7 @@ class Page:
         return names
 
     def commands(self):
-        """(line number, what follows "terrane") of all commands in code; "\\" at a line's end goes on with the next."""
+        """(line number, text after "terrane") of all commands in code; "\\" at the end of a line continues it."""
         begun = None
         for number, text in self.code:
             if begun:
@@ -134,8 +134,8 @@ class Program:
                               check=True).stdout
 
     def mistakes(self, line):
-        """What is wrong with what follows "terrane". Behind two blanks or # may be a description: there options of all
-        commands count."""
+        """Errors in the text after "terrane". After two spaces or # there may be a description, which may name options of
+        all commands."""
         command, *description = re.split(r"\s{2,}|\s#\s", line.strip(), maxsplit=1)
         first = command.split(" ")[0]
         name = first if re.match(r"[a-z]", first) else "play"
@@ -234,7 +234,7 @@ echo "OPTIONS: --help --radius N"
 
 
 class Faults(unittest.TestCase):
-    """That the checks find faults."""
+    """Tests that the checks find errors."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="terrane_docs_")

@@ -1,4 +1,4 @@
-// libFuzzer: any text as bookmarks, and as places with names. What is read must come back when it is written.
+// libFuzzer: any text as bookmarks, and as named places. Values survive writing and reading again.
 #include "terrane/game/bookmarks.h"
 
 #include "terrane/game/places.h"

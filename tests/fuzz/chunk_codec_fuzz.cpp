@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a chunk, behind a byte that says how deep they go. What the reader takes must come
-// back the same when it is written.
+// libFuzzer: any bytes as a chunk; the first byte selects how deep they are wrapped. A decoded chunk survives
+// encoding and decoding again.
 #include "terrane/world/block_registry.h"
 #include "tests/fuzz/fuzz_chunks.h"
 #include "tests/fuzz/fuzz_input.h"

@@ -1,4 +1,4 @@
-// Chunk data of bytes that a fuzzer thinks up, wrapped so that they get past the checksum.
+// Wraps bytes of a fuzzer as chunk data, so that they pass the checksum.
 #pragma once
 
 #include <xxhash.h>
@@ -28,9 +28,9 @@ inline store::Bytes framed(store::ByteView plain) {
     return withChecksum(rest);
 }
 
-// How deep the bytes go:
-//   0  the bytes themselves, which the checksum stops nearly always
-//   1  behind a checksum that is right: header and compressed data
+// Wraps the bytes by depth:
+//   0  not at all; the checksum is then nearly always wrong
+//   1  after a valid checksum: header and compressed data
 //   2  compressed and framed: the content
 inline store::Bytes chunkData(unsigned depth, std::span<const std::uint8_t> bytes) {
     const store::ByteView input = std::as_bytes(bytes);

@@ -1,5 +1,5 @@
-// A folder for files that the library opens by their names, in memory where TMPDIR or /dev/shm is. Removed at
-// the end.
+// A folder for files that the library opens by name: in TMPDIR, else in /dev/shm, which is in memory. Removed
+// at exit.
 #pragma once
 
 #include <cstdio>
@@ -31,7 +31,7 @@ inline void writeWhole(const std::filesystem::path& path, std::string_view bytes
     require(std::fclose(file) == 0);
 }
 
-// Nothing where there is no file.
+// Empty if there is no file.
 inline std::string readWhole(const std::filesystem::path& path) {
     std::string bytes;
     std::FILE* file = std::fopen(path.c_str(), "rb");
@@ -42,7 +42,7 @@ inline std::string readWhole(const std::filesystem::path& path) {
     return bytes;
 }
 
-// All files of the last input.
+// Deletes all files of the last input.
 inline void emptyFolder() {
     for (const auto& entry : std::filesystem::directory_iterator(fuzzFolder()))
         std::filesystem::remove_all(entry.path());

@@ -1,5 +1,5 @@
-// Takes the bytes of a fuzzer apart: numbers, choices, texts. What is missing at the end is 0 or empty, so
-// every input means something.
+// Reads numbers, choices and texts from the bytes of a fuzzer. Missing bytes read as 0 or empty, so every
+// input is valid.
 #pragma once
 
 #include <cstddef>
@@ -19,7 +19,7 @@ class FuzzInput {
 
     bool isEmpty() const { return rest_.empty(); }
     std::uint8_t byte() { return static_cast<std::uint8_t>(number(1)); }
-    // Of `count` bytes, the lowest first.
+    // A little-endian number of `count` bytes.
     std::uint64_t number(std::size_t count) {
         std::uint64_t value = 0;
         for (std::size_t k = 0; k < count && !rest_.empty(); ++k) {
@@ -38,7 +38,7 @@ class FuzzInput {
         rest_ = rest_.subspan(taken.size());
         return taken;
     }
-    // Its length comes first, in one byte.
+    // A text; its length comes first, in one byte.
     std::string_view text() { return textOf(bytes(byte())); }
     std::string_view restAsText() { return textOf(bytes(rest_.size())); }
 
@@ -50,14 +50,14 @@ class FuzzInput {
     std::span<const std::uint8_t> rest_;
 };
 
-// Ends the fuzzer with a finding where a promise is broken. (Clang 14 has no std::source_location.)
+// Aborts the fuzzer with a finding if `holds` is false. (Clang 14 has no std::source_location.)
 inline void require(bool holds, const char* file = __builtin_FILE(), int line = __builtin_LINE()) {
     if (holds) return;
     std::fprintf(stderr, "%s:%d: what is required here does not hold\n", file, line);
     std::abort();
 }
 
-// An error says something. What a terminal would obey is escaped where it is printed.
+// An error has a message. Control characters are escaped only when it is printed.
 inline void requireReason(const base::Error& error) {
     require(!error.message.empty());
 }

@@ -1,4 +1,4 @@
-// What fuzzers of saves share: a small save to change, and everything that programs do with a save.
+// Shared by fuzzers of saves: a small save to change, and a run of all uses of a save.
 #pragma once
 
 #include <filesystem>
@@ -10,22 +10,22 @@
 
 namespace terrane::fuzz {
 
-// A save as a killed program leaves it: what was saved last is in the log alone.
+// A save as left by a killed program: the last transactions are only in the log.
 struct SaveBytes {
     std::string file, log;
 };
 
-// Pages of 512 bytes, chunks of level 0 and above, metadata; made once.
+// A save with pages of 512 bytes, chunks of level 0 and above, and metadata; made once.
 const SaveBytes& smallSave();
-// The chunks of it.
+// The positions of its chunks.
 const std::vector<world::ChunkPos>& savedPositions();
 
-// The save that lies in fuzzFolder().
+// The save in fuzzFolder().
 std::filesystem::path savePath();
 void writeSave(const SaveBytes& save);
 
-// Looks through the save, reads it, plays in it. Aborts where reading changes a byte, or what was reported as
-// saved is not there.
+// Checks the save, reads it, and plays in it. Aborts if reading changes a byte, or if data reported as saved
+// is missing.
 void useSave();
 
 }  // namespace terrane::fuzz

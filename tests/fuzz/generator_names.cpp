@@ -1,4 +1,4 @@
-// Stands in for the generators, of which options need the names alone: they take long to compile.
+// Replaces the generators, which are slow to compile: options need only their names.
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::gen {

@@ -1,4 +1,4 @@
-// libFuzzer: any text as a file of a language.
+// libFuzzer: any text as a language file.
 #include "terrane/content/language.h"
 #include "terrane/content/text_fields.h"
 #include "tests/fuzz/fuzz_input.h"

@@ -1,5 +1,4 @@
-// libFuzzer: any text as a generator's script (docs/lua.md). What is recorded runs for one chunk where it is
-// small.
+// libFuzzer: any text as a generator's script (docs/lua.md). A small recorded graph then generates one chunk.
 #include <string>
 
 #include "terrane/gen/generator.h"

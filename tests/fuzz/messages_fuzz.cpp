@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a message of a client or of a server, behind a byte that says of which. What is
-// taken must be the same when it is written and read again.
+// libFuzzer: any bytes as a message of a client or a server; the first byte selects which. A decoded message
+// survives encoding and decoding again.
 #include "terrane/net/client_message.h"
 #include "terrane/net/server_message.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -8,7 +8,7 @@ namespace {
 
 using namespace terrane;
 
-// A Hello of another version is read as far as versions agree, and no further.
+// A Hello of another version is read only up to the fields that all versions share.
 bool isWhole(const net::ClientMessage& message) {
     const auto* hello = std::get_if<net::Hello>(&message);
     return !hello || hello->version == net::kProtocolVersion;

@@ -1,5 +1,4 @@
-// libFuzzer: any bytes as NBT, plain or decompressed. What the reader takes must come back the same when it
-// is written.
+// libFuzzer: any bytes as NBT, plain or decompressed. Decoded NBT survives encoding and decoding again.
 #include "terrane/formats/deflate.h"
 #include "terrane/formats/nbt.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -25,7 +24,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::require(written.size() <= plain->size());
     const auto back = formats::decodeNbt(written);
     fuzz::require(back.has_value());
-    // NaN differs from itself, its bytes do not.
+    // Compares bytes: a NaN is not equal to itself.
     fuzz::require(formats::encodeNbt(*back) == written);
     return 0;
 }

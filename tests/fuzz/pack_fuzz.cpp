@@ -17,7 +17,7 @@ void load(pack::PackFiles files) {
         fuzz::requireReason(content.error());
 }
 
-// What is taken has a hash, and comes back from its archive.
+// An accepted pack has a hash, and survives the archive.
 void sendAgain(const pack::Pack& read) {
     const auto again = pack::packOf(pack::archiveOf(read), "again");
     fuzz::require(again && again->files == read.files);

@@ -1,4 +1,4 @@
-// libFuzzer: any text as a path file (docs/video.md). Where a camera path is taken, it is walked.
+// libFuzzer: any text as a path file (docs/video.md). Accepted camera paths are evaluated.
 #include <cmath>
 
 #include "apps/terrane/record/script_file.h"

@@ -1,5 +1,5 @@
-// libFuzzer: a save whose bytes were changed, its log and a journal too. The input is a list of changes to
-// smallSave(). Checksums of the log are made right again on demand, so that what it says is believed.
+// libFuzzer: a save with changed bytes in the file, its log and a journal. The input is a list of changes to
+// smallSave(). On demand checksums of the log are corrected, so that SQLite accepts its contents.
 #include <algorithm>
 #include <cstring>
 
@@ -13,7 +13,7 @@ using namespace terrane;
 using fuzz::FuzzInput;
 
 constexpr std::size_t kPage = 512, kLogHeader = 32, kFrameHeader = 24;
-constexpr std::size_t kMostGrowth = 4096;  // bytes behind the end
+constexpr std::size_t kMostGrowth = 4096;  // bytes past the end
 
 std::uint32_t wordAt(const std::string& bytes, std::size_t at, bool isBigEndian) {
     std::uint32_t value = 0;

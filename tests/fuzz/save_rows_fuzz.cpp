@@ -1,5 +1,5 @@
-// libFuzzer: a save whose rows and tables another program changed: SQLite finds nothing wrong with it, and
-// checksums of chunks are right. The input is a list of changes to smallSave().
+// libFuzzer: a save with changed rows and tables: valid for SQLite, with correct checksums of chunks. The
+// input is a list of changes to smallSave().
 #include <sqlite3.h>
 
 #include <memory>
@@ -24,7 +24,7 @@ struct EndStatement {
 using Database = std::unique_ptr<sqlite3, CloseDatabase>;
 using Statement = std::unique_ptr<sqlite3_stmt, EndStatement>;
 
-// What SQLite refuses is left out.
+// Null for statements that SQLite refuses.
 Statement prepare(sqlite3* database, const char* sql) {
     sqlite3_stmt* statement = nullptr;
     sqlite3_prepare_v2(database, sql, -1, &statement, nullptr);
@@ -67,7 +67,7 @@ void bindAny(const Statement& statement, int at, FuzzInput& input) {
     }
 }
 
-// The checksum of the row that was written last covers its key and origin.
+// Corrects the checksum of the last written row, which covers its key and origin.
 void sealLastRow(sqlite3* database) {
     const Statement read =
         prepare(database, "SELECT key, origin, data FROM chunks WHERE key = last_insert_rowid()");
@@ -171,7 +171,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 changeMarks(handle, input);
             }
         }
-        // Mostly the rows are to be believed without a checksum.
+        // Mostly without the checksum of settings and block names, so that changed rows are accepted.
         if (size % 8 != 0) run(prepare(handle, "UPDATE settings SET value = '' WHERE name = 'checksum'"));
         run(prepare(handle, "COMMIT"));
     }

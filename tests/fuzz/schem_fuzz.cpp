@@ -1,4 +1,4 @@
-// libFuzzer: any bytes as a schematic, or as the NBT within one. What the reader takes comes back the same.
+// libFuzzer: any bytes as a schematic, or as its NBT. A decoded volume survives encoding and decoding again.
 #include "terrane/formats/deflate.h"
 #include "terrane/formats/schematic.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -7,7 +7,7 @@ namespace {
 
 using namespace terrane;
 
-// The file's names may hold anything; only texts that are read again come back.
+// Names may be any bytes; only valid ones survive.
 bool comesBack(const formats::NamedVolume& volume) {
     for (const formats::NamedState& state : volume.palette) {
         const auto again = formats::namedState(formats::textOf(state));

@@ -1,6 +1,6 @@
-// libFuzzer: what connections may do to a server (net/server.h) in any order: open, close, log in, say
-// messages that are right, nearly right or noise, while time passes. One server for all inputs, on a flat
-// world in memory; between inputs everybody leaves. What it answers must be messages that a client can read.
+// libFuzzer: actions of connections on a server (net/server.h) in any order: open, close, log in, send valid,
+// nearly valid or random messages, while time passes. One server for all inputs, with a flat world in memory;
+// between inputs all clients leave. Its answers must be messages that a client can decode.
 #include <array>
 #include <memory>
 
@@ -23,16 +23,15 @@ using fuzz::FuzzInput;
 using fuzz::require;
 
 constexpr std::size_t kConnections = 4;
-constexpr std::int64_t kMaxEdits = 5000;  // of the history, which is emptied then
+constexpr std::int64_t kMaxEdits = 5000;  // in the history, which is then cleared
 
-// So much may wait for one client: its edits, and what it is told (ServerSettings::maxUnsentBytes and a
-// tick).
+// Limits per client: waiting edits, and unsent bytes (ServerSettings::maxUnsentBytes and a tick).
 constexpr std::size_t kMaxCommands = 512, kMaxOutgoing = 12 << 20;
 
 struct Connection {
     net::ConnectionId id = 0;  // 0: closed
     net::Bytes channel = net::Bytes(32);
-    net::FrameReader reader{net::kMaxClientMessage};  // of what it says as raw bytes
+    net::FrameReader reader{net::kMaxClientMessage};  // of raw bytes that it sends
     net::FrameReader answers{net::kMaxServerMessage};
     std::optional<net::Greeting> greeting;
 };
@@ -59,7 +58,7 @@ class FuzzServer {
     }
 
     void run(FuzzInput& in) {
-        // Chunks near the spawn are there, so that edits happen at once.
+        // Loads chunks near the spawn, so that edits apply at once.
         stream::ChunkPipeline& pipeline = server().session.pipeline();
         const auto near = world::chunksWithin(world::chunkOf(server().spawn.position), 1);
         for (const world::ChunkPos pos : near) (void)pipeline.maybeLoadChunkAt(pos);
@@ -125,7 +124,7 @@ class FuzzServer {
         onMessage(server(), connection.id, bytes, now_);
         read(connection);
     }
-    // As net/server_sockets.h does it.
+    // Passes bytes to the server as net/server_sockets.h does.
     void stream(Connection& connection, const net::Bytes& bytes) {
         if (connection.id == 0) return;
         connection.reader.add(bytes);
@@ -158,7 +157,7 @@ class FuzzServer {
         now_ += std::chrono::seconds(seconds % 30);
         tick(1);
     }
-    // Passwords take 64 MiB and much time each.
+    // Skips commands with passwords: hashing one takes 64 MiB and much time.
     void giveCommand(FuzzInput& in) {
         const std::string_view line = in.text();
         if (line.find("password") == std::string_view::npos) (void)runConsoleLine(server(), line);
@@ -175,7 +174,7 @@ class FuzzServer {
     }
     std::int32_t near(double origin, FuzzInput& in) {
         const auto offset = static_cast<std::int8_t>(in.byte());
-        // At the ends of the numbers as well.
+        // Also near the limits of the type.
         if (offset == -128) return std::numeric_limits<std::int32_t>::min() + in.byte();
         if (offset == 127) return std::numeric_limits<std::int32_t>::max() - in.byte();
         return static_cast<std::int32_t>(origin) + offset / 4;
@@ -246,7 +245,7 @@ class FuzzServer {
         require(server().passwordQueue.empty());
     }
 
-    // As after the start, but for what was built.
+    // Restores the initial state, except for built blocks.
     void reset() {
         for (Connection& connection : connections_) close(connection);
         require(server().clients.empty() && server().playing.empty());
@@ -285,7 +284,7 @@ class FuzzServer {
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    static auto* const server = new FuzzServer;  // ends with the process
+    static auto* const server = new FuzzServer;  // lives until the process ends
     FuzzInput in(data, size);
     server->run(in);
     return 0;

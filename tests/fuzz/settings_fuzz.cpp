@@ -1,5 +1,5 @@
-// libFuzzer: any text as settings.toml, and changes that a player makes to it. A file that was read must be
-// readable after the changes, with their values.
+// libFuzzer: any text as settings.toml, and changes by the player. A readable file stays readable after the
+// changes, with their values.
 #include "apps/terrane/settings.h"
 
 #include <toml++/toml.h>
@@ -16,7 +16,7 @@ using namespace terrane;
 using app::SettingValues;
 using fuzz::FuzzInput;
 
-// Options of `terrane play`. To make them takes longer than all the rest.
+// Options of `terrane play`, made once: that takes longer than the rest.
 struct PlayFlags {
     CLI::App command;
     app::GraphicsOptions graphics;
@@ -37,7 +37,7 @@ base::Result<void> readSettings(const std::filesystem::path& file) {
     return app::applySettings(file, flags.command, render::namesOfPreset());
 }
 
-// Before a change and after it.
+// Values before and after a change.
 std::pair<SettingValues, SettingValues> changesFrom(FuzzInput& input) {
     static const std::vector<std::pair<std::string, std::vector<std::string>>> kValues = {
         {"view-distance", {"8", "32"}},        {"clouds", {"on", "off"}},
@@ -66,7 +66,7 @@ void requireValues(const std::filesystem::path& file, const SettingValues& befor
         if (!after.contains(name)) fuzz::require(!table.contains(name));
 }
 
-// Keys as a player chose them are written so that they are read as the same ones.
+// Key bindings survive writing and reading again.
 void requireKeys(std::string_view text) {
     const auto keys = app::keyBindingsFrom(text);
     if (!keys) return fuzz::requireReason(keys.error());

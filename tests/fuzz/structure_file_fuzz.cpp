@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a structure, behind a byte that says how deep they go. What the reader takes must
-// come back the same when it is written; data that are the text of a sign, too.
+// libFuzzer: any bytes as a structure; the first byte selects how deep they are wrapped. A decoded structure
+// survives encoding and decoding again, including texts of signs.
 #include <xxhash.h>
 
 #include "terrane/store/compression.h"
@@ -13,7 +13,7 @@ using namespace terrane;
 
 constexpr std::uint64_t kMagic = 0x7572745372726554;
 
-// The bytes themselves; behind a header that is right; or as the content.
+// The bytes unchanged, after a valid header, or as the content.
 store::Bytes structureData(unsigned depth, std::span<const std::uint8_t> input) {
     const store::ByteView bytes = std::as_bytes(input);
     if (depth % 3 == 0) return {bytes.begin(), bytes.end()};

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as the surfaces of a map's cache, behind a byte that says how deep they go. What is
-// taken has all its columns, which come back the same when they are written.
+// libFuzzer: any bytes as surfaces of a map's cache; the first byte selects how deep they are wrapped.
+// Decoded surfaces are complete, and survive encoding and decoding again.
 #include <xxhash.h>
 
 #include <vector>
@@ -12,7 +12,7 @@ namespace {
 
 using namespace terrane;
 
-// Six bytes a column, over and over: any are columns.
+// Repeats the input, six bytes per column: any bytes are valid columns.
 store::Bytes surfacesOf(std::span<const std::uint8_t> input) {
     std::vector<std::byte> planes(6 * map::kColumnsOfBlob);
     for (std::size_t k = 0; k < planes.size() && !input.empty(); ++k)

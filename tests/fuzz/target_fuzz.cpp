@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as what a browser asks for. No segment leads upward or out of its place, what is taken
-// is the same when it is written and read again, and each target has a route that stays in the world.
+// libFuzzer: any bytes as a browser's request target. No segment leads upward or escapes its folder, an
+// accepted target survives writing and parsing again, and its route stays in the world.
 #include <string>
 
 #include "terrane/web/route.h"
@@ -20,7 +20,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-// Three bytes for each of the content's: longer than some targets that are taken.
+// Three bytes per byte of content, which is longer than some accepted targets.
 std::string written(const web::Target& target) {
     std::string text;
     for (const std::string& segment : target.segments) text += "/" + escaped(segment);

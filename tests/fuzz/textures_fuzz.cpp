@@ -31,7 +31,7 @@ std::uint32_t checksum(std::string_view bytes) {
         crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
-// Of each chunk: length, type, data, checksum.
+// Corrects the checksum of each chunk: length, type, data, checksum.
 std::string withChecksums(std::string png) {
     for (std::size_t at = kSignature.size(); at + 12 <= png.size();) {
         std::size_t length = 0;
@@ -60,7 +60,7 @@ std::string built(FuzzInput& input) {
     header += static_cast<char>(1 << input.byte() % 5);  // bits
     header += input.oneOf(kColors);
     header.append(2, '\0');
-    header += static_cast<char>(input.byte() % 2);  // rows in turn
+    header += static_cast<char>(input.byte() % 2);  // interlacing
     std::string png = kSignature;
     appendChunk(png, "IHDR", header);
     while (input.byte() % 2) {

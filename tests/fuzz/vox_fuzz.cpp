@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a model of MagicaVoxel, behind a right beginning. What the reader takes comes back
-// the same.
+// libFuzzer: any bytes as a MagicaVoxel model, after a valid header. A decoded model survives encoding and
+// decoding again.
 #include "terrane/formats/block_volume.h"
 #include "terrane/formats/vox_file.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::int64_t count = std::int64_t{image->size.x} * image->size.y * image->size.z;
     fuzz::require(count > 0 && count <= formats::kMaxVolumeBlocks);
     fuzz::require(static_cast<std::size_t>(count) == image->cells.size());
-    if (count > 20000) return 0;  // many models: slow, and nothing new
+    if (count > 20000) return 0;  // slow, and covers nothing new
     const auto back = formats::decodeVox(formats::encodeVox(*image));
     fuzz::require(back.has_value() && back->size == image->size && back->cells == image->cells);
     return 0;

@@ -1,5 +1,5 @@
-// A box whose six sides each have a texture of their own with a letter F, which looks different however it is
-// turned or mirrored. Its edges differ too: 3 blocks along x, 2 along y, 1 along z.
+// A box whose six sides have different textures with a letter F, which looks different when rotated or
+// mirrored. Its edges differ too: 3 blocks along x, 2 along y, 1 along z.
 #pragma once
 
 #include <array>
@@ -37,7 +37,7 @@ inline bool isInLetterF(int x, int y) {
 }
 
 inline base::Result<base::Image> cubeTexture(std::string_view name) {
-    std::array<std::uint8_t, 3> color = {255, 0, 255};  // of the block "missing"
+    std::array<std::uint8_t, 3> color = {255, 0, 255};  // for the block "missing"
     for (std::size_t side = 0; side < kSideNames.size(); ++side) {
         if (kSideNames[side] == name) color = kSideColors[side];
     }
@@ -54,7 +54,7 @@ inline base::Result<base::Image> cubeTexture(std::string_view name) {
 
 constexpr int kCubeX = 6, kCubeY = 7, kCubeZ = 100;  // lowest block
 
-// Made by hand, so that no fault of the mesher hides one of the shaders.
+// Without the mesher, so that its errors cannot hide those of the shaders.
 inline mesh::ChunkMesh cubeMesh() {
     constexpr std::array<unsigned, 3> kSize = {3, 2, 1};
     mesh::ChunkMesh mesh;

@@ -1,5 +1,4 @@
-// Shaders that are compiled in the background are compiled whole: the driver's cache gets nothing new from
-// the frames that need them.
+// Background compilation compiles shaders completely: later frames add nothing to the driver's cache.
 #include "terrane/render/background_compiler.h"
 
 #include <chrono>
@@ -20,7 +19,7 @@ constexpr render::WorldFeatures kWorld{.hasTint = true, .hasLand = true};
 
 class BackgroundCompilerTest : public GoldenTest {
   protected:
-    // Before there is a context. Mesa keeps a file for each shader.
+    // Set before there is a context. Mesa keeps a file per shader.
     static void SetUpTestSuite() {
         ::setenv("MESA_SHADER_CACHE_DIR", cache().path().c_str(), 1);
         ::setenv("MESA_SHADER_CACHE_DISABLE", "false", 1);
@@ -31,7 +30,7 @@ class BackgroundCompilerTest : public GoldenTest {
         return folder;
     }
 
-    // As soon as the driver's own thread has written all.
+    // Waits until the driver's thread has written all files.
     static std::size_t filesInCache() {
         std::size_t before = 0, now = 0;
         do {
@@ -57,8 +56,8 @@ class BackgroundCompilerTest : public GoldenTest {
 };
 
 TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
-    // Mesa's cache tells a program that it compiled itself from one that it read from the cache. What the
-    // renderer has is to be read, as it is in all runs of a program but the first one.
+    // Mesa treats a program that it compiled differently from one read from its cache. Read the renderer's
+    // programs from the cache, as in all runs but the first.
     waitFor(compiler_, render::plainOptions(kSamples));
     render::Renderer renderer = makeRenderer();
     ASSERT_TRUE(renderer.useLand(kWorld.hasLand) && renderer.useTint(kWorld.hasTint));
@@ -89,7 +88,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
         byRenderer += filesInCache() - compiled;
     }
     EXPECT_GT(inBackground, 20u);
-    // A few come again: those whose state depends on what was drawn before.
+    // A few are compiled again: their state depends on earlier draws.
     EXPECT_LE(byRenderer, inBackground / 10);
 }
 

@@ -1,4 +1,4 @@
-// How far two images differ, and what a golden image forgives.
+// Measures the difference between images, with the tolerance of golden images.
 #pragma once
 
 #include <algorithm>
@@ -9,16 +9,16 @@
 
 namespace terrane::golden {
 
-// Steps of 8 bits, of the worst of the channels red, green and blue.
+// In 8-bit steps, of the worst of the channels red, green and blue.
 struct Difference {
-    // Of the means of 4×4 pixels: other drivers put the edge of a face or of a leaf's hole one pixel aside,
-    // which is no fault, but they do not change sixteen pixels at once.
+    // Over the means of 4×4 pixels: other drivers move the edge of a face or of a leaf's hole by one pixel,
+    // which is allowed, but never change sixteen pixels at once.
     double max = 0;
-    double mean = 0;  // of the pixels
+    double mean = 0;  // over all pixels
 };
 
 // Mesa's software renderer gives the same bytes with every vector width. A face of the gallery covers several
-// tiles: with a wrong texture, or without it, some of them are off by more (golden_proof_test.cpp).
+// tiles: a wrong or missing texture changes some of them by more (golden_proof_test.cpp).
 constexpr Difference kTolerance{.max = 14, .mean = 0.75};
 
 constexpr int kTile = 4;  // pixels
@@ -27,7 +27,7 @@ inline int channelAt(const base::Image& image, int x, int y, int channel) {
     return image.rgba[static_cast<std::size_t>(4 * (x + y * image.width) + channel)];
 }
 
-// The mean of a tile; those at the right and lower border may be smaller.
+// The mean of a tile; tiles at the right and lower border may be smaller.
 inline double tileMean(const base::Image& image, int tileX, int tileY, int channel) {
     int sum = 0, count = 0;
     for (int y = tileY; y < std::min(tileY + kTile, image.height); ++y) {
@@ -38,7 +38,7 @@ inline double tileMean(const base::Image& image, int tileX, int tileY, int chann
     return static_cast<double>(sum) / count;
 }
 
-// Both images have one size.
+// Both images have the same size.
 inline Difference difference(const base::Image& a, const base::Image& b) {
     Difference worst;
     for (int channel = 0; channel < 3; ++channel) {
@@ -64,7 +64,7 @@ inline bool isSame(const base::Image& a, const base::Image& b) {
     return d.max <= kTolerance.max && d.mean <= kTolerance.mean;
 }
 
-// True where no channel spans more than a few steps: nothing was drawn.
+// True if no channel spans more than a few steps: nothing was drawn.
 inline bool isFlat(const base::Image& image) {
     constexpr int kSpan = 8;
     for (int channel = 0; channel < 3; ++channel) {
@@ -80,7 +80,7 @@ inline bool isFlat(const base::Image& image) {
     return true;
 }
 
-// Grey where equal; differences eight times as strong, brighter where `a` is brighter.
+// Gray for equal pixels; differences are scaled by eight, brighter where `a` is brighter.
 inline base::Image differenceImage(const base::Image& a, const base::Image& b) {
     base::Image result = a;
     for (std::size_t k = 0; k < a.rgba.size(); ++k) {

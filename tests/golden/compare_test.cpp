@@ -1,4 +1,4 @@
-// The comparison itself, on images made by hand.
+// Tests the comparison on synthetic images.
 #include "tests/golden/compare.h"
 
 #include "tests/base/temp_folder.h"
@@ -7,7 +7,7 @@
 namespace terrane::golden {
 namespace {
 
-// Something with shapes and shades everywhere.
+// An image with shapes and shades everywhere.
 base::Image patterned(int width, int height) {
     base::Image image{width, height, {}};
     for (int y = 0; y < height; ++y) {
@@ -20,7 +20,7 @@ base::Image patterned(int width, int height) {
     return image;
 }
 
-// Adds to one channel of a rectangle.
+// Adds `by` to one channel in a square.
 base::Image brightened(base::Image image, int x0, int y0, int size, int by) {
     for (int y = y0; y < y0 + size; ++y) {
         for (int x = x0; x < x0 + size; ++x) {

@@ -1,5 +1,5 @@
-// Where the golden images of the effects are taken: a glade of the overworld and its neighborhood, drawn
-// with plain options and one effect each.
+// Scenes of the golden images of effects: a glade of the overworld and its surroundings, drawn with plain
+// options and one effect each.
 #pragma once
 
 #include <thread>
@@ -9,7 +9,7 @@
 
 namespace terrane::golden {
 
-// A small part of the overworld around a camera, generated and meshed as the program does it.
+// Loads a small part of the overworld around a camera, generated and meshed as in the program.
 inline void loadOverworld(render::Renderer& renderer, const render::Camera& camera, int viewDistance,
                           const mesh::MeshOptions& options = {}) {
     auto graph = gen::makeGenerator("overworld", contentBlocks());

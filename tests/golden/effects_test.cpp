@@ -1,5 +1,4 @@
-// Each effect on and off: both as their golden images show, and so different that one cannot pass for the
-// other.
+// Draws each effect on and off: both match their golden images, and differ enough from each other.
 #include <map>
 
 #include "tests/golden/effect_scenes.h"
@@ -62,7 +61,7 @@ TEST_F(Effects, InTheGlade) {
     expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.distanceFog = false; });
     expectEffect("glade_unlit", afternoon, [](RenderOptions& o) { o.shading = Shading::Off; });
     expectEffect("glade_animation", afternoon, [](RenderOptions& o) { o.animation = true; });
-    // What is a hundred blocks away blurs a little: less than the tolerance between drivers, but never
+    // Blocks a hundred blocks away blur a little: less than the tolerance between drivers, but more than
     // nothing.
     const base::Image plain = imageOf(afternoon, [](RenderOptions&) {});
     const base::Image blurred = imageOf(afternoon, [](RenderOptions& o) { o.depthOfField = true; });
@@ -80,13 +79,13 @@ TEST_F(Effects, OfTheSky) {
     expectEffect("god_rays", gladeFrame(kTowardSun, 0.76f), [](RenderOptions& o) { o.godRays = true; });
 }
 
-// One sample a pixel with holes and edges as they are, against several.
+// One sample per pixel without the treatment of holes and edges, against several.
 TEST_F(Effects, OfSamples) {
     loadOverworld(*renderer_, kGlade, kGladeDistance);
     const render::FrameInput input = gladeFrame({{-1020, -60, 91}, 200, -14, 25}, 0.62f);
     expectEffect("samples_one", input, [](RenderOptions& o) { o.msaaSamples = 1; });
     expectEffect("samples_plain_texturing", input, [](RenderOptions& o) { o.sharpFiltering = false; });
-    // A few pixels along edges: less than the tolerance between drivers, but never nothing.
+    // A few pixels along edges: less than the tolerance between drivers, but more than nothing.
     const base::Image plain = imageOf(input, [](RenderOptions&) {});
     const base::Image tested = imageOf(input, [](RenderOptions& o) { o.msaaAlphaTest = true; });
     const base::Image once = imageOf(input, [](RenderOptions& o) { o.shading = Shading::Pixel; });
@@ -96,7 +95,7 @@ TEST_F(Effects, OfSamples) {
     EXPECT_GT(difference(plain, once).mean, 0.02) << "shading once a pixel changes nothing";
 }
 
-// Rows of glass one behind the other, water between them.
+// Rows of glass behind each other, with water between them.
 TEST_F(Effects, OfLayers) {
     world::World world = flatWorld(3);
     for (int row = 0; row < 4; ++row) {
@@ -121,7 +120,7 @@ TEST_F(Effects, OfLayers) {
     }
 }
 
-// With one sample the quads are drawn twice instead of the screen: another way to the same image.
+// With one sample the quads are drawn twice instead of a full-screen pass: another way to the same image.
 TEST_F(Effects, WaterIsTheSameBothWays) {
     world::World world = flatWorld(3);
     placePool(world);
@@ -134,7 +133,7 @@ TEST_F(Effects, WaterIsTheSameBothWays) {
     EXPECT_LT(d.mean, 1.5) << "edges alone";
 }
 
-// The faces of both lie in one plane: which is nearer must not change with how numbers are rounded.
+// Faces of both are coplanar: rounding must not change which one is in front.
 TEST_F(Effects, GlassInWaterDoesNotFlicker) {
     world::World world = flatWorld(3);
     placePool(world);

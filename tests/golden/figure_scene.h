@@ -1,4 +1,4 @@
-// A yard on the flat world with figures in it: a wall, glass, a torch; lit as the program lights it.
+// A yard with figures on the flat world: a wall, glass, a torch; lit as in the program.
 #pragma once
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 namespace terrane::golden {
 
-// The chunks of flatWorld(radius) but for the outermost, with their light.
+// Uploads the chunks of flatWorld(radius) without the outermost ring, with their light.
 inline void showLit(render::Renderer& renderer, const world::World& world, int radius) {
     light::LightArea area{2 * radius + 1, 2 * radius + 1, {}};
     std::vector<world::ChunkPtr> chunks;
@@ -33,7 +33,7 @@ inline void fillBlocks(world::World& world, world::BlockPos min, world::BlockPos
             for (int x = min.x; x <= max.x; ++x) world::putBlock(world, {x, y, z}, contentBlock(block));
 }
 
-// Stands on the ground of the flat world and looks along `yaw`.
+// A figure on the ground of the flat world that looks along `yaw`.
 inline world::Figure figureAt(double x, double y, float yaw, std::uint32_t look) {
     return {.eyes = {x, y, kGalleryZ + world::kEyeHeight}, .yaw = yaw, .bodyYaw = yaw, .look = look};
 }

@@ -1,4 +1,4 @@
-// Golden images of figures, by day and beside a torch at night, and the proof that they notice mistakes.
+// Golden images of figures, by day and beside a torch at night, and the proof that they detect errors.
 #include "tests/golden/figure_scene.h"
 
 namespace terrane::golden {
@@ -7,7 +7,7 @@ namespace {
 const render::Camera kYard{{-2.2, -0.4, 82.5}, 0, -7, 55};
 constexpr float kDay = 0.42f, kNight = 0.0f;
 
-// Before a wall; one stands behind glass.
+// The yard: figures stand in front of a wall, one behind glass.
 world::World yard() {
     world::World world = flatWorld(3);
     fillBlocks(world, {6, -4, 81}, {6, 2, 84}, "stone_bricks");
@@ -16,7 +16,7 @@ world::World yard() {
     return world;
 }
 
-// Stand, walk, run, look up, swing an arm, turn away.
+// Figures that stand, walk, run, look up, swing an arm, turn away.
 std::vector<world::Figure> figuresInTheYard() {
     std::vector<world::Figure> figures{figureAt(2.6, -2.6, 160, 1), figureAt(3.0, -1.6, 235, 2),
                                        figureAt(2.2, 0.3, 190, 3),  figureAt(3.2, 1.5, 180, 4),
@@ -76,7 +76,7 @@ TEST_F(Figures, MistakesAreNoticed) {
         {"another step", [](world::Figure& f) { f.stride += 3, f.strideSize = 1.2f - f.strideSize; }},
         {"another swing", [](world::Figure& f) { f.swing = f.swing > 0 ? 0.0f : 0.4f; }},
     };
-    for (std::size_t k = 0; k + 1 < right.size(); ++k) {  // the last one is seen through glass
+    for (std::size_t k = 0; k + 1 < right.size(); ++k) {  // the last one is behind glass
         for (const auto& [name, change] : changes) {
             std::vector<world::Figure> wrong = right;
             change(wrong[k]);

@@ -1,4 +1,4 @@
-// Images that must not depend on what they do not show: hidden mesh sections, the place in the world.
+// Images must not depend on hidden mesh sections or on the position in the world.
 #include "terrane/content/scenes.h"
 #include "terrane/view/camera_pose.h"
 #include "tests/golden/effect_scenes.h"
@@ -8,7 +8,7 @@ namespace {
 
 using render::RenderOptions;
 
-// Over hills and through a forest, turning, with jumps.
+// A camera flight over hills and through a forest, with turns and jumps.
 render::Camera cameraOfFrame(int frame) {
     render::Camera camera = view::cameraOf(content::findScene("landscape")->pose);
     const int leg = frame / 15;
@@ -25,8 +25,8 @@ class Flight : public GoldenTest {
         ASSERT_TRUE(configured) << (configured ? "" : configured.error().message);
     }
 
-    // Mesh sections that come into view after being hidden are in the very next image. `maxPixels`: that may
-    // differ.
+    // Mesh sections that become visible are drawn in the very next image. `maxPixels`: allowed different
+    // pixels.
     void expectNothingMissed(RenderOptions visible, int frames, int maxPixels) {
         constexpr int kViewDistance = 10;
         render::Renderer renderer = makeRenderer();
@@ -58,16 +58,15 @@ TEST_F(Flight, HiddenMeshSectionsAreNeverMissed) {
     expectNothingMissed(options, 60, 0);
 }
 
-// Covering quads overlap: where their depths are equal the one drawn first stays, and culling changes the
-// order.
+// Covering quads overlap: at equal depth the first one drawn wins, and culling changes the order.
 TEST_F(Flight, HiddenMeshSectionsAreNeverMissedBetweenCoveringQuads) {
     RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Covered;
     expectNothingMissed(options, 30, 2);
 }
 
-// The gallery near the middle of the world and at 2^30, with everything that depends on the place: shadows,
-// waves, clouds.
+// The gallery near the origin and at 2^30, with everything that depends on the position: shadows, waves,
+// clouds.
 TEST_F(Flight, TheWorldIsTheSameFarAway) {
     world::World world = flatWorld(3);
     placeGallery(world);
@@ -80,7 +79,7 @@ TEST_F(Flight, TheWorldIsTheSameFarAway) {
         configure(renderer, options);
         for (const auto& [pos, mesh] : meshes) renderer.setChunk({pos.x + chunkX, pos.y + chunkY}, mesh);
         render::Camera camera = kAbove;
-        camera.position = glm::round(camera.position * 64.0) / 64.0;  // so that sums are exact
+        camera.position = glm::round(camera.position * 64.0) / 64.0;  // keeps sums exact
         camera.position += glm::dvec3(16.0 * chunkX, 16.0 * chunkY, 0);
         return draw(renderer, {camera, world::environmentAt(0.34f), 400, 7.5f, render::View::Color});
     };

@@ -1,4 +1,4 @@
-// Compares an image with the one in tests/golden, or rewrites that one when TERRANE_UPDATE_GOLDEN is 1.
+// Compares an image with the one in tests/golden, or overwrites that one if TERRANE_UPDATE_GOLDEN is 1.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ inline bool wantsUpdate() {
     return value && std::string_view(value) == "1";
 }
 
-// Where the images of a failure lie, for its message.
+// Writes the images of a failure; returns their paths for its message.
 inline std::string writeFailure(const Folders& folders, const std::string& name, const base::Image& actual,
                                 const base::Image* expected) {
     std::filesystem::create_directories(folders.failures);

@@ -1,4 +1,4 @@
-// Renders the golden images: the same scenes for the comparison and for the proof that it notices mistakes.
+// Renders the golden images: the same scenes for the comparison and for the proof that it detects errors.
 #pragma once
 
 #include "terrane/render/renderer.h"
@@ -12,7 +12,7 @@ namespace terrane::golden {
 constexpr glm::ivec2 kImageSize{320, 180};
 constexpr int kSamples = 4;
 
-// From above the gallery shows the sides -x, -y and +z, from below the others.
+// The view from above shows the sides -x, -y and +z of the gallery, the one from below the others.
 inline const render::Camera kAbove{{0.6, -6.2, 89.9}, 59, -38.5, 37};
 inline const render::Camera kLand{{0.2, -7.4, 92.2}, 61.5, -43, 33};
 inline const render::Camera kShapes{{0, -9.4, 94.2}, 60.5, -40, 36};
@@ -23,9 +23,10 @@ class GoldenTest : public gpu::GlTest {
     render::Renderer makeRenderer(const render::TextureSource& textures = render::contentTexture,
                                   const world::BlockRegistry& blocks = contentBlocks()) {
         gpu::DeviceInfo device = gpu::queryDevice();
-        device.software = true;  // no anisotropic filter: drivers may filter as they like
-        // Edges grow as on the driver of the images. Of a coarser grid (OpenGL 4.5, table 23.55: 4 bits or
-        // more) they would grow more, which tests/render/edge_expansion_test.cpp looks at.
+        device.software = true;  // no anisotropic filter, which differs by driver
+        // Edges are expanded for the subpixel grid of the driver that made the images. Coarser grids (OpenGL
+        // 4.5, table 23.55: 4 bits or more) expand them further; tests/render/edge_expansion_test.cpp covers
+        // that.
         device.subpixelBits = 8;
         auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device);
         if (!made) throw std::runtime_error(made.error().message);

@@ -1,4 +1,5 @@
-// Proof that the golden images notice mistakes: each is made on purpose, and the comparison must fail.
+// Proof that the golden images detect errors: the test makes each error on purpose, and the comparison must
+// fail.
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/golden_fixture.h"
 
@@ -33,7 +34,8 @@ class GoldenProof : public GoldenTest {
         return images;
     }
 
-    // Whether one of the galleries shows other textures. Looks first at the one that showed the last ones.
+    // Whether one of the galleries shows other textures. Starts with the gallery that detected the last
+    // change.
     bool isNoticed(const Images& right, const render::TextureSource& textures) {
         for (std::size_t k = 0; k < kGalleries; ++k) {
             const std::size_t gallery = (lastNoticed_ + k) % kGalleries;
@@ -54,7 +56,7 @@ class GoldenProof : public GoldenTest {
     std::size_t lastNoticed_ = 0;
 };
 
-// Content with one texture taken for another.
+// Content with one texture replaced by another.
 render::TextureSource replaced(std::string_view name, std::string_view by) {
     return [=](std::string_view wanted) { return render::contentTexture(wanted == name ? by : wanted); };
 }
@@ -75,7 +77,7 @@ TEST_F(GoldenProof, AnyWrongTextureIsNoticed) {
     const Images right = drawAll(render::contentTexture);
     const auto names = contentBlocks().textures();
     for (std::size_t k = 0; k < names.size(); ++k) {
-        if (names[k] == "missing") continue;  // of unknown blocks, which the gallery has not
+        if (names[k] == "missing") continue;  // for unknown blocks, which the gallery lacks
         const std::string& other = names[(k + 1) % names.size()];
         EXPECT_TRUE(isNoticed(right, replaced(names[k], other))) << other << " for " << names[k];
     }
@@ -116,7 +118,7 @@ bool hasDirection(const Meshes& meshes, int bucket, int direction) {
     });
 }
 
-// Groups that look away may be dropped: the draw list drops them too.
+// Faces that look away may be dropped: the draw list drops them too.
 TEST_F(GoldenProof, AMissingDirectionIsNoticedWhereItIsSeen) {
     const Meshes right = galleryOnGround();
     render::Renderer renderer = makeRenderer();
@@ -182,7 +184,7 @@ TEST_F(GoldenProof, AnyMissingFaceIsNoticed) {
     }
 }
 
-// Columns, rows or both in reverse order.
+// The image with its columns, rows or both in reverse order.
 base::Image turned(const base::Image& image, bool flipX, bool flipY) {
     base::Image result = image;
     for (int y = 0; y < image.height; ++y) {
@@ -252,7 +254,7 @@ TEST_F(GoldenProof, SwappedAxesAreNoticed) {
     }
 }
 
-// A little closer, an hour later, a little brighter.
+// Frames from a little closer, an hour later, or a little brighter.
 TEST_F(GoldenProof, OtherFramesAreNoticed) {
     render::Renderer renderer = makeRenderer();
     const Meshes meshes = galleryOnGround();

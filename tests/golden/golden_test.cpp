@@ -1,4 +1,4 @@
-// The golden images; README.md says what each shows and how to update them.
+// The golden images; README.md describes each and how to update them.
 #include "terrane/content/scenes.h"
 #include "terrane/view/camera_pose.h"
 #include "tests/golden/axes_cube.h"
@@ -83,8 +83,8 @@ TEST_F(Golden, Landscape) {
     EXPECT_TRUE(matchesGolden("landscape_merging", draw(renderer, input)));
 }
 
-// However faces are merged, and however high mesh sections are, the image is that of single faces. Normals
-// are compared in the desert: where leaves meet they leap from sample to sample.
+// All merge methods and mesh section heights give the image of single faces. Normals are compared in the
+// desert: at leaf borders they differ from sample to sample.
 TEST_F(Golden, MergeMethodsDrawTheSameImage) {
     constexpr int kViewDistance = 4;
     using mesh::MergeMethod;
@@ -107,7 +107,7 @@ TEST_F(Golden, MergeMethodsDrawTheSameImage) {
             EXPECT_LE(d.mean, kTolerance.mean) << scene << ", method " << static_cast<int>(options.method);
         }
     }
-    // Of the view that shows the merging this is not so.
+    // The merging view does differ.
     EXPECT_FALSE(isSame(imageOf("desert", {MergeMethod::None}, render::View::Merging),
                         imageOf("desert", {MergeMethod::Greedy}, render::View::Merging)));
 }

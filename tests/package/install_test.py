@@ -33,7 +33,7 @@ class Install(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.folder)
         cls.prefix = cls.folder / "a prefix"
         run(CMAKE, "--install", BUILD, "--prefix", cls.prefix)
-        # As another project has it: without a source tree around it.
+        # As in another project: outside of the source tree.
         cls.examples = cls.folder / "programs"
         shutil.copytree(SOURCE / "examples", cls.examples)
 

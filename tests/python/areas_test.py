@@ -75,7 +75,7 @@ def test_blocks_and_light_are_those_that_the_program_dumps(program, land, tmp_pa
     area = (-32, 16, 16, 48)
     for what in ("blocks", "light"):
         program("dump", "--generator", "overworld", "--area=-2,1,1,3", "--what", what, "-o", tmp_path / "a.npy")
-        dumped = np.load(tmp_path / "a.npy").transpose(2, 1, 0)  # it is by x, y, z
+        dumped = np.load(tmp_path / "a.npy").transpose(2, 1, 0)  # dump writes x, y, z
         if what == "blocks":
             assert (land.blocks(area) == dumped).all()
         else:

@@ -1,4 +1,4 @@
-"""What the tests of the package share. TERRANE_PROGRAM names the program; PYTHONPATH finds the package."""
+"""Shared by the tests of the package. TERRANE_PROGRAM names the program; PYTHONPATH finds the package."""
 import os
 import subprocess
 
@@ -34,7 +34,7 @@ def program():
 
 
 def fails(code, call, *arguments, **options):
-    """The one line that the call fails with."""
+    """The error message of a failing call, which must be one line."""
     with pytest.raises(terrane.Error) as caught:
         call(*arguments, **options)
     assert caught.value.code == code, str(caught.value)

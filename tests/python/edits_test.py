@@ -47,7 +47,7 @@ def test_a_save_keeps_edits(tmp_path, program):
         assert (world.blocks((0, 0, 81, 50, 50, 85)) == world.block_id("sand")).all()
         digest = world.digest((0, 0, 4, 4))
         assert (world.heights((0, 0, 32, 32), 2) == 84).all()
-        # Another that writes.
+        # A second writer.
         fails("busy", terrane.open, file)
     assert digest == program("generate", "--area", "0,0,4,4", "--world", file, "--digest")
     assert "good" in program("check", file) or "16 chunks" in program("check", file)
@@ -58,7 +58,7 @@ def test_a_save_keeps_edits(tmp_path, program):
 def test_a_world_that_cannot_be_saved_stays_open(tmp_path):
     file, away = tmp_path / "world.sqlite", tmp_path / "away.sqlite"
     world = terrane.open(str(file), create=True, generator="flat")
-    world.blocks((0, 0, 90, 1, 1, 91))  # opens what chunks are read by
+    world.blocks((0, 0, 90, 1, 1, 91))  # opens the reader of chunks
     file.rename(away)
     world.set_blocks(0, 0, 90, "sand")
     with pytest.raises(terrane.Error):

@@ -1,4 +1,4 @@
-"""Memory stays; tools/python_leak.py makes 10,000 calls."""
+"""Memory does not grow; tools/python_leak.py makes 10,000 calls."""
 import pathlib
 import sys
 

@@ -1,4 +1,4 @@
-"""Images, where the build has graphics."""
+"""Images, in builds with graphics."""
 import numpy as np
 import pytest
 import terrane

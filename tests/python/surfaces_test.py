@@ -14,7 +14,7 @@ def test_heights_are_those_of_the_blocks(land):
     assert heights.dtype == np.int16 and surface.dtype == np.uint16
     rows, columns = np.indices(heights.shape)
     assert (blocks[heights, rows, columns] == surface).all()
-    # Above there is air, and plants that one walks through.
+    # Above are air and plants without collision.
     above = {names[k] for k in np.unique(blocks[np.arange(256)[:, None, None] > heights])}
     assert "air" in above and "grass_tuft" in above
     assert not above & {"stone", "dirt", "grass", "sand", "water", "oak_leaves", "oak_log", "snow"}

@@ -1,4 +1,4 @@
-"""The wheel of the package that is tested; tools/wheel.sh builds one from nothing."""
+"""Tests the wheel of the tested package; tools/wheel.sh builds one from scratch."""
 import base64
 import hashlib
 import pathlib

@@ -246,7 +246,7 @@ class Numbers(ReportTest):
 
 
 class Plan(unittest.TestCase):
-    """Every table, quick and whole: as many entries as columns, plots of columns that are there."""
+    """Every table, quick and complete, has one entry per column and plots only existing columns."""
 
     def test_tables_are_whole(self):
         quick = cells.Settings(True, "320x180", 8, 8, 3, 4, True, 4)

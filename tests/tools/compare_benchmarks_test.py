@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""tools/compare_benchmarks.py on runs made by hand. Usage: compare_benchmarks_test.py SCRIPT"""
+"""tools/compare_benchmarks.py on synthetic runs. Usage: compare_benchmarks_test.py SCRIPT"""
 import json
 import pathlib
 import subprocess
@@ -11,7 +11,7 @@ SCRIPT = ""
 
 
 def google(**times):
-    """A file of Google Benchmark; microseconds by name, one a repetition."""
+    """A file of Google Benchmark; microseconds by name, one per repetition."""
     runs = []
     for name, repetitions in times.items():
         for k, time in enumerate(repetitions):
@@ -23,7 +23,7 @@ def google(**times):
 
 
 def terrane(*frames, **more):
-    """A file of terrane bench; milliseconds of a frame, one a run."""
+    """A file of terrane bench; milliseconds per frame, one per run."""
     lines = [{"settings": {"quick": True}}]
     for frame in frames:
         lines.append({"cell": ["render", "--scene", "cave"],
@@ -99,7 +99,7 @@ class Compare(unittest.TestCase):
         done = self.compare(terrane(10, 11, 12), terrane(20, 21, 22))
         self.assertExit(1, done)
         self.assertIn("slower  render --scene cave: milliseconds/frame\n", done.stdout)
-        self.assertIn("2 times compared, 1 slower", done.stdout)  # counts are no times
+        self.assertIn("2 times compared, 1 slower", done.stdout)  # counts are not times
 
     def test_seconds_of_a_flight(self):
         def flight(seconds):

@@ -147,7 +147,7 @@ class Copies(unittest.TestCase):
 
 class Programs(unittest.TestCase):
     def run_script(self, script, seconds=0.0):
-        """A program made by hand that stands for a test program."""
+        """A script in place of a test program."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a_tests"
             path.write_text("#!/bin/sh\n" + script)

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What tools/soak.py says about memory. Usage: soak_record_test.py FOLDER (of the package soak)"""
+"""The memory report of tools/soak.py. Usage: soak_record_test.py FOLDER (of the package soak)"""
 import pathlib
 import sys
 import tempfile

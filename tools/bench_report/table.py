@@ -39,7 +39,7 @@ LOAD_SECONDS = Value("/milliseconds/load", 1e-3)
 @dataclass(frozen=True)
 class Entry:
     cells: list
-    compute: Callable  # from results; None where there is no number
+    compute: Callable  # from results; None without a number
 
     def number(self, results):
         return self.compute(results) if all(map(results.has, self.cells)) else None
@@ -131,9 +131,9 @@ class CurvePlot:
 @dataclass(frozen=True)
 class Table:
     name: str   # on command lines, and of its files
-    title: str  # with the thesis's number where it has one
-    about: str  # what is measured, how to read it; Markdown
-    cut: str    # what --quick leaves out
+    title: str  # with the thesis's number if it has one
+    about: str  # measurement and how to read it; Markdown
+    cut: str    # parts that --quick omits
     columns: list
     rows: list
     plots: list = field(default_factory=list)

@@ -1,9 +1,9 @@
-"""Medians with spread, and ratios of pairs: the figures of the table."""
+"""Medians with spread, and ratios of pairs, for the table."""
 import statistics
 
 
 def format_number(number):
-    """Three significant digits, of large whole numbers all: 0.0123, 1.23, 12.3, 123, 12,345."""
+    """Three significant digits, all digits of large integers: 0.0123, 1.23, 12.3, 123, 12,345."""
     size = abs(number)
     if number == 0:
         return "0"
@@ -17,7 +17,7 @@ def format_number(number):
 
 
 def with_spread(numbers):
-    """"median (min … max)"; the median alone of one number; empty for none."""
+    """"median (min … max)"; only the median for one number; empty for none."""
     if not numbers:
         return ""
     median = format_number(statistics.median(numbers))
@@ -25,5 +25,5 @@ def with_spread(numbers):
 
 
 def ratios_of_pairs(ours, theirs):
-    """Ours divided by theirs, of each round that has both."""
+    """Terrane's value divided by the peer's, for each round that has both."""
     return [ours[number] / theirs[number] for number in sorted(ours) if theirs.get(number)]

@@ -1,4 +1,4 @@
-"""Floors of the save path: copying memory, zstd and SQLite alone, with the very bytes that Terrane saves."""
+"""Lower bounds of the save path: memory copies, zstd and SQLite alone, with the same bytes that Terrane saves."""
 import contextlib
 import ctypes
 import json
@@ -16,7 +16,7 @@ FIRST_TILE_KEY = 1 << 56   # keys from here on are of coarser levels
 
 
 class Zstd:
-    """libzstd itself: the library that Terrane uses, without a Python package between."""
+    """libzstd, the library that Terrane uses, called without a Python package."""
 
     def __init__(self):
         try:
@@ -36,7 +36,7 @@ class Zstd:
             self.buffer = ctypes.create_string_buffer(2 * size)
 
     def compress(self, data):
-        """The size; the frame is in `buffer`."""
+        """Returns the size; the frame is in `buffer`."""
         self._grow(2 * len(data) + 1024)
         size = self.library.ZSTD_compressCCtx(self.compressor, self.buffer, ctypes.c_size_t(len(self.buffer)), data,
                                               ctypes.c_size_t(len(data)), LEVEL)
@@ -55,7 +55,7 @@ class Zstd:
 
 
 def copy_speed():
-    """GB/s, the best of several copies, as `terrane bench --memory-copy` measures."""
+    """GB/s, the best of several copies, measured by `terrane bench --memory-copy`."""
     source, target = (ctypes.create_string_buffer(bytes([value]) * COPY_BYTES, COPY_BYTES) for value in (1, 2))
     best = 0
     for _ in range(COPIES):
@@ -66,7 +66,7 @@ def copy_speed():
 
 
 def microseconds(work, items):
-    """Of one item."""
+    """Microseconds per item."""
     start = time.perf_counter()
     for item in items:
         work(item)
@@ -79,7 +79,7 @@ def saved_rows(world):
 
 
 def insert_rows(path, rows, transactions):
-    """Microseconds a row, until it is on the disk: the tables and pragmas of Terrane's saves."""
+    """Microseconds per row until it is on disk, with the tables and pragmas of Terrane's saves."""
     size = -(-len(rows) // transactions)
     with contextlib.closing(sqlite3.connect(path, isolation_level=None)) as database:
         database.executescript("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA cache_size = -2000;"
@@ -109,7 +109,7 @@ def batches_of(trace):
 
 
 class Floors:
-    """Both sides measure the chunks of one save, which Terrane's side makes anew in each round."""
+    """Both sides measure the chunks of one save, which Terrane's side creates in each round."""
 
     def __init__(self, program, folder, radius):
         self.program, self.folder, self.radius = program, folder, radius

@@ -1,4 +1,4 @@
-"""The jobs of a comparison: what each side does for them, in full and in quick size."""
+"""The jobs of a comparison on both sides, in full and quick size."""
 import json
 import pathlib
 import shutil
@@ -15,16 +15,16 @@ import terrane
 from measures import VIEW_DISTANCES
 from process import CompareError
 
-SEEDS = (42, 1, 7, 2026, 5)  # of worlds that are generated, one a round
-FRAMES_SEED = 42             # of the worlds whose places are drawn
+SEEDS = (42, 1, 7, 2026, 5)  # of generated worlds, one per round
+FRAMES_SEED = 42             # of the worlds for frames
 
 
 @dataclass(frozen=True)
 class Sizes:
-    mapchunks: int          # of 80 blocks, along a side of Luanti's area: 240 blocks high
+    mapchunks: int          # of 80 blocks, per side of Luanti's area, 240 blocks high
     radius: int             # chunks, of an area of Terrane with about as many blocks
     floors_radius: int      # chunks
-    search_mapchunks: int   # along a side of the area in which places are chosen
+    search_mapchunks: int   # per side of the area in which places are chosen
     search_radius: int      # chunks, the same of Terrane
     places: int
     view_distances: tuple   # blocks
@@ -42,7 +42,7 @@ QUICK = Sizes(mapchunks=3, radius=7, floors_radius=8, search_mapchunks=13, searc
 @dataclass(frozen=True)
 class Job:
     name: str
-    group: str         # what --only names
+    group: str         # for --only
     terrane: Callable  # (round number) -> values by measure, details
     peer: Callable
 
@@ -51,7 +51,7 @@ class Job:
 
 
 class Comparison:
-    """Worlds of the frames and their places stay in `work`, for all rounds and for a run that is continued."""
+    """Worlds for frames and their places stay in `work`, for all rounds and for a resumed run."""
 
     def __init__(self, program, work, sizes):
         self.program, self.work, self.sizes = program, work, sizes
@@ -96,7 +96,7 @@ class Comparison:
         return path
 
     def place(self, side, number, choose):
-        """That of a round; chosen in the first one."""
+        """The place of a round, chosen in the first round."""
         path = self.work / f"places-{side}.json"
         if not path.exists():
             found = choose()
@@ -132,6 +132,6 @@ def seed_of(number):
 
 
 def clean(work):
-    """Ends of a run that was cut off."""
+    """Removes the remains of an interrupted run."""
     for path in work.glob("tmp*"):
         shutil.rmtree(path, ignore_errors=True)

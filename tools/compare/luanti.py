@@ -49,7 +49,7 @@ def box_around(x, z, radius):
 
 
 def square(mapchunks):
-    """So many by so many around 0,0."""
+    """A square of mapchunks around 0,0."""
     begin = MAPCHUNK_BEGIN - mapchunks // 2 * MAPCHUNK
     return begin, BOTTOM, begin, begin + mapchunks * MAPCHUNK - 1, TOP, begin + mapchunks * MAPCHUNK - 1
 
@@ -59,7 +59,7 @@ def blocks_of(box):
 
 
 class World:
-    """A world in a folder of its own, with our mod."""
+    """A world in its own folder, with the mod of this comparison."""
 
     def __init__(self, folder, seed):
         self.folder, self.seed = folder, seed
@@ -80,7 +80,7 @@ class World:
         return {"HOME": str(self.folder)}
 
     def emerge(self, mode, boxes, threads=1, heights=False, timeout=3600):
-        """Generates or loads boxes with a server; the mod's report and what the process took."""
+        """Generates or loads boxes with a server. Returns the mod's report and the resources of the process."""
         server = process.find_program(SERVERS, HINT)
         config = self.write_settings(compare_mode=mode, compare_boxes=";".join(",".join(map(str, box)) for box in boxes),
                                      compare_heights=str(heights).lower(), num_emerge_threads=threads)
@@ -92,7 +92,7 @@ class World:
         return json.loads(found[1]), finished
 
     def disk_bytes(self, box):
-        """Bytes of the file that hold the blocks in a box: those of its border are left out by their share of the data."""
+        """Bytes of the file for the blocks in a box; the border is subtracted by its share of the data."""
         path = self.path / "map.sqlite"
         inside = everything = 0
         with contextlib.closing(sqlite3.connect(f"file:{path}?mode=ro", uri=True)) as database:

@@ -18,13 +18,13 @@ from virtual_display import Display  # noqa: E402
 SIZE = (1280, 720)
 WATER_LEVEL = 1
 EYE_HEIGHT = 1.47      # of a player, blocks
-# The server sends what is ahead, ring by ring, and begins anew whenever the camera turns: each direction waits until its
-# view is filled. Between two rings nothing comes for seconds.
+# The server sends blocks ahead of the camera, ring by ring, and restarts when the camera turns: each direction waits until
+# its view is filled. Between two rings nothing arrives for seconds.
 QUIET_SECONDS = 30
 QUIET_SHARE = 0.002    # of the map blocks
-FILL_RATE = 1          # frames a second while the view fills: the server needs the processor
+FILL_RATE = 1          # frames per second while the view fills: the server needs the CPU
 FULL_RATE = 1000
-SWING_SECONDS = 3      # after a turn to a direction, left out
+SWING_SECONDS = 3      # ignored after a turn
 REPORT_SECONDS = 2     # of its profiler
 
 CLIENT_SETTINGS = {
@@ -36,14 +36,14 @@ CLIENT_SETTINGS = {
 
 
 class Search:
-    """The places of one seed, and the land around those that are used."""
+    """Finds the places of one seed, and generates the terrain around the used ones."""
 
     def __init__(self, folder, seed, mapchunks):
         self.world, self.mapchunks = luanti.World(folder, seed), mapchunks
 
     def choose(self, count):
         x0, _, z0, x1, _, z1 = luanti.square(self.mapchunks)
-        # Two layers have all of the ground but the highest mountains.
+        # Two layers contain all of the ground except the highest mountains.
         (self.world.path / "heights.txt").unlink(missing_ok=True)
         box = x0, luanti.MAPCHUNK_BEGIN, z0, x1, luanti.TOP, z1
         self.world.emerge("generate", [box], threads=os.cpu_count(), heights=True)
@@ -54,7 +54,7 @@ class Search:
 
 
 class Client:
-    """A client that runs, with its camera and what it reports."""
+    """A running client, with its camera and reports."""
 
     def __init__(self, world, child, hud, place):
         self.world, self.child, self.hud, self.place = world, child, hud, place
@@ -86,13 +86,13 @@ class Client:
         return [float(line) for line in path.read_text(encoding="ascii").split()] if path.exists() else []
 
     def fill_view(self, longest):
-        """Looks into each direction until nothing new comes; seconds, and whether it was done in time."""
+        """Looks in each direction until nothing new arrives. Returns seconds, and whether all finished in time."""
         start = time.monotonic()
         is_full = [self.fill_direction(yaw, longest / len(YAWS)) for yaw in YAWS]
         return time.monotonic() - start, all(is_full)
 
     def fill_direction(self, yaw, longest):
-        """Whether it was done in time."""
+        """Returns whether it finished in time."""
         self.look(yaw, FILL_RATE)
         start, history = time.monotonic(), []
         while (now := time.monotonic() - start) < longest:
@@ -104,7 +104,7 @@ class Client:
         return False
 
     def frames(self, yaw, seconds):
-        """Frames a second: the median of readings of half a second; thousands of vertices."""
+        """Frames per second (the median of readings of half a second) and thousands of vertices."""
         self.look(yaw)
         self.sleep(SWING_SECONDS)
         first, begin = len(self.rates()), len(self.child.text(1))
@@ -139,7 +139,7 @@ def measure_frames(search, place, blocks, seconds, longest):
     values = {"frames": statistics.mean(rate for rate, _ in runs), "triangles": statistics.mean(v for _, v in runs) / 2,
               "rss": finished.peak_rss / 1e6, "pss": finished.peak_pss / 1e6}
     values = {f"{name}_{blocks}": value for name, value in values.items()}
-    # The same frames: it has no land beyond the view distance.
+    # The same frames: Luanti has no terrain beyond the view distance.
     values[f"frames_horizon_{blocks}"] = values[f"frames_{blocks}"]
     return values, {"camera": f"{place[0]},{place[2]},{place[1]}", "openness": place[3], "fill_s": filled, "is_full": is_full,
                     "map_blocks": loaded, "frames_by_direction": [rate for rate, _ in runs]}

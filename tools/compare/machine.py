@@ -1,4 +1,4 @@
-"""What a comparison ran on: machine, versions of all programs, load."""
+"""The environment of a comparison: machine, versions of all programs, load."""
 import contextlib
 import ctypes
 import os
@@ -13,7 +13,7 @@ from luanti import luanti_version
 
 
 def load_average():
-    """Of the last minute: processes that run or wait to run."""
+    """Load average of the last minute: processes that run or wait to run."""
     return round(os.getloadavg()[0], 2)
 
 
@@ -22,7 +22,7 @@ def machine():
 
 
 def versions(program):
-    """"–" where a program is not installed."""
+    """"–" if a program is not installed."""
     return {"Terrane": output_of(program, "--version") or "–", "Luanti": luanti_version() or "–",
             "Mesa": package_version("libgl1-mesa-dri") or "–", "zstd": zstd_version() or "–",
             "SQLite": sqlite3.sqlite_version, "kernel": platform.release(), "Python": platform.python_version()}
@@ -54,7 +54,7 @@ def zstd_version():
 
 
 def package_version(name):
-    """Of a Debian package."""
+    """The version of a Debian package."""
     return output_of("dpkg-query", "--show", "--showformat=${Version}", name) if shutil.which("dpkg-query") else None
 
 

@@ -1,4 +1,4 @@
-"""All rows of the table: what is measured, in which unit, and what each side does for it."""
+"""All rows of the table: measure, unit, and method on each side."""
 from dataclasses import dataclass
 
 # 16×16×256, the size of a chunk of Terrane: the common unit of worlds.
@@ -13,10 +13,10 @@ class Measure:
     name: str     # in results.jsonl
     title: str
     unit: str
-    better: str   # HIGHER or LOWER; NEITHER: the row describes the load and says nothing about which one is better
+    better: str   # HIGHER or LOWER; NEITHER: the row describes the load
     peer: str
-    ours: str     # what Terrane does for it
-    theirs: str   # what the peer does for it
+    ours: str     # Terrane's method
+    theirs: str   # the peer's method
 
 
 def frame_measures():

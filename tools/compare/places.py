@@ -1,9 +1,9 @@
-"""Chooses places with equally open views by the heights of the ground alone, with one rule for all programs."""
+"""Chooses places with equally open views by the heights of the ground only, with one rule for all programs."""
 import array
 import ast
 import math
 
-CELL = 8               # blocks; a cell has the least height in it
+CELL = 8               # blocks; a cell has the minimum of its heights
 EYE = 40               # blocks from the ground or the water to the camera
 FAR = 256              # blocks
 DIRECTIONS = 32
@@ -29,7 +29,7 @@ class Heights:
                    for distance in range(2 * CELL, FAR + 1, CELL)]
 
     def openness(self, x, y):
-        """Share of the cells within FAR that a camera EYE above this cell sees; None where heights are missing."""
+        """Share of the cells within FAR that a camera EYE above this cell sees; None if heights are missing."""
         eye, seen, count = self.surface(x, y) + EYE, 0, 0
         for ray in self._rays(x, y):
             highest = -math.inf
@@ -67,7 +67,7 @@ class Heights:
 
 
 def read_lines(path, water):
-    """Lines "x z height" of the Lua mod. Layers overlap: the highest counts, as it is least where a layer has no ground."""
+    """Reads lines "x z height" of the Lua mod. Layers overlap: the highest value counts; a layer without ground has the least."""
     heights = {}
     for line in path.read_text(encoding="ascii").splitlines():
         x, y, height = (int(float(word)) for word in line.split())
@@ -77,7 +77,7 @@ def read_lines(path, water):
 
 
 def read_npy(path, begin, water):
-    """uint16 [y, x] of `terrane export npy-heights`; `begin`: the first column, blocks."""
+    """Reads uint16 [y, x] of `terrane export npy-heights`; `begin`: the first column, in blocks."""
     data = path.read_bytes()
     length = int.from_bytes(data[8:10], "little")
     rows, columns = ast.literal_eval(data[10:10 + length].decode("ascii"))["shape"]

@@ -14,7 +14,7 @@ STOP_SECONDS = 30
 
 
 class CompareError(Exception):
-    """One line that says which program or file failed and why."""
+    """One line that names the failed program or file, and the reason."""
 
 
 @dataclass(frozen=True)
@@ -24,11 +24,11 @@ class Finished:
     seconds: float      # wall time
     cpu_seconds: float  # user and system, all threads
     peak_rss: int       # bytes, at the last reading before the end
-    peak_pss: int       # bytes, the largest of one reading a second
+    peak_pss: int       # bytes, the largest of one reading per second
 
 
 class Child:
-    """A running process. `wait` and `stop` give what it took; leaving the `with` block always ends it."""
+    """A running process. `wait` and `stop` return its resource usage; leaving the `with` block always ends it."""
 
     def __init__(self, command, environment=None, folder=None, timeout=600):
         self.command = [str(word) for word in command]
@@ -84,7 +84,7 @@ class Child:
         return self.finished
 
     def stop(self):
-        """Ends the process; what it took."""
+        """Ends the process; returns its resource usage."""
         deadline = time.monotonic() + STOP_SECONDS
         self._signal(subprocess.signal.SIGTERM)
         while self.is_running():
@@ -98,7 +98,7 @@ class Child:
             os.killpg(self.process.pid, number)
 
     def _read_memory(self):
-        """The resident peak comes from /proc: ru_maxrss also counts the process that started this one."""
+        """Reads the resident peak from /proc: ru_maxrss also counts the parent before exec."""
         now = time.monotonic()
         self.peak_rss = max(self.peak_rss, self._kilobytes("status", "VmHWM") * 1024)
         if now >= self.next_pss:

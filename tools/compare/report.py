@@ -3,7 +3,7 @@
 
     tools/compare/report.py FOLDER [-o DIR]
 
-Reads FOLDER/results.jsonl, also while run.py still writes it: what is not measured yet is a gap. Exit code: 0, or 2 if
+Reads FOLDER/results.jsonl, even while run.py still writes it: missing measurements are gaps. Exit code: 0, or 2 if
 something cannot be read or written."""
 import argparse
 import pathlib
@@ -90,7 +90,7 @@ def loads_table(results):
 
 
 def places_table(results):
-    """How open the views of both sides are."""
+    """Openness of the views of both sides."""
     rounds = {side: results.details.get((job, side), {}) for job, side in sorted(results.details)
               for job in [job] if job.startswith("frames")}
     numbers = sorted({number for details in rounds.values() for number, place in details.items() if "openness" in place})

@@ -1,26 +1,26 @@
-"""results.jsonl: one JSON object a line. `about` describes the run; each other line is one side of one job in one round,
-with its values by measure or the reason why it failed."""
+"""results.jsonl: one JSON object per line. `about` describes the run; each other line is one side of one job in one round,
+with its values by measure or the reason of its failure."""
 import json
 import math
 import os
 
 
 class BadInput(Exception):
-    """One line that says what is wrong and where."""
+    """One line that names the error and its place."""
 
 
 class Results:
     def __init__(self):
-        self.about = {}     # machine, versions, settings: those of the last run
+        self.about = {}     # machine, versions, settings of the last run
         self.values = {}    # by (measure, side): {round: number}
-        self.failures = {}  # reasons by (round, job, side), of attempts that did not succeed later
+        self.failures = {}  # reasons by (round, job, side), without later successes
         self.done = set()   # (round, job, side)
         self.loads = {}     # load averages before, by (round, job, side)
         self.details = {}   # by (job, side): {round: object}
         self.dropped = 0    # lines that could not be read
 
     def take(self, line):
-        """Raises ValueError, KeyError or TypeError if the line is no result."""
+        """Raises ValueError, KeyError or TypeError if the line is not a result."""
         if "about" in line:
             self.about = dict(line["about"])
             return
@@ -42,7 +42,7 @@ class Results:
 
 
 def read_results(path):
-    """Lines that are empty or cut short are left out and counted. Raises BadInput if the file cannot be read."""
+    """Skips and counts empty or truncated lines. Raises BadInput if the file cannot be read."""
     results = Results()
     try:
         text = path.read_text(encoding="utf-8", errors="replace")
@@ -57,7 +57,7 @@ def read_results(path):
 
 
 def append_line(path, value):
-    """On disk when it returns. Starts a new line if the last one was cut short."""
+    """Writes the line to disk. Starts a new line if the last one was truncated."""
     with open(path, "ab+") as file:
         file.seek(0, os.SEEK_END)
         if size := file.tell():

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Measures other programs beside Terrane on this machine, in turn, and makes one table.
+"""Measures other programs and Terrane on this machine, in turn, and makes one table.
 
     tools/compare/run.py -o FOLDER [--program build/terrane] [--rounds 5] [--only luanti,floors] [--quick] [--install]
 
-Writes FOLDER/results.jsonl, a line as soon as something is measured, and FOLDER/report.md. A run that was ended goes on
-where it was if it is started again with the same folder; what failed is tried again. FOLDER/work has the worlds. Needs
-xvfb, and minetest with minetest-server (Luanti), which --install gets from Debian. Exit code: 0, 1 if a measurement
-failed, 2 if nothing could be measured."""
+Writes FOLDER/results.jsonl, a line after each measurement, and FOLDER/report.md. A stopped run continues if it is
+started again with the same folder; failed measurements are repeated. FOLDER/work has the worlds. Needs xvfb, and
+minetest with minetest-server (Luanti), which --install gets from Debian. Exit code: 0, 1 if a measurement failed, 2 if
+nothing could be measured."""
 import argparse
 import hashlib
 import os
@@ -22,7 +22,7 @@ from machine import load_average, machine, versions
 from process import CompareError
 from results import BadInput, Results, append_line, read_results
 
-# Of Debian 12 and of later releases.
+# Packages of Debian 12 and of later releases.
 PEERS = (("minetest", "minetest-server"), ("luanti", "luanti-server"))
 OTHER_PACKAGES = ("xvfb", "xauth")
 FAILURES = (CompareError, OSError, subprocess.SubprocessError, ValueError, LookupError, TypeError, RuntimeError, SystemExit)
@@ -66,7 +66,7 @@ def chosen(jobs, only):
 
 
 def begin(path, options):
-    """Results so far. Raises CompareError if they are of something else."""
+    """Returns earlier results. Raises CompareError if they are from another comparison."""
     now = about(options)
     before = read_results(path) if path.exists() else Results()
     if before.about:
@@ -79,12 +79,12 @@ def begin(path, options):
 
 
 def measure(job, side, number):
-    """The line for results.jsonl."""
+    """Returns the line for results.jsonl."""
     line = {"round": number, "job": job.name, "side": side, "load": load_average()}
     start = time.monotonic()
     try:
         line["values"], line["details"] = job.side(side)(number)
-    # A program that fails costs only its own figures. joining.py reports by SystemExit.
+    # A failing program loses only its own values. joining.py reports by SystemExit.
     except FAILURES as error:
         kind = "" if isinstance(error, (CompareError, SystemExit)) else f"{type(error).__name__}: "
         line["failure"] = " ".join(f"{kind}{error}".split())[:400]
@@ -93,7 +93,7 @@ def measure(job, side, number):
 
 
 def run(options):
-    """Whether all was measured."""
+    """Returns whether all jobs succeeded."""
     work = options.output / "work"
     work.mkdir(parents=True, exist_ok=True)
     clean(work)
@@ -115,7 +115,7 @@ def run(options):
 
 def main(arguments=None):
     options = parse(arguments)
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends the programs that run, as Ctrl+C does
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends running programs, as Ctrl+C does
     try:
         if options.install:
             install()

@@ -12,12 +12,12 @@ PITCH = 10           # degrees down
 YAWS = (0, 90, 180, 270)
 SEA_LEVEL = 80       # blocks, of the generator continents
 CHUNK = 16           # blocks
-HORIZON = 1024       # chunks: land to 16 km
+HORIZON = 1024       # chunks: terrain to 16 km
 SEARCH_RADIUS = 64   # chunks around 0,0 in which places are chosen
 
 
 def run_json(command, **options):
-    """What the program prints with --json, and what the process took."""
+    """Returns the program's output with --json, and the resource usage of the process."""
     finished = process.run(command, **options)
     try:
         return json.loads(finished.output), finished
@@ -26,7 +26,7 @@ def run_json(command, **options):
 
 
 def tasks_ms(report, names):
-    """Milliseconds of one thread for a chunk, of all these tasks."""
+    """Milliseconds of one thread per chunk, summed over these tasks."""
     tasks = report["tasks"]
     if not all(tasks[name]["count"] for name in names):
         raise CompareError(f"terrane render: no tasks {', '.join(names)} in its report")
@@ -39,7 +39,7 @@ def generate(program, world, seed, *area, threads=1):
 
 
 def load(program, world, seed, view_distance, image):
-    """Loads and lights all chunks in view; the report of `terrane render`."""
+    """Loads and lights all chunks in view; returns the report of `terrane render`."""
     report, _ = run_json([program, "render", "--world", world, "--seed", seed, "--at", "8,8,200", "--look", f"0,-{PITCH}",
                           "--preset", "low", "--view-distance", view_distance, "--horizon", 0, "--size", "64x36",
                           "--threads", 1, "--backend", "cpu", "--json", "-o", image], environment=SOFTWARE)
@@ -51,7 +51,7 @@ def measure_world(program, folder, seed, radius):
     world = folder / "world.sqlite"
     report, made = generate(program, world, seed, "--radius", radius)
     chunks = report["chunks"]
-    # Loads one more ring of chunks than are in view.
+    # Loads one ring of chunks beyond the view.
     loaded = load(program, world, seed, radius - 1, folder / "image.png")
     light = tasks_ms(loaded, ("local light", "light")) / 1000
     read = tasks_ms(loaded, ("load",)) / 1000
@@ -75,7 +75,7 @@ def camera_of(place):
 
 
 class Frames:
-    """Frames from one place. The world has all chunks in view, so that nothing is generated while frames are drawn."""
+    """Frames from one place. The save has all chunks in view, so that none is generated while frames are drawn."""
 
     def __init__(self, program, folder, seed, place, frames):
         self.program, self.folder, self.seed, self.place, self.frames = program, folder, seed, place, frames
@@ -103,7 +103,7 @@ class Frames:
 
 
 def measure_frames(view, blocks):
-    """Without and with land beyond the view distance."""
+    """Without and with terrain beyond the view distance."""
     plain, far = view.measure(blocks, 0), view.measure(blocks, HORIZON)
     values = {f"{name}_{blocks}": value for name, value in plain.items()}
     values[f"frames_horizon_{blocks}"] = far["frames"]

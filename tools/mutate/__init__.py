@@ -7,4 +7,4 @@ results.py keeps the results and report.py prints them.
 
 
 class BadInput(Exception):
-    """One line that names what is wrong and where."""
+    """One line that names the error and its place."""

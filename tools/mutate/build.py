@@ -9,11 +9,11 @@ from dataclasses import dataclass
 from . import BadInput
 from .processes import run_group
 
-BUILD_LIMIT_SECONDS = 1800  # an endless constant expression ends with a compiler's own limit, mostly
+BUILD_LIMIT_SECONDS = 1800  # endless constant expressions usually hit a limit of the compiler first
 SETTINGS = {
-    "CMAKE_BUILD_TYPE": "Mutation",  # no type that the build knows: only these flags
+    "CMAKE_BUILD_TYPE": "Mutation",  # not a known type: only these flags
     "CMAKE_CXX_FLAGS_MUTATION": "-O1",
-    "CMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE": "PRE_TEST",  # a test program that crashes is no failure of the build
+    "CMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE": "PRE_TEST",  # a crashing test program does not fail the build
     "TERRANE_WERROR": "OFF",
     "TERRANE_BENCHMARKS": "OFF",
     "TERRANE_GRAPHICS": "OFF",
@@ -26,7 +26,7 @@ SETTINGS = {
 class Built:
     is_good: bool
     seconds: float
-    error: str = ""  # the first that the compiler reported
+    error: str = ""  # the compiler's first error
 
 
 class Build:
@@ -34,7 +34,7 @@ class Build:
         self.tree = tree
         self.folder = folder
         self.jobs = jobs
-        # Its own cache: what is built from changed sources is of no use to anybody else.
+        # A separate cache: objects of changed sources are useless elsewhere.
         self.environment = {**os.environ, "CCACHE_DIR": str(folder.parent / "ccache"), "CCACHE_MAXSIZE": "5G"}
         self.objects = {}  # object files by header
 
@@ -71,7 +71,7 @@ class Build:
         return Built(False, seconds, error.group().replace(f"{self.tree}/", ""))
 
     def read_dependencies(self):
-        """Counts what the compiler saw: call it when all programs are built."""
+        """Counts object files by header: call it when all programs are built."""
         done = self.run(["ninja", "-C", str(self.folder), "-t", "deps"])
         self.objects = {}
         for line in done.output.splitlines():

@@ -38,7 +38,7 @@ def main(arguments, description):
         parser.error("expected either -o FOLDER or --report FOLDER")
     if min(options.count, options.jobs, options.patience) < 1:
         parser.error("--count, --jobs and --patience: expected a number from 1")
-    signal.signal(signal.SIGTERM, signal.default_int_handler)  # so that programs that run are ended
+    signal.signal(signal.SIGTERM, signal.default_int_handler)  # ends running programs
     try:
         if options.report:
             print(report_of(with_settings(Results(options.report / "results.jsonl").read())))
@@ -71,7 +71,7 @@ def with_settings(results):
 
 
 def prepare(options, modules):
-    """Copies, builds and measures: what has not changed since the last time is not done again."""
+    """Copies, builds and measures; skips steps without changes since the last run."""
     output = options.output.resolve()
     output.mkdir(parents=True, exist_ok=True)
     tree = Tree(ROOT, output / "tree")
@@ -104,7 +104,7 @@ def try_places(options):
 
 
 def try_slots(draw, trial, results):
-    """Fills the slots in order; results that are there already fill the first ones of their module."""
+    """Fills the slots in order; earlier results fill the first ones of their module."""
     tried = {result.place for result in results.first_tries()}
     filled = {module: 0 for module in draw.places}
     for result in results.first_tries():

@@ -4,7 +4,7 @@ import random
 
 
 def quotas(line_counts, count):
-    """How many of `count` places each module gets, in proportion to its lines of code: largest remainders."""
+    """Distributes `count` places to modules in proportion to their lines of code, by largest remainders."""
     total = max(1, sum(line_counts.values()))
     shares = {module: count * lines / total for module, lines in line_counts.items()}
     given = {module: int(share) for module, share in shares.items()}
@@ -15,7 +15,7 @@ def quotas(line_counts, count):
 
 
 class Draw:
-    """The modules of the changes to try, in order, and each module's places in the order in which they are taken."""
+    """The modules of the changes to try, in order, and each module's places in the order of use."""
 
     def __init__(self, places, line_counts, count, seed):
         self.slots = [module for module, number in quotas(line_counts, count).items() for _ in range(number)]

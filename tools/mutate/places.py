@@ -15,7 +15,7 @@ UNARY = {"++": "--", "--": "++", "!": ""}
 WORDS = {"true": "false", "false": "true"}
 ONE = re.compile(r"1(?=(\.0?)?[uUlLfFzZ]*\Z)")  # 1, 1u, 1.0F
 
-# Calls whose arguments are left alone: assertions, messages of the log and of errors.
+# Calls whose arguments are not changed: assertions, messages of the log and of errors.
 LEFT_ALONE = re.compile(r"(static_)?assert|TERRANE_(ASSERT|ZONE)\w*|log(Info|Warning|Error)|logProblems?|noexcept"
                         r"|fail|error|failure|problem|refuse|damaged|damagedStructure")
 

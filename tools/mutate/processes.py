@@ -1,4 +1,4 @@
-"""Processes that end together with all that they started."""
+"""Runs processes in groups, and ends them with all their children."""
 
 import os
 import signal
@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 @dataclass
 class Done:
-    code: "int | None"  # None: it was ended at the limit
+    code: "int | None"  # None: ended at the time limit
     output: str
 
 
@@ -33,7 +33,7 @@ def ask_to_end(process):
 
 
 def run_group(command, environment, limit_seconds):
-    """Runs the command as a group of its own, standard error in its output."""
+    """Runs the command in its own group, with standard error in its output."""
     with tempfile.TemporaryFile() as output:
         process = subprocess.Popen(command, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                                    stderr=subprocess.STDOUT, start_new_session=True)

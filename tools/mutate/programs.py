@@ -1,4 +1,4 @@
-"""The test programs: which check a module, and how they are run."""
+"""The test programs: maps modules to them, and runs them."""
 
 import contextlib
 import json
@@ -15,7 +15,7 @@ from . import BadInput
 from .processes import end_group
 
 # The module's own program first, then those of modules that include it, the quick ones first. They run in this order
-# until one notices the change. Another module is checked by its own program alone.
+# until one detects the change. Modules that are not listed are checked by their own program only.
 PROGRAMS = {
     "gen": ("gen_tests", "lua_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests"),
     "light": ("light_tests", "volume_tests", "stream_tests", "game_tests"),
@@ -30,13 +30,13 @@ MOST_OBJECTS = 40
 
 QUICK_SECONDS = 0.3  # tests that take longer run after the others
 UNCHANGED_LIMIT_SECONDS = 3600
-MEMORY_BYTES = 8 << 30  # of addresses: a change may ask for any size
+MEMORY_BYTES = 8 << 30  # of address space: a change may request any size
 FILE_BYTES = 24 << 30  # a test makes a sparse file of 20 GiB
-OUTPUT_BYTES = 1 << 20  # that is read from each end of a program's output: an endless loop may have written any size
+OUTPUT_BYTES = 1 << 20  # read from each end of a program's output: an endless loop may write any size
 
 
 def programs_of(module, targets):
-    """Of those that the build has."""
+    """The programs of a module that exist in the build."""
     own = f"{module}_tests"
     if own not in targets:
         raise BadInput(f"module {module}: the build has no program {own}")
@@ -45,9 +45,9 @@ def programs_of(module, targets):
 
 @dataclass
 class Unchanged:
-    """How the tests of a program run where nothing is changed."""
+    """The test results of a program without a change."""
     slow: list = field(default_factory=list)  # names of tests
-    failing: list = field(default_factory=list)  # left out: they would notice everything
+    failing: list = field(default_factory=list)  # skipped: they would detect every change
     quick_seconds: float = 0.0  # of all quick tests, one after the other
     slow_seconds: float = 0.0
     longest_seconds: float = 0.0
@@ -65,7 +65,7 @@ class Program:
         self.name = name
         self.path = path
         self.jobs = 1 if name in ONE_PROCESS else jobs
-        self.patience = patience  # times the seconds without a change, until tests count as hanging
+        self.patience = patience  # factor on the time without a change, after which tests count as hanging
 
     def measure(self):
         with scratch_folder() as folder:
@@ -152,7 +152,7 @@ def read_output(path):
 
 
 def test_that_failed(output):
-    """The first that failed, else the one that was running."""
+    """The first failed test, else the running one."""
     failed = re.search(r"^\[  FAILED  \] ([^\s,]+)", output, re.MULTILINE)
     if failed:
         return failed.group(1)
@@ -182,7 +182,7 @@ def unchanged_of(reports):
 
 
 class Unchangeds:
-    """What was measured of these sources, kept in a file so that a run continues."""
+    """Measurements of these sources, kept in a file for resumed runs."""
 
     def __init__(self, path, digest):
         self.path = path

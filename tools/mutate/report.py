@@ -6,7 +6,7 @@ from .programs import MOST_OBJECTS, PROGRAMS
 
 
 def report_of(results):
-    """Of the last result of each change."""
+    """Reports the last result of each change."""
     latest = results.latest()
     compiled = [result for result in latest if result.outcome != "not_compiled"]
     modules = [module for module in results.settings["modules"] if any(r.place.module == module for r in latest)]

@@ -1,6 +1,6 @@
-"""results.jsonl: the settings, then a line for each change that was tried.
+"""results.jsonl: the settings, then a line for each tried change.
 
-A line that was cut short is skipped, and its change is tried again."""
+A truncated line is skipped, and its change is tried again."""
 
 import json
 from dataclasses import asdict, dataclass, field
@@ -17,12 +17,12 @@ class Result:
     outcome: str  # one of OUTCOMES
     before: str  # the line
     after: str
-    by: str = ""  # the test that noticed it, or the compiler's first error
+    by: str = ""  # the test that detected it, or the compiler's first error
     programs: list = field(default_factory=list)  # that ran
     is_wide: bool = False  # a header that many files include: only the module's own program was built
     build_seconds: float = 0.0
     test_seconds: float = 0.0
-    place_now: "Place | None" = None  # where it was tried again, in newer sources
+    place_now: "Place | None" = None  # its place in newer sources, if it was tried again
 
 
 def from_json(value):

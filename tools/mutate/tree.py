@@ -16,8 +16,8 @@ class Tree:
         self.root = root  # the copy
 
     def update(self):
-        """Makes the copy equal to the checkout, files that git ignores left out, and returns a digest of what the test
-        programs are made from and read. A file that is equal keeps its time, so that Ninja builds what changed."""
+        """Makes the copy equal to the checkout without files that git ignores, and returns a digest of the files that the
+        test programs are built from or read. Equal files keep their time, so that Ninja builds only changes."""
         listing = subprocess.run(["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"],
                                  cwd=self.source, capture_output=True, text=True, check=False)
         if listing.returncode != 0:
@@ -37,7 +37,7 @@ class Tree:
 
 
 def copy_if_different(source, target):
-    """Returns the content."""
+    """Copies the file if it differs; returns the content."""
     if source.is_dir():
         raise BadInput(f"{source}: a repository within the repository cannot be copied")
     content, mode = source.read_bytes(), source.stat().st_mode
@@ -50,7 +50,7 @@ def copy_if_different(source, target):
 
 
 def digest_of(root, modules):
-    """Of the sources of the modules: places are the same while it is."""
+    """Digest of the modules' sources: if it is unchanged, so are the places."""
     digest = hashlib.sha256()
     for module in modules:
         for path in sorted((root / "terrane" / module).rglob("*")):

@@ -71,7 +71,7 @@ def write_source(path, text):
 
 
 def place_now(result, source):
-    """Where the line of the result is in newer sources; None if it is gone, or there several times."""
+    """The place of the result's line in newer sources; None if it is gone or not unique."""
     place = result.place
     lines = source.split("\n")
     same = [number for number, line in enumerate(lines, 1) if line.strip() == result.before]
@@ -79,7 +79,7 @@ def place_now(result, source):
         return None
     number = place.line if place.line in same else same[0]
     line = lines[number - 1]
-    # The column counts from the start of the text: what the line is indented by may have changed.
+    # The column is relative to the start of the text: the indentation may have changed.
     for column in range(len(line)):
         changed_line = line[:column] + place.new + line[column + len(place.old):]
         if line.startswith(place.old, column) and changed_line.strip() == result.after:

@@ -31,7 +31,7 @@ def on_files(files, config):
 
 
 def site_path(file):
-    """Where the site has a file of the project, in docs/; None: nowhere."""
+    """The path in docs/ of a file of the project; None if the site lacks it."""
     docs = ROOT / "docs"
     if file.is_relative_to(docs):
         return file

@@ -1,4 +1,4 @@
 """Parts of soak.py."""
 
-# Who joins proves that its program makes the same land. In continents that takes seconds, and the bots share a thread.
+# A joining client proves that it generates the same terrain. With continents that takes seconds, and bots share a thread.
 GENERATOR = "overworld"

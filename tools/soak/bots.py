@@ -1,5 +1,5 @@
-"""Bots on all servers, round after round, and what they were told is kept. Each round has new players, who begin at the spawn:
-those of before would begin where they ended, walk ever farther away, and load ever more land."""
+"""Runs bots on all servers in rounds, and collects acknowledged blocks. Each round has new players, who start at the spawn:
+returning ones would start where they left, move ever farther away, and load ever more terrain."""
 import json
 import subprocess
 
@@ -13,7 +13,7 @@ class Bots:
         self.problems = []
 
     def keep_running(self, servers, seconds_left):
-        """Begins a round where none runs and there is time for one."""
+        """Starts a round if none runs and there is time for one."""
         if self.process and self.process.poll() is not None:
             self.end_round()
         if self.process or seconds_left < 60:
@@ -34,7 +34,7 @@ class Bots:
         return self.folder / f"{self.rounds}.txt"
 
     def are_joining(self):
-        """A login that is cut is not tried again."""
+        """Whether bots are still joining: an interrupted login is not retried."""
         if not self.process:
             return False
         with open(self.folder / "log.txt", encoding="utf-8") as log:
@@ -52,10 +52,10 @@ class Bots:
         for line in self.kept_file().read_text().splitlines():
             x, y, z, name = line.split()
             self.kept[int(x), int(y), int(z)] = name
-        self.kept = {pos: name for pos, name in self.kept.items() if name != "?"}  # nobody knows what is there
+        self.kept = {pos: name for pos, name in self.kept.items() if name != "?"}  # undecided blocks
 
     def finish(self):
-        """Waits for the last round; problems of all."""
+        """Waits for the last round; returns the problems of all rounds."""
         if self.process:
             self.end_round()
         return self.problems

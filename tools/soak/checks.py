@@ -1,4 +1,4 @@
-"""One world, looked at from all sides: chunks, history, a copy, bots, windows."""
+"""Compares all views of one world: chunks, history, a copy, bots, windows."""
 import dataclasses
 import hashlib
 import json
@@ -9,7 +9,7 @@ import numpy
 
 from . import GENERATOR
 
-# Of a window's 6 chunks those around, which the server tells completely.
+# Chunks around a window's player, of its 6, whose edits the server sends completely.
 SURE_CHUNKS = 4
 CHUNK = 16
 HISTORY_LINE = re.compile(r"\S+ \S+ (?P<player>.+) at (?P<x>-?\d+) (?P<y>-?\d+) (?P<z>-?\d+): (?P<before>\S+) to (?P<after>\S+)$")
@@ -27,7 +27,7 @@ def history_problems(postgres):
 
 
 def read_history(program, url):
-    """Position to (last block, who), and the number of changes."""
+    """Position to (last block, player), and the number of changes."""
     last, count = {}, 0
     for line in output_of(program, "history", "--world", url, "--limit", 10**9, "--each-block").splitlines():
         if found := HISTORY_LINE.match(line):
@@ -61,7 +61,7 @@ class Land:
         return dataclasses.replace(self, area=area, ids=self.ids[begin[0]:end[0], begin[1]:end[1]])
 
     def with_blocks(self, blocks):
-        """A copy with other blocks, by position and name; those outside are left out."""
+        """A copy with other blocks, by position and name; positions outside are skipped."""
         numbers = {name: number for number, name in self.names.items()}
         changed = dataclasses.replace(self, ids=self.ids.copy())
         for pos, name in blocks.items():
@@ -84,7 +84,7 @@ def area_of(positions):
 
 
 def compare_window(window, world, generated):
-    """Problems where what the window knows is not the world, and how many edited blocks are around it."""
+    """Differences between the window's knowledge and the world, and the number of edited blocks around it."""
     if not window.edits_file.exists():
         return [f"{window.name} ended outside the world"], 0
     (x, y), known = window.known()
@@ -99,7 +99,7 @@ def compare_window(window, world, generated):
 
 
 def compare_worlds(program, postgres, folder, windows, bots):
-    """What was compared, and problems."""
+    """Returns counts of compared blocks, and problems."""
     url, problems = postgres.url(), []
     last, changes = read_history(program, url)
     area = area_of(last)

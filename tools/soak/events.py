@@ -1,4 +1,4 @@
-"""What goes wrong during a soak, one thing at a time, and is put right after a moment."""
+"""Faults during a soak, one at a time, each repaired after a moment."""
 import itertools
 import signal
 import time

@@ -1,4 +1,4 @@
-"""What is measured during a soak: memory of all processes, and what happened when."""
+"""Measurements of a soak: memory of all processes, and events with their time."""
 import collections
 import json
 import os
@@ -7,12 +7,12 @@ import statistics
 import time
 
 SAMPLE_SECONDS = 10
-# What memory may have in the last quarter beside the second one: players see other land in each round.
+# Allowed growth of memory from the second to the last quarter: players see other terrain in each round.
 MOST_GROWTH, MOST_GROWTH_MB = 1.25, 8
 
 
 def resident_mb(pid):
-    """Its share of what it uses with others counts (PSS)."""
+    """Memory of a process in MB, with its share of shared pages (PSS)."""
     try:
         for line in pathlib.Path(f"/proc/{pid}/smaps_rollup").read_text(encoding="ascii").splitlines():
             if line.startswith("Pss:"):
@@ -23,7 +23,7 @@ def resident_mb(pid):
 
 
 def children_of(folder):
-    """Processes of the database whose data are in `folder`, and theirs."""
+    """Processes of the database with its data in `folder`, and their children."""
     first = [int(p) for p in os.listdir("/proc") if p.isdigit() and is_database_of(p, folder)]
     return first + [int(p) for p in os.listdir("/proc") if p.isdigit() and parent_of(p) in first]
 
@@ -72,7 +72,7 @@ class Record:
         return dict(self.counts)
 
     def memory(self):
-        """Of who ran from the first to the last sample: medians of the second and of the last quarter."""
+        """Medians of the second and the last quarter, for processes that ran from the first to the last sample."""
         found = {}
         for name, samples in self.series.items():
             if len(samples) < 8 or samples[0][2] != samples[-1][2]:

@@ -1,4 +1,4 @@
-"""A window on a virtual display, in a game on a server, and a player who does things in it at random."""
+"""A window on a virtual display with a game on a server, and a player who acts randomly."""
 import contextlib
 import os
 import pathlib
@@ -11,12 +11,12 @@ from virtual_display import Display
 
 SIZE = (320, 180)
 HELD = ("w", "w", "w", "a", "s", "d", "space")
-# What a frame in software takes from the servers is theirs.
+# Software rendering must not take CPU time from the servers.
 NICE = 19
 
 
 def yield_to_others(process):
-    """Linux shares the processor among sessions first: then nice counts only within one."""
+    """Linux divides the CPU among sessions first; nice then counts only within one."""
     with contextlib.suppress(OSError):
         pathlib.Path(f"/proc/{process.pid}/autogroup").write_text(str(NICE), encoding="ascii")
 
@@ -41,7 +41,7 @@ class Window:
     def take_window(self):
         while self.process.poll() is None and not self.is_resting.is_set():
             if window := self.display.xdotool("search", "--onlyvisible", "--name", "^Terrane$"):
-                # Nobody else gives the window its place and the keys.
+                # There is no window manager that places the window and gives it the focus.
                 self.display.xdotool("windowmove", window, 0, 0, "windowfocus", window)
                 break
             time.sleep(1)
@@ -77,14 +77,14 @@ class Window:
         self.display.__exit__()
 
     def close(self):
-        """Ends the program as a player does; problems."""
+        """Quits as a player does; returns problems."""
         self.process.terminate()
         code = self.process.wait(120)
         self.display.__exit__()
         return [] if code == 0 else [f"ended with {code}"]
 
     def known(self):
-        """The chunk it ended in, and position to block of all edits around it."""
+        """The last chunk of the player, and position to block of all edits around it."""
         lines = self.edits_file.read_text().splitlines()
         center = tuple(int(v) for v in lines[0].split()[1:])
         return center, {tuple(int(v) for v in line.split()[:3]): line.split()[3] for line in lines[1:]}

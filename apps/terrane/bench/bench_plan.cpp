@@ -21,8 +21,8 @@ void append(Cells& cells, Cells more) {
     std::ranges::move(more, std::back_inserter(cells));
 }
 
-// Frames of the landscape with the options that the thesis measured with; `flags` changes them. Options that
-// groups vary are named, although the preset has them.
+// Frames of the landscape with the options of the thesis; `flags` changes them. Options that groups vary are
+// named even if the preset sets them.
 Cells frames(const BenchSettings& s, const std::string& flags) {
     return expandLine(fmt::format(
         "render --scene landscape --preset thesis --view-distance {} --size {} --frames {} --samples 2 "
@@ -31,20 +31,20 @@ Cells frames(const BenchSettings& s, const std::string& flags) {
         s.viewDistance, s.size, s.frames, s.isQuick ? 1024 : 2048, flags));
 }
 
-// With the least options, which are those of `--preset auto` without a graphics card.
+// With the cheapest options: those of `--preset auto` without a graphics card.
 Cells plainFrames(const BenchSettings& s, const std::string& flags) {
     return expandLine(
         fmt::format("render --scene landscape --preset low --view-distance {} --size {} --frames {} {}",
                     s.viewDistance, s.size, s.frames, flags));
 }
 
-// Everything in view of a scene generated; a small image, as loading does not wait for it.
+// Generates everything in view of a scene; the image is small, since loading does not depend on it.
 Cells generating(const std::string& scene, const std::string& distances) {
     return expandLine(
         fmt::format("render --scene {} --preset low --view-distance {} --size 320x180", scene, distances));
 }
 
-// The same from a save that has it all: what is in view and a chunk more, whose light comes in.
+// Loads the same view from a save that a run before it fills: one chunk more, for its light.
 Cell loading(const std::string& scene, int distance) {
     Cell cell = generating(scene, fmt::to_string(distance))[0];
     const std::string save = fmt::format("{}-{}", scene, distance);
@@ -61,8 +61,8 @@ Cell loading(const std::string& scene, int distance) {
     return cell;
 }
 
-// A flight ahead over the landscape, generating or from a save. It takes as long as it does: without a
-// graphics card its frames need not.
+// A straight flight over the landscape in real time, generated or from a save. Without a graphics card it
+// uses the low preset and a small image.
 Cell flight(const BenchSettings& s, bool isFromSave) {
     Cell cell = expandLine(
         fmt::format("flight-bench --scene landscape --duration {:g} --preset {} --view-distance {} --size {}",
@@ -91,7 +91,7 @@ Cells goals(const BenchSettings& s) {
 Cells meshSectionHeights(const BenchSettings& s) {
     Cells cells;
     for (const int distance : upTo(std::max(8, s.farthest), {8, 16, 32, 56})) {
-        // The thesis has no others at 56.
+        // At 56 the thesis has only these.
         const char* heights = distance == 56 ? "8,64,128" : "8,16,32,64,128";
         for (Cell& cell :
              frames(s, fmt::format("--view-distance {0} --mesh-section-height {1} --world landscape-{0}",
@@ -137,7 +137,7 @@ Cells resolutions(const BenchSettings& s) {
     return cells;
 }
 
-// Each effect off and on: `--preset low` has one of both.
+// Each effect on its own, against `--preset low`.
 Cells effectCosts(const BenchSettings& s) {
     Cells cells;
     for (const char* flag :

@@ -1,5 +1,5 @@
-// All measurements of `terrane bench`: command lines of the program, in groups with the names of the tables
-// that tools/bench_report makes from them. tests/app/bench_test.py compares the two.
+// All measurements of `terrane bench`: command lines of the program, grouped by the tables that
+// tools/bench_report makes from them. tests/app/bench_test.py checks that groups and tables match.
 #pragma once
 
 #include <string>
@@ -9,13 +9,13 @@ namespace terrane::app {
 
 using Arguments = std::vector<std::string>;
 
-// One run of the program. Equal arguments are one measurement, whichever groups have it.
+// One run of the program. Equal arguments are one measurement, even in several groups.
 struct Cell {
     Arguments arguments;
-    Arguments before = {};  // a run that must be made once before and is not measured; empty: none
+    Arguments before = {};  // a run that precedes it once and is not measured; empty: none
 };
 
-// As on a command line. The name of a measurement.
+// The command line; identifies the measurement.
 std::string keyOf(const Cell& cell);
 
 struct CellGroup {
@@ -27,15 +27,15 @@ struct BenchSettings {
     bool isQuick = false;
     std::string size = "1920x1080";
     int viewDistance = 32;
-    int farthest = 64;          // of groups that go through view distances
-    int frames = 9;             // of a run, beside the first; the median counts
-    int runs = 3;               // of each cell; the median counts
-    int maxSamples = 4;         // of the graphics driver
-    bool isSoftware = true;     // drawn by the processor
-    double flightSeconds = 20;  // of the flights
+    int farthest = 64;          // of groups that vary the view distance
+    int frames = 9;             // per run, without the first; the median counts
+    int runs = 3;               // per cell; the median counts
+    int maxSamples = 4;         // supported by the graphics driver
+    bool isSoftware = true;     // drawn by the CPU
+    double flightSeconds = 20;  // per flight
 };
 
-// Less of everything, for --quick.
+// Fewer and smaller measurements, for --quick.
 BenchSettings quickSettings();
 
 std::vector<CellGroup> planGroups(const BenchSettings& settings);

@@ -14,9 +14,9 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 constexpr std::chrono::seconds kLongestRun{1800};  // V=64 at 1920×1080 takes some minutes in software
-constexpr int kMostRuns = 3;                       // of what crashes: Mesa 22.3 does so, rarely
+constexpr int kMostRuns = 3;                       // tries of a crashing run: Mesa 22.3 crashes rarely
 
-// The last thing that a program said, without its name in front.
+// The last message of a program, without the prefix of its errors.
 std::string lastLine(const fs::path& file) {
     const auto text = base::readFile(file);
     std::istringstream lines(text ? *text : "");
@@ -69,7 +69,7 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     const base::ChildOptions options{.folder = work_,
                                      .errorOutput = work_ / "messages.txt",
                                      .atMost = kLongestRun,
-                                     // An installed program keeps its saves there too.
+                                     // An installed program keeps its saves in the data folder.
                                      .environment = {{"XDG_DATA_HOME", work_.string()}},
                                      .mostRuns = kMostRuns};
     const double load = base::loadAverage();

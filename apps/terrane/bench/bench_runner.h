@@ -1,4 +1,4 @@
-// Makes the measurements of the plan, each in a process of its own.
+// Runs the measurements of the plan, each in its own process.
 #pragma once
 
 #include <set>
@@ -10,18 +10,17 @@ namespace terrane::app {
 
 class BenchRunner {
   public:
-    // `program`: this program's file. `work`: absolute; what runs need (saves, images) goes there. The
-    // results outlive the runner.
-    // `drawOptions`: given to each run that draws; cells do not name them.
+    // `program`: this program's file. `work`: an absolute folder for saves and images of the runs.
+    // `drawOptions`: added to each run that draws, but not to its cell. The results outlive the runner.
     BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, Arguments drawOptions,
                 ResultFile& results);
 
-    // The runs that are missing. What goes wrong in a cell is kept with the results; an error where no run
-    // can be made at all.
+    // Makes the missing runs of a cell. A failed run is recorded in the results; an error means that results
+    // cannot be written.
     [[nodiscard]] base::Result<void> measure(const Cell& cell);
 
   private:
-    // What it printed as JSON, or why there is nothing.
+    // The JSON that the run printed.
     base::Result<nlohmann::json> runOnce(const Arguments& arguments) const;
     base::Result<void> prepare(const Cell& cell);
 

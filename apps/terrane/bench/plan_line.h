@@ -1,13 +1,13 @@
-// Command lines in short: "render --scene cave,ocean --layers 0,3" stands for four runs.
+// Expands short command lines: "render --scene cave,ocean --layers 0,3" stands for four runs.
 #pragma once
 
 #include "apps/terrane/bench/bench_plan.h"
 
 namespace terrane::app {
 
-// The runs that `line` stands for: a command, then flags with a word each, or with several joined by commas,
-// of which every combination is a run. A flag that is given again has its last words at its first place, so
-// that equal options make equal runs.
+// The runs of a line: a command, then pairs of a flag and a word or several words joined by commas; all
+// combinations are runs. A repeated flag keeps its first place and its last words, so that equal options give
+// equal runs.
 std::vector<Cell> expandLine(const std::string& line);
 
 }  // namespace terrane::app

@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kSettings = "settings";
 
-// What differs first, for people.
+// Describes the first difference, for error messages.
 std::string difference(const json& there, const json& here) {
     for (const auto& [key, value] : here.items()) {
         const json other = there.contains(key) ? there[key] : json();
@@ -95,7 +95,7 @@ base::Result<void> ResultFile::addFailure(const Cell& cell, const std::string& r
 
 base::Result<void> ResultFile::append(const json& line) const {
     std::ofstream out(path_, std::ios::app);
-    // Bytes that are no UTF-8 may come from a driver.
+    // A driver may report invalid UTF-8.
     out << line.dump(-1, ' ', false, json::error_handler_t::replace) << '\n';
     out.close();
     if (!out) return base::fail("{}: cannot be written", path_.string());

@@ -14,16 +14,16 @@ constexpr double kWalkSpeed = 4.3;
 constexpr double kRoam = 48, kCrowdRoam = 10;
 constexpr std::chrono::milliseconds kMoveEvery{100};
 
-net::ClientIdentity identityOf(const BotSettings& settings, int number) {
+std::string botName(const BotSettings& settings, int number) {
+    return fmt::format("{}{}", settings.name, number);
+}
+
+net::ClientIdentity identityOf(const BotSettings& settings, int number, const net::PlayerKey& key) {
     net::ClientIdentity identity;
-    identity.name = fmt::format("{}{}", settings.name, number);
+    identity.name = botName(settings, number);
     identity.password = settings.password;
     identity.program = fmt::format("terrane bots {}", TERRANE_VERSION);
-    identity.key = net::newPlayerKey();
-    if (settings.keyFolder.empty()) return identity;
-    const auto kept =
-        net::loadPlayerKey(std::filesystem::path(settings.keyFolder) / (identity.name + ".key"));
-    if (kept) identity.key = *kept;
+    identity.key = key;
     return identity;
 }
 
@@ -33,7 +33,14 @@ double millisecondsBetween(BotTime from, BotTime to) {
 
 }  // namespace
 
-Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number)
+base::Result<net::PlayerKey> botKey(const BotSettings& settings, int number) {
+    if (settings.keyFolder.empty()) return net::newPlayerKey();
+    return net::loadPlayerKey(std::filesystem::path(settings.keyFolder) /
+                              (botName(settings, number) + ".key"));
+}
+
+Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number,
+         const net::PlayerKey& key)
     : world_(world),
       settings_(settings),
       random_(static_cast<std::uint32_t>(number)),
@@ -41,7 +48,7 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
       builds_(settings.behaviour == BotBehaviour::Build ||
               std::fmod(number * settings.builders, 1.0) + settings.builders >= 1.0),
       link_(context, settings.servers[static_cast<std::size_t>(number) % settings.servers.size()],
-            identityOf(settings, number),
+            identityOf(settings, number, key),
             {[](const std::string&) { return true; },
              [this](const net::WorldOffer& offer) { return world_.land.prove(offer); },
              [this](const net::ServerMessage& message) { onMessage(message); },
@@ -67,7 +74,7 @@ void Bot::onJoined(const net::Joined& joined) {
     pose_ = net::poseOf(joined.pose);
     if (!world_.crowd) world_.crowd = pose_;
     home_ = settings_.behaviour == BotBehaviour::Crowd ? *world_.crowd : pose_;
-    // What the server did not decide on may be there or not.
+    // Edits without an answer may have been applied or not.
     for (const world::BlockPos pos : undecided()) {
         world_.acknowledged.erase(pos);
         world_.unknown.insert(pos);
@@ -122,7 +129,7 @@ void Bot::chooseGoal() {
     goal_ = {home_.position.x + away(random_), home_.position.y + away(random_)};
 }
 
-// Straight to the goal, on the ground as the generator makes it; up and down as fast as that needs.
+// Straight to the goal, on the generated ground; climbs and descends at any speed.
 void Bot::walk(double seconds) {
     const glm::dvec2 here(pose_.position), way = goal_ - here;
     const double distance = glm::length(way), step = std::min(kWalkSpeed * seconds, distance);
@@ -134,7 +141,7 @@ void Bot::walk(double seconds) {
     pose_.yaw = static_cast<float>(std::atan2(way.y, way.x) * 180 / 3.14159265358979);
 }
 
-// A block at a place near the feet: put where nothing is, taken away where this bot put one.
+// Places a block near the feet, or removes one that this bot placed.
 void Bot::build(BotTime now) {
     builtAt_ = now;
     std::uniform_int_distribution<int> away(-3, 3), up(1, 3);

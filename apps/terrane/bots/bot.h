@@ -1,5 +1,5 @@
-// A player without a screen: it walks, builds, and notes what the server tells. An example of a client, and
-// what load tests are made of. Plain bookkeeping on one thread; all bots share a BotWorld.
+// A simulated player: it walks, builds, and records what the server sends. Used for load tests, and an
+// example of a client. Runs on one thread; all bots share a BotWorld.
 #pragma once
 
 #include <chrono>
@@ -19,56 +19,60 @@ namespace terrane::app {
 using BotTime = std::chrono::steady_clock::time_point;
 
 enum class BotBehaviour : std::uint8_t {
-    Walk,   // some 50 blocks around the place where each begins; some build
-    Build,  // the same, and all build
-    Crowd,  // all within 10 blocks of where the first one began; some build
+    Walk,   // within 48 blocks of its start; a share of the bots builds
+    Build,  // as Walk, and all bots build
+    Crowd,  // within 10 blocks of the first bot's start; a share builds
 };
 
 struct BotSettings {
-    std::vector<net::ServerAddress> servers;  // of one world; bots take turns
-    std::string name = "bot";                 // and a number
+    std::vector<net::ServerAddress> servers;  // of one world; assigned to bots in turn
+    std::string name = "bot";                 // prefix; a number follows
     std::string password;
-    std::string keyFolder;  // where each bot's key is kept; empty: new keys
+    std::string keyFolder;  // keeps each bot's key; empty: new keys in each run
     BotBehaviour behaviour = BotBehaviour::Walk;
-    double builders = 0.1;      // share of bots that build, but for Build
-    double editsPerSecond = 1;  // of each that builds
+    double builders = 0.1;      // share of bots that build; not used by Build
+    double editsPerSecond = 1;  // per bot that builds
     int viewDistance = 8;
 };
 
-// What all bots know and count.
+// State and statistics shared by all bots.
 struct BotWorld {
     explicit BotWorld(ClientPacks serverPacks) : land(std::move(serverPacks)) {}
 
     BotLand land;
-    std::optional<world::Pose> crowd;  // where the first bot began
+    std::optional<world::Pose> crowd;  // start of the first bot
 
     struct SentEdit {
         BotTime at;
         game::PlayerId by = game::kNoPlayer;
-        std::string server;  // that it was said to
+        std::string server;  // that the bot is connected to
     };
-    // By another bot; where there are several servers, by one on another server.
+    // Edits that no other bot has received yet; with several servers, no bot on another server.
     std::unordered_map<world::BlockPos, SentEdit, world::BlockPosHash> unseen;
-    // Blocks as decided last, without those of which that is not known because the connection went.
+    // Blocks as last acknowledged, without those in `unknown`.
     std::map<world::BlockPos, world::BlockId> acknowledged;
-    std::set<world::BlockPos> unknown;                                     // those
-    std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the bot that alone builds there
-    std::vector<double> joinedKb, joinedMs;  // until all edits in sight are there, from the first byte
-    std::vector<double> seenMs;              // from the edit until another bot is told
-    std::vector<double> decidedMs;           // until it is durable
+    std::set<world::BlockPos> unknown;                                     // unanswered at a disconnect
+    std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the only bot that builds there
+    std::vector<double> joinedKb, joinedMs;  // from the connection to the complete view
+    std::vector<double> seenMs;              // from an edit until another bot receives it
+    std::vector<double> decidedMs;           // from an edit until the server acknowledges it
     std::uint64_t edits = 0, refused = 0, corrections = 0, cuts = 0, joins = 0;
 };
 
+// The key of a bot: loaded from BotSettings::keyFolder or created there; a new one without a folder.
+[[nodiscard]] base::Result<net::PlayerKey> botKey(const BotSettings& settings, int number);
+
 class Bot {
   public:
-    Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number);
+    Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number,
+        const net::PlayerKey& key);
 
-    // Moves, builds and tells the server. Some times a second.
+    // Moves, builds and sends to the server. Call several times per second.
     void update(BotTime now);
     void leave() { link_.leave(); }
 
     const net::ClientLink& link() const { return link_; }
-    // Blocks on which the server has not decided yet.
+    // Positions of edits that the server has not answered yet.
     std::vector<world::BlockPos> undecided() const;
 
   private:

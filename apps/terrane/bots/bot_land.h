@@ -1,4 +1,4 @@
-// The ground that bots walk on: what the generator makes, without edits. All bots share it. One thread.
+// The ground that bots walk on: generated terrain without edits. Shared by all bots. One thread.
 #pragma once
 
 #include <array>
@@ -21,12 +21,13 @@ class BotLand {
 
     ClientPacks packs;  // of the server's world
 
-    // The answer to a server's offer; the same server is answered without work. An error where this program
-    // makes another world.
+    // The answer to a server's offer, cached for the same offer. Fails if this program generates another
+    // world.
     [[nodiscard]] base::Result<net::SampleDigests> prove(const net::WorldOffer& offer);
-    // Of the highest block of a column; after prove(). Generates the chunk where it is asked for first.
+    // The height of the highest block of a column; call after prove(). Generates the chunk at the first
+    // request.
     int groundHeight(std::int32_t x, std::int32_t y);
-    // After prove().
+    // Call after prove().
     const world::BlockRegistry& blocks() const { return *content_.blocks; }
 
   private:

@@ -1,5 +1,5 @@
-// terrane bench: all measurements of docs/performance.md in one run. tools/bench_report.py makes tables and
-// plots from what it writes.
+// terrane bench: makes all measurements of docs/performance.md in one run. tools/bench_report.py makes tables
+// and plots from the results.
 #include <fmt/ranges.h>
 #include <unistd.h>
 
@@ -43,7 +43,7 @@ std::vector<std::string> tableNames() {
     return names;
 }
 
-// What the program says of itself and the graphics driver, from a process of its own.
+// Facts about the program and the graphics driver, from `terrane info` in its own process.
 base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
     auto end = base::runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
     if (!end) return tl::unexpected(end.error());
@@ -58,7 +58,7 @@ BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
     BenchSettings settings = options.isQuick ? quickSettings() : BenchSettings();
     settings.isSoftware = graphics["software"];
     settings.maxSamples = graphics["max_samples"];
-    // A graphics card draws hundreds a second.
+    // A graphics card draws hundreds of frames per second.
     if (!settings.isSoftware) settings.frames *= 20;
     settings.size = options.size.value_or(settings.size);
     if (options.viewDistance) settings.viewDistance = settings.farthest = *options.viewDistance;
@@ -67,9 +67,9 @@ BenchSettings settingsOf(const BenchOptions& options, const json& graphics) {
     return settings;
 }
 
-// All that results depend on: the first line of results. A second run must have the same to go on with them.
+// Everything that results depend on: the first line of the results. A resumed run must have the same.
 base::Result<json> aboutRun(const BenchSettings& settings, const json& info, const fs::path& program) {
-    const auto bytes = base::readFile(program, std::size_t{1} << 30);  // with what debuggers want
+    const auto bytes = base::readFile(program, std::size_t{1} << 30);  // with debug information
     if (!bytes) return tl::unexpected(bytes.error());
     base::Digest digest;
     digest.update(*bytes);
@@ -97,7 +97,7 @@ base::Result<json> aboutRun(const BenchSettings& settings, const json& info, con
     return about;
 }
 
-// All where none are named.
+// All groups if none are named.
 std::vector<CellGroup> chosenGroups(const BenchSettings& settings, const std::vector<std::string>& only) {
     std::vector<CellGroup> groups = planGroups(settings);
     if (!only.empty())
@@ -106,7 +106,7 @@ std::vector<CellGroup> chosenGroups(const BenchSettings& settings, const std::ve
     return groups;
 }
 
-// The settings and each table with its command lines; a JSON value a line.
+// Prints the settings and each table with its command lines; one JSON value per line.
 void printPlan(const json& about, const std::vector<CellGroup>& groups) {
     std::cout << json{{"settings", about}}.dump() << '\n';
     for (const CellGroup& group : groups) {
@@ -136,8 +136,7 @@ base::Result<fs::path> outputFolder(const std::string& output) {
 }
 
 base::Result<void> bench(BenchOptions& options) {
-    // By the number of this process: whatever becomes of the file meanwhile, all runs are of the same
-    // program.
+    // By process id: if the file is replaced meanwhile, all runs still use the same program.
     const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
     auto folder = options.lists ? fs::temp_directory_path() : outputFolder(options.output);
     if (!folder) return tl::unexpected(folder.error());
@@ -161,7 +160,7 @@ base::Result<void> bench(BenchOptions& options) {
     if (!results) return tl::unexpected(results.error());
     const std::vector<Cell> cells = uniqueCells(groups);
     base::logInfo("{} tables, {} measurements of {} runs each", groups.size(), cells.size(), settings.runs);
-    Arguments drawOptions = {"--horizon", "0"};  // the thesis's tables are of chunks
+    Arguments drawOptions = {"--horizon", "0"};  // the thesis measured chunks only
     if (options.gpuMemory)
         drawOptions.insert(drawOptions.end(), {"--gpu-memory", std::to_string(*options.gpuMemory)});
     BenchRunner runner(program, work->path(), settings.runs, drawOptions, *results);

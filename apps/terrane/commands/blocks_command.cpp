@@ -1,4 +1,4 @@
-// terrane blocks: every block type.
+// terrane blocks: lists all block types.
 #include <fmt/format.h>
 
 #include <iostream>

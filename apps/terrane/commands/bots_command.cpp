@@ -1,4 +1,4 @@
-// terrane bots: players without screens, for load tests and as an example of a client.
+// terrane bots: runs simulated players, for load tests and as an example of a client.
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
 #include <deque>
@@ -44,14 +44,14 @@ std::size_t joinedCount(const std::deque<Bot>& bots) {
         bots, [](const Bot& bot) { return bot.link().stage() == net::ClientLink::Stage::Joined; }));
 }
 
-// An error where a bot cannot come in at all.
+// Fails if a bot cannot join.
 base::Result<void> checkEnded(const std::deque<Bot>& bots) {
     for (const Bot& bot : bots)
         if (bot.link().stage() == net::ClientLink::Stage::Ended) return base::fail("{}", bot.link().reason());
     return {};
 }
 
-// Bytes and time since all bots were there: what a player costs that plays.
+// Traffic and time when all bots have joined: later traffic is that of playing.
 struct Since {
     BotTime at;
     std::uint64_t received = 0, sent = 0;
@@ -83,7 +83,7 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
     std::cout << report.dump(1) << '\n';
 }
 
-// X Y Z NAME of each block that the server said to have kept; NAME is ? where it was asked again since.
+// Writes X Y Z NAME of each acknowledged block; NAME is ? if a later edit has no answer.
 base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, const std::deque<Bot>& bots) {
     if (file.empty()) return {};
     for (const Bot& bot : bots)
@@ -96,6 +96,15 @@ base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, c
     for (const auto& [pos, id] : world.acknowledged)
         text += fmt::format("{} {} {} {}\n", pos.x, pos.y, pos.z, world.land.blocks().type(id).name);
     return base::writeFile(file, text);
+}
+
+base::Result<void> addBot(std::deque<Bot>& bots, boost::asio::io_context& context, BotWorld& world,
+                          const BotSettings& settings) {
+    const int number = static_cast<int>(bots.size());
+    const auto key = botKey(settings, number);
+    if (!key) return tl::unexpected(key.error());
+    bots.emplace_back(context, world, settings, number, *key);
+    return {};
 }
 
 base::Result<void> runBots(BotsOptions& options) {
@@ -117,7 +126,7 @@ base::Result<void> runBots(BotsOptions& options) {
         const int due =
             std::min(options.count, 1 + static_cast<int>(passed.count() * options.joinsPerSecond));
         while (static_cast<int>(bots.size()) < due)
-            bots.emplace_back(context, world, options.bots, static_cast<int>(bots.size()));
+            if (auto added = addBot(bots, context, world, options.bots); !added) return added;
         for (Bot& bot : bots) bot.update(now);
         if (auto checked = checkEnded(bots); !checked) return checked;
         if (!since && joinedCount(bots) == static_cast<std::size_t>(options.count)) {

@@ -1,4 +1,4 @@
-// terrane check: looks through a save for damage.
+// terrane check: checks a save for damage.
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -15,7 +15,7 @@ namespace {
 struct CheckOptions {
     std::string file;
     bool json = false;
-    bool foundDamage = false;  // of the run
+    bool foundDamage = false;  // result of the run
 };
 
 nlohmann::json toJson(const store::CheckReport& report) {
@@ -69,7 +69,8 @@ base::Result<void> check(CheckOptions& options) {
     if (!report) return tl::unexpected(report.error());
     options.foundDamage = report->isDamaged();
     if (options.json) {
-        // What SQLite says of broken pages need not be text. All but ASCII is escaped: names may be anything.
+        // SQLite's messages about broken pages and names of blocks may be invalid UTF-8; everything but ASCII
+        // is escaped.
         std::cout << toJson(*report).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     } else {
         printText(store_postgres::shownOf(store::worldLocation(options.file)), *report);

@@ -1,4 +1,4 @@
-// The subcommands. Each adds itself to the command line; what it returns is run when it was chosen.
+// The subcommands. Each function adds one to the parser and returns how to run it.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -14,13 +14,13 @@ using Command = std::function<base::Result<void>()>;
 struct CommandEntry {
     CLI::App* parser;
     Command run;
-    // What the program ends with after a run that did not fail.
+    // The exit code after a run without an error.
     std::function<int()> exitCode = [] { return 0; };
 };
 
-// All commands of this build: all_commands.cpp, or server_commands.cpp in a build without graphics.
+// Adds all commands of this build: all_commands.cpp, or server_commands.cpp in a build without graphics.
 std::vector<CommandEntry> addCommands(CLI::App& app);
-// Run where none is named; null: one must be named.
+// The command that runs if none is named; null: one must be named.
 const char* defaultCommand();
 
 CommandEntry addPlay(CLI::App& app);

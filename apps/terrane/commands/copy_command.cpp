@@ -1,4 +1,4 @@
-// terrane copy: copies a world from one place to another, a file or a database.
+// terrane copy: copies a world, from and to a file or a database.
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -21,7 +21,7 @@ namespace {
 struct CopyOptions {
     std::string from, to;
     bool json = false;
-    bool foundDamage = false;  // of the run
+    bool foundDamage = false;  // result of the run
 };
 
 void print(const CopyOptions& options, const store::CopyReport& report) {
@@ -41,7 +41,7 @@ void print(const CopyOptions& options, const store::CopyReport& report) {
                         report.firstDamage);
 }
 
-// Players, claims and the history, where servers of the world left some.
+// Copies players, claims and the history, if servers of the world left any.
 base::Result<void> copyServers(const CopyOptions& options, const world::BlockRegistry& blocks) {
     const store::WorldLocation from = store::worldLocation(options.from),
                                to = store::worldLocation(options.to);
@@ -62,7 +62,8 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
     return {};
 }
 
-// What servers keep comes first: where one runs, the copy has not ended and goes on later.
+// The records of servers are copied first: if a running server prevents it, the copy is unfinished and can
+// continue later.
 base::Result<void> copy(CopyOptions& options) {
     const auto content = loadContent({}, {.world = options.from, .storeGenerated = {}});
     if (!content) return tl::unexpected(content.error());
@@ -78,7 +79,7 @@ base::Result<void> copy(CopyOptions& options) {
     if (!lastKey) return tl::unexpected(lastKey.error());
     if (auto copied = copyServers(options, blocks); !copied) return copied;
     const base::StopSignals signals;
-    // Copied, then compared.
+    // Rows are copied, then compared.
     base::ProgressBar bar("copying", static_cast<std::size_t>(2 * *total));
     const auto report = store::copyWorld(**from, **to, *lastKey, [&](std::uint64_t rows) {
         bar.set(static_cast<std::size_t>(std::min(rows, 2 * *total)));

@@ -1,5 +1,4 @@
-// terrane dump: blocks, light or quads of an area as a NumPy file, so that anyone can check them from
-// outside.
+// terrane dump: writes blocks, light or quads of an area as a NumPy file, for checks by other programs.
 #include <functional>
 #include <memory>
 
@@ -29,7 +28,7 @@ struct DumpOptions {
     mesh::MeshOptions mesh;
 };
 
-// Where chunks come from, and who ends that.
+// Sources of chunks, and the signals that stop the dump.
 struct Sources {
     std::shared_ptr<const world::BlockRegistry> blocks;
     std::unique_ptr<store::ChunkStore> save;  // may be null
@@ -47,7 +46,7 @@ base::Result<Sources> openSources(DumpOptions& options, const base::StopSignals&
     return Sources{content->blocks, std::move(*save), std::move(*generator), signals};
 }
 
-// Calls `take` with one loaded square after the other, until it fails or somebody stops the program.
+// Calls `take` for each loaded square until it fails or a signal stops the program.
 base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sources,
                                  const std::function<base::Result<void>(const LoadedSquare&)>& take) {
     const world::ChunkArea& area = *options.area;
@@ -138,7 +137,7 @@ base::Result<void> dumpQuads(const DumpOptions& options, const Sources& sources)
 }
 
 base::Result<void> dump(DumpOptions& options) {
-    const base::StopSignals signals;  // an unfinished file goes with its writer
+    const base::StopSignals signals;  // the writer removes an unfinished file
     const auto sources = openSources(options, signals);
     if (!sources) return tl::unexpected(sources.error());
     const auto written = options.what == What::Blocks  ? dumpBlocks(options, *sources)

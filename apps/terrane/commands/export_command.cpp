@@ -1,4 +1,4 @@
-// terrane export: blocks, surfaces and meshes of an area as files of other programs.
+// terrane export: writes blocks, surfaces and meshes of an area in formats of other programs.
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
@@ -12,7 +12,7 @@ namespace {
 struct ExportFormat {
     std::string_view name, ending;
     base::Result<void> (*run)(ExportOptions& options);
-    std::vector<std::string_view> options;  // that not all formats know
+    std::vector<std::string_view> options;  // that not all formats have
 };
 
 const std::vector<ExportFormat>& exportFormats() {
@@ -38,11 +38,7 @@ base::Result<void> runExport(const std::string& name, ExportOptions& options, co
     const auto format = std::ranges::find(formats, name, &ExportFormat::name);
     if (format == formats.end())
         return base::fail(base::ErrorCode::BadInput, "export: {}", base::notOneOf(exportNames(), name));
-    for (const char* option : {"--mapping", "--resource-pack", "--bits"}) {
-        const bool isKnown = std::ranges::find(format->options, option) != format->options.end();
-        if (!isKnown && !command.get_option(option)->empty())
-            return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", option, name);
-    }
+    if (auto checked = checkFormatOptions(command, formats, *format); !checked) return checked;
     if (!CLI::detail::to_lower(options.output).ends_with(format->ending))
         return base::fail(base::ErrorCode::BadInput, "-o: \"{}\" does not end in {}", options.output,
                           format->ending);

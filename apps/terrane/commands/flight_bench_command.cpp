@@ -28,11 +28,11 @@ struct FlightBenchOptions {
     bool json = false;
 };
 
-// Without the view distance.
+// The flight; its view distance is set later.
 base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
     auto place = placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f});
     if (!place) return tl::unexpected(place.error());
-    // A scene looks down on the ground.
+    // Scenes look down on the ground; the flight looks straight ahead.
     if (!options.place.look) place->pose.pitch = 0;
     return view::Flight{
         .start = view::cameraOf(place->pose), .seconds = options.seconds, .timeDay = place->timeDay};
@@ -69,7 +69,7 @@ nlohmann::json linesBySecond(const view::FlightLog& log) {
     return lines;
 }
 
-// The statistics, and a line of them for each second.
+// The statistics, with one entry per second.
 nlohmann::json jsonOf(const view::FlightLog& log) {
     const view::FlightStatistics statistics = view::statisticsOf(log);
     return {{"view_distance", log.viewDistance},

@@ -1,4 +1,4 @@
-// terrane generate: generates an area, into a save, for its digest or its speed.
+// terrane generate: generates an area, into a save, for its digest or to measure the speed.
 #include <fmt/ranges.h>
 
 #include <chrono>
@@ -27,8 +27,7 @@ namespace {
 
 struct GenerateOptions {
     WorldOptions world;
-    std::optional<int> radius;
-    std::optional<world::ChunkArea> area;
+    AreaOptions chunks;
     bool digest = false;
     bool json = false;
     bool explain = false;
@@ -37,24 +36,24 @@ struct GenerateOptions {
     std::string simd;
 };
 
-// Chunks generated at once: enough for all workers or three batches of the GPU, 192 × about 10 KiB.
+// Chunks generated at a time: enough for all workers or three batches of the GPU, 192 × about 10 KiB.
 constexpr std::int64_t kBatch = 192;
 
 struct Generated {
-    std::size_t chunks = 0;   // made now
-    std::size_t skipped = 0;  // were in the save already
-    std::string digest;       // of all
+    std::size_t chunks = 0;   // generated in this run
+    std::size_t skipped = 0;  // already in the save
+    std::string digest;       // over all blocks
 };
 
-// Generates the area's chunks that the save lacks, batch by batch; each is durable before the next begins, so
-// that a run that was cut short goes on where it was.
+// Generates the chunks of the area that the save lacks, batch by batch; each batch is durable before the
+// next, so a stopped run can continue.
 class AreaGenerator {
   public:
     // `save` may be null.
     AreaGenerator(gen::BatchGenerator& generator, store::ChunkStore* save, bool wantsDigest)
         : generator_(generator), save_(save), wantsDigest_(wantsDigest) {}
 
-    // The digest takes chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
+    // The digest covers chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
     base::Result<Generated> run(const world::ChunkArea& area) {
         base::ProgressBar bar("generating", static_cast<std::size_t>(area.chunkCount()));
         const std::int64_t width = std::int64_t{area.x1} - area.x0;
@@ -74,7 +73,7 @@ class AreaGenerator {
 
   private:
     base::Result<void> batch(const std::vector<world::ChunkPos>& positions) {
-        // A damaged chunk is not stored; loading reports it and puts it aside.
+        // A damaged chunk is not stored; loading reports it and sets it aside.
         std::vector<store::LoadedChunk> stored(positions.size());
         if (save_) stored = save_->loadMany(positions);
         const auto found = store::missingOf(positions, stored);
@@ -110,7 +109,7 @@ class AreaGenerator {
     Generated result_;
 };
 
-// "ground: 155 layers filled, 6 copied, 95 computed with 11 of 24 instructions" of a chunk's 3D pass.
+// "ground: 155 layers filled, 6 copied, 95 computed with 11 of 24 instructions", for a 3D pass of one chunk.
 std::string described(const gen::PassReport& report, const std::string& name) {
     using Way = gen::SlabRun::Way;
     std::map<Way, int> layers;
@@ -135,7 +134,7 @@ std::string described(const gen::PassReport& report, const std::string& name) {
     return fmt::format("{}: layers: {}", name, fmt::join(parts, ", "));
 }
 
-// How much of each 3D pass the CPU leaves out, in one chunk.
+// Prints how much of each 3D pass the CPU skips in one chunk.
 void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::ChunkPos pos) {
     std::vector<gen::PassReport> reports;
     gen::Generator(graph, seed).generate(pos, reports);
@@ -146,7 +145,7 @@ void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::C
     }
 }
 
-// The passes, what they read and write, and their GLSL.
+// Prints the passes, the fields that they read and write, and their GLSL.
 base::Result<void> explain(const WorldOptions& options, const pack::Content& content, world::ChunkPos chunk) {
     auto graph = makeGraph(options, content);
     if (!graph) return tl::unexpected(graph.error());
@@ -188,17 +187,17 @@ void report(const GenerateOptions& options, const Generated& result, double seco
 }
 
 base::Result<void> generate(GenerateOptions& options) {
-    if (!options.area && !options.radius && !options.explain) {
+    const auto chosen = areaOf(options.chunks);
+    if (!chosen && !options.explain) {
         return base::fail("generate needs --radius, --area or --explain");
     }
-    const int r = options.radius.value_or(0);
-    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+    const world::ChunkArea area = chosen.value_or(world::ChunkArea{0, 0, 1, 1});
     const auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     if (options.explain) {
-        // The first chunk of the area asked for.
+        // The first chunk of the area, if one is given.
         const world::ChunkPos chunk =
-            options.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
+            options.chunks.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
         return explain(options.world, *content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
@@ -224,10 +223,7 @@ base::Result<void> generate(GenerateOptions& options) {
 CommandEntry addGenerate(CLI::App& app) {
     auto options = std::make_shared<GenerateOptions>();
     CLI::App* command = app.add_subcommand("generate", "Generate an area of the world");
-    auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
-                       ->check(numberFrom(0, 4096));
-    addAreaOption(*command, options->area);
-    command->get_option("--area")->excludes(radius);
+    addAreaOptions(*command, options->chunks, 4096, "Chunks around 0,0: (2R+1)² of them");
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");
     command->add_flag("--json", options->json, "Print the result as JSON");
     command->add_flag(

@@ -1,4 +1,4 @@
-// terrane completion, terrane man: what shells and manual readers need to know of the command line.
+// terrane completion and terrane man: the command line for shells and manual readers.
 #include <iostream>
 #include <memory>
 

@@ -1,4 +1,4 @@
-// terrane history: who changed what in a shared world, also while its server runs.
+// terrane history: lists who changed what in a shared world, even while its server runs.
 #include <chrono>
 #include <ctime>
 #include <memory>
@@ -30,7 +30,7 @@ std::string textOfTime(std::int64_t milliseconds) {
     return text.data();
 }
 
-// "glass", or "several" where the edit's blocks are of several kinds.
+// "glass", or "several" for blocks of different kinds.
 std::string textOfBlocks(const net::ChangedBlock& first, const net::ChunkDifference& all,
                          const world::BlockRegistry& blocks) {
     for (const net::ChangedBlock& block : all)

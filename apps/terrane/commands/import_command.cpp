@@ -1,4 +1,4 @@
-// terrane import: worlds, schematics and models of other programs.
+// terrane import: imports worlds, schematics and models of other programs.
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
@@ -13,7 +13,7 @@ namespace {
 struct ImportFormat {
     std::string_view name;
     base::Result<void> (*run)(ImportOptions& options);
-    std::vector<std::string_view> options;  // that not all formats know
+    std::vector<std::string_view> options;  // that not all formats have
 };
 
 const std::vector<ImportFormat>& importFormats() {
@@ -36,11 +36,7 @@ base::Result<void> runImport(const std::string& name, ImportOptions& options, co
     const auto format = std::ranges::find(formats, name, &ImportFormat::name);
     if (format == formats.end())
         return base::fail(base::ErrorCode::BadInput, "import: {}", base::notOneOf(formatNames(), name));
-    for (const char* option : {"--dimension", "--area", "--shift", "--output", "--skip-air"}) {
-        const bool isKnown = std::ranges::find(format->options, option) != format->options.end();
-        if (!isKnown && !command.get_option(option)->empty())
-            return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", option, name);
-    }
+    if (auto checked = checkFormatOptions(command, formats, *format); !checked) return checked;
     return format->run(options);
 }
 

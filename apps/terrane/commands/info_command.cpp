@@ -1,4 +1,4 @@
-// terrane info: what the program runs on.
+// terrane info: shows the version, the CPU's features, generators and the graphics driver.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 

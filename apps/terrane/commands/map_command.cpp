@@ -1,4 +1,4 @@
-// terrane map: an area from above, as generated, or as it is in a save.
+// terrane map: draws an area from above, as generated or as saved.
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
@@ -17,26 +17,24 @@ namespace {
 struct MapOptions {
     WorldOptions world;
     SaveOptions save;
-    std::optional<int> radius;
-    std::optional<world::ChunkArea> area;
+    AreaOptions chunks;
     int level = 0;
     std::string output, resourcePack;
     MapSiteOptions site;
     StaticMapOptions files;
 };
 
-// 16,384² pixels: an image of 1 GiB in memory.
+// Limit: 16,384² pixels, an image of 1 GiB in memory.
 constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
 
-base::Result<world::ChunkArea> areaOf(const MapOptions& options) {
-    if (!options.area && !options.radius)
-        return base::fail(base::ErrorCode::BadInput, "map needs --radius or --area");
-    const int r = options.radius.value_or(0);
-    return options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+base::Result<world::ChunkArea> chosenArea(const MapOptions& options) {
+    const auto area = areaOf(options.chunks);
+    if (!area) return base::fail(base::ErrorCode::BadInput, "map needs --radius or --area");
+    return *area;
 }
 
 base::Result<void> writeMap(MapOptions& options) {
-    const auto chosen = areaOf(options);
+    const auto chosen = chosenArea(options);
     if (!chosen) return tl::unexpected(chosen.error());
     const world::ChunkArea area = world::areaOver(*chosen, options.level);
     if (area.chunkCount() > kMaxChunksInMap) {
@@ -66,7 +64,7 @@ base::Result<void> writeMap(MapOptions& options) {
     return {};
 }
 
-// Options that the way a map is made does not know.
+// Fails for options that the chosen kind of map does not have.
 base::Result<void> checkOptions(const MapOptions& options, const CLI::App& command) {
     const int ways = !options.output.empty() + !options.site.http.empty() + !options.files.folder.empty();
     if (ways != 1)
@@ -95,7 +93,7 @@ base::Result<void> runMap(MapOptions& options, const CLI::App& command) {
     if (!options.output.empty()) return writeMap(options);
     if (!options.site.http.empty())
         return showMap(options.world, options.save, options.resourcePack, options.site);
-    const auto area = areaOf(options);
+    const auto area = chosenArea(options);
     if (!area) return tl::unexpected(area.error());
     options.files.places = options.site.places;
     return writeStaticMap(options.world, options.save, options.resourcePack, *area, options.files);
@@ -107,10 +105,7 @@ CommandEntry addMap(CLI::App& app) {
     auto options = std::make_shared<MapOptions>();
     CLI::App* command = app.add_subcommand(
         "map", "Draw a map of an area into a PNG file or a folder of files, or show it to browsers");
-    auto* radius = command->add_option("--radius", options->radius, "Chunks around 0,0: (2R+1)² of them")
-                       ->check(numberFrom(0, world::kMaxChunk));
-    addAreaOption(*command, options->area);
-    command->get_option("--area")->excludes(radius);
+    addAreaOptions(*command, options->chunks, world::kMaxChunk, "Chunks around 0,0: (2R+1)² of them");
     command->add_option("--level", options->level, "A pixel is 2^LEVEL blocks wide")
         ->check(numberFrom(0, world::kMaxLevel));
     addOutputOption(*command, options->output, {".png"}, "The PNG file");

@@ -1,4 +1,4 @@
-// terrane packs: lists, checks and begins content packs.
+// terrane packs: lists, checks and creates content packs.
 #include <fmt/ranges.h>
 
 #include <algorithm>
@@ -31,7 +31,7 @@ struct PacksOptions {
     bool json = false;
 };
 
-// What a pack has, by the paths of its files.
+// The names of a pack's generators, from the paths of its files.
 std::vector<std::string> generatorsOf(const pack::Pack& pack) {
     std::vector<std::string> names;
     for (const auto& [path, data] : pack.files)
@@ -87,7 +87,7 @@ std::string counted(std::size_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// Slips that are no errors: textures that no block has, and names for blocks that are not there.
+// Warns about likely mistakes: textures that no block uses, and names of missing blocks.
 void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
     for (const auto& [path, data] : pack.files) {
         const std::string name = pack::qualified(pack, std::filesystem::path(path).stem().string());
@@ -104,7 +104,7 @@ void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
     }
 }
 
-// Loads each pack by itself, with what it requires, which finds all that is wrong with it.
+// Loads each pack alone, with the packs that it requires, which finds all its errors.
 base::Result<void> checkPacks(const PacksOptions& options) {
     if (options.names.empty()) return base::fail(base::ErrorCode::BadInput, "packs check: which pack?");
     for (const std::string& name : options.names) {
@@ -126,7 +126,7 @@ base::Result<void> checkPacks(const PacksOptions& options) {
     return {};
 }
 
-// In the folder where packs are found by name, unless a path is given.
+// In the folder that is searched for packs, unless a path is given.
 base::Result<std::filesystem::path> newFolder(const std::string& nameOrPath) {
     const std::filesystem::path path(nameOrPath);
     if (!pack::isPackName(path.filename().string()))

@@ -1,4 +1,4 @@
-// terrane play: a window to walk, fly and build in.
+// terrane play: opens a window to walk, fly and build in.
 #include <algorithm>
 #include <memory>
 
@@ -34,7 +34,7 @@ bool isGiven(const CLI::App& command, std::string_view name) {
     return command.get_option("--" + std::string(name))->count() > 0;
 }
 
-// Whoever names a world, or what it is played for, goes straight into it.
+// True if options name a world or a task in it: the title is then skipped.
 bool namesWorld(const CLI::App& command) {
     constexpr std::string_view kNames[] = {
         "world",   "seed", "generator",       "recreate",         "watch", "regenerate", "bookmark",
@@ -42,8 +42,8 @@ bool namesWorld(const CLI::App& command) {
     return std::ranges::any_of(kNames, [&](std::string_view name) { return isGiven(command, name); });
 }
 
-// Neither the command line nor the settings say anything about graphics. Without a file of settings nothing
-// is measured, as it would be again at each start.
+// True if the command line or the settings choose graphics: no preset is then measured. Without a settings
+// file none is measured either, since the result could not be kept.
 bool namesGraphics(const CLI::App& command) {
     return isGiven(command, "preset") || isGiven(command, "view-distance") ||
            std::ranges::any_of(render::graphicsTable(),
@@ -56,7 +56,7 @@ base::Result<void> play(const PlayOptions& options, CLI::App& command) {
                        .resourcePack = isGiven(command, "resource-pack")};
     if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
     given.graphics = namesGraphics(command);
-    // The window first: without one no world is made.
+    // The window first: if it cannot open, no world is created.
     auto window = openWindow(options);
     if (!window) return tl::unexpected(window.error());
     const auto played = PlayFlow(options, given, *window).run();
@@ -131,7 +131,7 @@ CommandEntry addPlay(CLI::App& app) {
         ->type_name("TEXT");
     command->add_flag("--accept-packs", options->remote.acceptsPacks,
                       "Let the server send content packs without asking");
-    // For tools/soak.py; no help lists it.
+    // For tools/soak.py; hidden from the help.
     command->add_option("--known-edits", options->knownEdits, "")->group("");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))

@@ -1,4 +1,4 @@
-// terrane record: a video along a camera path, without a window.
+// terrane record: renders a video along a camera path, without a window.
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -28,7 +28,7 @@ struct RecordOptions {
     std::optional<double> until;
 };
 
-// Frame k of the video is at k / framesPerSecond.
+// Frame k is at k / framesPerSecond seconds.
 struct FrameRange {
     std::int64_t first = 0, end = 0;
 };
@@ -81,13 +81,13 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     if (!range) return tl::unexpected(range.error());
     const TitlePainter titles(options.graphics.size.y);
 
-    // Edits of the path are not the world's.
+    // Edits of the path are not saved: the world is opened read-only.
     auto world = Offscreen::create({.world = script->world,
                                     .save = options.save,
                                     .graphics = optionsAt(shotAt(*script, options.from), 0),
                                     .backend = options.backend});
     if (!world) return tl::unexpected(world.error());
-    const base::StopSignals signals;  // until the file is finished: an unfinished one goes with its sink
+    const base::StopSignals signals;  // until the file is finished; the sink removes an unfinished one
     auto sink = openSink(options);
     if (!sink) return tl::unexpected(sink.error());
 

@@ -1,4 +1,4 @@
-// terrane render: one image of one place, without a window.
+// terrane render: renders one image without a window.
 #include <chrono>
 #include <iostream>
 #include <memory>
@@ -38,11 +38,11 @@ struct RenderCommandOptions {
     bool json = false;
 };
 
-// What drawing an image took; milliseconds.
+// Durations in milliseconds.
 struct RenderTimings {
     double setUp = 0, load = 0, upload = 0, draw = 0, all = 0;
     view::FrameTimes frames;
-    int viewDistance = 0;  // chunks; less than asked for where memory allows no more
+    int viewDistance = 0;  // chunks; less than requested if memory is short
 };
 
 void tell(const RenderCommandOptions& options, const RenderTimings& timings, const game::Session& session,
@@ -56,7 +56,7 @@ void tell(const RenderCommandOptions& options, const RenderTimings& timings, con
                   timings.frames.milliseconds.size(), 1000 / frame);
 }
 
-// Triangles of the shadow map at times of day from 0 to 1.
+// Triangles of the shadow map over a day: times from 0 to 1.
 nlohmann::json shadowsOverTheDay(const render::Renderer& renderer, render::FrameInput input) {
     constexpr int kSteps = 40;
     nlohmann::json day;

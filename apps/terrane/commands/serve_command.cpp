@@ -1,4 +1,4 @@
-// terrane serve: a world for several players over a network.
+// terrane serve: hosts a world for several players over a network.
 #include <boost/asio/io_context.hpp>
 #include <filesystem>
 #include <memory>
@@ -36,7 +36,7 @@ base::Result<void> readSettings(ServeOptions& options, const std::filesystem::pa
     return applySettings(options.settingsFile, command, {});
 }
 
-// Where players of other servers find this one.
+// The address by which players of other servers reach this one.
 std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
     if (!options.publicAddress.empty()) return options.publicAddress;
     const std::string& address = options.listen.address;
@@ -61,7 +61,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     game::SessionParts& parts = opened->parts;
     const auto content = serverContent(opened->content);
     if (!content) return tl::unexpected(content.error());
-    // Players' programs generate what nobody edited: the server needs it rarely, and makes it again.
+    // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.
     parts.storesGenerated = false;
     auto records = openRecords(world, *parts.blocks);
     if (!records) return tl::unexpected(records.error());

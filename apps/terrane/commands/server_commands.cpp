@@ -1,4 +1,4 @@
-// The commands of a build without graphics.
+// Commands of a build without graphics.
 #include "apps/terrane/commands/commands.h"
 
 namespace terrane::app {

@@ -1,4 +1,4 @@
-// terrane work: generates areas of a world in a database, with any number of machines.
+// terrane work: generates areas of a world in a database, on any number of machines.
 #include <algorithm>
 #include <chrono>
 #include <iostream>
@@ -26,8 +26,7 @@ using store_postgres::WorkStatus;
 struct WorkOptions {
     WorldOptions world;
     SaveOptions save;
-    std::optional<int> radius;
-    std::optional<world::ChunkArea> area;
+    AreaOptions chunks;
     JobOrder order = JobOrder::Spiral;
     Backend backend = Backend::Auto;
     bool addsOnly = false, waits = false, status = false, pause = false, goOn = false, cancel = false,
@@ -82,14 +81,13 @@ base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool json) 
 }
 
 base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptions& options) {
-    if (!options.radius && !options.area) return {};
-    const int r = options.radius.value_or(0);
-    const world::ChunkArea area = options.area.value_or(world::ChunkArea{-r, -r, r + 1, r + 1});
+    const auto area = areaOf(options.chunks);
+    if (!area) return {};
     const auto added = pool.run<bool>(
-        [&](Connection& connection) { return store_postgres::addArea(connection, area, options.order); });
+        [&](Connection& connection) { return store_postgres::addArea(connection, *area, options.order); });
     if (!added) return tl::unexpected(added.error());
     if (!*added)
-        base::logInfo("the area {},{} to {},{} was added before", area.x0, area.y0, area.x1, area.y1);
+        base::logInfo("the area {},{} to {},{} was added before", area->x0, area->y0, area->x1, area->y1);
     return {};
 }
 
@@ -151,7 +149,7 @@ base::Result<void> runWork(WorkOptions& options) {
     const auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     if (onlyManages(options)) {
-        // What is no world is told so.
+        // Fails if the database holds no world.
         const auto rows = store_postgres::openRowsToRead(*address, *content->blocks);
         if (!rows) return tl::unexpected(rows.error());
         return manage(options, pool);
@@ -170,13 +168,8 @@ CommandEntry addWork(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "work", "Generate areas of a world in a database, with any number of machines at once");
     addWorldArgument(*command, "world", options->save.world, "The world; created if needed");
-    auto* radius =
-        command
-            ->add_option("--radius", options->radius,
-                         "Add (2R+1)² chunks around 0,0 to the queue. All workers may have this option")
-            ->check(numberFrom(0, 16000));
-    addAreaOption(*command, options->area);
-    command->get_option("--area")->excludes(radius);
+    addAreaOptions(*command, options->chunks, 16000,
+                   "Add (2R+1)² chunks around 0,0 to the queue. All workers may have this option");
     addChoice<JobOrder>(*command, "--order", options->order,
                         {{"spiral", JobOrder::Spiral}, {"rows", JobOrder::Rows}},
                         "Order in which squares of 32×32 chunks are generated");

@@ -1,4 +1,4 @@
-// In a build without PostgreSQL.
+// terrane work in a build without PostgreSQL.
 #include "apps/terrane/commands/commands.h"
 
 namespace terrane::app {

@@ -1,5 +1,5 @@
-// A square of chunks at a time of an area that is dumped, with one chunk around it, which light and meshes
-// need. One thread.
+// Loads a dumped area square by square, each with a border of one chunk, which light and meshes need. One
+// thread.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace terrane::app {
 
-// 32² chunks, and 34² with those around: about 10 MiB of blocks, whatever the area's size.
+// 32² chunks, 34² with the border: about 10 MiB of blocks, whatever the area's size.
 constexpr int kSquareChunks = 32;
 
-// The squares of an area, counted by y, then x; those at its end may be smaller.
+// The squares of an area, ordered by y, then x; the last ones in each direction may be smaller.
 std::int64_t squareCount(const world::ChunkArea& area);
 world::ChunkArea squareOf(const world::ChunkArea& area, std::int64_t number);
 
@@ -20,10 +20,10 @@ class LoadedSquare {
     explicit LoadedSquare(const world::ChunkArea& area)
         : area_(area), width_(area.x1 - area.x0 + 2), height_(area.y1 - area.y0 + 2) {}
 
-    // From the save, which may be null, else generated.
+    // Loads chunks from the save, if there is one, else generates them.
     base::Result<void> load(store::ChunkStore* save, const gen::Generator& generator, base::JobSystem& jobs);
 
-    // x and y count from the square's first chunk; -1 and the size are there too.
+    // x and y count from the square's first chunk; the border is at -1 and at the size.
     const world::Chunk& chunk(int x, int y) const {
         return chunks_[static_cast<std::size_t>(x + 1 + (y + 1) * width_)];
     }

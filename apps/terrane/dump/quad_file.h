@@ -1,5 +1,5 @@
-// A NumPy file of the quads of an area, one record a quad as docs/architecture.md describes them, written
-// chunk by chunk. One thread.
+// Writes the quads of an area as a NumPy file, chunk by chunk, one record per quad (docs/architecture.md).
+// One thread.
 #pragma once
 
 #include "terrane/base/output_file.h"
@@ -12,10 +12,10 @@ class QuadFile {
   public:
     static base::Result<QuadFile> create(const std::filesystem::path& path);
 
-    // Sorts the quads of each range: each back end has an order of its own, and files are the same.
+    // Sorts the quads of each range: back ends emit them in different orders, and files must be equal.
     base::Result<void> append(world::ChunkPos pos, mesh::ChunkMesh& mesh);
 
-    // How many there are is written now.
+    // Writes the header, which holds the number of quads.
     base::Result<void> finish();
 
   private:

@@ -34,7 +34,7 @@ base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, c
     return VolumeFile(std::move(*file), area, header.size());
 }
 
-// The columns of one x are a piece of the file.
+// The columns of one x are contiguous in the file.
 base::Result<void> VolumeFile::write(const world::ChunkArea& square, const ColumnOf& columnOf) {
     const std::size_t sizeX = blocksOver(square.x0, square.x1), sizeY = blocksOver(square.y0, square.y1);
     const std::size_t areaSizeY = blocksOver(area_.y0, area_.y1);

@@ -1,4 +1,4 @@
-// A NumPy file of one value a block of an area, uint16 [x, y, z], written square by square. One thread.
+// Writes one value per block of an area as a NumPy file, uint16 [x, y, z], square by square. One thread.
 #pragma once
 
 #include <functional>
@@ -11,10 +11,10 @@ namespace terrane::app {
 
 class VolumeFile {
   public:
-    // Fails where the whole volume does not fit the disk.
+    // Fails if the whole volume does not fit on the disk.
     static base::Result<VolumeFile> create(const std::filesystem::path& path, const world::ChunkArea& area);
 
-    // The 256 values of a column from below; x and y count from the square's first block.
+    // Fills the 256 values of a column, upward; x and y count from the square's first block.
     using ColumnOf = std::function<void(int x, int y, std::span<std::uint16_t, world::kChunkHeight> values)>;
     base::Result<void> write(const world::ChunkArea& square, const ColumnOf& columnOf);
 

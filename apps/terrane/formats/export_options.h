@@ -1,4 +1,4 @@
-// What `terrane export` is asked for. A plain value.
+// Options of `terrane export`. A plain value.
 #pragma once
 
 #include <optional>
@@ -13,11 +13,11 @@ struct ExportOptions {
     std::string output;
     WorldOptions world;
     SaveOptions save;
-    std::optional<world::ChunkArea> area;  // all heights of it; or
+    std::optional<world::ChunkArea> area;  // all heights; or `box`
     std::string box;                       // "X0,Y0,Z0,X1,Y1,Z1" in blocks, the end excluded
-    std::string mapping;                   // of a schematic
-    std::string resourcePack;              // of what has colors or textures
-    int bits = 8;                          // of a pixel of heights
+    std::string mapping;                   // for a schematic
+    std::string resourcePack;              // for formats with colors or textures
+    int bits = 8;                          // per pixel of a height map
 };
 
 }  // namespace terrane::app

@@ -15,17 +15,14 @@
 namespace terrane::app {
 namespace {
 
-// Chunks loaded at once.
+// Chunks loaded at a time.
 constexpr std::size_t kExportBatch = 64;
 
 base::Result<world::BlockBox> parseBox(const std::string& text) {
-    const auto n = parseNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks");
-    constexpr double kFarthest = 2147483647;
-    for (const double number : n)
-        if (number != static_cast<double>(static_cast<std::int64_t>(number)) || number < -kFarthest - 1 ||
-            number > kFarthest)
-            return base::fail(base::ErrorCode::BadInput,
-                              "--box: expected whole numbers within the world, got \"{}\"", text);
+    const auto numbers =
+        parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", INT32_MIN, INT32_MAX);
+    if (!numbers) return tl::unexpected(numbers.error());
+    const std::vector<std::int32_t>& n = *numbers;
     if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
         return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
                           text);
@@ -33,9 +30,7 @@ base::Result<world::BlockBox> parseBox(const std::string& text) {
         return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
                           world::kChunkHeight, text);
     const auto pos = [&](std::size_t first, int less) {
-        return world::BlockPos{static_cast<std::int32_t>(n[first] - less),
-                               static_cast<std::int32_t>(n[first + 1] - less),
-                               static_cast<std::int32_t>(n[first + 2] - less)};
+        return world::BlockPos{n[first] - less, n[first + 1] - less, n[first + 2] - less};
     };
     return world::BlockBox{pos(0, 0), pos(3, 1)};
 }
@@ -51,7 +46,7 @@ base::Result<world::BlockBox> boxOf(const ExportOptions& options) {
                            {high.x + kLast, high.y + kLast, world::kChunkHeight - 1}};
 }
 
-// Numbers of blocks and states in a palette, as they come.
+// Assigns palette entries to blocks and states in order of first use.
 class VolumePalette {
   public:
     base::Result<std::uint16_t> entryOf(formats::BlockAndState block) {
@@ -69,7 +64,7 @@ class VolumePalette {
     std::unordered_map<std::uint32_t, std::uint16_t> entries_;
 };
 
-// The part of the volume that lies in one chunk.
+// Copies the part of the box in one chunk to the volume.
 base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, const world::Chunk& chunk,
                              VolumePalette& palette, formats::BlockVolume& volume) {
     const world::BlockPos low = world::blockPos(pos, 0);

@@ -1,5 +1,4 @@
-// The blocks that an export writes: from a world, else generated. Called by the export commands on their
-// thread.
+// Provides the blocks of an export, from a world or generated. Called by the export commands on their thread.
 #pragma once
 
 #include <memory>
@@ -20,21 +19,21 @@ struct ExportSource {
     world::TextureSource textures;
     std::unique_ptr<store::ChunkStore> save;  // may be null
     gen::Generator generator;
-    world::BlockBox box;  // all blocks to be written, within the world's heights
+    world::BlockBox box;  // the blocks to write, within the world's heights
 };
 
-// `options` get the world's seed and generator.
+// Sets seed and generator in `options` to the world's.
 [[nodiscard]] base::Result<ExportSource> openExport(ExportOptions& options);
 
-// Calls `take` for the blocks of the box chunk by chunk, until it fails or somebody stops the program.
+// Calls `take` for each chunk of the box, until it fails or a signal stops the program.
 using TakeChunk = std::function<base::Result<void>(world::ChunkPos pos, const world::Chunk& chunk)>;
 [[nodiscard]] base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource& source,
                                               const TakeChunk& take);
 
-// The chunks that the box touches.
+// The chunks that intersect the box.
 [[nodiscard]] world::ChunkArea chunksOf(const world::BlockBox& box);
 
-// All blocks of the box; an error where it is too large for memory (formats::kMaxVolumeBlocks).
+// All blocks of the box; fails if there are more than formats::kMaxVolumeBlocks.
 [[nodiscard]] base::Result<formats::BlockVolume> readVolume(const ExportOptions& options,
                                                             const ExportSource& source);
 

@@ -15,7 +15,7 @@
 namespace terrane::app {
 namespace {
 
-// The chunk with air outside the box, so that the box is closed on all sides.
+// The chunk with air outside the box, so that the mesh is closed on all sides.
 world::Chunk clipped(const world::Chunk& chunk, world::ChunkPos pos, const world::BlockBox& box) {
     if (!world::isInWorld(pos)) return chunk;  // empty
     const world::BlockPos low = world::blockPos(pos, 0);
@@ -49,7 +49,7 @@ base::Result<void> addSquare(const LoadedSquare& square, const ExportSource& sou
                                         source.blocks.get(),
                                         {}};
             const world::BlockPos at = world::blockPos({square.area().x0 + x, square.area().y0 + y}, 0);
-            // From the box's lowest corner, so that positions far out keep their precision.
+            // Relative to the box's lowest corner, to keep precision far from the origin.
             const glm::ivec3 corner(std::int64_t{at.x} - source.box.low.x,
                                     std::int64_t{at.y} - source.box.low.y, -source.box.low.z);
             if (auto added = mesh.add(mesh::meshChunk(input, scratch), corner); !added) return added;

@@ -1,4 +1,4 @@
-// terrane export glb: the mesh of a box of blocks as a file. Called by export_command.cpp.
+// terrane export glb: writes the mesh of a box of blocks. Called by export_command.cpp.
 #pragma once
 
 #include "apps/terrane/formats/export_options.h"

@@ -1,4 +1,4 @@
-// What `terrane import` is asked for. A plain value.
+// Options of `terrane import`. A plain value.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,13 +15,13 @@ struct ImportOptions {
     WorldOptions world;
     SaveOptions save;
     std::string mapping, report;           // files; empty: none
-    std::string dimension = "overworld";   // of a world of Minecraft
-    std::optional<world::ChunkArea> area;  // of it: x0, z0, x1, z1 of its chunks
-    int shift = 0;                         // blocks added to its heights
+    std::string dimension = "overworld";   // of a Minecraft world
+    std::optional<world::ChunkArea> area;  // x0, z0, x1, z1 in its chunks
+    int shift = 0;                         // blocks added to heights
     std::string at;                        // "X,Y" or "X,Y,Z" in blocks; empty: 0
-    std::string output;                    // a structure file in place of a world
+    std::string output;                    // a structure file instead of a world
     bool skipsAir = false;                 // air of the source leaves the world as it is
-    int exitCode = 0;                      // of the run
+    int exitCode = 0;                      // after the run
 };
 
 }  // namespace terrane::app

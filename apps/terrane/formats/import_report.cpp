@@ -28,7 +28,7 @@ std::string mostOf(const std::map<std::string, std::uint64_t>& counts) {
     return text;
 }
 
-// A hostile file may have names without end: 65,536 of at most 200 bytes are told apart.
+// A hostile file may have any number of names: at most 65,536 of up to 200 bytes are counted one by one.
 void addCounts(std::map<std::string, std::uint64_t>& sum, const std::map<std::string, std::uint64_t>& more) {
     constexpr std::size_t kToldApart = 65536, kNameBytes = 200;
     for (const auto& [name, count] : more) {
@@ -78,7 +78,7 @@ base::Result<void> writeReport(const ImportReport& report, const std::string& fi
                                  {"damaged", report.damaged},       {"blocks", counts.blocks},
                                  {"unknown", counts.unknown},       {"block_entities", counts.blockEntities},
                                  {"below", counts.below},           {"above", counts.above}};
-    // Names come from outside, and may be no UTF-8.
+    // Names come from the file and may be invalid UTF-8.
     return base::writeFile(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 

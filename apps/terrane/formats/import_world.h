@@ -1,4 +1,5 @@
-// The world that an import writes into: its blocks, store and generators. Called by the import commands.
+// Opens the world that an import writes into, with its blocks, store and generators. Called by the import
+// commands.
 #pragma once
 
 #include <memory>
@@ -18,10 +19,10 @@ struct ImportWorld {
     std::unique_ptr<store::ChunkStore> store;
 };
 
-// First, so that what is wrong with a mapping is told before a world is made.
+// Called first, so that errors of a mapping are found before a world is created.
 [[nodiscard]] base::Result<pack::Content> loadImportContent(const ImportOptions& options);
-// Made where it is not there. Tiles seen from afar follow what is saved. `options` get its seed and
-// generator.
+// Opens the world, creating it if needed; sets seed and generator in `options` to its own. Distant tiles
+// follow the imported chunks.
 [[nodiscard]] base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content);
 
 }  // namespace terrane::app

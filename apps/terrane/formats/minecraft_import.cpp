@@ -16,18 +16,18 @@
 namespace terrane::app {
 namespace {
 
-// Chunks decoded at once, and durable before the next: 128 × about 1 MiB of NBT.
+// Chunks decoded at a time and stored before the next: 128 × about 1 MiB of NBT.
 constexpr std::size_t kImportBatch = 128;
 
 struct DecodedChunk {
     world::ChunkPos pos;
-    world::ChunkPtr chunk;  // null: `problem` says why, or it has edits already
+    world::ChunkPtr chunk;  // null if there is a problem, or edits in the world
     bool isFinished = true, isThere = false;
     std::string problem;
     formats::ImportCounts counts;
 };
 
-// "X,Y": where Minecraft's 0,0 comes to lie, in chunks.
+// "X,Y" in blocks: the offset of Minecraft's origin, returned in chunks.
 base::Result<world::ChunkPos> movedBy(const std::string& at) {
     if (at.empty()) return world::ChunkPos{};
     const auto numbers = parseNumbers(at, 2, "--at: expected X,Y in blocks");
@@ -53,7 +53,7 @@ class MinecraftImporter {
           by_(by),
           jobs_(threadCount(options.world)) {}
 
-    // Fails where the world cannot be written; what cannot be read is noted in the report.
+    // Fails if the world cannot be written; unreadable chunks are noted in the report.
     base::Result<void> run(const std::vector<RegionSource>& regions) {
         const auto edited = world_.store->editedChunks();
         if (!edited) return tl::unexpected(edited.error());
@@ -97,10 +97,7 @@ class MinecraftImporter {
 
     bool isInArea(const RegionSource& region, int number) const {
         if (!options_.area) return true;
-        const std::int64_t x =
-            std::int64_t{region.pos.x} * formats::kRegionSide + number % formats::kRegionSide;
-        const std::int64_t z =
-            std::int64_t{region.pos.z} * formats::kRegionSide + number / formats::kRegionSide;
+        const auto [x, z] = chunkOfRegion(region.pos, number);
         const world::ChunkArea& area = *options_.area;
         return x >= area.x0 && x < area.x1 && z >= area.y0 && z < area.y1;
     }
@@ -138,10 +135,7 @@ class MinecraftImporter {
         if (!root) return problem(root.error());
         const auto chunk = formats::decodeAnvilChunk(root->compound, ids_);
         if (!chunk) return problem(chunk.error());
-        const std::int64_t x =
-            std::int64_t{region.pos.x} * formats::kRegionSide + number % formats::kRegionSide;
-        const std::int64_t z =
-            std::int64_t{region.pos.z} * formats::kRegionSide + number / formats::kRegionSide;
+        const auto [x, z] = chunkOfRegion(region.pos, number);
         if (chunk->x != x || chunk->z != z)
             return problem(
                 {base::ErrorCode::Damaged, fmt::format("says that it is chunk {},{} of the world, and lies "

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A folder of more is no world: 2^20 regions are 16,384 blocks × 2^15 in each direction.
+// Limit on a folder: 2^20 regions cover 16,384 blocks × 2^15 in each direction.
 constexpr std::size_t kMaxRegions = std::size_t{1} << 20;
 
 bool isFolder(const fs::path& path) {
@@ -18,7 +18,7 @@ bool isFolder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
-// Where the dimension's regions may lie: in folders of its own, or in the folder that was named.
+// Folders that may hold the dimension's regions: those of a world, or the named folder itself.
 std::vector<fs::path> regionFolders(const fs::path& source, const std::string& dimension) {
     const fs::path own = source / "dimensions" / "minecraft";
     if (dimension == "nether") return {source / "DIM-1" / "region", own / "the_nether" / "region"};
@@ -63,9 +63,13 @@ base::Result<std::vector<RegionSource>> regionsOf(const fs::path& source, const 
                       source.string(), dimension);
 }
 
+RegionChunk chunkOfRegion(formats::RegionPos region, int number) {
+    return {std::int64_t{region.x} * formats::kRegionSide + number % formats::kRegionSide,
+            std::int64_t{region.z} * formats::kRegionSide + number / formats::kRegionSide};
+}
+
 base::Result<std::string> readExternalChunk(const RegionSource& region, int number) {
-    const std::int64_t x = std::int64_t{region.pos.x} * formats::kRegionSide + number % formats::kRegionSide;
-    const std::int64_t z = std::int64_t{region.pos.z} * formats::kRegionSide + number / formats::kRegionSide;
+    const auto [x, z] = chunkOfRegion(region.pos, number);
     return base::readFile(region.path.parent_path() / fmt::format("c.{}.{}.mcc", x, z),
                           formats::kMaxChunkBytes);
 }

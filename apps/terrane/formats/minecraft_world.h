@@ -1,4 +1,4 @@
-// The region files of a world of Minecraft. Called by minecraft_import.h on the command's thread.
+// Finds the region files of a Minecraft world. Called by minecraft_import.cpp on the command's thread.
 #pragma once
 
 #include <filesystem>
@@ -15,12 +15,19 @@ struct RegionSource {
     formats::RegionPos pos;
 };
 
-// In the order of z and x. `source` is a world's folder, a folder of region files, or one such file;
-// `dimension`, "overworld", "nether" or "end", of a world's folder. NotFound where there is no region file.
+// The region files ordered by z, then x. `source` is a world's folder, a folder of region files, or one such
+// file; `dimension` is "overworld", "nether" or "end", for a world's folder. NotFound if there is no region
+// file.
 [[nodiscard]] base::Result<std::vector<RegionSource>> regionsOf(const std::filesystem::path& source,
                                                                 const std::string& dimension);
 
-// Reads a chunk in a file of its own beside its region.
+// Minecraft's coordinates of a chunk, and the chunk with a number, 0 to kRegionChunks - 1, in a region.
+struct RegionChunk {
+    std::int64_t x = 0, z = 0;
+};
+[[nodiscard]] RegionChunk chunkOfRegion(formats::RegionPos region, int number);
+
+// Reads a chunk that Minecraft keeps in a file of its own beside the region.
 [[nodiscard]] base::Result<std::string> readExternalChunk(const RegionSource& region, int number);
 
 }  // namespace terrane::app

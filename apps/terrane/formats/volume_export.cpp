@@ -33,7 +33,7 @@ std::string bytesOf(const std::vector<std::uint16_t>& values) {
     return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(std::uint16_t)};
 }
 
-// By row, y ascending.
+// Row by row, y ascending.
 struct SurfaceHeights {
     int width = 0, height = 0;  // columns
     std::vector<std::uint16_t> values;
@@ -135,7 +135,7 @@ base::Result<void> exportPngHeights(ExportOptions& options) {
     const auto width = static_cast<std::size_t>(heights->width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(heights->height); ++row) {
         for (std::size_t x = width; x-- > 0;) {
-            // 255 becomes 65,535.
+            // Maps 255 to 65,535.
             const std::uint16_t height = heights->values[row * width + x];
             image.values.push_back(options.bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
         }

@@ -20,7 +20,7 @@
 namespace terrane::app {
 namespace {
 
-// Chunks loaded and saved at once.
+// Chunks loaded and saved at a time.
 constexpr std::size_t kPlacedBatch = 64;
 
 using VolumeReader = base::Result<formats::BlockVolume> (*)(std::string_view bytes,
@@ -30,19 +30,14 @@ using VolumeReader = base::Result<formats::BlockVolume> (*)(std::string_view byt
 
 base::Result<world::BlockPos> cornerOf(const std::string& at) {
     if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
-    const auto numbers = parseNumbers(at, 3, "--at: expected X,Y,Z in blocks");
-    // Far enough from the ends that no corner of a box passes them.
-    constexpr double kFarthest = 2'000'000'000;
-    for (const double number : numbers)
-        if (number != static_cast<double>(static_cast<std::int64_t>(number)) || number < -kFarthest ||
-            number > kFarthest)
-            return base::fail(base::ErrorCode::BadInput,
-                              "--at: expected whole numbers within the world, got \"{}\"", at);
-    return world::BlockPos{static_cast<std::int32_t>(numbers[0]), static_cast<std::int32_t>(numbers[1]),
-                           static_cast<std::int32_t>(numbers[2])};
+    // Leaves room for the size of a box, so that its corners do not overflow.
+    constexpr std::int32_t kFarthest = 2'000'000'000;
+    const auto numbers = parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest);
+    if (!numbers) return tl::unexpected(numbers.error());
+    return world::BlockPos{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
 }
 
-// The blocks of the volume that lie in one chunk; `corner` is its lowest block.
+// Copies the blocks of the volume in one chunk; `corner` is the volume's lowest block.
 void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool skipsAir, world::ChunkPos pos,
                world::Chunk& chunk) {
     const world::BlockPos low = world::blockPos(pos, 0);
@@ -141,7 +136,7 @@ base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
     } else {
         const auto corner = cornerOf(options.at);
         if (!corner) return tl::unexpected(corner.error());
-        // Read before a world is made.
+        // Read before a world is created.
         auto content = loadImportContent(options);
         if (!content) return tl::unexpected(content.error());
         const auto volume = readSource(options, *content, reader, report.counts);

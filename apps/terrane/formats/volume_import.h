@@ -1,4 +1,4 @@
-// terrane import schem and vox: a box of blocks into a world or a structure file. Called by
+// terrane import schem and vox: imports a box of blocks into a world or a structure file. Called by
 // import_command.cpp.
 #pragma once
 

@@ -13,7 +13,7 @@ namespace {
 using base::didYouMean;
 using base::nearestName;
 
-// "-5" is a number.
+// False for a negative number, such as "-5".
 bool isOption(std::string_view argument) {
     return argument.starts_with("--") ||
            (argument.size() > 1 && argument[0] == '-' && (argument[1] < '0' || argument[1] > '9'));
@@ -27,7 +27,7 @@ std::vector<std::string> optionNames(const CLI::App& command) {
     return names;
 }
 
-// An option that is none: its name as it was given, and the option that may be meant by it.
+// An unknown option as given, and the nearest known one.
 struct UnknownOption {
     std::string given;
     std::string nearest;  // without dashes; empty: none
@@ -44,7 +44,7 @@ UnknownOption unknownOption(const CLI::App& command, const std::string& argument
     return unknown;
 }
 
-// All in their order. What stands behind a misspelled option that takes a value is that value.
+// All unknown arguments in order. A word after a misspelled option that takes a value is that value.
 std::vector<std::string> unknownArguments(const CLI::App& command) {
     std::vector<std::string> told;
     bool isValue = false;

@@ -1,4 +1,4 @@
-// What a mistake on the command line is called: one line, which the parser would word for programmers.
+// Describes an error on the command line in one line for users; the parser's own texts are for programmers.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -8,10 +8,10 @@
 
 namespace terrane::app {
 
-// "unknown command rendr; did you mean render?"; nothing where the word is a command.
+// "unknown command rendr; did you mean render?"; none if the word is a command.
 std::optional<std::string> unknownCommand(const CLI::App& app, std::string_view word);
 
-// Arguments that the parser could not use come first, all of them: they may be why another one is missing.
+// Names all unknown arguments first: they may be the reason why a required one is missing.
 std::string describe(const CLI::App& app, const CLI::ParseError& error);
 
 }  // namespace terrane::app

@@ -3,14 +3,14 @@
 namespace terrane::app {
 namespace {
 
-// The parser shows the limits of a number behind its type: "INT:1 to 64".
+// The parser appends the limits of a number to its type: "INT:1 to 64".
 std::string valueOf(const CLI::Option& option) {
     if (option.get_items_expected_max() == 0) return {};
     const std::string type = option.get_type_name();
     return type.substr(0, type.find(':'));
 }
 
-// The description of an option that takes a CHOICE ends in ": " and the names of its values.
+// The description of an option of type CHOICE ends in ": " and its values.
 std::vector<std::string> valueNamesOf(const CLI::Option& option) {
     const std::string& description = option.get_description();
     const std::size_t colon = description.rfind(": ");

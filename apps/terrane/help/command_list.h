@@ -1,5 +1,5 @@
-// The commands and flags of the command line as plain values, read from the parser itself: completions and
-// the manual page are made from these.
+// Commands and flags as plain values, read from the parser; completions and the manual page are made from
+// them.
 #pragma once
 
 #include <CLI/CLI.hpp>
@@ -9,14 +9,14 @@
 namespace terrane::app {
 
 struct FlagEntry {
-    std::vector<std::string> names;       // with dashes, "--output", "-o"; none: a plain argument
-    std::string value;                    // what it takes, "FILE"; empty: nothing
-    std::vector<std::string> valueNames;  // what the value can be; empty: anything
+    std::vector<std::string> names;       // with dashes, "--output", "-o"; none: a positional argument
+    std::string value;                    // kind of value, "FILE"; empty: takes none
+    std::vector<std::string> valueNames;  // possible values; empty: any
     std::string description, defaultText;
     bool isRequired = false;
     bool takesMany = false;
     bool takesFile() const { return value == "FILE" || value == "PATH"; }
-    // "NAME|FILE", "NAME|FILE|URL": a file, too.
+    // "NAME|FILE" or "NAME|FILE|URL"; files are completed too.
     bool takesWorld() const { return value.starts_with("NAME|FILE"); }
     bool takesFolder() const { return value == "DIR"; }
 };
@@ -28,7 +28,7 @@ struct CommandListEntry {
 
 struct CommandList {
     std::vector<CommandListEntry> commands;  // in the order of --help
-    std::string defaultCommand;              // runs where none is named; empty: none
+    std::string defaultCommand;              // runs if none is named; empty: none
 };
 
 // `defaultCommand` may be null.

@@ -12,7 +12,7 @@ std::string joined(const std::vector<std::string>& valueNames) {
     return fmt::format("{}", fmt::join(valueNames, " "));
 }
 
-// What can stand behind a command: flags, and words that are arguments of their own.
+// Completions after a command: flags, and the values of positional arguments.
 std::vector<std::string> namesOf(const CommandListEntry& command) {
     std::vector<std::string> names;
     for (const FlagEntry& flag : command.flags) {
@@ -22,19 +22,19 @@ std::vector<std::string> namesOf(const CommandListEntry& command) {
     return names;
 }
 
-// The argument that is no flag's, where the shell has to look for what it can be.
+// The positional argument that is a file or a world.
 const FlagEntry* plainArgument(const CommandListEntry& command) {
     for (const FlagEntry& flag : command.flags)
         if (flag.names.empty() && (flag.takesFile() || flag.takesWorld())) return &flag;
     return nullptr;
 }
 
-// For single quotes of all three shells.
+// Quotes the text for all three shells.
 std::string inQuotes(std::string text) {
     return "'" + CLI::detail::find_and_replace(std::move(text), "'", "'\\''") + "'";
 }
 
-// What follows a flag that takes a value, in bash.
+// Bash code that completes the value of a flag.
 std::string bashValues(const FlagEntry& flag) {
     if (flag.takesWorld()) return "_terrane_worlds";
     if (flag.takesFile()) return "_terrane_files -f";
@@ -50,7 +50,7 @@ std::string zshAction(const FlagEntry& flag) {
     return flag.valueNames.empty() ? " " : "(" + joined(flag.valueNames) + ")";
 }
 
-// A specification of _arguments for one name of a flag.
+// An _arguments specification for one name of a flag.
 std::string zshFlag(const FlagEntry& flag, const std::string& name) {
     std::string description = flag.description;
     for (const char* special : {"\\", "[", "]", ":"})
@@ -80,8 +80,8 @@ std::vector<std::string> commandNames(const Commands& commands) {
     return names;
 }
 
-// What the scripts begin with. Worlds are looked for in the data folder (store/save_path.h) when one
-// completes.
+// The beginnings of the scripts. Worlds are searched in the data folder (store/save_path.h) at completion
+// time.
 constexpr std::string_view kBashBegin = R"(# bash completion for terrane, made by: terrane completion bash
 _terrane_words() { mapfile -t COMPREPLY < <(compgen -W "$1" -- "$cur"); }
 _terrane_files() { compopt -o filenames 2>/dev/null; mapfile -t COMPREPLY < <(compgen "$1" -- "$cur"); }

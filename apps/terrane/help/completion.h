@@ -1,4 +1,4 @@
-// Scripts that complete the command line in shells, made from the list of commands.
+// Makes completion scripts for shells from the list of commands.
 #pragma once
 
 #include <string>

@@ -47,7 +47,7 @@ Bookmarks saved in the window.
 Screenshots.
 )";
 
-// Plain text for roff: no letter of it is a request, an escape or a hyphen.
+// Escapes the text for roff, so that no character is a request, an escape or a hyphen.
 std::string roff(const std::string& text) {
     std::string escaped;
     for (const char letter : text) {

@@ -1,4 +1,4 @@
-// The manual page terrane(1), made from the list of commands.
+// Makes the manual page terrane(1) from the list of commands.
 #pragma once
 
 #include <string>

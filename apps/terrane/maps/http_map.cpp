@@ -18,8 +18,8 @@ namespace {
 
 constexpr std::chrono::milliseconds kTick{50};
 
-// Beside the world's file; for land that is in no file in the data folder, by what it follows from. Empty
-// where there is no such folder.
+// The cache beside the world's file; for other worlds a file in the data folder, named after `origin`. Empty
+// if there is no data folder.
 std::filesystem::path cacheFile(const SaveOptions& save, const std::string& origin) {
     std::error_code error;
     const store::WorldLocation location = store::worldLocation(save.world);

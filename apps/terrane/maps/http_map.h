@@ -1,4 +1,4 @@
-// `terrane map --http`: the map of a world that nobody plays, for browsers.
+// `terrane map --http`: serves the map of a world to browsers, without a game server.
 #pragma once
 
 #include <filesystem>
@@ -9,7 +9,7 @@
 
 namespace terrane::app {
 
-// Until a signal ends it.
+// Runs until a signal stops it.
 [[nodiscard]] base::Result<void> showMap(WorldOptions& world, const SaveOptions& save,
                                          const std::string& resourcePack, const MapSiteOptions& options);
 

@@ -1,4 +1,4 @@
-// Options of maps for browsers, as `serve` and `map` have them.
+// Options of browser maps, for `serve` and `map`.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +24,12 @@ struct MapSiteOptions {
     ShownPlayers players = ShownPlayers::Surface;
 };
 
-// --http and --map-…; those about players and threads for servers alone. A build without maps has none of
+// --http and --map-…; servers also get the options for players and threads. A build without maps has none of
 // them.
 void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer);
-// Finds what is wrong with the address and the file of places, before anything is opened or made.
+// Checks the address and the file of places before anything is opened or created.
 [[nodiscard]] base::Result<void> checkMapSite(const MapSiteOptions& options);
-// --tiles and what belongs to it.
+// --tiles, --max-zoom and --layers.
 void addStaticMapOptions(CLI::App& command, StaticMapOptions& options);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// A world that is shown and not played, for `terrane map`.
+// A world opened read-only for `terrane map`.
 #pragma once
 
 #include <memory>
@@ -14,18 +14,18 @@
 namespace terrane::app {
 
 struct MapWorld {
-    // Its store has the far tiles of edited land. The generators outlive it.
+    // The store has the far tiles of edited terrain. The generators outlive it.
     game::SessionParts parts;
     world::TextureSource textures;
     std::vector<world::ChunkPos> edited;  // of level 0
 };
 
-// `options` get the world's seed and generator.
+// Sets seed and generator in `options` to the world's.
 [[nodiscard]] base::Result<std::unique_ptr<MapWorld>> openMapWorld(WorldOptions& options,
                                                                    const SaveOptions& save,
                                                                    const std::string& resourcePack);
 
-// Paints it; the world outlives it. `cache` may be null.
+// The painter of the world's map; the world outlives it. `cache` may be null.
 [[nodiscard]] base::Result<map::MapPainter> painterOf(MapWorld& world, map::SurfaceCache* cache = nullptr);
 
 }  // namespace terrane::app

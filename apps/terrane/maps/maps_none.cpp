@@ -1,4 +1,4 @@
-// In a build without maps for browsers: no command has options of them.
+// A build without browser maps: commands lack their options.
 #include "apps/terrane/maps/http_map.h"
 #include "apps/terrane/maps/map_options.h"
 #include "apps/terrane/maps/server_map.h"

@@ -9,8 +9,7 @@
 namespace terrane::app {
 namespace {
 
-// As many are shown at once; a name has up to game::kMaxPlaceName bytes, so that they are 100 KB for a
-// browser.
+// The map shows all places at once: 1,000 names of up to game::kMaxPlaceName bytes are 100 KB for a browser.
 constexpr std::size_t kMaxPlaces = 1000, kMaxBytes = std::size_t{1} << 20;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A file of places, for maps: bookmarks, with or without names.
+// Reads a file of places for maps: bookmarks with or without names.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace terrane::app {
 
-// Lines "X Y Z YAW PITCH NAME"; a line without a name gets its number among those. An empty path has no
-// places. Errors name the line.
+// Lines are "X Y Z YAW PITCH NAME"; unnamed places are numbered. An empty path gives no places. Errors name
+// the line.
 [[nodiscard]] base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file);
 
 }  // namespace terrane::app

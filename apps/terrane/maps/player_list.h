@@ -1,4 +1,4 @@
-// The players whom a server's map shows. On the server's thread.
+// The players on a server's map. Runs on the server's thread.
 #pragma once
 
 #include <optional>
@@ -11,24 +11,24 @@
 
 namespace terrane::app {
 
-// Leaves out who is under ground, if asked to: who has three blocks above its head through which nobody sees.
+// Omits players under ground, if asked to: those with three opaque blocks above their head.
 class PlayerList {
   public:
     // The server outlives it.
     PlayerList(net::ServerState& server, ShownPlayers shown) : server_(server), shown_(shown) {}
 
-    // Asks for the chunks that players are in. Until one is loaded, who came from beside it is as it was
-    // before, and others are left out.
+    // Requests the chunks that players are in. Until a chunk is loaded, a player from a neighboring chunk
+    // keeps its state, and others are omitted.
     std::vector<web::NamedPlace> now();
 
   private:
-    // Nothing where the chunk is not loaded.
+    // None if the chunk is not loaded.
     std::optional<bool> isUnderGround(const world::Pose& pose) const;
 
     net::ServerState& server_;
     ShownPlayers shown_;
     struct Known {
-        world::ChunkPos chunk;  // where it was seen last
+        world::ChunkPos chunk;  // in which isHidden was determined
         bool isHidden = false;
     };
     std::unordered_map<game::PlayerId, Known> known_;

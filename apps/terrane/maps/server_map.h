@@ -1,4 +1,4 @@
-// The map that a server shows to browsers while people play: on the server's thread, its tiles on threads of
+// The map that a game server shows to browsers. Runs on the server's thread; tiles are painted on threads of
 // their own.
 #pragma once
 
@@ -18,8 +18,8 @@ namespace terrane::app {
 
 class ServerMap {
   public:
-    // Null where the options name no port. `world`: as the command line names it; `files`: as serverFilesOf()
-    // names them. The context and the server outlive it.
+    // Null if the options name no port. `world`: as on the command line; `files`: from serverFilesOf(). The
+    // context and the server outlive the map.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerMap>> open(boost::asio::io_context& context,
                                                                        net::ServerState& server,
                                                                        const std::string& world,
@@ -28,7 +28,7 @@ class ServerMap {
                                                                        const world::TextureSource& textures);
     ~ServerMap();
 
-    // After each tick of the server, which took so long.
+    // Call after each tick of the server with its duration.
     void tick(double milliseconds);
 
   private:

@@ -70,7 +70,7 @@ std::string titleOf(const std::string& world) {
     if (world.empty()) return "Terrane";
     if (store::worldLocation(world).kind != store::WorldLocation::Kind::Url)
         return std::filesystem::path(world).stem().string();
-    // Not what stands before it, which may be a password.
+    // Omits the part before the path, which may hold a password.
     const std::string_view path = std::string_view(world).substr(0, world.find('?'));
     const std::size_t slash = path.rfind('/');
     const bool hasName = slash + 1 < path.size() && slash > 0 && path[slash - 1] != '/';

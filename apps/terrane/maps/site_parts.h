@@ -1,4 +1,4 @@
-// What maps for browsers have in common, whether a server or `terrane map` shows them.
+// Functions shared by the map of a server and of `terrane map`.
 #pragma once
 
 #include <filesystem>
@@ -17,26 +17,26 @@ namespace terrane::app {
 
 // "8080", "127.0.0.1:8080", "[::1]:8080".
 [[nodiscard]] base::Result<web::WebAddress> webAddressFrom(const std::string& text);
-// "http://127.0.0.1:8080/"; of all addresses this machine's own.
+// "http://127.0.0.1:8080/"; localhost if the server listens on all addresses.
 std::string urlOf(const web::WebAddress& address, std::uint16_t port);
 
-// What a file of surfaces adds to the name of a world's other files.
+// The ending of the file that caches surfaces.
 inline constexpr const char* kMapCacheEnding = ".map.sqlite";
 
-// All that surfaces of generated land follow from.
+// Identifies everything that surfaces of generated terrain depend on.
 std::string originOf(const store::WorldIdentity& identity, const world::BlockRegistry& blocks);
-// Null where `megabytes` is 0, and, with a warning, where the file cannot be used.
+// Null if `megabytes` is 0; also, with a warning, if the file cannot be used.
 std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& file, const std::string& origin,
                                                 int megabytes);
 
-// What people call a world: the name of its file, or of its database; of no world "Terrane".
+// The name of a world's file or database; "Terrane" without a world.
 std::string titleOf(const std::string& world);
 
 web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose);
 std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places);
-// Those of the world, then those of a file (place_file.h).
+// The places saved in the world, then those of a file (place_file.h).
 std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
-// Where the world begins. Takes a tenth of a second.
+// The spawn point, with an empty name. Takes a tenth of a second.
 [[nodiscard]] base::Result<web::NamedPlace> spawnOf(const MapWorld& world);
 
 }  // namespace terrane::app

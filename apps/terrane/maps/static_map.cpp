@@ -24,9 +24,9 @@ namespace fs = std::filesystem;
 using map::Layer;
 using map::MapTile;
 
-// The file that says which world a folder shows.
+// The file that identifies the world of a folder.
 constexpr const char* kOriginFile = "terrane-map.txt";
-// A few days of work; 300 GB.
+// Limit: a few days of work, 300 GB.
 constexpr std::int64_t kMaxTiles = 10'000'000;
 
 base::Result<void> prepareFolder(const fs::path& folder, const std::string& origin) {
@@ -56,7 +56,7 @@ base::Result<void> writePage(const fs::path& folder, const web::PageFacts& facts
     return base::writeFile(folder / "world.js", web::scriptOf(facts));
 }
 
-// The finest zoom, of those from 0 down, at which the area is no wider than a tile.
+// The finest zoom, from 0 down, at which the area is no wider than a tile.
 int leastZoom(const map::BlockRect& area) {
     const std::int64_t width = std::max(area.x1 - area.x0, area.y1 - area.y0);
     int zoom = 0;
@@ -89,7 +89,7 @@ class TileWriter {
     TileWriter(map::MapPainter& painter, const map::EditedPositions& edited, const fs::path& folder)
         : painter_(painter), edited_(edited), folder_(folder) {}
 
-    // Nothing where the file is there and shows no edits. Any thread.
+    // Does nothing if the file exists and shows no edits. Any thread.
     void write(const MapTile& tile) {
         if (hasFailed_) return;
         const fs::path file = folder_ / map::pathOf(tile);
@@ -119,11 +119,11 @@ class TileWriter {
     fs::path folder_;
     std::atomic<std::size_t> written_ = 0;
     std::atomic<bool> hasFailed_ = false;
-    std::mutex mutex_;  // of the error
+    std::mutex mutex_;  // guards error_
     base::Error error_;
 };
 
-// False where a signal ended it.
+// False if a signal stopped it.
 base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer, base::JobSystem& jobs) {
     constexpr std::size_t kAtATime = 64;
     const base::StopSignals signals;

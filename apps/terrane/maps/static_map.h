@@ -1,4 +1,4 @@
-// `terrane map --tiles`: a map as a folder of files, for any web server, or to be opened from the disk.
+// `terrane map --tiles`: writes a map as a folder of files, for a web server or to be opened from disk.
 #pragma once
 
 #include <string>
@@ -13,12 +13,12 @@ namespace terrane::app {
 struct StaticMapOptions {
     std::string folder;
     int maxZoom = 0;
-    std::vector<std::string> layers;  // empty: all that the world has
+    std::vector<std::string> layers;  // empty: all layers of the world
     std::string places;               // file; empty: none
 };
 
-// `area`: chunks of level 0. Images that a former call wrote stay, but for those of edited land, so that a
-// call that was stopped goes on. Refuses a folder that has other files, or the map of another world.
+// `area`: chunks of level 0. Keeps the images of an earlier call, except those of edited terrain, so a
+// stopped run can continue. Refuses a folder with other files or with the map of another world.
 [[nodiscard]] base::Result<void> writeStaticMap(WorldOptions& world, const SaveOptions& save,
                                                 const std::string& resourcePack, const world::ChunkArea& area,
                                                 const StaticMapOptions& options);

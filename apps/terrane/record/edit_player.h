@@ -1,5 +1,5 @@
-// Makes the edits of a script in the world, up to a time. The edits at a time are the same whatever frames
-// came before. Used on the session's thread.
+// Applies the edits of a script to the world, up to a time. The result does not depend on the frames drawn
+// before. Used on the session's thread.
 #pragma once
 
 #include <vector>
@@ -14,7 +14,7 @@ class EditPlayer {
     // The script outlives this.
     explicit EditPlayer(const Script& script);
 
-    // `seconds` of the video, not before those of the last call.
+    // `seconds`: time in the video, not before that of the last call.
     void advanceTo(double seconds, game::Session& session);
 
   private:
@@ -26,7 +26,7 @@ class EditPlayer {
     std::vector<Progress> edits_;
 };
 
-// How many blocks of an edit are made after some seconds of it.
+// The number of blocks of an edit that are set `seconds` after its start.
 std::int64_t blocksDone(const EditCue& edit, double seconds);
 
 }  // namespace terrane::app

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFadeSeconds = 0.5;
 
-// The pipeline's clock follows the video: what it unloads does not depend on how long frames take.
+// The pipeline's clock follows the video, so that unloading does not depend on how long frames take.
 stream::ChunkPipeline::Time timeOf(double seconds) {
     using Time = stream::ChunkPipeline::Time;
     return Time() + std::chrono::duration_cast<Time::duration>(std::chrono::duration<double>(seconds));
@@ -43,7 +43,7 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     return {};
 }
 
-// Once a shot: nobody wants to see the inside of a hill.
+// Warns once per shot if the camera is inside a block.
 void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot) {
     const game::Session& session = *parts_.world.session;
     const world::BlockId id = session.world().block(world::blockOf(camera.position));
@@ -61,7 +61,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
     const view::PathPoint point = shot.path.at(inShot);
     game::Session& session = *parts_.world.session;
-    // First what is in view: an edit there then changes only what it touches.
+    // Load the view first: an edit in it then updates only the chunks that it affects.
     view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
     edits_.advanceTo(seconds, session);
     view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));

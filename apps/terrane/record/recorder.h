@@ -1,6 +1,6 @@
-// Draws the frames of a script one after the other: for each, everything in view is loaded, lit and meshed
-// first, and what moves is where it is at the frame's time. So a script has the same frames however fast the
-// machine is. Used on the thread of the OpenGL context.
+// Draws the frames of a script in order. Before each frame everything in view is loaded, lit and meshed, and
+// moving things are placed for the frame's time, so the frames do not depend on the machine's speed. Used on
+// the thread of the OpenGL context.
 #pragma once
 
 #include "apps/terrane/offscreen.h"
@@ -10,7 +10,7 @@
 
 namespace terrane::app {
 
-// All outlive the recorder.
+// They outlive the recorder.
 struct RecorderParts {
     const Script& script;
     Offscreen& world;
@@ -22,7 +22,7 @@ class Recorder {
   public:
     explicit Recorder(const RecorderParts& parts) : parts_(parts), edits_(parts.script) {}
 
-    // The frame at a time of the video, not before that of the last call.
+    // The frame at `seconds` of the video, not before that of the last call.
     base::Result<base::Image> frame(double seconds);
 
   private:
@@ -31,11 +31,11 @@ class Recorder {
 
     RecorderParts parts_;
     EditPlayer edits_;
-    int viewDistance_ = 0;  // that the renderer has room for
+    int viewDistance_ = 0;  // of the renderer
     const Shot* warnedOf_ = nullptr;
 };
 
-// 0…1: how much of a title is to be seen after some seconds of it.
+// The opacity of a title, 0…1, `seconds` after its start.
 float titleStrength(const TitleCue& title, double seconds);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// What a video shows, as read from a path file: shots one behind the other. Plain values.
+// The contents of a video, as read from a path file: a sequence of shots. Plain values.
 #pragma once
 
 #include <cstdint>
@@ -17,25 +17,25 @@ namespace terrane::app {
 struct TitleCue {
     double time = 0, seconds = 4;
     std::string text;
-    bool isLarge = false;  // in the middle; else at the bottom
+    bool isLarge = false;  // large in the middle; else small at the bottom
 };
 
-// Fills a box of blocks, all at once or one after the other: by z, y, x.
+// Fills a box of blocks, at once or one by one, ordered by z, y, x.
 struct EditCue {
     double time = 0, seconds = 0;
     world::BlockBox box;
     world::BlockId block = world::kAir;
-    std::string player = {};  // of the shot, who makes it; empty: nobody
+    std::string player = {};  // a player of the shot who places them; empty: none
 };
 
-// Somebody to be seen. The path's positions are where the feet are.
+// A player in the image. The path's positions are those of the feet.
 struct PlayerCue {
     std::string name;
-    std::uint32_t number = 0;  // colors and hair follow from it
+    std::uint32_t number = 0;  // selects colors and hair
     view::CameraPath path;
 };
 
-// How things are drawn from then on.
+// Graphics options from this time on.
 struct OptionsCue {
     double time = 0;
     GraphicsOptions graphics;
@@ -57,10 +57,10 @@ struct Script {
     double seconds() const { return shots.back().start + shots.back().seconds; }
 };
 
-// What is at a time is there for a frame of that time, whatever rounding made of both.
+// Tolerance for rounding, in seconds: an event at the time of a frame is part of that frame.
 constexpr double kTimeSlack = 1e-6;
 
-// The shot at a time of the video; the last one where it is over.
+// The shot at a time of the video; the last one after its end.
 const Shot& shotAt(const Script& script, double seconds);
 const GraphicsOptions& optionsAt(const Shot& shot, double secondsInShot);
 

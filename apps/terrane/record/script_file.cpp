@@ -25,12 +25,12 @@ Names with(Names names, std::span<const render::GraphicsRow> rows) {
     return names;
 }
 
-// Flags that say how a frame is drawn, a preset before what changes it.
+// Flags for drawing, with the preset before the flags that change it.
 Names drawingFlags() {
     return with({"preset", "view-distance", "view"}, render::graphicsTable());
 }
 
-// A preset on the command line stands alone, as with settings of the window.
+// A preset on the command line overrides the file's graphics options, as with settings of the window.
 Names passedOver(Names given) {
     const bool hasPreset = std::ranges::find(given, "preset") != given.end();
     if (hasPreset) std::ranges::copy(render::namesOfPreset(), std::back_inserter(given));
@@ -42,7 +42,7 @@ Names with(Names names, std::initializer_list<const char*> more) {
     return names;
 }
 
-// Reads one file. After the first error what is read is of no use.
+// Reads one file. Results after the first error are unusable.
 class ScriptReader {
   public:
     ScriptReader(std::string_view file, const ScriptDefaults& defaults, const world::BlockRegistry& blocks)
@@ -133,7 +133,7 @@ view::CameraKey ScriptReader::keyOf(ContentTable& table, const view::CameraKey& 
     return key;
 }
 
-// Of a shot or of a player.
+// The keys of a shot or of a player.
 std::vector<view::CameraKey> ScriptReader::keysOf(ContentTable& table) {
     std::vector<view::CameraKey> keys;
     each(table, "key", [&](ContentTable& inner) {
@@ -148,7 +148,7 @@ std::vector<view::CameraKey> ScriptReader::keysOf(ContentTable& table) {
     return keys;
 }
 
-// One that must be there; empty after an error.
+// A required text; empty after an error.
 std::string ScriptReader::textOf(ContentTable& table, std::string_view key) {
     const toml::node* node = table.node(key);
     const auto value = node ? node->value_exact<std::string>() : std::nullopt;
@@ -174,7 +174,7 @@ TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
     return title;
 }
 
-// One block `at`, or all from corner to corner.
+// The block `at`, or the box between two corners.
 void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
     const auto at = blockPosOf(table, "at"), from = blockPosOf(table, "from"), to = blockPosOf(table, "to");
     if (at ? from || to : !from || !to)

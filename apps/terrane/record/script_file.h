@@ -11,12 +11,12 @@
 
 namespace terrane::app {
 
-// What the command line says; it wins over the file.
+// Options of the command line; they take precedence over the file.
 struct ScriptDefaults {
     WorldOptions world;
     GraphicsOptions graphics;
-    // Flags, without dashes: the file's options of these names are passed over; with a preset all that it
-    // stands for.
+    // Given flags without dashes: the file's options of these names are ignored; with a preset, all options
+    // that it sets.
     std::vector<std::string> given;
 };
 

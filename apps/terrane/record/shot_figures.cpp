@@ -11,7 +11,7 @@ namespace {
 using Motion = game::FigureMotion;
 
 constexpr int kStepsPerSecond = 60,
-              kStepsPerPose = 6;  // a server tells poses of near players ten times a second
+              kStepsPerPose = 6;  // a server sends poses of near players ten times a second
 
 Motion::Time momentOf(double seconds) {
     return Motion::Time() +
@@ -36,7 +36,7 @@ world::Figure figureAt(const Shot& shot, const PlayerCue& player, double seconds
     const int steps = static_cast<int>(std::max(secondsInShot, 0.0) * kStepsPerSecond + kTimeSlack);
     for (int step = 0; step < steps; ++step) {
         const double seconds = static_cast<double>(step) / kStepsPerSecond;
-        // What is told now is reached when the next pose is told.
+        // Motion reaches this pose when the next one is told.
         if (step % kStepsPerPose == 0)
             motion.told(poseAt(player, seconds + static_cast<double>(kStepsPerPose) / kStepsPerSecond),
                         momentOf(seconds));

@@ -1,4 +1,4 @@
-// The figures of a shot's players at a time. A pure function; any thread.
+// Computes the figures of a shot's players at a time. Pure; any thread.
 #pragma once
 
 #include <vector>
@@ -8,9 +8,9 @@
 
 namespace terrane::app {
 
-// In the order of the shot's players. A figure walks from the start of the shot in steps of its own, so that
-// it is the same at any frame rate, and where a video begins in the middle of the shot. An arm swings while
-// the player's edits are made.
+// One figure per player, in the order of the shot. Walking is simulated from the start of the shot in fixed
+// steps, so it does not depend on the frame rate or on the first frame of the video. An arm swings during the
+// player's edits.
 std::vector<world::Figure> figuresAt(const Shot& shot, double secondsInShot);
 
 }  // namespace terrane::app

@@ -12,9 +12,9 @@
 namespace terrane::app {
 namespace {
 
-// Of the image's height.
+// Shares of the image's height.
 constexpr float kSmall = 0.042f, kLarge = 0.11f, kBottomMargin = 0.07f;
-constexpr float kLetterSize = 13;  // the letters are drawn for whole multiples of it
+constexpr float kLetterSize = 13;  // pixels of Dear ImGui's font; other sizes are whole multiples
 
 std::vector<unsigned> lettersOf(std::string_view text) {
     std::vector<unsigned> letters;
@@ -46,7 +46,7 @@ ImFont* addFont(ImFontAtlas& atlas, float size) {
     return atlas.AddFontDefault(&config);
 }
 
-// What the letters of a text cover of an image, 0…255 a pixel.
+// Coverage of image pixels by the letters of a text, 0…255 each.
 struct Cover {
     int width, height;
     std::vector<std::uint8_t> values;
@@ -86,7 +86,7 @@ float widthOf(const ImFont& font, const std::vector<unsigned>& line) {
     return width;
 }
 
-// Darkness around the letters, so that they are read before anything bright.
+// A shadow around the letters, for contrast on a bright image.
 Cover shadowOf(const Cover& letters, int reach) {
     Cover shadow{letters.width, letters.height, std::vector<std::uint8_t>(letters.values.size())};
     for (int y = 0; y < letters.height; ++y) {

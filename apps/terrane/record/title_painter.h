@@ -1,5 +1,5 @@
-// Writes titles into images, on the CPU, with the letters that come with Dear ImGui (ISO 8859-1): the
-// same pixels on every machine. One thread.
+// Draws titles into images on the CPU, with the font of Dear ImGui (ISO 8859-1): the same pixels on every
+// machine. One thread.
 #pragma once
 
 #include <memory>
@@ -19,10 +19,10 @@ class TitlePainter {
     explicit TitlePainter(int imageHeight);
     ~TitlePainter();
 
-    // The first letter of a text that there is none for, as UTF-8; empty where it has all.
+    // The first letter of the text that the font lacks, as UTF-8; empty if it has all.
     static std::string missingLetter(std::string_view text);
 
-    // Lines are centered: large in the middle of the image, or small at its bottom. `strength`: 0…1.
+    // Lines are centered: large in the middle of the image, or small at the bottom. `strength`: 0…1.
     void paint(base::Image& image, std::string_view text, bool isLarge, float strength) const;
 
   private:

@@ -1,9 +1,9 @@
-// How many files, and so connections, this process may have open. Called while a program starts.
+// The limit on open files, and so on connections, of this process. Called at startup.
 #pragma once
 
 namespace terrane::app {
 
-// As many as the system lets it without asking anybody.
+// Raises the soft limit to the hard limit, which needs no privileges.
 void raiseOpenFileLimit();
 
 }  // namespace terrane::app

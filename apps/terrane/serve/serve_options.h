@@ -1,5 +1,4 @@
-// Options of `terrane serve`, on the command line and in a file of settings (TOML) whose keys are their
-// names.
+// Options of `terrane serve`, on the command line and as keys of a settings file (TOML).
 #pragma once
 
 #include <string>
@@ -14,9 +13,9 @@ namespace terrane::app {
 struct ServeOptions {
     WorldOptions world;
     SaveOptions save;
-    std::string settingsFile;  // empty: NAME.server.toml beside the world, where there is one
+    std::string settingsFile;  // empty: NAME.server.toml beside the world, if it exists
     net::ListenAddress listen;
-    std::string publicAddress;  // empty: by the two
+    std::string publicAddress;  // empty: from the machine's name and the port
     net::ServerSettings server;
     bool isReadOnly = false;
     MapSiteOptions map;

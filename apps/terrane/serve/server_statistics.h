@@ -1,4 +1,4 @@
-// What a server does, in numbers, for its owner and for load tests: a line of JSON each ten seconds.
+// Statistics of a server for its owner and for load tests: a line of JSON every ten seconds.
 #pragma once
 
 #include <chrono>
@@ -13,10 +13,10 @@ namespace terrane::app {
 
 class ServerStatistics {
   public:
-    // `file` empty: nothing is written.
+    // An empty `file` disables the statistics.
     [[nodiscard]] static base::Result<ServerStatistics> open(const std::string& file);
 
-    // After each tick, which took so long.
+    // Call after each tick with its duration.
     void addTick(const net::ServerState& server, double milliseconds);
 
   private:

@@ -1,8 +1,8 @@
 #include "apps/terrane/serve/world_records.h"
 
 #include "apps/terrane/machine_name.h"
+#include "apps/terrane/serve/file_records.h"
 #include "terrane/base/digest.h"
-#include "terrane/net/sqlite_records.h"
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/store/save_path.h"
 
@@ -17,13 +17,7 @@ bool isInDatabase(const store::WorldLocation& world) {
 
 base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
-    if (!isInDatabase(world)) {
-        const auto path = store::fileOf(world);
-        if (!path) return tl::unexpected(path.error());
-        auto records = net::SqliteRecords::open(net::serverFilePath(*path), blocks);
-        if (!records) return tl::unexpected(records.error());
-        return WorldRecords{std::move(*records), {}};
-    }
+    if (!isInDatabase(world)) return openFileRecords(world, blocks);
     const auto address = store_postgres::addressOf(world.text);
     if (!address) return tl::unexpected(address.error());
     auto records = net_postgres::PostgresRecords::open(*address, blocks, {processName(), "", ""});
@@ -37,7 +31,7 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
 base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store::WorldLocation& world,
                                                                     const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) {
-        auto records = openRecords(world, blocks);
+        auto records = openFileRecords(world, blocks);
         if (!records) return tl::unexpected(records.error());
         return std::move(records->records);
     }
@@ -50,29 +44,18 @@ base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store:
 
 base::Result<net::History> openHistory(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
-    if (isInDatabase(world)) {
-        const auto address = store_postgres::addressOf(world.text);
-        if (!address) return tl::unexpected(address.error());
-        return net_postgres::readHistory(*address, blocks);
-    }
-    const auto path = store::fileOf(world);
-    if (!path) return tl::unexpected(path.error());
-    return net::readHistoryFile(net::serverFilePath(*path), blocks);
+    if (!isInDatabase(world)) return openFileHistory(world, blocks);
+    const auto address = store_postgres::addressOf(world.text);
+    if (!address) return tl::unexpected(address.error());
+    return net_postgres::readHistory(*address, blocks);
 }
 
 bool hasRecords(const store::WorldLocation& world) {
-    if (isInDatabase(world)) return true;
-    const auto path = store::fileOf(world);
-    std::error_code ignored;
-    return path && std::filesystem::exists(net::serverFilePath(*path), ignored);
+    return isInDatabase(world) || hasFileRecords(world);
 }
 
 base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t port) {
-    if (!isInDatabase(world)) {
-        auto path = store::fileOf(world);
-        if (path) path->replace_extension();
-        return path;
-    }
+    if (!isInDatabase(world)) return filesBeside(world);
     const auto address = store_postgres::addressOf(world.text);
     if (!address) return tl::unexpected(address.error());
     const auto folder = store::dataFolder(store::savePlaces());

@@ -1,4 +1,4 @@
-// Where the records of a served world are, by where the world is: a file beside it, or the same database.
+// Opens the records of a served world: a file beside the world, or the same database.
 #pragma once
 
 #include <filesystem>
@@ -14,27 +14,26 @@ namespace terrane::app {
 
 struct WorldRecords {
     std::unique_ptr<net::ServerRecords> records;
-    // Tells other servers of the world, and players through them, where this one is and its key. May be
-    // empty.
+    // Publishes this server's address and key to other servers of the world, and through them to players.
+    // Empty for a world in a file.
     std::function<void(const std::string& address, const std::string& key)> tellAddress;
 };
 
-// Of a world that is open. Errors name the file or the database.
+// The records of an open world. Errors name the file or the database.
 [[nodiscard]] base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
-// To be read alone: a database may be a replica.
+// Opens the records for reading only: a database may be a replica.
 [[nodiscard]] base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(
     const store::WorldLocation& world, const world::BlockRegistry& blocks);
 
-// The same without a server: what servers of the world did.
+// The history of edits, without a running server.
 [[nodiscard]] base::Result<net::History> openHistory(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
-// Whether servers of the world left records; false where there is nothing to copy.
+// Whether the world may have records of servers: the file exists, or the world is in a database.
 [[nodiscard]] bool hasRecords(const store::WorldLocation& world);
 
-// Files that belong to a server and not to its world: "a/home" for a/home.sqlite, and for a world in a
-// database a name in the folder of worlds that ends with the server's port. ".server.pem" and the like are
-// added to it.
+// The base path of a server's own files: "a/home" for a/home.sqlite; for a world in a database a path in the
+// data folder that ends with the server's port. Callers append ".server.pem" and the like.
 [[nodiscard]] base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world,
                                                                 std::uint16_t port);
 

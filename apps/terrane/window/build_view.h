@@ -1,4 +1,4 @@
-// What the tools for building see of the game: whose commands they send, where the player stands and looks.
+// The view of the game that building tools get: the session, and the player's pose, block and held keys.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@ struct BuildView {
     game::Session& session;
     const Texts& tr;
     world::Pose pose;
-    std::optional<world::Aabb> body;  // none where the player flies through blocks
+    std::optional<world::Aabb> body;  // none while the player flies through blocks
     world::BlockId hand = world::kAir;
     bool shift = false, control = false;  // keys that are held
 };

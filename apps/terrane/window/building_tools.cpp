@@ -36,7 +36,7 @@ void BuildingTools::draw(const Screen& screen, const render::Camera& camera, con
     if (sign_) drawSign(screen, view);
 }
 
-// A sign that is gone or out of reach closes.
+// Draws the open sign; closes it if it is gone or out of reach.
 void BuildingTools::drawSign(const Screen& screen, const BuildView& view) {
     const world::BlockPos pos = sign_->sign();
     const glm::dvec3 middle(pos.x + 0.5, pos.y + 0.5, pos.z + 0.5);

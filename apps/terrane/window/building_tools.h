@@ -1,5 +1,5 @@
-// All that a player builds with beside single blocks: the selection tool, and the text of signs. The game's
-// loop gives it keys, buttons and each frame.
+// Building beyond single blocks: the selection tool, and the text of signs. The game loop passes it keys,
+// buttons and frames.
 #pragma once
 
 #include <optional>
@@ -14,18 +14,18 @@ namespace terrane::app {
 
 class BuildingTools {
   public:
-    // `dataFolder` has a folder for structures.
+    // Structures are files in a subfolder of `dataFolder`.
     explicit BuildingTools(const std::filesystem::path& dataFolder) : selection_(dataFolder / "structures") {}
 
-    // Something is typed or chosen: the cursor is free, and all keys go to onKey().
+    // The player types or chooses something: the cursor is free, and all keys go to onKey().
     bool isAsking() const { return sign_ || selection_.isAsking(); }
     bool isSelecting() const { return selection_.isActive(); }
-    // True where a key or a button was for the tools.
+    // True if the tools handled the key or button.
     bool onKey(Key key, const BuildView& view);
     bool onButton(MouseButton button, const BuildView& view) { return selection_.onButton(button, view); }
-    // Edits the text of the block. False where it holds none.
+    // Opens the text of a block for editing; false if the block holds no text.
     bool openSign(world::BlockPos pos, const BuildView& view);
-    // Closes what is open, one thing a call; false where there is nothing.
+    // Closes one open thing per call; false if nothing is open.
     bool close();
 
     // `seconds`: since the start.
@@ -37,7 +37,7 @@ class BuildingTools {
 
     SelectionTool selection_;
     std::optional<SignDialog> sign_;
-    base::TimedValue<std::vector<world::BlockPos>> signs_{0.25};  // those near the camera
+    base::TimedValue<std::vector<world::BlockPos>> signs_{0.25};  // near the camera
     std::optional<std::string> message_;
 };
 

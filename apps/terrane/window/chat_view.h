@@ -1,5 +1,4 @@
-// Lines of chat over the image, the line that is typed, and the list of players. Immediate mode: drawn each
-// frame.
+// Chat lines over the image, the input line, and the list of players. Immediate mode: drawn each frame.
 #pragma once
 
 #include <array>
@@ -21,8 +20,8 @@ class ChatView {
     void beginTyping();
     void endTyping() { isTyping_ = false; }
 
-    // The last lines, which fade after a while; all that fit while one types. A line that was typed and
-    // entered, once. `seconds`: since the start.
+    // Draws the last lines, which fade out; while typing, all that fit. Returns an entered line once.
+    // `seconds`: since the start.
     std::optional<std::string> draw(const Screen& screen, const Texts& tr, double seconds);
 
   private:
@@ -37,7 +36,7 @@ class ChatView {
     bool isTyping_ = false, takesFocus_ = false;
 };
 
-// Who plays, and how far away each is, in milliseconds.
+// The list of players with their ping in milliseconds.
 void drawPlayerList(const Screen& screen, const Texts& tr, const net::PlayerList& list);
 
 }  // namespace terrane::app

@@ -14,7 +14,7 @@ namespace {
 constexpr double kSpan = 150;  // degrees from end to end
 constexpr ImU32 kPlaceColor = IM_COL32(255, 205, 90, 255);
 
-// From the middle of the strip, -1 … 1; beyond, it is not in the strip.
+// The position in the strip, -1 … 1; values beyond are outside of it.
 double placeInStrip(double degrees, double ahead) {
     return std::remainder(degrees - ahead, 360.0) / (kSpan / 2);
 }
@@ -49,7 +49,7 @@ void drawCompass(const Screen& screen, const world::Pose& pose, std::span<const 
         else
             draw.AddLine({x, top + 7 * scale}, {x, top + 13 * scale}, IM_COL32(255, 255, 255, 110), scale);
     }
-    // The place that one looks at most directly has its name and distance under it.
+    // The place nearest to the view direction is labeled with its name and distance.
     const game::Place* nearest = nullptr;
     double nearestAt = 0.12;
     for (const game::Place& place : places) {

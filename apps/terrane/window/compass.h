@@ -1,4 +1,4 @@
-// A strip with the directions and the named places in them, at the top of the image. Immediate mode.
+// A strip at the top of the image with the directions and named places. Immediate mode.
 #pragma once
 
 #include <span>

@@ -1,4 +1,4 @@
-// The dialog of an open chest: what is in it, and what clicks do. Immediate mode: drawn each frame.
+// The dialog of an open chest: shows its items and handles clicks. Immediate mode: drawn each frame.
 #pragma once
 
 #include "apps/terrane/window/container_panel.h"
@@ -8,10 +8,11 @@
 
 namespace terrane::app {
 
-// Whether the chest is there, and within reach of the player's eyes.
+// Whether the block is a container within reach of the player's eyes.
 bool canUseContainer(const game::Session& session, world::BlockPos block, const glm::dvec3& eyes);
 
-// Draws what is in it, and moves what is clicked between it and the hand. An error: its items cannot be read.
+// Draws the items, and moves clicked ones between the chest and the hotbar. Fails if its items cannot be
+// read.
 base::Result<void> drawOpenContainer(const Screen& screen, game::Session& session, world::BlockPos block,
                                      game::Hotbar& hotbar, const ItemLooks& looks, const Texts& tr);
 

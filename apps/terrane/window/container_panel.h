@@ -1,4 +1,4 @@
-// The slots of an open chest in the middle of the window. Immediate mode: draws, and tells what was clicked.
+// The slots of an open chest in the middle of the window. Immediate mode: draws, and returns the click.
 #pragma once
 
 #include <functional>
@@ -10,7 +10,7 @@
 
 namespace terrane::app {
 
-// What is shown of an item, by its name in the inventory.
+// Image and name of an item, by its name in the inventory.
 struct ItemLooks {
     std::function<unsigned(const std::string&)> image;  // OpenGL texture, 0: none
     std::function<std::string(const std::string&)> name;

@@ -1,4 +1,4 @@
-// Notices that files of content packs changed, for `play --watch`. Used on one thread.
+// Detects changes to files of content packs, for `play --watch`. Used on one thread.
 #pragma once
 
 #include <chrono>
@@ -14,8 +14,8 @@ class ContentWatch {
   public:
     explicit ContentWatch(const std::vector<pack::Pack>& packs);
 
-    // Whether a file came, went or changed since the last call. Looks at most twice a second, and tells of a
-    // change once nothing has changed for that long: editors write a file in several steps.
+    // Whether a file was added, removed or changed since the last call. Looks at most twice a second, and
+    // reports a change once the files were stable for that long: editors write a file in several steps.
     bool hasChanged(std::chrono::steady_clock::time_point now);
 
   private:

@@ -1,4 +1,4 @@
-// What became of an edit, in the player's language.
+// Texts about results of edits, in the player's language.
 #pragma once
 
 #include <string>
@@ -8,9 +8,9 @@
 
 namespace terrane::app {
 
-// Why an edit was refused; empty where there is nothing to tell.
+// Why an edit was refused; empty if it was not, or needs no message.
 std::string refusalText(game::EditResult result, const Texts& tr);
-// Of an undo, or a redo; empty while a server decides.
+// The result of an undo or a redo; empty while a server decides.
 std::string takenBackText(const game::TakenBack& done, bool isUndo, const Texts& tr);
 
 }  // namespace terrane::app

@@ -10,16 +10,16 @@
 namespace terrane::app {
 namespace {
 
-// Where systems keep it: Debian, Fedora, Arch.
+// Paths of DejaVu Sans: Debian, Fedora, Arch.
 constexpr std::array<const char*, 3> kFontFiles = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf",
                                                    "/usr/share/fonts/dejavu-sans-fonts/DejaVuSans.ttf",
                                                    "/usr/share/fonts/TTF/DejaVuSans.ttf"};
 
-// Latin letters with accents, dashes, quotation marks and the ellipsis, arrows. Dear ImGui reads the list
-// whenever it makes the texture.
+// Latin letters with accents, dashes, quotation marks, the ellipsis and arrows. Dear ImGui reads the list
+// whenever it makes the texture, so it must stay in memory.
 constexpr std::array<ImWchar, 7> kLetters = {0x20, 0x17F, 0x2010, 0x2026, 0x2190, 0x2193, 0};
 
-// Letters of Czech, and marks, that Dear ImGui's own font lacks.
+// Czech letters and punctuation that Dear ImGui's own font lacks, and their replacements.
 constexpr std::array<std::pair<ImWchar, char>, 26> kPlainLetters = {
     {{0x10C, 'C'},  {0x10D, 'c'},  {0x10E, 'D'},  {0x10F, 'd'},   {0x11A, 'E'},   {0x11B, 'e'},
      {0x147, 'N'},  {0x148, 'n'},  {0x158, 'R'},  {0x159, 'r'},   {0x160, 'S'},   {0x161, 's'},

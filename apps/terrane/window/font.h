@@ -1,14 +1,14 @@
-// The font of the user interface, of the system where it has one with the letters of all languages.
+// The font of the user interface: the system's, if it has one with the letters of all languages.
 #pragma once
 
 namespace terrane::app {
 
-// Of the system; null where it lacks the font.
+// The system's font file; null if it has none of the known ones.
 const char* fontFile();
-// In place of the fonts that Dear ImGui has, `pixels` high; its own font where `file` is null. The texture of
-// the fonts is to be made next.
+// Replaces Dear ImGui's fonts by a font `pixels` high; its own font if `file` is null. Recreate the font
+// texture afterwards.
 void addFont(float pixels, const char* file);
-// After the texture is made: where the font lacks letters they are drawn without their accents.
+// Call after the texture is made: letters that the font lacks are drawn without their accents.
 void replaceMissingLetters();
 
 }  // namespace terrane::app

@@ -21,7 +21,7 @@ game::PlayerState playerStateOf(const GameState& game) {
             .timeDay = game.parts.session.clock.timeDay,
             .hotbar = game::textOf(game.interaction.hotbar, game.parts.session.blocks()),
             .movement = nameOf(settings.movement),
-            // So that it is found from another working directory, too.
+            // Absolute, to be found from another working directory.
             .resourcePack = settings.resourcePack.empty()
                                 ? ""
                                 : std::filesystem::absolute(settings.resourcePack).string()};
@@ -36,7 +36,7 @@ base::Result<void> save(GameState& game) {
                       session.store().status().waiting);
 }
 
-// A player on foot who is below the world would fall for ever.
+// Moves a player who is on foot below the world to the surface; it would fall forever.
 void liftFromBelow(GameState& game) {
     const game::Movement movement = game.settings.movement;
     if (movement == game::Movement::Fast || movement == game::Movement::Medium) return;
@@ -94,7 +94,8 @@ void applyResourcePack(GameState& game) {
     game.notices.say(changed ? game.tr("textures are loaded") : changed.error().message);
 }
 
-// What changed since the last frame; the renderer sees to its own options with the frame's size.
+// Applies settings that changed since the last frame, except render options, which configureRenderer()
+// applies.
 void applySettings(GameState& game) {
     const PlaySettings &now = game.settings, &before = game.applied;
     if (now == before) return;
@@ -107,7 +108,7 @@ void applySettings(GameState& game) {
     game.applied = game.settings;
 }
 
-// Only content that can be used is: until then the world stays as it is, and the player reads why.
+// Reloads changed content if it is usable; else the world stays, and the error is shown.
 void reloadContent(GameState& game) {
     const GameOptions& options = game.options;
     if (!options.contentChanged || game.leaving.isAsked || !options.contentChanged()) return;

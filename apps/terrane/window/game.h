@@ -1,4 +1,4 @@
-// The window's loop: what a player does, what time does, and the image of it (game_state.h).
+// The window's loop: input, simulation and image of one game (game_state.h).
 #pragma once
 
 #include <filesystem>
@@ -15,7 +15,7 @@
 
 namespace terrane::app {
 
-// What the loop works with; everything outlives it.
+// The objects that the loop works with; all outlive it.
 struct GameParts {
     Window& window;
     const pack::Content& content;
@@ -26,34 +26,35 @@ struct GameParts {
     render::BackgroundCompiler& compiler;
     const gpu::ShaderLoader& shaders;
     const base::StopSignals& signals;
-    RemotePlay* remote = nullptr;  // the server whose world it is; null: none
+    RemotePlay* remote = nullptr;  // connection to the world's server; null: none
 };
 
 struct GameOptions {
     PlaySettings settings;
     world::Pose start;
-    std::string hotbar;                // as game::textOf() says it; any text
+    std::string hotbar;                // from game::textOf(); any text is accepted
     std::filesystem::path dataFolder;  // for bookmarks and screenshots
     bool isSoftwareRenderer = false;
     std::string deviceName;                            // of the graphics driver
-    bool measuresPreset = false;                       // the settings get the preset that a measurement picks
+    bool measuresPreset = false;                       // measure frames and choose a preset
     std::string perfData;                              // file; empty: none
-    std::filesystem::path thumbnail;                   // file of the world's picture; empty: none
-    std::function<bool()> contentChanged;              // whether packs on the disk changed; may be empty
-    std::function<base::Result<void>()> checkContent;  // what is wrong with them now
+    std::filesystem::path thumbnail;                   // file of the world's thumbnail; empty: none
+    std::function<bool()> contentChanged;              // packs changed on disk; may be empty
+    std::function<base::Result<void>()> checkContent;  // fails if they cannot be loaded
 };
 
-// What a game was left with.
+// The state when a game ends.
 struct GameEnd {
     PlaySettings settings;
     world::Pose pose;
-    bool toTitle = false;      // the player wants the title, not to quit
-    bool wantsReload = false;  // the content changed: the world is to be opened again
-    std::string serverReason;  // why the server sent the player away; empty where it did not
+    bool toTitle = false;      // to the title screen, not quit
+    bool wantsReload = false;  // content changed: open the world again
+    std::string serverReason;  // reason of a disconnect by the server, else empty
 };
 
-// Until the player leaves, the window closes, a signal asks to stop or a frame fails; then everything is
-// saved. Where that fails the player is asked first; an error says what is lost. `end` is filled in any case.
+// Runs until the player leaves, the window closes, a signal asks to stop or a frame fails; then saves
+// everything. If saving fails, the player is asked first; the error names what is lost. `end` is always
+// filled in.
 base::Result<void> runGame(const GameParts& parts, const GameOptions& options, GameEnd& end);
 
 }  // namespace terrane::app

@@ -13,9 +13,9 @@
 namespace terrane::app {
 namespace {
 
-constexpr double kDayStep = 0.01;  // of a day, for each press
+constexpr double kDayStep = 0.01;  // of a day, per press
 
-// By game::Movement.
+// Indexed by game::Movement.
 constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast"), trLater("movement: slow"),
                                                        trLater("movement: not through walls"),
                                                        trLater("movement: on foot")};

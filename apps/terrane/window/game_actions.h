@@ -1,17 +1,18 @@
-// What the player does: breaks and builds, takes edits back, and all that a key is for; and the world's
-// picture.
+// Actions of the player: break and build, undo, and everything bound to keys; also the world's thumbnail.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// Keys that are held do nothing here: see moveKeysOf().
+// Does nothing for actions of held keys: see moveKeysOf().
 void act(GameState& game, Action action);
-// Where a button is held; the hand and splinters show it. `seconds`: since the frame before.
+// Breaks or builds while a button is held; shows it with the arm and particles. `seconds`: since the last
+// frame.
 void breakAndBuild(GameState& game, double seconds);
 void takeBack(GameState& game, game::HistoryWay way);
-// For the list of worlds, over the one before. Nothing where the world has no file for it.
+// Writes the thumbnail for the list of worlds over the last one. Does nothing if the world has no file for
+// it.
 void writeThumbnailOf(GameState& game);
 
 }  // namespace terrane::app

@@ -1,12 +1,12 @@
-// What one sees of the game itself over the image: hand, hotbar, splinters, compass, where one is, and the
-// dialogs of blocks and places.
+// Draws the HUD over the image: arm, hotbar, particles, compass, position, and the dialogs of blocks and
+// places.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// `seconds`: since the frame before.
+// `seconds`: since the last frame.
 void advanceHud(GameState& game, double seconds);
 void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds);
 

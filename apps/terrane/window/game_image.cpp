@@ -14,7 +14,7 @@
 namespace terrane::app {
 namespace {
 
-// Between frames that show no world, so that the compiler has the CPU.
+// Pause between frames without a world, which leaves the CPU to the compiler.
 constexpr std::chrono::milliseconds kCompilePause{15};
 constexpr double kPresetMessageSeconds = 8;
 
@@ -32,8 +32,8 @@ bool shadersAreReady(const GameState& game, glm::ivec2 size) {
     return compiler.isReady(size, options, {.hasTint = renderer.hasTint(), .hasLand = renderer.hasLand()});
 }
 
-// Other options come once their shaders are compiled; until then frames are drawn as before, and at first
-// none. Options that cannot be drawn are taken back.
+// Applies other options once their shaders are compiled; until then frames are drawn with the former ones, or
+// not at all at first. Options that cannot be drawn are reverted.
 base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
     render::Renderer& renderer = game.parts.renderer;
     render::RenderOptions options = game.preset.options(game.settings);
@@ -79,7 +79,7 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
     return milliseconds;
 }
 
-// After a frame: picks a preset while that goes on, and says so once its shaders are there.
+// Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
 void pickPreset(GameState& game, double seconds) {
     const GameParts& parts = game.parts;
     if (!game.preset.isBusy()) return;

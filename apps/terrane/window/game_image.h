@@ -1,15 +1,15 @@
-// The image of the world in the window: the options it is drawn with, and a frame.
+// Draws the image of the world in the window, and applies render options.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// Without an image until the first shaders are compiled; `seconds`: since the frame before. An error:
-// the graphics card cannot draw at all.
+// Draws no world until the first shaders are compiled. `seconds`: since the last frame. Fails if the graphics
+// card cannot draw at all.
 base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds);
 
-// Replaces textures by those of a folder; empty: the built-in ones. What is wrong with them changes nothing.
+// Replaces textures by those of a folder; empty: the built-in ones. An error changes nothing.
 base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder);
 
 }  // namespace terrane::app

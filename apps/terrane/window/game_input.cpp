@@ -10,22 +10,22 @@
 namespace terrane::app {
 namespace {
 
-constexpr double kStickDegrees = 160;  // a second, of a gamepad's stick at its end
+constexpr double kStickDegrees = 160;  // per second, with the stick fully tilted
 
-// Of the hotbar, by its digit.
+// The slot of the hotbar for a digit.
 std::optional<std::size_t> slotOf(Key key) {
     if (key < Key::Digit1 || key > Key::Digit9) return std::nullopt;
     return static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::Digit1);
 }
 
-// False for keys that do with Control what they do without: it is held to sink, too.
+// False for keys that do the same with and without Control, since Control is also held to sink.
 bool onControlKey(GameState& game, Key key) {
     if (key != Key::Z && key != Key::Y) return false;
     takeBack(game, key == Key::Y || game.input.withShift ? game::HistoryWay::Redo : game::HistoryWay::Undo);
     return true;
 }
 
-// Keys of what is open: true where it took the key.
+// Passes a key to the open dialog; true if it handled the key.
 bool onDialogKey(GameState& game, Key key) {
     PaletteState& palette = game.hud.palette;
     const auto slot = slotOf(key);
@@ -43,7 +43,7 @@ bool onDialogKey(GameState& game, Key key) {
         game.building.onKey(key, buildViewOf(game));
         return true;
     }
-    return game.imgui.takesKeys();  // Escape ends the typing
+    return game.imgui.takesKeys();  // Escape ends text input
 }
 
 void onKey(GameState& game, Key key) {
@@ -52,7 +52,7 @@ void onKey(GameState& game, Key key) {
     const bool isMenuAlone = game.menu.isPaused && !game.menu.showsSettings;
     if (isMenuAlone && (key == Key::Q || key == Key::T)) return leave(game, key == Key::T);
     const auto action = game.settings.keys.actionOf(key);
-    // What opens nothing is for the game, which stands still in a menu.
+    // In a menu the game is paused: only actions that open something work.
     if (isInDialog(game) && !(action && rowOf(*action).opensSomething)) return;
     if (!isInDialog(game) && game.building.onKey(key, buildViewOf(game))) return;
     if (game.input.withControl && onControlKey(game, key)) return;
@@ -76,7 +76,7 @@ bool openSign(GameState& game) {
     return target && game.building.openSign(target->block, buildViewOf(game));
 }
 
-// What is looked at, unless the player runs: then it builds against that.
+// Uses the targeted block, unless Shift is held: then a block is built against it.
 bool useTarget(GameState& game) {
     if (game.input.withShift) return false;
     return openContainer(game) || openSign(game) ||
@@ -118,7 +118,7 @@ void handleEvents(GameState& game) {
     using Type = InputEvent::Type;
     GameInput& input = game.input;
     const Window& window = game.parts.window;
-    const bool wasCaptured = input.isCaptured;  // what moved before the cursor was taken turns nobody
+    const bool wasCaptured = input.isCaptured;  // ignore motion before the capture
     for (const InputEvent& event : window.events()) {
         input.withShift = event.withShift;
         input.withControl = event.withControl;

@@ -1,15 +1,15 @@
-// What keys, mouse and gamepad do.
+// Handles keys, mouse and gamepad.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// All events since the frame before.
+// Handles all events since the last frame.
 void handleEvents(GameState& game);
-// The sticks turn, buttons do what keys and the mouse do.
+// Sticks turn the view; buttons do the same as keys and mouse buttons.
 void handlePad(GameState& game, double seconds);
-// The keys and the stick that move the player now.
+// The state of the keys and the stick that move the player.
 game::MoveKeys moveKeysOf(const GameState& game);
 
 }  // namespace terrane::app

@@ -13,7 +13,7 @@
 namespace terrane::app {
 namespace {
 
-// To the sun or moon; none where there are no shadows.
+// The direction to the sun or moon; none without shadows.
 std::optional<glm::vec3> shadowLightOf(const GameParts& parts) {
     const render::RenderOptions& options = parts.renderer.options();
     if (options.shadows == render::ShadowReach::Off || options.shading == render::Shading::Off)
@@ -41,7 +41,7 @@ void drawRemote(GameState& game, const Screen& screen, const render::Camera& cam
     if (drawRemoteTexts(screen, game.remote, game.seconds, game.tr)) captureMouse(game, true);
 }
 
-// The cursor is free while something is typed or chosen.
+// Frees the cursor while the player types or chooses something.
 void drawBuilding(GameState& game, const Screen& screen, const render::Camera& camera) {
     if (!game.debug.isAbove) game.building.draw(screen, camera, buildViewOf(game), game.seconds);
     if (auto message = game.building.takeMessage()) game.notices.say(std::move(*message));
@@ -57,7 +57,7 @@ void drawDebugPanels(GameState& game, const Screen& screen) {
     drawPanel(game.settings, session.clock, {game.options.isSoftwareRenderer, screen.width, screen.height});
 }
 
-// A chest that is gone or out of reach closes.
+// Closes the dialog if the chest is gone or out of reach.
 void drawContainerDialog(GameState& game, const Screen& screen) {
     game::Session& session = game.parts.session;
     const world::BlockPos block = *game.container;

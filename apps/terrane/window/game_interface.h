@@ -1,11 +1,11 @@
-// What the window's loop draws over the image.
+// Draws the user interface over the image.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// Once a frame; answers what is clicked. `seconds`: since the frame before.
+// Call once per frame; also handles clicks. `seconds`: since the last frame.
 void drawInterface(GameState& game, double seconds);
 
 }  // namespace terrane::app

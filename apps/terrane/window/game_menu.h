@@ -1,5 +1,4 @@
-// What opens and closes over the game: the menu, dialogs, the question before unsaved work is lost; and who
-// has the mouse.
+// Opens and closes the menu, dialogs and the question before unsaved data is lost; captures the mouse.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
@@ -8,16 +7,17 @@
 
 namespace terrane::app {
 
-// Gives the mouse to the player, and closes what is open; or frees the cursor.
+// Captures the mouse for the player and closes dialogs, or frees the cursor.
 void captureMouse(GameState& game, bool isCaptured);
 // Ends the loop.
 void leave(GameState& game, bool toTitle);
 
-// One press of Escape closes one thing, the last that opened; where nothing is open the game pauses.
+// Closes the last thing that opened, for one press of Escape; if nothing is open, pauses the game.
 void closeOne(GameState& game);
 void answerPauseMenu(GameState& game, PauseChoice choice);
 
-// Before anything is lost. Who closes the window is asked; who sends a signal is not there to answer: false.
+// Asks the player before unsaved data is lost; false, without asking, after a signal or if the player already
+// agreed.
 bool askBeforeLoss(GameState& game);
 void answerQuitDialog(GameState& game, QuitChoice choice);
 

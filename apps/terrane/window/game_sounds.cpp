@@ -36,7 +36,7 @@ GameSounds::~GameSounds() {
     session_.setEditListener({});
 }
 
-// What is twice as loud to the ear has about ten times the power: a square is near enough.
+// Perceived loudness doubles with about ten times the power; the square of the volume approximates that.
 void GameSounds::setVolume(float volume) {
     volume_ = volume;
     if (player_) player_->setVolume(volume * volume);
@@ -83,7 +83,7 @@ void GameSounds::onEdits(game::PlayerId player, std::span<const world::BlockEdit
     }
 }
 
-// In the player's head: feet are below the ears, and no sound of them comes from a side.
+// Plays at the player's ears: feet are straight below, so their sounds come from no side.
 void GameSounds::playFoot(const game::FootEvent& event, const world::Character& character) {
     using Kind = game::FootEvent::Kind;
     const world::World& world = session_.world();

@@ -1,4 +1,4 @@
-// The sounds of a game: what the player and blocks do, wind and water. Used on the window's thread.
+// Plays the sounds of a game: player, blocks, wind and water. Used on the window's thread.
 #pragma once
 
 #include <future>
@@ -13,15 +13,15 @@ namespace terrane::app {
 
 class GameSounds {
   public:
-    // Listens to the edits of `session`, which outlives this. The device is opened in the background once the
-    // volume is above 0; where there is none the game is silent.
+    // Listens to the edits of `session`, which outlives this. A volume above 0 opens the device in the
+    // background; without one the game is silent.
     explicit GameSounds(game::Session& session);
     ~GameSounds();
     GameSounds(const GameSounds&) = delete;
     GameSounds& operator=(const GameSounds&) = delete;
 
-    void setVolume(float volume);  // 0 to 1; 0: nothing is opened or played
-    // Once a frame. In a menu nothing moves, and wind and water fade.
+    void setVolume(float volume);  // 0 to 1; 0 opens and plays nothing
+    // Call once per frame. In a menu movement is silent, and wind and water fade out.
     void update(const game::Player& player, bool isInMenu, double seconds);
     void click();  // of a button
 
@@ -38,7 +38,7 @@ class GameSounds {
     std::optional<sound::SoundPlayer> player_;
     game::Footsteps footsteps_;
     float volume_ = 0;
-    bool isAsked_ = false;      // whether a device was asked for
+    bool isAsked_ = false;      // a device was requested
     double untilAmbience_ = 0;  // seconds
 };
 

@@ -1,6 +1,6 @@
-// All that the window's loop holds from frame to frame, by subject. What is done with it lies in free
-// functions, a file for each subject: game_input.h, game_actions.h, game_menu.h, game_image.h, game_hud.h,
-// game_interface.h, game_statistics.h. They hand on to others only what those need.
+// The state of the window's loop, by subject. Free functions work on it, in one file per subject:
+// game_input.h, game_actions.h, game_menu.h, game_image.h, game_hud.h, game_interface.h, game_statistics.h.
+// They pass on only the parts that other code needs.
 #pragma once
 
 #include <filesystem>
@@ -26,50 +26,50 @@
 
 namespace terrane::app {
 
-// Keys, buttons and the gamepad.
+// State of keys, buttons and the gamepad.
 struct GameInput {
     bool isCaptured = false;                      // the mouse turns the player, and the cursor is hidden
-    bool withShift = false, withControl = false;  // held with the event that is handled, else now
+    bool withShift = false, withControl = false;  // of the handled event, else current
     PadReader pad;
 };
 
-// The menu over the game, and what it asks.
+// The menu over the game, and its questions.
 struct GameMenu {
     SettingsDialog settings;
     bool isPaused = false, showsSettings = false;
     bool asksToQuit = false;    // saving failed
-    bool quitsUnsaved = false;  // and the player wants to go all the same
+    bool quitsUnsaved = false;  // the player agreed to quit unsaved
 };
 
-// What is shown for who wants to know how things work.
+// Views for developers.
 struct DebugViews {
     bool showsPanel = false, showsLoading = false;
-    bool isAbove = false;  // the camera, with what it sees drawn as lines
+    bool isAbove = false;  // debug top view: the camera's frustum as lines
 };
 
-// Whether the loop ends, and where to.
+// Whether the loop ends, and what follows.
 struct Leaving {
     bool isAsked = false;
     bool toTitle = false, forReload = false;
 };
 
-constexpr double kThumbnailPause = 180;  // seconds between pictures of the world
-constexpr double kMemoryPause = 0.5;     // seconds for which statistics of memory stay as they are
+constexpr double kThumbnailPause = 180;  // seconds between thumbnails of the world
+constexpr double kMemoryPause = 0.5;     // seconds between memory statistics
 
 struct GameState {
     GameState(const GameParts& parts, const GameOptions& options);
 
     GameParts parts;
     GameOptions options;
-    PlaySettings settings, applied;  // as they are to be; as the frame before had them
+    PlaySettings settings, applied;  // current; as of the last frame
     Texts tr;
-    double seconds = 0;      // since the start
+    double seconds = 0;      // since the start of the game
     std::size_t frames = 0;  // drawn
 
     game::Player player;
     game::BlockInteraction interaction;
-    std::optional<game::PlayerState> saved;    // as handed to the store
-    std::optional<world::BlockPos> container;  // the open one
+    std::optional<game::PlayerState> saved;    // last passed to the store
+    std::optional<world::BlockPos> container;  // that is open
     game::BookmarkFiles bookmarks;
     std::size_t nextBookmark = 0;
 
@@ -82,8 +82,8 @@ struct GameState {
     Hud hud;
     Notices notices;
     BuildingTools building;
-    bool wasAsking = false;    // the tools, in the frame before
-    bool wasComplete = false;  // all in view has been there once
+    bool wasAsking = false;    // building.isAsking() in the last frame
+    bool wasComplete = false;  // the view was complete once
     RemoteView remote;
     GameSounds sounds;
 
@@ -95,9 +95,9 @@ struct GameState {
     std::optional<PerfLog> perfLog;
 };
 
-bool isInMenu(const GameState& game);       // the game stands still
+bool isInMenu(const GameState& game);       // the game is paused
 bool hasOpenDialog(const GameState& game);  // of blocks, places or chat
-// Keys move nobody, and clicks take no mouse.
+// Keys do not move the player, and clicks do not capture the mouse.
 bool isInDialog(const GameState& game);
 
 render::Camera cameraOf(const GameState& game);

@@ -1,11 +1,11 @@
-// What the panel of statistics and the file of --collect-perf-data tell of a frame.
+// Statistics of a frame, for the panel and for the file of --collect-perf-data.
 #pragma once
 
 #include "apps/terrane/window/game_state.h"
 
 namespace terrane::app {
 
-// Memory as of the last half second: finding it goes through all chunks. Points into `game`.
+// Memory is measured twice a second, since that visits all chunks. The result points into `game`.
 Statistics statisticsOf(GameState& game);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// The light on what the player holds.
+// The light on the block in the player's hand.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -7,8 +7,8 @@
 
 namespace terrane::app {
 
-// As the screen shows it, 0…1: daylight of the sky, and lamps, in the block of the eye. As shading does it,
-// without its details.
+// Display color, 0…1, of daylight and lamps in the block of the eye; a simplified form of the world's
+// shading.
 glm::vec3 lightOnHand(const game::Session& session, const glm::dvec3& eyes);
 
 }  // namespace terrane::app

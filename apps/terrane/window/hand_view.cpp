@@ -13,8 +13,8 @@ namespace terrane::app {
 namespace {
 
 constexpr double kPi = 3.14159265358979;
-constexpr double kStride = 2.4;     // blocks of two steps
-constexpr double kEverySecond = 8;  // of the sway's share
+constexpr double kStride = 2.4;     // blocks per two steps
+constexpr double kEverySecond = 8;  // rate of change of the sway, per second
 constexpr glm::vec3 kSkin{214, 160, 122}, kSleeve{58, 98, 138};
 
 ImU32 lit(glm::vec3 color, const glm::vec3& light, float shade) {
@@ -26,8 +26,8 @@ ImVec2 at(glm::vec2 p) {
     return {p.x, p.y};
 }
 
-// A part of the arm as a box seen from above its length: a lit top and a darker side. `from` and `to` are the
-// middles of its ends.
+// Draws a part of the arm as a box seen along its length: a lit top and a darker side. `from` and `to` are
+// the centers of its ends.
 void drawArmPart(ImDrawList& draw, glm::vec2 from, glm::vec2 to, float width, const ImU32 (&colors)[2]) {
     const glm::vec2 along = to - from;
     const float length = std::max(std::sqrt(along.x * along.x + along.y * along.y), 1.0f);

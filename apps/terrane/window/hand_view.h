@@ -1,5 +1,5 @@
-// The player's arm with the block in the hand, at the right edge of the image. It sways as one walks and
-// swings when the hand does something. Immediate mode: drawn each frame.
+// The player's arm with the block in the hand, at the right edge of the image. It sways while walking and
+// swings for actions. Immediate mode: drawn each frame.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,15 +11,15 @@ namespace terrane::app {
 class HandView {
   public:
     void swing() { swingSeconds_ = kSwingSeconds; }
-    // `walked`: blocks over the ground since the last frame. Without `sways` the arm keeps still.
+    // `walked`: blocks over the ground since the last frame. If `sways` is false the arm keeps still.
     void advance(double seconds, double walked, bool sways);
-    // `image`: of the block, an OpenGL texture, 0: none. `light`: what falls on the arm, 0…1 a color.
+    // `image`: OpenGL texture of the block, 0: none. `light`: on the arm, 0…1 per color.
     void draw(const Screen& screen, unsigned image, const glm::vec3& light) const;
 
   private:
     static constexpr double kSwingSeconds = 0.25;
 
-    double swingSeconds_ = 0;  // left of it
+    double swingSeconds_ = 0;  // that are left
     double stride_ = 0;        // radians
     double swayShare_ = 0;     // 0 at rest … 1 while walking
 };

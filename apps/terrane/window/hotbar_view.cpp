@@ -46,7 +46,7 @@ void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const Bl
     const float left = (screen.width - kWidth * scale) / 2, top = screen.height - side - kMargin * scale;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto corner = [&](std::size_t slot) { return ImVec2(left + step * static_cast<float>(slot), top); };
-    // One kind of thing after another: each change of the texture is a draw call.
+    // Grouped by texture: each change of the texture is a draw call.
     for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
         const ImVec2 min = corner(slot), max(min.x + side, min.y + side);
         const bool isChosen = slot == hotbar.chosen;

@@ -1,4 +1,4 @@
-// The nine blocks at hand, at the bottom of the image. Immediate mode: drawn each frame.
+// The nine slots of the hotbar, at the bottom of the image. Immediate mode: drawn each frame.
 #pragma once
 
 #include <functional>
@@ -11,13 +11,13 @@ struct ImDrawList;
 
 namespace terrane::app {
 
-// How the user interface shows blocks.
+// Image and name of a block in the user interface.
 struct BlockFace {
     std::function<unsigned(world::BlockId)> image;    // an OpenGL texture; 0: none yet
-    std::function<std::string(world::BlockId)> name;  // as people read it
+    std::function<std::string(world::BlockId)> name;  // translated
 };
 
-// The chosen block's name is shown for a moment after it changed.
+// Shows the chosen block's name for a moment after a change.
 class HotbarView {
   public:
     void draw(const Screen& screen, const game::Hotbar& hotbar, const BlockFace& face, double seconds);
@@ -27,7 +27,7 @@ class HotbarView {
     double nameSeconds_ = 0;
 };
 
-// An image of a block in a square of the window or list that draws.
+// Draws the image of a block in a square of the current window or list.
 void drawBlockImage(ImDrawList& draw, glm::vec2 min, float side, unsigned image);
 
 float hotbarHeight();  // with its margin; during a frame

@@ -1,5 +1,4 @@
-// The state of what is seen of the game over its image, and of the dialogs of blocks and places. game_hud.h
-// draws it.
+// State of the HUD and of the dialogs of blocks and places. game_hud.h draws them.
 #pragma once
 
 #include <optional>
@@ -22,13 +21,13 @@ struct Hud {
     view::BlockParticles particles;
     PaletteState palette;
     PlacesState placesDialog;
-    std::vector<game::Place> places;  // of this world
-    bool showsFacts = false;          // where one is
+    std::vector<game::Place> places;  // named places of this world
+    bool showsFacts = false;          // position and biome
     bool isHidden = false;            // all but dialogs and messages
     std::optional<gen::BiomeMap> biomes;
-    bool asksForBiomes = true;         // whether there are any: found out when they are first shown
-    std::optional<world::Pose> spawn;  // once it was asked for
-    glm::dvec3 walkedFrom{0};          // where the player was in the last frame
+    bool asksForBiomes = true;         // biomes are not looked up yet
+    std::optional<world::Pose> spawn;  // found at the first request
+    glm::dvec3 walkedFrom{0};          // position in the last frame
 
     bool hasDialog() const { return palette.isOpen || placesDialog.isOpen; }
     void closeDialog() { palette.isOpen = placesDialog.isOpen = false; }

@@ -1,4 +1,4 @@
-// The window's icon: a block of grass, painted from the game's own textures.
+// Sets the window's icon: the side of a grass block, from the built-in textures.
 #pragma once
 
 #include "apps/terrane/window/window.h"

@@ -24,15 +24,15 @@ constexpr UiKey kUiKeys[] = {
     {Key::Tab, ImGuiKey_Tab},          {Key::Delete, ImGuiKey_Delete}, {Key::Left, ImGuiKey_LeftArrow},
     {Key::Right, ImGuiKey_RightArrow}, {Key::Up, ImGuiKey_UpArrow},    {Key::Down, ImGuiKey_DownArrow}};
 
-constexpr float kFontPixels = 13;  // of Dear ImGui's own font, for which all sizes here are meant
+constexpr float kFontPixels = 13;  // height of Dear ImGui's own font, the unit of all sizes
 
-// In Dear ImGui's array of keys; -1 for a key that it does not use.
+// The index in Dear ImGui's array of keys; -1 for a key that it does not use.
 int indexOf(Key key) {
     const auto* found = std::ranges::find(kUiKeys, key, &UiKey::key);
     return found == std::end(kUiKeys) ? -1 : ImGui::GetKeyIndex(found->imguiKey);
 }
 
-// Drawn again in the size that it has on the screen, so that it is sharp.
+// Rasterizes the font at its size on the screen, so that it is sharp.
 void setFont(float pixels) {
     addFont(pixels, fontFile());
     ImGui_ImplOpenGL3_DestroyFontsTexture();
@@ -49,7 +49,7 @@ float uiScale() {
 ImguiLayer::ImguiLayer(const Window& window) : window_(&window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // where its windows lie is ours to say
+    ImGui::GetIO().IniFilename = nullptr;  // windows are placed by the program
     ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
@@ -78,8 +78,8 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     ImGui::NewFrame();
 }
 
-// Dear ImGui 1.86 sees only which keys are down when a frame begins. A key that went down and up since the
-// last frame counts as down for one frame.
+// Dear ImGui 1.86 samples keys when a frame begins. A key that was pressed and released since the last frame
+// counts as down for one frame.
 void ImguiLayer::holdShortPresses() {
     bool(&isDown)[IM_ARRAYSIZE(ImGuiIO::KeysDown)] = ImGui::GetIO().KeysDown;
     for (const Key key : shortPresses_) isDown[indexOf(key)] = window_->keyDown(key);
@@ -92,8 +92,7 @@ void ImguiLayer::holdShortPresses() {
     }
 }
 
-// A key that opens a text field and is held repeats its letter, which is not meant for the field: nothing is
-// typed there before a key is pressed.
+// Drops repeated characters of the held key that opened a text field: input starts with the next key press.
 void ImguiLayer::dropRepeatedText() {
     ImGuiIO& io = ImGui::GetIO();
     if (window_->anyKeyPressed())
@@ -103,7 +102,7 @@ void ImguiLayer::dropRepeatedText() {
     if (!acceptsText_) io.InputQueueCharacters.resize(0);
 }
 
-// Enter chooses, as Space does. One that ends the typing chooses nothing, however long it is held.
+// Enter activates, as Space does. An Enter that ends text input activates nothing, however long it is held.
 void ImguiLayer::activateByEnter() {
     ImGuiIO& io = ImGui::GetIO();
     const bool isDown = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
@@ -113,8 +112,8 @@ void ImguiLayer::activateByEnter() {
     if (enter_ == Enter::Chooses) io.NavInputs[ImGuiNavInput_Activate] = 1;
 }
 
-// At first, and when the window has moved to a screen with another scale. Where the system counts in units
-// larger than pixels, Dear ImGui does too: only the rest of the scale is for it to do.
+// Applies a new scale: at the start, and when the window moves to a screen with another scale. On systems
+// whose units are larger than pixels Dear ImGui uses these units: it applies only the rest of the scale.
 void ImguiLayer::followScale() {
     const Scale scale{window_->contentScale(), window_->pixelsPerUnit(), textSize_};
     if (scale == scale_) return;

@@ -1,4 +1,4 @@
-// Dear ImGui over a window: set up once, one frame at a time. Used on the window's thread.
+// Runs Dear ImGui on a window, one frame at a time. Used on the window's thread.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@ namespace terrane::app {
 
 class ImguiLayer {
   public:
-    // `window` outlives this; made after the window's own callbacks.
+    // `window` outlives this. Created after the window's own callbacks, which Dear ImGui chains.
     explicit ImguiLayer(const Window& window);
     ~ImguiLayer();
     ImguiLayer(const ImguiLayer&) = delete;
     ImguiLayer& operator=(const ImguiLayer&) = delete;
 
-    // How much larger than usual texts and all around them are, from the next frame on.
+    // Scale of text and user interface from the next frame on; 1 is the designed size.
     void setTextSize(float factor) { textSize_ = factor; }
-    // While the cursor is captured the mouse belongs to the game; in a menu keys and gamepad choose.
+    // While the cursor is captured Dear ImGui ignores the mouse; in a menu, keys and gamepad navigate.
     void beginFrame(bool isCursorCaptured, bool isInMenu);
-    // Of the window in the units in which Dear ImGui and the cursor count: the pixels of its framebuffer on
-    // some systems, fewer on others. Since beginFrame().
+    // The window's size in units of Dear ImGui and the cursor: framebuffer pixels on some systems, fewer on
+    // others. Valid after beginFrame().
     glm::vec2 size() const;
     // Draws into the window's framebuffer.
     void endFrame();
 
-    bool takesMouse() const;  // the cursor is over something of the user interface
+    bool takesMouse() const;  // the cursor is over the user interface
     bool takesKeys() const;   // a text is being typed
     bool hasPopup() const;    // a list or menu is open
-    void endTyping();         // closes what is open, too
+    void endTyping();         // also closes popups
 
   private:
     struct Scale {
@@ -47,12 +47,12 @@ class ImguiLayer {
 
     float textSize_ = 1;
     Enter enter_ = Enter::Up;
-    bool acceptsText_ = false;  // a key was pressed since typing began
+    bool acceptsText_ = false;  // a key was pressed in the text field
     Scale scale_;
-    std::vector<Key> shortPresses_;  // down and up within the last frame
+    std::vector<Key> shortPresses_;  // pressed and released within the last frame
 };
 
-// How much larger than designed the user interface is drawn, in Dear ImGui's units. During a frame.
+// The scale of the user interface in Dear ImGui's units, 1 as designed. Call during a frame.
 float uiScale();
 
 }  // namespace terrane::app

@@ -1,5 +1,5 @@
-// Keys, mouse buttons and events as the window reports them, free of the window library's types. Read by the
-// program's frame loop.
+// Keys, mouse buttons and events of the window, without types of the window library. Read by the program's
+// frame loop.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 namespace terrane::app {
 
 // clang-format off
-// Letters by their place on a US keyboard, so that WASD stays a square on every layout.
+// Letters are positions on a US keyboard, so that WASD stays a square on every layout.
 enum class Key : std::uint8_t {
     A, B, C, D, E, F, G, H, I, J, K, L, M, N, O, P, Q, R, S, T, U, V, W, X, Y, Z,
     Digit0, Digit1, Digit2, Digit3, Digit4, Digit5, Digit6, Digit7, Digit8, Digit9,
@@ -28,11 +28,11 @@ struct InputEvent {
     MouseButton button = MouseButton::Left;  // of the button events
     double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
     double y = 0.0;  // the same, wheel away from the player, cursor down
-    // Keys that were held with a key or button, however short: keyDown() may not have seen them.
+    // Modifiers held with a key or button, however briefly; keyDown() may have missed them.
     bool withShift = false, withControl = false;
 };
 
-// Sticks are -1…1, right and up; within a small circle around the middle they are 0.
+// Sticks are -1…1, right and up; 0 within the dead zone.
 struct Gamepad {
     float leftX = 0, leftY = 0, rightX = 0, rightY = 0;
     bool south = false, east = false, west = false, north = false;

@@ -37,7 +37,7 @@ void JoinDialog::drawList(const Texts& tr) {
     }
 }
 
-// True where Enter ends the typing.
+// True if Enter ends text input.
 bool JoinDialog::drawFields(const Texts& tr) {
     ImGui::PushItemWidth(-1);
     dimText(tr("Server (HOST or HOST:PORT)"));

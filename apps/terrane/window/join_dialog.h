@@ -1,5 +1,4 @@
-// The title's page to join a server: the servers that one was on, and the fields for another. Immediate mode:
-// draws and changes.
+// The title screen's page to join a server: known servers, and fields for another. Immediate mode.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +17,12 @@ class JoinDialog {
   public:
     explicit JoinDialog(std::filesystem::path listFile) : listFile_(std::move(listFile)) {}
 
-    // Reads the list; the fields have the last server.
+    // Reads the list; the fields start with the last server.
     void open();
 
     enum class Outcome : std::uint8_t { None, Join, Back };
     Outcome draw(const Screen& screen, const Texts& tr);
-    // What is to be joined: a server and a name that can be.
+    // The server and name to join, checked.
     const RemoteOptions& options() const { return options_; }
 
   private:
@@ -35,7 +34,7 @@ class JoinDialog {
     std::filesystem::path listFile_;
     std::vector<PlayedServer> servers_;
     RemoteOptions options_;
-    std::string problem_;  // of what was typed
+    std::string problem_;  // error in the fields
 };
 
 }  // namespace terrane::app

@@ -20,7 +20,7 @@ struct JoinWindow {
     const Texts& tr;
 };
 
-// Draws frames over a plain background until `draw` returns true. False where the player leaves.
+// Draws frames over a plain background until `draw` returns true. False if the player cancels.
 bool drawUntil(const JoinWindow& join, const std::function<bool(const Screen&)>& draw) {
     Window& window = join.window;
     ImguiLayer imgui(window);
@@ -41,7 +41,7 @@ bool drawUntil(const JoinWindow& join, const std::function<bool(const Screen&)>&
     }
 }
 
-// Until the player is in its world (true), gives up (false), or is refused.
+// Waits until the player has joined (true) or cancels (false); fails if the server refuses.
 base::Result<bool> waitForServer(const JoinWindow& join, RemotePlay& play) {
     using Stage = net::ClientLink::Stage;
     const std::string message = fmt::format(fmt::runtime(join.tr("joining {}")), play.address());
@@ -76,7 +76,7 @@ base::Result<std::unique_ptr<RemotePlay>> joinServer(Window& window, const base:
         const auto joined = waitForServer(join, **play);
         if (joined && *joined) return play;
         if (joined) return nullptr;
-        // The player decides about packs that are not here, and joins once more.
+        // The player decides about the missing packs; then joins again.
         if ((*play)->missingPacks().empty()) return tl::unexpected(joined.error());
         if (!acceptsPacks(join, **play)) return nullptr;
         for (const net::PackOffer& pack : (*play)->missingPacks()) options.acceptedPacks.push_back(pack.hash);

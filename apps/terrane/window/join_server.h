@@ -1,5 +1,5 @@
-// Joining a server in the window: the wait, and the question about content packs that the server has and the
-// client lacks. Used on the thread of the OpenGL context.
+// Joins a server from the window: waits, and asks about content packs that the client lacks. Used on the
+// thread of the OpenGL context.
 #pragma once
 
 #include <filesystem>
@@ -12,8 +12,8 @@
 
 namespace terrane::app {
 
-// Returns once the player is in the server's world. Null where the player leaves before that; an error where
-// the server cannot be reached or refuses. `language` as in settings; `dataFolder` keeps the cache of packs.
+// Returns once the player is in the server's world. Null if the player cancels; fails if the server cannot be
+// reached or refuses. `language` as in settings; `dataFolder` has the player's key and the known servers.
 base::Result<std::unique_ptr<RemotePlay>> joinServer(Window& window, const base::StopSignals& signals,
                                                      const std::string& language, RemoteOptions options,
                                                      const std::filesystem::path& dataFolder);

@@ -138,10 +138,6 @@ std::optional<Action> KeyBindings::bind(Action action, Key key) {
     return loser;
 }
 
-void KeyBindings::reset(Action action) {
-    bind(action, rowOf(action).key);
-}
-
 bool KeyBindings::isUsual() const {
     return *this == KeyBindings();
 }

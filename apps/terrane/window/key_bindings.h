@@ -1,5 +1,5 @@
-// What each key does: a table of actions with their usual keys, and the keys that a player chose instead.
-// Pure values, for any thread. A new action is a line in Action and one in actionTable().
+// Key bindings: a table of actions with default keys, and the keys that the player chose instead. Plain
+// values, for any thread. A new action needs a line in Action and one in actionTable().
 #pragma once
 
 #include <array>
@@ -51,34 +51,33 @@ inline constexpr std::size_t kActionCount = static_cast<std::size_t>(Action::kCo
 struct ActionRow {
     Action action;
     std::string_view name;  // in settings
-    const char* label;      // as a player reads it, in English
-    Key key;                // unless the player chose another
-    // Does the same where no other action has it.
+    const char* label;      // for the player, in English
+    Key key;                // default
+    // A second default key, active if no other action is bound to it.
     std::optional<Key> second = {};
-    bool opensSomething = false;  // works in menus, too
+    bool opensSomething = false;  // works in menus too
 };
 std::span<const ActionRow> actionTable();  // in the order of Action
 const ActionRow& rowOf(Action action);
 
-// "A", "F5", "Space"; every key has one name.
+// "A", "F5", "Space"; unique for every key.
 std::string_view nameOf(Key key);
-std::optional<Key> keyNamed(std::string_view name);  // in any case
-// Escape closes what is open, and 1 to 9 choose a slot: they are not for actions.
+std::optional<Key> keyNamed(std::string_view name);  // ignores case
+// False for keys with a fixed use: Escape, B (selection tool) and 1 to 9.
 bool canBeBound(Key key);
 
 class KeyBindings {
   public:
-    KeyBindings();  // the usual keys
+    KeyBindings();  // default keys
 
     std::optional<Key> keyOf(Action action) const;
     std::optional<Action> actionOf(Key key) const;
-    // All keys that do it; the second one only where it is free.
+    // All keys of an action; the second key only if no action is bound to it.
     std::vector<Key> keysOf(Action action) const;
 
-    // Takes the key from another action that has it, which is told.
+    // Binds the key. Returns the action that lost it, if any.
     std::optional<Action> bind(Action action, Key key);
     void unbind(Action action) { keys_[static_cast<std::size_t>(action)].reset(); }
-    void reset(Action action);  // as bind() with the usual key
     bool isUsual() const;
 
     bool operator==(const KeyBindings&) const = default;
@@ -87,9 +86,9 @@ class KeyBindings {
     std::array<std::optional<Key>, kActionCount> keys_;
 };
 
-// "jump=F,run=none": what is not as usual; empty where all is.
+// "jump=F,run=none": differences from the defaults; empty if there are none.
 std::string textOf(const KeyBindings& bindings);
-// An error that names the word that is wrong.
+// Errors name the wrong word.
 [[nodiscard]] base::Result<KeyBindings> keyBindingsFrom(std::string_view text);
 
 }  // namespace terrane::app

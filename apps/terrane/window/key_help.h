@@ -1,4 +1,4 @@
-// The keys, as the help of `terrane play` and the window tell them.
+// The default keys as shown by `terrane play --help` and in the window.
 #pragma once
 
 namespace terrane::app {

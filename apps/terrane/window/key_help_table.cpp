@@ -10,7 +10,7 @@
 
 namespace terrane::app {
 
-// A line is "  keys   action", with at least two spaces between.
+// A line is "  keys   action", with at least two spaces between them.
 std::vector<KeyHelpLine> keyHelpLines() {
     std::vector<KeyHelpLine> lines;
     for (std::string_view rest = kKeyHelp; !rest.empty();) {

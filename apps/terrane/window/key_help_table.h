@@ -1,4 +1,4 @@
-// The keys of key_help.h in two columns, in the player's language.
+// Draws the keys of key_help.h in two columns, in the player's language.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct KeyHelpLine {
 };
 
 std::vector<KeyHelpLine> keyHelpLines();  // of kKeyHelp
-// Into the window that Dear ImGui is at; `width`: at which lines break.
+// Draws into the current Dear ImGui window; lines wrap at `width`.
 void drawKeyHelp(float width, const Texts& tr);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// What a client knows of a server's world, as text: tools/soak.py compares it with the world itself.
+// Writes a client's knowledge of a server's world as text: tools/soak.py compares it with the world.
 #pragma once
 
 #include <filesystem>
@@ -9,8 +9,8 @@
 
 namespace terrane::app {
 
-// Of the chunks at most `reach` chunks away from that of `pose`: a line "center X Y" with that chunk, then
-// "X Y Z NAME" for each block that is not as the generator made it. Replaces `file`.
+// Covers chunks up to `reach` chunks from that of `pose`: a line "center X Y" with that chunk, then "X Y Z
+// NAME" for each block that differs from the generated one. Overwrites `file`.
 [[nodiscard]] base::Result<void> writeKnownEdits(const std::filesystem::path& file, net::RemoteStore& store,
                                                  const world::BlockRegistry& blocks, const world::Pose& pose,
                                                  int reach);

@@ -5,13 +5,13 @@
 namespace terrane::app {
 namespace {
 
-constexpr double kBeforePoint = 1.0 / 128;  // what the point lies on does not hide it
+constexpr double kBeforePoint = 1.0 / 128;  // the surface that holds the point does not hide it
 
 bool hidesWhatIsBehind(const world::BlockRegistry& blocks, const world::RayHit& hit, world::BlockId id) {
     const world::BlockType& type = blocks.type(id);
     if (type.shape == world::Shape::Model) return true;
     if (type.shape != world::Shape::Cube) return false;
-    const bool isClear = type.opacity == 0;  // as glass whose texture has holes for its panes
+    const bool isClear = type.opacity == 0;  // such as glass with transparent panes
     return !isClear && blocks.materials()[type.material[hit.face]].alpha != world::AlphaMode::Blend;
 }
 
@@ -20,7 +20,7 @@ bool hidesWhatIsBehind(const world::BlockRegistry& blocks, const world::RayHit& 
 bool isInSight(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& eye,
                const glm::dvec3& point, std::optional<world::BlockPos> own) {
     constexpr int kMostPassed = 24;
-    constexpr double kStep = 0.25;  // out of a cell that is passed in some steps
+    constexpr double kStep = 0.25;  // blocks; a clear cell is left in several steps
     const glm::dvec3 way = point - eye, ahead = glm::normalize(way);
     double from = 0, left = glm::length(way) - kBeforePoint;
     for (int passed = 0; passed < kMostPassed && left > 0; ++passed) {

@@ -1,5 +1,4 @@
-// Whether blocks hide a point from the camera, for what is drawn over the image. On the thread that owns the
-// world.
+// Tests whether blocks hide a point from the camera, for overlays. On the thread that owns the world.
 #pragma once
 
 #include <optional>
@@ -8,7 +7,7 @@
 
 namespace terrane::app {
 
-// Blocks of glass, liquids and plants hide nothing, nor does the block `own`.
+// Glass, liquids and plants hide nothing, nor does the block `own`.
 bool isInSight(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& eye,
                const glm::dvec3& point, std::optional<world::BlockPos> own = std::nullopt);
 

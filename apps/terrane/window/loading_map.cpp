@@ -21,7 +21,7 @@ ImU32 colorOf(stream::ChunkStage stage) {
     return 0;
 }
 
-// Shades of green, darker the coarser.
+// Shades of green, darker for coarser levels.
 ImU32 colorOf(int level) {
     const float share = 1.0f / (1.0f + 0.25f * static_cast<float>(level));
     return IM_COL32(static_cast<int>(70 * share), static_cast<int>(180 * share), static_cast<int>(80 * share),
@@ -39,7 +39,7 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
     const float left = (screen.width - side) / 2, top = (screen.height - side) / 2;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
-    // A square of chunks of level 0. North, -y, is up and east, -x, to the right, as on all maps.
+    // A square of chunks of level 0. As on all maps north, -y, is up, and east, -x, to the right.
     const auto square = [&](world::ChunkPos first, int width, ImU32 color) {
         const auto at = [&](int chunks) {
             return static_cast<float>(std::clamp(chunks, 0, 2 * reach + 1)) * cell;

@@ -1,5 +1,4 @@
-// A map of the chunks around the camera and how far each is, and of the tiles beyond them: for what nobody
-// sees otherwise.
+// Debug view: a map of the loading state of the chunks around the camera, and of the far tiles beyond.
 #pragma once
 
 #include "apps/terrane/window/overlay.h"

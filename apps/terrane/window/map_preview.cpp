@@ -34,7 +34,7 @@ struct MapPreview::Work {
     }
 
     void run();
-    // A request is known by its number: the same world may be asked for again while another is drawn.
+    // Requests have numbers, since the same world may be requested again while another is drawn.
     void draw(const World& world, std::uint64_t request);
     bool isOutdated(std::uint64_t request) {
         const std::lock_guard lock(mutex);
@@ -51,14 +51,14 @@ struct MapPreview::Work {
     const pack::Content& content;
     std::mutex mutex;
     std::condition_variable changed;
-    // Under the mutex.
+    // Guarded by the mutex.
     std::optional<World> wanted;
     std::uint64_t newest = 0;          // request
-    std::optional<base::Image> drawn;  // waits to be taken
+    std::optional<base::Image> drawn;  // not yet shown
     bool isDone = false, isEnding = false;
     std::string problem;
     base::JobSystem jobs{1};
-    std::thread thread;  // begins when all else is there
+    std::thread thread;  // last: starts after all members
 };
 
 void MapPreview::Work::run() {

@@ -1,5 +1,5 @@
-// A map of a world that is not made yet, drawn on a thread of its own: coarse at first, then finer. Asking
-// for another world ends the work on the one before. Used on the thread of the OpenGL context.
+// Draws a map of a new world on its own thread, coarse at first, then finer. A request for another world
+// cancels the work on the last one. Used on the thread of the OpenGL context.
 #pragma once
 
 #include <memory>
@@ -12,7 +12,7 @@ namespace terrane::app {
 
 class MapPreview {
   public:
-    static constexpr int kPixels = 256;  // along a side, of 16 blocks each
+    static constexpr int kPixels = 256;  // per side, 16 blocks each
 
     struct World {
         std::string generator;
@@ -21,13 +21,13 @@ class MapPreview {
     };
 
     explicit MapPreview(const pack::Content& content);  // outlives this
-    ~MapPreview();                                      // ends the work, within the time of a row of chunks
+    ~MapPreview();                                      // waits for a row of chunks
     MapPreview(const MapPreview&) = delete;
     MapPreview& operator=(const MapPreview&) = delete;
 
-    // Each frame. Takes over what the thread has drawn.
+    // Call each frame with the world to show. Uploads what the thread has drawn.
     void show(const World& world);
-    // The OpenGL texture, 0 before there is one; its first row is the northern one.
+    // The OpenGL texture, 0 before the first one; the first row is the northern one.
     unsigned image() const { return texture_ ? texture_->id() : 0; }
     bool isComplete() const { return isComplete_; }
     const std::string& problem() const { return problem_; }

@@ -14,7 +14,7 @@ namespace terrane::app {
 namespace {
 
 constexpr double kOverHead = world::kCharacterHeight - world::kEyeHeight + 0.15;  // blocks over the eyes
-// Blocks: nearer names are in full size, farther ones shrink to the least at kNameDistance.
+// Names up to kFullSize blocks away have full size; the size falls to kLeastSize at kNameDistance.
 constexpr double kFullSize = 6;
 constexpr float kLeastSize = 0.6f;
 constexpr double kFadesFrom = 36;  // blocks

@@ -1,5 +1,5 @@
-// The names of other players over their heads. Immediate mode: drawn each frame, on the thread that owns the
-// world.
+// Draws names of other players over their heads. Immediate mode: drawn each frame, on the thread that owns
+// the world.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace terrane::app {
 
-constexpr double kNameDistance = 48;  // blocks from which a name is seen
+constexpr double kNameDistance = 48;  // blocks at which names disappear
 constexpr std::size_t kMostNames = 64;
 
 struct NameTag {
@@ -30,8 +30,8 @@ struct ShownName {
     float alpha = 1;
 };
 
-// Those before the camera and near enough whose head no wall hides, at most kMostNames; the nearest is last,
-// to be drawn over the others. They point into `names`.
+// The names to draw: in front of the camera, near, and with the head in sight. The nearest kMostNames,
+// farthest first, so that near names are drawn over far ones. The result points into `names`.
 std::vector<ShownName> shownNames(const Screen& screen, const render::Camera& camera,
                                   std::span<const NameTag> names, const NamesView& view);
 

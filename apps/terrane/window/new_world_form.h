@@ -1,4 +1,4 @@
-// What a player types to make a world, and what is made of it. Pure; any thread.
+// The form for a new world: typed values and the world made from them. Pure; any thread.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace terrane::app {
 
-// A world that is to be played: an existing file, or one to be made there.
+// A world to play: an existing file, or a new one.
 struct ChosenWorld {
     std::filesystem::path file;
-    std::optional<WrittenSeed> seed;  // of a new world
+    std::optional<WrittenSeed> seed;  // for a new world
     std::optional<std::string> generator;
 };
 
 struct NewWorldForm {
     std::string name;
-    std::string seed;  // empty: the random one
+    std::string seed;  // empty: randomSeed
     std::string generator = WorldOptions::kDefaultGenerator;
     std::uint64_t randomSeed = 0;
 
@@ -29,10 +29,10 @@ struct NewWorldForm {
 // A form with the first free name of "World", "World 2", ….
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
 
-// Spaces around a seed are a slip, not a part of it.
+// Ignores spaces around the seed.
 [[nodiscard]] base::Result<WrittenSeed> seedOf(const NewWorldForm& form);
 
-// An error, one line for the player, where no world can be made so.
+// Errors are one line for the player.
 [[nodiscard]] base::Result<ChosenWorld> worldOf(const NewWorldForm& form,
                                                 const std::filesystem::path& folder);
 

@@ -1,4 +1,4 @@
-// What the window tells a player for some seconds: a message, and the list of keys. Plain state.
+// Temporary notices in the window: a message, and the list of keys. Plain state.
 #pragma once
 
 #include <string>
@@ -13,8 +13,8 @@ struct Notices {
     static constexpr double kMessageSeconds = 3, kHelpSeconds = 20;
 
     std::string message;
-    double messageSeconds = 0;  // that are left
-    double helpSeconds = 12;    // of the list of keys; who begins sees it for a while
+    double messageSeconds = 0;  // remaining
+    double helpSeconds = 12;    // remaining for the list of keys; shown at the start
 
     void say(std::string text, double seconds = kMessageSeconds) {
         message = std::move(text);

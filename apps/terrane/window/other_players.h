@@ -1,4 +1,4 @@
-// The other players of a server as figures with names. Plain bookkeeping, once a frame.
+// The other players of a server as figures with names. Updated once per frame.
 #pragma once
 
 #include <chrono>
@@ -13,7 +13,7 @@ namespace terrane::app {
 
 struct OtherPlayers {
     std::vector<world::Figure> figures;
-    std::vector<NameTag> names;  // of the same
+    std::vector<NameTag> names;  // of the figures
 
     struct Known {
         game::FigureMotion motion;

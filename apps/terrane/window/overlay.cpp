@@ -30,7 +30,7 @@ ImU32 withAlpha(int red, int green, int blue, float alpha) {
 
 using Corners = std::array<std::optional<glm::vec2>, 4>;
 
-// Where a point of the world is on the screen; none behind the camera.
+// Projects a point of the world to the screen; none behind the camera.
 std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& camera, glm::dvec3 point) {
     return ScreenProjection({screen.width, screen.height}, camera).at(point);
 }
@@ -65,7 +65,7 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
                 const TargetView& view) {
     const auto& [world, blocks, isHighContrast] = view;
     const world::BlockType& type = blocks.type(world.block(target.block));
-    constexpr double kGrow = 1.0 / 256;  // outside of the block's own faces
+    constexpr double kGrow = 1.0 / 256;  // outside of the block's faces, against z-fighting
     const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
     const world::Box box = world::selectionBounds(type, world.blockState(target.block));
     const glm::dvec3 min = corner + glm::dvec3(box.min) - kGrow;
@@ -186,7 +186,7 @@ void drawHint(const Screen& screen, float share, const Texts& tr) {
 
 void drawMessage(const Screen& screen, const std::string& message, float share) {
     const ImVec2 size = ImGui::CalcTextSize(message.c_str());
-    // Long messages begin where they can be read.
+    // Long messages start at the left edge, so that the beginning is visible.
     const ImVec2 at(std::max(0.0f, (screen.width - size.x) / 2), screen.height * 0.75f);
     const float margin = 6 * uiScale();
     ImDrawList& draw = *ImGui::GetForegroundDrawList();

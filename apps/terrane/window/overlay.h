@@ -1,4 +1,4 @@
-// What is drawn over the image: crosshair, what is looked at, statistics, hints.
+// Overlays on the image: crosshair, targeted block, statistics, hints.
 #pragma once
 
 #include <optional>
@@ -23,25 +23,24 @@ struct Screen {
 struct TargetView {
     const world::World& world;
     const world::BlockRegistry& blocks;
-    bool isHighContrast = false;  // in black, white and orange, which color-blind eyes tell apart
+    bool isHighContrast = false;  // black, white and orange, for color-blind players
 };
-// The edges of the block that is looked at, of its faces that nothing covers, and the face under the
-// crosshair.
+// Draws the edges of the targeted block's uncovered faces, and the face under the crosshair.
 void drawTarget(const Screen& screen, const render::Camera& camera, const world::RayHit& target,
                 const TargetView& view);
-// Straight over a camera, so high that all within the view distance (chunks) is seen.
+// A camera straight above, high enough to see everything within the view distance (chunks).
 render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
-// What the camera sees, up to `farBlocks`, and what its nearest shadow map covers, if there is a light that
-// casts shadows, as seen from above.
+// Draws the camera's frustum up to `farBlocks` and, with a shadow-casting light, the box of the nearest
+// shadow map, as seen from above.
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
                       float farBlocks, const std::optional<glm::vec3>& shadowLight);
 void drawCrosshair(const Screen& screen);
 
-// Bytes by owner. Finding them goes through all chunks.
+// Bytes by owner. Computing them visits all chunks.
 struct MemoryStatistics {
     std::size_t blocks = 0, light = 0, quads = 0, lightOnGpu = 0;
-    std::size_t onGpu = 0, gpuBudget = 0;  // all, with what is free in buffers
-    std::size_t resident = 0;              // of the process; 0 where the system does not tell
+    std::size_t onGpu = 0, gpuBudget = 0;  // total, with free space in buffers
+    std::size_t resident = 0;              // of the process; 0 if unknown
 };
 
 struct Statistics {
@@ -56,14 +55,14 @@ struct Statistics {
     std::vector<stream::TaskTime> tasks;
     const std::vector<gpu::GpuTiming>* passes = nullptr;
 };
-// `width`: of the column at the left in which they are written.
+// `width`: of the text column at the left.
 void drawStatistics(const Statistics& statistics, float width);
 
-// While chunks in view are missing.
+// Shown while chunks in view are missing.
 void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr);
-// The keys, for the first moments. `share`: 1 in full, 0 gone.
+// The list of keys, shown at the start. `share`: opacity, 0 to 1.
 void drawHint(const Screen& screen, float share, const Texts& tr);
-// A line that tells what just happened.
+// A line about the last event. `share`: opacity, 0 to 1.
 void drawMessage(const Screen& screen, const std::string& message, float share);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// Asks a player whether a server may send the content packs of its world. Immediate mode.
+// Asks the player whether a server may send the content packs of its world. Immediate mode.
 #pragma once
 
 #include <span>

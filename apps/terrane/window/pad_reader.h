@@ -1,4 +1,4 @@
-// What a gamepad's buttons did since the frame before: the pad itself tells only which are down.
+// Detects presses and releases of gamepad buttons since the last frame, from their current state.
 #pragma once
 
 #include <optional>
@@ -12,7 +12,7 @@ class PadReader {
   public:
     using Button = bool Gamepad::*;
 
-    // Once a frame. Without a pad nothing is down: what was, is released.
+    // Call once per frame. Without a gamepad all buttons count as released.
     void read(const std::optional<Gamepad>& pad) {
         before_ = now_;
         now_ = pad.value_or(Gamepad());
@@ -20,7 +20,7 @@ class PadReader {
     const Gamepad& now() const { return now_; }
     bool isPressed(Button button) const { return now_.*button && !(before_.*button); }
     bool isReleased(Button button) const { return !(now_.*button) && before_.*button; }
-    // Leaves alone what the mouse does with the same button.
+    // Presses and releases `held` with the button; the mouse may hold it as well.
     void drive(game::HeldButton& held, Button button) const {
         if (isPressed(button)) held.press();
         if (isReleased(button)) held.release();

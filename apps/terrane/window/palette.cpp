@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kSide = 44, kGap = 4;  // of a block's square, before scaling
 
-// Groups of the library's own blocks have names; others are shown as they are.
+// Groups of built-in blocks have translated names; others are shown as they are.
 std::string shownGroup(const std::string& group, const Texts& tr) {
     constexpr std::pair<std::string_view, const char*> kNames[] = {
         {"ground", trLater("Ground")}, {"plants", trLater("Plants")},       {"wood", trLater("Wood")},
@@ -24,7 +24,7 @@ std::string shownGroup(const std::string& group, const Texts& tr) {
     return group;
 }
 
-// Digits put the block under the cursor into a slot; no name has them.
+// Filters out digits: they assign the block under the cursor to a slot, and no name has digits.
 int withoutDigits(ImGuiInputTextCallbackData* data) {
     return data->EventChar >= '0' && data->EventChar <= '9' ? 1 : 0;
 }

@@ -1,4 +1,4 @@
-// All blocks to choose from, by group and by search. Immediate mode: drawn each frame.
+// The dialog of all blocks, by group and with search. Immediate mode: drawn each frame.
 #pragma once
 
 #include <array>
@@ -15,13 +15,13 @@ namespace terrane::app {
 struct PaletteState {
     bool isOpen = false;
     std::array<char, 48> search{};
-    std::size_t group = 0;                   // index into game::paletteGroups(), behind "all"
-    world::BlockId pointedAt = world::kAir;  // the block under the cursor, or chosen with the arrow keys
+    std::size_t group = 0;                   // 0: all; else 1 + index into game::paletteGroups()
+    world::BlockId pointedAt = world::kAir;  // under the cursor, or selected with arrow keys
 
     void open() { *this = {.isOpen = true, .search = {}, .group = group}; }
 };
 
-// Nothing until a block is clicked or chosen with Enter.
+// None until a block is clicked or chosen with Enter.
 std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& state,
                                           const world::BlockRegistry& blocks, const BlockFace& face,
                                           const Texts& tr);

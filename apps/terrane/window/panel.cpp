@@ -10,10 +10,10 @@
 namespace terrane::app {
 namespace {
 
-// With Ctrl and a click a number can be typed: it too stays in the range.
+// Clamps numbers typed after a Ctrl+click too.
 constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
 
-// A combo box over `count` names; true when another one was chosen.
+// A combo box of `count` names; true if another one was chosen.
 template <class NameOf>
 bool combo(const char* label, int& chosen, int count, NameOf nameOf) {
     const std::string current(chosen >= 0 && chosen < count ? nameOf(chosen) : "custom");
@@ -58,7 +58,7 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
     settings.graphics = render::withPreset(settings.graphics, settings.preset, isSoftwareRenderer);
 }
 
-// A switch where a row is off or on, else a choice.
+// A checkbox for rows with values off and on, else a combo box.
 void drawRow(const render::GraphicsRow& row, render::GraphicsSettings& graphics) {
     const std::string label(row.name);
     int value = row.get(graphics);
@@ -81,7 +81,7 @@ void drawView(PlaySettings& s) {
     ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
 }
 
-// Taken over with Enter.
+// Applied with Enter.
 void drawResourcePack(PlaySettings& s) {
     std::array<char, 512> folder{};
     s.resourcePack.copy(folder.data(), folder.size() - 1);

@@ -1,4 +1,4 @@
-// The panel on the right side: every setting, changed while one plays. Immediate mode: draws and changes.
+// The developer panel on the right side, with every setting. Immediate mode: draws and changes.
 #pragma once
 
 #include "apps/terrane/window/play_settings.h"
@@ -11,7 +11,7 @@ struct PanelInput {
     float width = 0, height = 0;  // of the window
 };
 
-float panelWidth();  // at the right of the screen; during a frame
+float panelWidth();  // call during a frame
 void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input);
 
 }  // namespace terrane::app

@@ -1,4 +1,4 @@
-// Splinters of broken blocks on the screen.
+// Draws the particles of broken blocks.
 #pragma once
 
 #include "apps/terrane/window/overlay.h"
@@ -7,7 +7,7 @@
 
 namespace terrane::app {
 
-// As squares in the color of their block. `light`: what falls on them, 0…1.
+// Draws squares in the color of their block. `light`: on them, 0…1.
 void drawParticles(const Screen& screen, const render::Camera& camera, const view::BlockParticles& particles,
                    const world::TopColors& colors, const glm::vec3& light);
 

@@ -1,4 +1,4 @@
-// The menu over a game that stands still. Immediate mode: drawn each frame.
+// The menu of the paused game. Immediate mode: drawn each frame.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@ namespace terrane::app {
 
 enum class PauseChoice : std::uint8_t { Resume, Settings, Help, ToTitle, Quit };
 
-// Nothing until a button is clicked, or chosen with the arrow keys and Enter.
+// None until a button is clicked, or chosen with the arrow keys and Enter.
 std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr);
 
 }  // namespace terrane::app

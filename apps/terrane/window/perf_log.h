@@ -1,4 +1,4 @@
-// Statistics of each frame as a CSV file, for plots: a line a frame, a column a value.
+// Writes statistics of each frame to a CSV file, for plots: a line per frame, a column per value.
 #pragma once
 
 #include <filesystem>
@@ -13,9 +13,9 @@ class PerfLog {
   public:
     static base::Result<PerfLog> create(const std::filesystem::path& file);
 
-    // `seconds`: since the start; `frameSeconds`: of the frame that the statistics are of.
+    // `seconds`: since the start; `frameSeconds`: duration of the frame.
     void add(double seconds, double frameSeconds, const Statistics& statistics);
-    // An error where something could not be written.
+    // Fails if something could not be written.
     base::Result<void> finish();
 
   private:
@@ -23,7 +23,7 @@ class PerfLog {
 
     std::filesystem::path path_;
     std::ofstream out_;
-    std::vector<stream::TaskTime> tasks_;  // as of the frame before
+    std::vector<stream::TaskTime> tasks_;  // as of the last frame
 };
 
 }  // namespace terrane::app

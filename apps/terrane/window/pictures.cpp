@@ -8,7 +8,7 @@
 namespace terrane::app {
 namespace {
 
-// The first name of its kind that is free in the folder.
+// The first free name of the form terrane-0001.png.
 std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
     for (int number = 1;; ++number) {
         const std::filesystem::path path = folder / fmt::format("terrane-{:04}.png", number);
@@ -21,7 +21,7 @@ std::filesystem::path freeScreenshot(const std::filesystem::path& folder) {
 
 base::Result<std::filesystem::path> writeScreenshot(const std::filesystem::path& folder,
                                                     const base::Image& image) {
-    std::error_code ignored;  // writing tells
+    std::error_code ignored;  // writePng() reports errors
     std::filesystem::create_directories(folder, ignored);
     const std::filesystem::path file = freeScreenshot(folder);
     if (const auto done = base::writePng(file, image); !done) return tl::unexpected(done.error());

@@ -1,4 +1,4 @@
-// Pictures that the window writes: screenshots, and the world's own for the list of worlds.
+// Writes images of the window: screenshots, and the world's thumbnail for the list of worlds.
 #pragma once
 
 #include <filesystem>
@@ -8,11 +8,11 @@
 
 namespace terrane::app {
 
-// Into a new file of the folder, which is made with the first one; its path.
+// Writes a new file in the folder, creating the folder if needed; returns its path.
 base::Result<std::filesystem::path> writeScreenshot(const std::filesystem::path& folder,
                                                     const base::Image& image);
 
-// Over the one before. A picture that cannot be written is no loss: a line in the log.
+// Overwrites the last thumbnail. A failure is only logged.
 void writeThumbnail(const std::filesystem::path& file, const base::Image& image);
 
 }  // namespace terrane::app

@@ -11,7 +11,7 @@
 namespace terrane::app {
 namespace {
 
-// As gen::continents::biomeName() has them, so that they are translated.
+// The names of gen::continents::biomeName(), listed here for translation.
 [[maybe_unused]] constexpr const char* kBiomes[] = {
     trLater("ocean"),       trLater("reef"),         trLater("beach"),      trLater("meadow"),
     trLater("oak forest"),  trLater("birch forest"), trLater("old forest"), trLater("taiga"),

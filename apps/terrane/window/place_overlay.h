@@ -1,4 +1,4 @@
-// Where the player is and what it looks at, in words: at the left of the image. Immediate mode.
+// Text about the position and the targeted block, at the left of the image. Immediate mode.
 #pragma once
 
 #include <string>
@@ -10,9 +10,9 @@ namespace terrane::app {
 
 struct PlaceFacts {
     world::Pose pose;
-    std::string biome;   // empty: the generator has none
+    std::string biome;   // empty: none
     std::string world;   // generator and seed
-    std::string target;  // what is looked at; empty: nothing
+    std::string target;  // targeted block; empty: none
     double timeDay = 0;  // 0 to 1
     double framesASecond = 0;
 };

@@ -1,5 +1,5 @@
-// The dialog of a world's named places: names the place where the player is, goes to others, removes them.
-// Immediate mode: drawn each frame.
+// The dialog of a world's named places: names the current position, goes to places, removes them. Immediate
+// mode: drawn each frame.
 #pragma once
 
 #include <array>
@@ -20,11 +20,11 @@ struct PlacesState {
 };
 
 struct PlacesAnswer {
-    bool isChanged = false;           // `places` is to be saved
-    std::optional<world::Pose> goTo;  // where the player goes
+    bool isChanged = false;           // `places` must be saved
+    std::optional<world::Pose> goTo;  // place to go to
 };
 
-// `here`: where the player is. Changes `places`.
+// `here`: the player's pose. Changes `places`.
 PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<game::Place>& places,
                         const world::Pose& here, const Texts& tr);
 

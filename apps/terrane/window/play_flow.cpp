@@ -23,7 +23,7 @@
 namespace terrane::app {
 namespace {
 
-// Empty where no variable names a home: bookmarks and screenshots are then kept in the working directory.
+// Empty if no variable names a home: bookmarks and screenshots then go to the working directory.
 std::filesystem::path dataFolder() {
     return store::dataFolder(store::savePlaces()).value_or(std::filesystem::path());
 }
@@ -37,7 +37,7 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
     return settings;
 }
 
-// What the player sees first: a bookmark, where the save was left, or a pleasant place.
+// The first pose: a bookmark, the saved pose, or a spawn point.
 base::Result<world::Pose> startOf(const PlayOptions& options, const game::BookmarkFiles& files,
                                   const game::SavedPlayer& saved, game::Session& session) {
     if (options.bookmark) {
@@ -52,8 +52,8 @@ base::Result<world::Pose> startOf(const PlayOptions& options, const game::Bookma
     return saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
 }
 
-// Worlds are saved unless the player chooses otherwise. One without a name has that of what makes it, so that
-// it fits whenever the same is asked for.
+// Worlds are saved unless the player chooses otherwise. A world without a name is named after its generator
+// and seed, so that the same options open it again.
 base::Result<OpenedWorld> openWorld(PlayOptions& options) {
     using store::WorldAccess;
     if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
@@ -61,14 +61,14 @@ base::Result<OpenedWorld> openWorld(PlayOptions& options) {
     if (name.empty())
         name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
     auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
-    // Of other errors, such as another generator, playing without saving is no way out.
+    // Playing without saving does not help against other errors, such as another generator.
     const bool cannotBeWritten = !parts && (parts.error().code == base::ErrorCode::Io ||
                                             parts.error().code == base::ErrorCode::NotFound);
     if (!cannotBeWritten) return parts;
     return base::fail(parts.error().code, "{} (--no-save plays without saving)", parts.error().message);
 }
 
-// Only worlds that the list shows have one: a picture beside another file could be somebody's own.
+// Only listed worlds have thumbnails: an image beside another file could belong to the user.
 std::filesystem::path thumbnailFor(const PlayOptions& options, const std::filesystem::path& folder) {
     const auto file = store::fileOf(store::worldLocation(options.save.world));
     if (options.savesNothing || !file || folder.empty() || file->parent_path() != folder) return {};
@@ -112,7 +112,7 @@ base::Result<void> PlayFlow::run() {
         hasBegun_ = false;
         result = playChosen(**chosen);
         if (result || hasBegun_) continue;
-        message_ = result.error().message;  // it was not opened: the title tells
+        message_ = result.error().message;  // shown by the title: the world was not opened
         base::logInfo("{}", message_);
         goesToTitle_ = true;
         result = {};
@@ -137,7 +137,7 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
                      .generator = chosen.generator,
                      .content = options.world.content,
                      .threads = options.world.threads};
-    // A generator PACK:NAME of the packs folder brings its pack.
+    // A generator PACK:NAME needs its pack.
     if (chosen.generator && chosen.generator->find(':') != std::string::npos)
         options.world.content.push_back(chosen.generator->substr(0, chosen.generator->find(':')));
     if (chosen.seed) options.world.seed = chosen.seed->seed;
@@ -182,7 +182,7 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     if (!world) return tl::unexpected(world.error());
     const game::SessionParts& parts = world->parts;
     PlaySettings settings = settings_;
-    // The world's own, or what a new world begins with.
+    // The world's own, or those of the command line.
     settings.movement = options_.settings.movement;
     settings.resourcePack = options_.graphics.resourcePack;
     takeFromWorld(settings, game::savedPlayer(*parts.store), given_);
@@ -229,7 +229,7 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     if (!made) return tl::unexpected(made.error());
     WorldOnScreen& world = **made;
     game::Session& session = world.session();
-    // Ends before the session, on which it decides.
+    // Declared after the world: destroyed before the session, which it updates.
     const std::unique_ptr<RemotePlay> remote = std::move(given.play);
     GameOptions game;
     game.dataFolder = dataFolder();

@@ -1,5 +1,5 @@
-// What follows what while the program plays: the title, a world, the title again. Used on the thread of the
-// OpenGL context.
+// The sequence of screens while the program plays: the title, a world, the title again. Used on the thread of
+// the OpenGL context.
 #pragma once
 
 #include <memory>
@@ -15,11 +15,11 @@
 
 namespace terrane::app {
 
-// How a player moves in a world, and its textures: as the command line says, else as the world was left, else
-// as `settings` say. What a world names that is not there is left out, with a line in the log.
+// Sets movement and resource pack: from the command line, else from the world's save, else from `settings`.
+// An unknown movement in the save is ignored with a line in the log.
 void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given);
 
-// A server's world, and the store of the session that shows it; no server: a world of one's own.
+// A server's world, and the store of the session that shows it; null for a local world.
 struct ServersWorld {
     std::unique_ptr<RemotePlay> play;
     net::RemoteStore* store = nullptr;
@@ -32,7 +32,7 @@ class PlayFlow {
     base::Result<void> run();
 
   private:
-    // Ends where the player left it: an error of opening it, or of saving it.
+    // Returns when the player leaves the world; fails if it cannot be opened or saved.
     base::Result<void> playWorld(const PlayOptions& options);
     base::Result<void> playOnce(PlayOptions& options);
     base::Result<void> playServer(const PlayOptions& options);
@@ -50,9 +50,9 @@ class PlayFlow {
     const base::StopSignals signals_;
     ScreenOptions screen_;
     PlaySettings settings_;
-    PlaySettings written_;  // as the file has them
+    PlaySettings written_;  // as in the settings file
     bool measuresPreset_, goesToTitle_ = false, hasBegun_ = false, reloads_ = false;
-    std::string message_;  // for the title
+    std::string message_;  // shown by the title
 };
 
 }  // namespace terrane::app

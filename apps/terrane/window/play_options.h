@@ -1,4 +1,4 @@
-// What `terrane play` was asked for.
+// Options of `terrane play`.
 #pragma once
 
 #include <optional>
@@ -17,24 +17,24 @@ struct PlayOptions {
     SaveOptions save;
     bool savesNothing = false;
     bool skipsTitle = false;
-    bool watches = false;  // content packs: what changes there is shown at once
+    bool watches = false;  // reload content packs that change
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaySettings settings;
     std::optional<int> bookmark;
     std::optional<double> time;
     RemoteOptions remote;
-    std::string knownEdits;  // file that gets what is known of a server's edits at the end; empty: none
+    std::string knownEdits;  // file for the known edits of a server at the end; empty: none
     std::string perfData;
     std::string settingsFile = settingsPath().string();
 };
 
-// What the command line itself says, rather than the file of settings.
+// Which options the command line itself sets, rather than the settings file.
 struct GivenOptions {
-    bool namesWorld = false;  // which world, or where in it: nobody asks again
+    bool namesWorld = false;  // the world or a place in it: skips the title
     bool movement = false;
     bool resourcePack = false;
-    bool graphics = false;  // or the settings
+    bool graphics = false;  // the settings count too
 };
 
 }  // namespace terrane::app

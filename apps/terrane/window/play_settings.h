@@ -1,4 +1,5 @@
-// What a user can change while playing, and how it is written down. Shown by panel.h, kept by settings.h.
+// Settings that a user can change while playing, and their text form. Shown by panel.h and settings_dialog.h,
+// saved by settings.h.
 #pragma once
 
 #include <optional>
@@ -17,11 +18,11 @@ namespace terrane::app {
 
 struct PlaySettings {
     std::string preset = "auto";
-    render::GraphicsSettings graphics;  // the preset's, with changes
+    render::GraphicsSettings graphics;  // of the preset, with changes
     render::View view = render::View::Color;
     game::Movement movement = game::Movement::Gravity;
     float fieldOfView = 70;          // degrees
-    float mouseSensitivity = 0.15f;  // degrees a screen unit
+    float mouseSensitivity = 0.15f;  // degrees per screen unit
     double dayMinutes = 20;
     bool fullScreen = false;
     float soundVolume = 0.6f;       // 0: none
@@ -29,10 +30,10 @@ struct PlaySettings {
     std::string language = "auto";  // of --language (text.h)
 
     KeyBindings keys;
-    bool invertY = false;  // the mouse and the stick: away from the player looks down
+    bool invertY = false;  // pushing the mouse or stick forward looks down
     bool autoJump = false;
-    float textSize = 1;         // of the user interface, times
-    bool highContrast = false;  // the block that is looked at
+    float textSize = 1;         // scale of the user interface
+    bool highContrast = false;  // of the outline of the targeted block
     bool reducedMotion = false;
 
     bool operator==(const PlaySettings&) const = default;
@@ -42,8 +43,8 @@ EnumNames<game::Movement> movementNames();  // of the option --movement
 const std::string& nameOf(game::Movement movement);
 std::optional<game::Movement> movementNamed(std::string_view name);
 
-// As options of `terrane play`: of the graphics options only those that differ from the preset. Movement and
-// resource pack are not among them: a world keeps its own.
+// As options of `terrane play`; graphics options only if they differ from the preset. Without movement and
+// resource pack, which are saved per world.
 SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);
 
 }  // namespace terrane::app

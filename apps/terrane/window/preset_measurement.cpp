@@ -21,7 +21,8 @@ std::optional<render::PresetChoice> PresetMeasurement::add(const Frame& frame) {
     return preset_ == &render::presets().front() ? judgeLow(median) : judgeExpected(median);
 }
 
-// Frames get dearer until the view is complete: an earlier round tells only that low is too dear already.
+// Frames get more expensive until the view is complete: an earlier round can only show that low is already
+// too expensive.
 std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseconds) {
     const bool isKnown = isViewComplete_ || seconds_ >= kMostSeconds;
     if (milliseconds <= render::kTargetMilliseconds && !isKnown) return std::nullopt;
@@ -31,11 +32,11 @@ std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseco
     return preset_ == &render::presets().front() ? std::optional(choice) : std::nullopt;
 }
 
-// Relative costs differ from device to device: a preset that is too dear gives way to the next cheaper one.
+// Relative costs differ between devices: a preset that is too expensive is replaced by the next cheaper one.
 std::optional<render::PresetChoice> PresetMeasurement::judgeExpected(double milliseconds) {
     const double framesPerSecond = 1000 / milliseconds;
     if (framesPerSecond >= render::kTargetFramesPerSecond) return {{preset_, framesPerSecond}};
-    --preset_;  // they go from cheap to dear
+    --preset_;  // ordered by cost
     if (preset_ != &render::presets().front()) return std::nullopt;
     return {{preset_, 1000 / lowMilliseconds_}};
 }

@@ -6,7 +6,7 @@
 
 namespace terrane::app {
 
-// Frames do not wait for the screen meanwhile: a graphics card that waits lowers its clock.
+// Turns vsync off during the measurement: a graphics card that waits lowers its clock.
 void PresetPicker::begin() {
     measurement_.emplace();
     window_.setVsync(false);

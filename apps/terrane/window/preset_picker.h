@@ -1,5 +1,5 @@
-// Picks a graphics preset at the first start: the window's loop draws with the preset that is measured and
-// hands over each frame (preset_measurement.h); then the settings change, and the player is told.
+// Chooses a graphics preset at the first start: the window's loop draws with options() and adds each frame
+// (preset_measurement.h); then the settings change, and a message tells the player.
 #pragma once
 
 #include <optional>
@@ -20,23 +20,22 @@ class PresetPicker {
 
     bool isBusy() const { return measurement_ || message_; }
     void begin();
-    void end();  // nothing where nothing is measured
-    // To draw with: those of the measured preset, else those of the settings.
+    void end();  // does nothing if no measurement runs
+    // The options to draw with: those of the measured preset, else of the settings.
     const render::RenderOptions& options(const PlaySettings& settings) const {
         return measurement_ ? measurement_->preset().options : settings.graphics.render;
     }
-    // A frame that was drawn with options(). The last one that counts ends the measurement and changes the
-    // settings.
+    // Adds a frame drawn with options(). The last one ends the measurement and changes the settings.
     void add(const PresetMeasurement::Frame& frame, PlaySettings& settings);
-    // What was picked, once. Take it when a frame was drawn with options(): another message tells before that
-    // shaders are compiled.
+    // The message about the choice, once. Take it after a frame drawn with options(): until then another
+    // message is shown, that shaders are being compiled.
     std::optional<std::string> takeMessage();
 
   private:
     Window& window_;
     std::string deviceName_;
     bool isSoftwareRenderer_;
-    std::optional<PresetMeasurement> measurement_;  // while it goes on
+    std::optional<PresetMeasurement> measurement_;  // set while measuring
     std::optional<std::string> message_;
 };
 

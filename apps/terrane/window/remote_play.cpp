@@ -63,7 +63,7 @@ base::Result<std::vector<std::uint8_t>> RemotePlay::fetchFirst(const net::WorldO
     return app::missingPacks(packs_, offer);
 }
 
-// A session that shows the world goes on after a cut; another world is not to be shown by it.
+// After a reconnect the session continues, so the server must still have the same world.
 base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer) {
     if (offer_ && !(offer.world == offer_->world && offer.packs == offer_->packs))
         return base::fail("the server has another world than before: join it again");

@@ -1,5 +1,5 @@
-// A game on a server: the connection, the server's world once a session shows it, and who else is there. Used
-// on the thread of the session.
+// A game on a server: the connection, and the server's world once a session shows it. Used on the thread of
+// the session.
 #pragma once
 
 #include <chrono>
@@ -19,31 +19,31 @@ namespace terrane::app {
 struct RemoteOptions {
     std::string server;         // HOST[:PORT]; empty: none
     std::string name;           // of the player
-    std::string password;       // where the server wants one
-    bool acceptsPacks = false;  // whatever content packs the world needs
+    std::string password;       // if the server requires one
+    bool acceptsPacks = false;  // accepts all content packs of the world
     std::vector<pack::PackHash> acceptedPacks = {};
 };
 
 class RemotePlay {
   public:
-    // Begins to connect. The player's key and the keys of known servers are in `dataFolder`.
+    // Starts to connect. `dataFolder` has the player's key and the keys of known servers.
     [[nodiscard]] static base::Result<std::unique_ptr<RemotePlay>> connect(
         const RemoteOptions& options, const std::filesystem::path& dataFolder);
     ~RemotePlay();  // says goodbye
 
-    // Takes in what the server sent, and sends. Call each frame.
+    // Receives and sends messages. Call each frame.
     void poll();
     net::ClientLink::Stage stage() const { return link_->stage(); }
     const std::string& reason() const { return link_->reason(); }
     std::string address() const { return textOf(link_->address()); }
 
-    // Packs that the server has and the player did not accept: why it ended.
+    // Packs that the player has to accept: the reason why the connection ended.
     const std::vector<net::PackOffer>& missingPacks() const { return packs_.missing; }
-    // Of the server's world, once joined.
+    // Content of the server's world, after joining.
     const pack::Content& content() const { return content_; }
     const std::optional<net::WorldOffer>& offer() const { return offer_; }
     world::Pose start() const;
-    // The session shows the server's world from here on; it outlives this.
+    // From here on the session shows the server's world; it outlives this.
     void begin(game::Session& session, net::RemoteStore& store);
     net::ClientWorld& world() { return *world_; }
     void askPlayers() { link_->send(net::AskPlayers{}); }
@@ -61,7 +61,7 @@ class RemotePlay {
     std::filesystem::path knownServers_;  // file
     std::unique_ptr<net::ClientLink> link_;
     std::optional<net::WorldOffer> offer_;
-    std::vector<net::ServerMessage> early_;  // before a session shows the world
+    std::vector<net::ServerMessage> early_;  // received before begin()
     std::unique_ptr<net::ClientWorld> world_;
     net::ClientLink::Stage before_ = net::ClientLink::Stage::Connecting;
 };

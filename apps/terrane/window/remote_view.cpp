@@ -12,7 +12,7 @@ namespace {
 
 using Stage = net::ClientLink::Stage;
 
-// Of what the server decided later than it was asked.
+// The text about a server's late answer to a command.
 std::string textOf(const net::Decided& decided, const Texts& tr) {
     if (const auto* result = std::get_if<game::EditResult>(&decided)) return refusalText(*result, tr);
     if (const auto* outcome = std::get_if<game::BuildOutcome>(&decided))

@@ -1,5 +1,5 @@
-// A game on a server as the window shows it: chat, the other players with their names, the list of players,
-// and how the connection is. Used on the thread of the session.
+// The window's view of a game on a server: chat, other players with names, the list of players, and the state
+// of the connection. Used on the thread of the session.
 #pragma once
 
 #include <optional>
@@ -18,22 +18,22 @@ struct RemoteView {
     ChatView chat;
     OtherPlayers others;
     bool showsPlayers = false;
-    net::ClientLink::Stage stage = net::ClientLink::Stage::Joined;  // as of the last frame
-    double nextList = 0;    // when the list of players is asked for again
-    std::string endReason;  // why the server sent the player away; empty where it did not
+    net::ClientLink::Stage stage = net::ClientLink::Stage::Joined;  // in the last frame
+    double nextList = 0;    // time of the next request for the list of players
+    std::string endReason;  // reason of a disconnect by the server, else empty
 };
 
 struct RemoteStep {
-    std::optional<world::Pose> correction;  // the server wants the player there
-    bool hasEnded = false;                  // RemoteView::endReason tells why
+    std::optional<world::Pose> correction;  // pose that the server demands
+    bool hasEnded = false;                  // see RemoteView::endReason
 };
 
-// Once a frame, after the player moved: sends and takes in what there is. `seconds`: since the start. Call it
-// where there is a server.
+// Call once per frame after the player moved, if there is a server: sends and receives. `seconds`: since the
+// start.
 RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const PlaySettings& settings,
                          double seconds, Notices& notices, const Texts& tr);
 
-// Chat, and the list of players where it is shown. True: a line was entered or given up.
+// Draws chat, and the list of players if it is shown. True if a line was entered or cancelled.
 bool drawRemoteTexts(const Screen& screen, RemoteView& remote, double seconds, const Texts& tr);
 
 }  // namespace terrane::app

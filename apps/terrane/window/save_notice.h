@@ -1,4 +1,4 @@
-// What a player is told while a world cannot be saved. Immediate mode: drawn each frame.
+// Notices while a world cannot be saved. Immediate mode: drawn each frame.
 #pragma once
 
 #include <cstdint>
@@ -9,13 +9,13 @@
 
 namespace terrane::app {
 
-// What fails, for how long, how much waits and what helps: at the top of the screen. Nothing where saving
-// works.
+// Shows the error, its duration and the number of waiting chunks at the top of the screen. Draws nothing
+// while saving works.
 void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const Texts& tr);
 
 enum class QuitChoice : std::uint8_t { Stay, TryAgain, QuitUnsaved };
 
-// Asked where the last attempt to save failed. Nothing until a button is clicked.
+// Asks what to do after the last attempt to save failed. None until a button is clicked.
 std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status,
                                          const Texts& tr);
 

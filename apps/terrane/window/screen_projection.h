@@ -1,4 +1,4 @@
-// From points of the world to places on the screen, for what is drawn over the image. Plain value.
+// Projects points of the world to the screen, for overlays. Plain value.
 #pragma once
 
 #include <glm/mat4x4.hpp>
@@ -17,7 +17,7 @@ class ScreenProjection {
 
     // None behind the camera.
     std::optional<glm::vec2> at(const glm::dvec3& point) const;
-    // The part of a line that lies before the camera.
+    // The part of a line in front of the camera.
     std::optional<std::pair<glm::vec2, glm::vec2>> line(const glm::dvec3& from, const glm::dvec3& to) const;
 
   private:

@@ -1,4 +1,4 @@
-// A small image of the screenshot that was just taken, for some seconds. Immediate mode: drawn each frame.
+// Shows a small copy of the last screenshot for some seconds. Immediate mode: drawn each frame.
 #pragma once
 
 #include "apps/terrane/window/overlay.h"

@@ -1,4 +1,4 @@
-// What the selection tool draws: its panel, and the outlines of boxes.
+// Draws the selection tool: its panel, and the outlines of boxes.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -25,7 +25,7 @@ constexpr ToolButton kToolButtons[] = {
     {ToolAction::Mirror, trLater("Mirror (F)")},    {ToolAction::Save, trLater("Save (Ctrl+S)")},
     {ToolAction::Open, trLater("Open (Ctrl+O)")}};
 
-// Orange and blue are told apart by everyone.
+// Orange and blue, which color-blind players can distinguish.
 constexpr ImU32 kSelected = IM_COL32(255, 160, 40, 255);
 constexpr ImU32 kPasted = IM_COL32(90, 180, 255, 255);
 

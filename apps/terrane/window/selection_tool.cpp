@@ -15,7 +15,7 @@ using game::BuildOutcome;
 using world::BlockBox;
 using world::BlockPos;
 
-constexpr double kAhead = 6;  // blocks: the place in the air that one points at
+constexpr double kAhead = 6;  // blocks to the cell in the air
 
 struct ActionKey {
     ToolAction action;
@@ -37,7 +37,7 @@ std::optional<world::RayHit> lookedAt(const BuildView& view) {
     return world::castRay(view.session.world(), view.session.blocks(), lookRay(view), game::kBuildReach);
 }
 
-// Why nothing was changed.
+// Why nothing changed.
 std::string refusal(BuildOutcome::Result result) {
     using Result = BuildOutcome::Result;
     switch (result) {
@@ -241,7 +241,7 @@ void SelectionTool::onKeyWhileAsking(Key key) {
     if (key == Key::Up) file_ = (file_ + files_.size() - 1) % files_.size();
 }
 
-// After what was typed in the same frame.
+// Handles Enter after the text of the same frame.
 void SelectionTool::answer(const BuildView& view) {
     isAnswered_ = false;
     const Asks asked = std::exchange(asks_, Asks::Nothing);

@@ -1,5 +1,5 @@
-// The tool that builds with boxes of blocks: keys and clicks in, commands to the session and messages out.
-// Its panel and outlines are drawn over the image. docs/building.md tells how it is used.
+// The tool that builds with boxes of blocks: handles keys and clicks, sends commands to the session, returns
+// messages, and draws its panel and outlines (docs/building.md).
 #pragma once
 
 #include <array>
@@ -20,25 +20,26 @@ enum class ToolAction : std::uint8_t { Fill, Replace, Clear, Copy, Paste, Turn, 
 
 std::string withCommas(std::int64_t number);  // 12,345
 
-// With Shift where the player stands; else the block that is looked at, or the free place before it; else a
-// place in the air.
+// The block at the player's feet with Shift; else the targeted block, or the cell before it if `beforeBlock`;
+// else a cell in the air ahead.
 world::BlockPos pointedAt(const BuildView& view, bool beforeBlock);
 
-// What became of a command, for the player: "changed 12 blocks", or why nothing did.
+// The result of a command for the player: "changed 12 blocks", or why none changed.
 std::string outcomeText(std::string_view verb, const game::BuildOutcome& outcome);
 
 class SelectionTool {
   public:
-    // `folder`: of the files; made with the first one.
+    // `folder` has the structure files; created with the first one.
     explicit SelectionTool(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
     bool isActive() const { return isActive_; }
-    // A name is typed or chosen: all keys are for that, and the cursor is free.
+    // The player types or chooses a name: the cursor is free, and all keys go to onKey().
     bool isAsking() const { return asks_ != Asks::Nothing; }
-    // True where the key, or the button, was for the tool.
+    // True if the tool handled the key or button.
     bool onKey(Key key, const BuildView& view);
     bool onButton(MouseButton button, const BuildView& view);
-    // What is open, pasted or selected is no more, one thing a call. False where there is nothing.
+    // Closes the question, ends pasting or deactivates the tool, one per call; false if there is nothing to
+    // end.
     bool close();
 
     void draw(const Screen& screen, const render::Camera& camera, const BuildView& view);
@@ -66,13 +67,13 @@ class SelectionTool {
 
     std::filesystem::path folder_;
     game::Selection selection_;
-    std::optional<ToolAction> pressed_;  // a button of the panel
+    std::optional<ToolAction> pressed_;  // button of the panel
     bool isActive_ = false;
     Asks asks_ = Asks::Nothing;
     bool takesFocus_ = false, isAnswered_ = false;
-    std::array<char, 101> name_{};  // that is typed: a file's
+    std::array<char, 101> name_{};  // of a file, as typed
     std::vector<std::string> files_;
-    std::size_t file_ = 0;  // that is chosen
+    std::size_t file_ = 0;  // chosen index
     std::optional<std::string> message_;
 };
 

@@ -1,5 +1,5 @@
-// The servers that a player was on, the last one first: a text file with a line each, "HOST:PORT NAME", where
-// NAME is the player's there. One thread at a time.
+// The servers that the player was on, the last one first: a text file with a line "HOST:PORT NAME" each,
+// where NAME is the player's. One thread at a time.
 #pragma once
 
 #include <filesystem>
@@ -19,10 +19,10 @@ struct PlayedServer {
 
 std::filesystem::path serverListFile(const std::filesystem::path& dataFolder);
 
-// Lines that name no server and no player are left out. Empty where there is no file.
+// Skips malformed lines. Empty if there is no file.
 std::vector<PlayedServer> readServers(const std::filesystem::path& file);
 
-// Puts a server first. Makes the file and its folder.
+// Moves a server to the front. Creates the file and its folder.
 [[nodiscard]] base::Result<void> rememberServer(const std::filesystem::path& file,
                                                 const PlayedServer& played);
 [[nodiscard]] base::Result<void> forgetServer(const std::filesystem::path& file, const std::string& server);

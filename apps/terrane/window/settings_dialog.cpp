@@ -23,7 +23,7 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     const Screen& screen = input.screen;
     const ImVec2 size(std::min(520 * scale, screen.width - 2 * margin),
                       std::min(440 * scale, screen.height - 2 * margin));
-    const std::string title = input.tr("Settings") + std::string("###settings");  // in any language
+    const std::string title = input.tr("Settings") + std::string("###settings");  // same id in every language
     beginMenu({title.c_str(), {screen.width / 2, screen.height / 2}, size});
     drawTabs(input.tr);
     const float footer = ImGui::GetFrameHeightWithSpacing() + 10 * scale;

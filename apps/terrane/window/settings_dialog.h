@@ -1,5 +1,5 @@
-// The settings for people, of the title screen and the pause menu: graphics, controls, world, accessibility.
-// What developers need has a panel of its own (panel.h). Immediate mode: draws and changes.
+// The settings dialog of the title screen and the pause menu: graphics, controls, world, accessibility.
+// Developers have a panel of their own (panel.h). Immediate mode: draws and changes.
 #pragma once
 
 #include <cstdint>
@@ -21,15 +21,15 @@ class SettingsDialog {
         Screen screen;
         const Texts& tr;
         bool isSoftwareRenderer = false;
-        game::DayClock* day = nullptr;  // of the world that is played; null on the title screen
+        game::DayClock* day = nullptr;  // of the current world; null on the title screen
     };
 
-    // True where it is done.
+    // True when the player is done.
     bool draw(PlaySettings& settings, const Input& input);
 
-    // While a key is waited for: it becomes the action's, and Escape gives up. False where none is.
+    // Binds the key to the action that waits for one; Escape cancels. False if no action waits.
     bool takeKey(Key key, PlaySettings& settings, const Texts& tr);
-    // To the page before or behind, as by a gamepad's bumpers.
+    // To the previous or next page, for a gamepad's bumpers.
     void turnPage(int by);
     void open() { *this = SettingsDialog(); }
 
@@ -43,7 +43,7 @@ class SettingsDialog {
     std::string note_;  // which action lost its key
 };
 
-// The pages that need nothing but the settings.
+// The pages that need only the settings.
 void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer, const Texts& tr);
 void drawWorldPage(PlaySettings& settings, game::DayClock* day, const Texts& tr);
 void drawAccessibilityPage(PlaySettings& settings, const Texts& tr);

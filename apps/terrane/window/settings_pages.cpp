@@ -1,4 +1,4 @@
-// The pages of the settings dialog that show values of the settings.
+// The pages of the settings dialog that show values of settings.
 #include <imgui.h>
 
 #include <algorithm>
@@ -14,11 +14,11 @@ namespace {
 
 constexpr ImGuiSliderFlags kClamped = ImGuiSliderFlags_AlwaysClamp;
 
-// A row of the graphics table in words. Costs are those of docs/rendering.md, "What a preset costs".
+// Texts of a row of the graphics table. Costs are from docs/rendering.md, "What a preset costs".
 struct PlainRow {
     const char* name;  // of the row
     const char* label;
-    const char* help;  // what one sees, and what it costs
+    const char* help;  // effect and cost
     std::array<const char*, 7> words;
 };
 
@@ -167,7 +167,7 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
 }
 
 static void drawGeneral(PlaySettings& s, const Texts& tr) {
-    // Each language by its own name, so that everyone finds theirs.
+    // Each language in its own name, so that everyone finds theirs.
     const std::array<std::pair<const char*, const char*>, 4> languages = {
         {{"auto", tr("As the system")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
     heading(tr("Language and sound"));

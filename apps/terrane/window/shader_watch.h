@@ -1,4 +1,4 @@
-// While developing, a shader is seen as soon as it is written.
+// Reloads changed shaders during development.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@ namespace terrane::app {
 
 class ShaderWatch {
   public:
-    static constexpr double kPause = 1;  // seconds between looks at the files
+    static constexpr double kPause = 1;  // seconds between checks of the files
 
     // The loader outlives this.
     explicit ShaderWatch(const gpu::ShaderLoader& shaders)
         : shaders_(shaders), read_(shaders.newestWrite()) {}
 
-    // Reads shaders that were written since the last time; what to tell the player, nothing where there are
-    // none. A wrong one changes nothing. `seconds`: since the start.
+    // Reloads shaders that were written since the last call. Returns a message for the player; none if
+    // nothing changed. Shaders with errors are not used. `seconds`: since the start.
     std::optional<std::string> reload(render::Renderer& renderer, view::BlockPreview& preview,
                                       double seconds);
 
@@ -30,7 +30,7 @@ class ShaderWatch {
 
     const gpu::ShaderLoader& shaders_;
     base::TimedValue<WriteTime> written_{kPause};
-    WriteTime read_;  // the newest one when they were last read
+    WriteTime read_;  // newest time at the last reload
 };
 
 }  // namespace terrane::app

@@ -10,7 +10,7 @@
 namespace terrane::app {
 namespace {
 
-// A line takes no more than its characters, wherever they were typed.
+// Limits a line to its characters, wherever they are inserted.
 int keepFitting(ImGuiInputTextCallbackData* data) {
     const auto length = static_cast<std::size_t>(data->BufTextLen);
     const std::size_t fitting = world::fittingBytes({data->Buf, length});

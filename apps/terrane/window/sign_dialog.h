@@ -1,4 +1,4 @@
-// The lines of a sign while a player types them. Immediate mode: draws, and tells what the player chose.
+// The dialog that edits the lines of a sign. Immediate mode: draws, and returns the choice.
 #pragma once
 
 #include <array>
@@ -20,18 +20,18 @@ class SignDialog {
 
     world::BlockPos sign() const { return sign_; }
     world::SignText text() const;
-    // Enter, Escape, and up and down from line to line. What is typed in the same frame is not lost: draw()
-    // gives the choice.
+    // Handles Enter, Escape, and up and down between lines. The choice comes from draw(), after text typed in
+    // the same frame.
     void onKey(Key key);
     std::optional<Choice> draw(const Screen& screen, const Texts& tr);
 
   private:
-    // A line's bytes and an end.
+    // The bytes of a line and a terminator.
     using Line = std::array<char, world::kSignColumns * 4 + 1>;
 
     world::BlockPos sign_;
     std::array<Line, world::kSignLines> lines_{};
-    std::size_t line_ = 0;  // that is typed
+    std::size_t line_ = 0;  // with the focus
     bool takesFocus_ = true;
     std::optional<Choice> choice_;
 };

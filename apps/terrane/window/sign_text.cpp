@@ -18,13 +18,13 @@ using world::BlockPos;
 
 constexpr std::size_t kMaxSigns = 64;
 constexpr double kFadeFrom = 20;      // blocks
-constexpr double kAbove = 1.0 / 128;  // the board, on which the letters lie
+constexpr double kAbove = 1.0 / 128;  // blocks between board and letters
 
 glm::dvec3 cornerOf(BlockPos pos) {
     return {pos.x, pos.y, pos.z};
 }
 
-// What of a sign is the same for all of its letters.
+// Values shared by all letters of a sign.
 struct Board {
     BlockPos pos;
     world::SignPlane plane;        // in the world
@@ -42,7 +42,7 @@ struct Pen {
     ImU32 color;
 };
 
-// A letter whose upper left corner and size are in blocks on the board.
+// Draws a letter; its upper left corner and size are in blocks on the board.
 void drawGlyph(const Pen& pen, const Board& board, const ImFontGlyph& glyph, glm::dvec2 at, double scale) {
     const auto point = [&](double x, double y) {
         return board.plane.topLeft + board.right * (at.x + x * scale) + board.down * (at.y + y * scale) +

@@ -1,4 +1,4 @@
-// The text of signs near the camera, drawn over the image on the planes of their boards. Immediate mode.
+// Draws the text of signs near the camera over the image, on the planes of their boards. Immediate mode.
 #pragma once
 
 #include <vector>
@@ -8,13 +8,13 @@
 
 namespace terrane::app {
 
-constexpr double kSignDistance = 24;  // blocks from which text is seen
+constexpr double kSignDistance = 24;  // blocks at which text disappears
 
-// Signs with text around a point, at most 64. Goes through the data of the chunks there.
+// The nearest signs around a point, at most 64. Visits the block entity data of the chunks there.
 std::vector<world::BlockPos> signsNear(const game::Session& session, const glm::dvec3& point);
 
-// Those of them that are still signs, that face the camera, and each letter that no block hides. Blocks of
-// glass, liquids and plants hide none.
+// Draws the letters that no block hides, of signs that face the camera; skips blocks that are no longer
+// signs. Glass, liquids and plants hide no letters.
 void drawSigns(const Screen& screen, const render::Camera& camera, const game::Session& session,
                const std::vector<world::BlockPos>& signs);
 

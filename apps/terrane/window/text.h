@@ -1,5 +1,5 @@
 // Texts of the user interface in the player's language. The sources have them in English as tr("…"); a test
-// compares these with the files of languages.
+// compares these with the language files.
 #pragma once
 
 #include <string>
@@ -11,16 +11,16 @@
 
 namespace terrane::app {
 
-// Texts stay where they are while the object lives and keeps its language.
+// Returned texts stay valid while the object lives and keeps its language.
 struct Texts {
     content::Language language;
 
-    // As Dear ImGui and printf take it; the fields (%d, {}) are those of `english`.
+    // For Dear ImGui and printf; has the same fields (%d, {}) as `english`.
     const char* operator()(const char* english) const { return content::text(language, english).data(); }
     std::string block(const world::BlockType& type) const { return content::blockName(language, type); }
 };
 
-// Marks a text that is translated later, tr(kTexts[k]).
+// Marks a text that is translated later as tr(kTexts[k]).
 constexpr const char* trLater(const char* english) {
     return english;
 }
@@ -30,7 +30,7 @@ std::vector<std::pair<std::string, std::string>> languageChoices();
 // "auto": the language of the environment, the first of LC_ALL, LC_MESSAGES and LANG that is set.
 std::string_view languageCode(const std::string& choice);
 Texts textsOf(const std::string& choice);
-// With the names that packs have for their blocks.
+// With the names of the packs' blocks.
 Texts textsOf(const std::string& choice, const pack::Content& content);
 
 }  // namespace terrane::app

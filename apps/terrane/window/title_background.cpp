@@ -19,10 +19,10 @@ namespace terrane::app {
 namespace {
 
 constexpr double kRadius = 40, kRoundSeconds = 300;  // blocks; 0.8 blocks a second
-constexpr double kOverGround = 10, kHighest = 235;   // over the ground; of all
+constexpr double kOverGround = 10, kHighest = 235;   // blocks over the ground; highest altitude
 constexpr double kMorning = 0.33;                    // of a day
 constexpr int kMostChunks = 8, kMostHorizon = 256;
-constexpr std::chrono::milliseconds kPause{15};  // between frames without a world
+constexpr std::chrono::milliseconds kPause{15};  // pause between frames without a world
 
 base::Result<std::unique_ptr<WorldOnScreen>> openWorld(const PlayOptions& options,
                                                        const ScreenOptions& screen,
@@ -46,7 +46,7 @@ int highestBlock(const world::Chunk& chunk) {
     return 0;
 }
 
-// Over all ground that the flight passes.
+// An altitude above all ground on the flight.
 double flightHeight(const gen::Generator& generator, const glm::dvec3& center) {
     double highest = center.z;
     constexpr int kSteps = 16;
@@ -89,7 +89,7 @@ void TitleBackground::begin(const PlayOptions& options, const ScreenOptions& scr
         saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
     center_ = start.position;
     center_.z = flightHeight(session.generator(), center_);
-    // Without a graphics card menus must stay quick: a quarter of the pixels.
+    // Without a graphics card menus must stay responsive: a quarter of the pixels.
     const render::GraphicsSettings low = render::settingsOf({"low"}, true);
     const render::GraphicsSettings chosen =
         render::settingsOf(options.graphics.choices, screen.device.software);

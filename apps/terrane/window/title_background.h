@@ -1,5 +1,5 @@
-// The world behind the title: a slow flight in a circle through the world that was played last, which is read
-// and never written, or through a demo world in memory. Used on the thread of the OpenGL context.
+// The world behind the title: a slow flight in a circle through the last played world, which is opened
+// read-only, or through a demo world in memory. Used on the thread of the OpenGL context.
 #pragma once
 
 #include <filesystem>
@@ -11,21 +11,21 @@
 
 namespace terrane::app {
 
-// Where the camera is after so many seconds of the flight: on a circle around `center`, at its height, with
-// the eyes along the way and a little inward and down.
+// The pose after `seconds` of the flight: on a circle around `center`, at its height, looking ahead and a
+// little inward and down.
 world::Pose flightPose(const glm::dvec3& center, double seconds);
 
 class TitleBackground {
   public:
-    // `save`: a world's file; empty: the demo world. One that cannot be shown gives way to the demo world.
+    // `save`: a world's file; empty, or if it cannot be opened: the demo world.
     [[nodiscard]] static base::Result<TitleBackground> open(const PlayOptions& options,
                                                             const ScreenOptions& screen,
                                                             const std::filesystem::path& save);
 
-    // Into the window; a plain color until shaders are compiled. `isStill`: the flight rests.
+    // Draws into the window; a plain color until shaders are compiled. `isStill` stops the flight.
     base::Result<void> draw(glm::ivec2 windowSize, double seconds, bool isStill);
     bool hasImage() const { return world_->renderer().size().x > 0; }
-    // The save that is read, which others cannot write meanwhile.
+    // The open save, which others cannot write meanwhile; empty for the demo world.
     const std::filesystem::path& save() const { return save_; }
 
   private:
@@ -37,7 +37,7 @@ class TitleBackground {
     std::unique_ptr<WorldOnScreen> world_;
     std::filesystem::path save_;
     render::RenderOptions render_;
-    int viewDistance_ = 0, pixelsShare_ = 1;  // an image pixel is so many of the window's along a side
+    int viewDistance_ = 0, pixelsShare_ = 1;  // window pixels per image pixel, per side
     glm::dvec3 center_{0};
     double flightSeconds_ = 0, seconds_ = 0;
 };

@@ -1,4 +1,4 @@
-// The title's dialogs: a new world, names, a copy, what is asked before a world is deleted, messages.
+// The title's dialogs: a new world, names, a copy, the question before a world is deleted, messages.
 #include <fmt/format.h>
 #include <imgui.h>
 
@@ -74,7 +74,7 @@ void TitleScreen::drawForm() {
     if (menuButton(tr_("Back"), width)) back();
 }
 
-// North is up; the middle, where one begins, is marked.
+// North is up; the spawn in the middle is marked.
 void TitleScreen::drawMap(float side) {
     if (const auto seed = seedOf(form_)) map_.show({form_.generator, seed->seed});
     const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + side, at.y + side);
@@ -114,7 +114,7 @@ void TitleScreen::drawName(const Screen& screen) {
     if (isDone) changeName();
 }
 
-// What is shown behind the title is read, so that it cannot be changed: that ends first.
+// Changes the chosen world. The background is closed meanwhile, since an open world cannot be changed.
 template <class Change>
 void TitleScreen::changeChosen(Change change) {
     background_.reset();

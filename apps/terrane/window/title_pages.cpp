@@ -1,4 +1,4 @@
-// The title's main page, its list of worlds, its page to join a server.
+// The title's main page, list of worlds, and page to join a server.
 #include <fmt/format.h>
 #include <imgui.h>
 

@@ -63,7 +63,7 @@ base::Result<void> TitleScreen::drawFrame(double seconds) {
     return {};
 }
 
-// The last image of the title, while the world is opened.
+// Draws the title once more while the world opens.
 void TitleScreen::drawOpening() {
     const glm::ivec2 size = parts_.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return;
@@ -84,7 +84,7 @@ void TitleScreen::handleEvents() {
 
 void TitleScreen::onKey(Key key) {
     if (pages_.back() == Page::Settings && dialog_.takeKey(key, settings_, tr_)) return;
-    if (imgui_.takesKeys()) return;  // Escape ends the typing
+    if (imgui_.takesKeys()) return;  // Escape ends text input
     if (key == Key::Escape) return back();
     if (key == Key::Q && pages_.back() == Page::Main) quits_ = true;
     if (settings_.keys.actionOf(key) == Action::FullScreen) settings_.fullScreen = !settings_.fullScreen;
@@ -98,7 +98,7 @@ void TitleScreen::onPad() {
     if (pad_.isPressed(&Gamepad::rightBumper)) dialog_.turnPage(1);
 }
 
-// One press closes one thing; the main page stays.
+// Closes one thing per press; the main page stays.
 void TitleScreen::back() {
     if (imgui_.hasPopup()) return imgui_.endTyping();
     if (pages_.back() == Page::Copying) return shelf_.cancelCopy();

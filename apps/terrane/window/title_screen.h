@@ -1,7 +1,6 @@
-// The title: continue, worlds, a new world, servers, settings, quit, over a slow flight through a world. It
-// runs until a world is chosen or the player leaves. Used on the thread of the OpenGL context.
-//
-// The loop is title_screen.cpp, what it draws title_pages.cpp and title_dialogs.cpp.
+// The title screen: continue, worlds, a new world, servers, settings, quit, over a slow flight through a
+// world. It runs until a world is chosen or the player leaves. Used on the thread of the OpenGL context.
+// title_screen.cpp has the loop; title_pages.cpp and title_dialogs.cpp draw the pages.
 #pragma once
 
 #include <cstdint>
@@ -24,12 +23,12 @@
 
 namespace terrane::app {
 
-// A world of one's own, or a server's.
+// A local world, or a server's.
 using TitleChoice = std::variant<ChosenWorld, RemoteOptions>;
 
 class TitleScreen {
   public:
-    // Everything outlives the title.
+    // All outlive the title.
     struct Parts {
         Window& window;
         const base::StopSignals& signals;
@@ -39,10 +38,10 @@ class TitleScreen {
         std::filesystem::path folder;  // of the worlds
     };
 
-    // `message`: shown at first, such as why a world could not be opened; empty: none.
+    // `message`: shown first, such as why a world could not be opened; empty: none.
     TitleScreen(const Parts& parts, PlaySettings& settings, std::string message);
 
-    // None to quit.
+    // Returns the choice; none to quit.
     base::Result<std::optional<TitleChoice>> run();
 
   private:
@@ -91,7 +90,7 @@ class TitleScreen {
 
     Parts parts_;
     PlaySettings& settings_;
-    std::string language_;  // of the texts
+    std::string language_;  // language of tr_
     Texts tr_;
     ImguiLayer imgui_;
     PadReader pad_;

@@ -42,7 +42,7 @@ void setColors(ImGuiStyle& s) {
     s.Colors[ImGuiCol_Separator] = ImVec4(1, 1, 1, 0.12f);
 }
 
-// 5 rows of the letters of TERRANE, "#" is a block.
+// The letters of TERRANE in 5 rows; "#" is a block.
 constexpr std::array<std::array<const char*, 5>, 7> kLetters = {{
     {"#####", "  #  ", "  #  ", "  #  ", "  #  "},
     {"#####", "#    ", "#### ", "#    ", "#####"},
@@ -53,7 +53,7 @@ constexpr std::array<std::array<const char*, 5>, 7> kLetters = {{
     {"#####", "#    ", "#### ", "#    ", "#####"},
 }};
 
-// Grass on earth on stone, a little different from block to block.
+// Grass on earth on stone, with small variations.
 ImU32 blockColor(int row, int column) {
     const std::array<ImVec4, 5> colors = {ImVec4(0.49f, 0.74f, 0.33f, 1), ImVec4(0.42f, 0.64f, 0.29f, 1),
                                           ImVec4(0.60f, 0.44f, 0.30f, 1), ImVec4(0.52f, 0.38f, 0.26f, 1),
@@ -123,7 +123,7 @@ void beginMenu(const MenuWindow& menu) {
     ImGui::Begin(menu.title, nullptr, flags);
     if (!ImGui::IsWindowAppearing()) return;
     ImGui::SetWindowFocus();
-    ImGui::GetCurrentContext()->NavDisableHighlight = false;  // who has no mouse sees where it begins
+    ImGui::GetCurrentContext()->NavDisableHighlight = false;  // show the focus to players without a mouse
 }
 
 bool menuButton(const char* label, float width) {

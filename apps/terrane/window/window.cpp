@@ -1,7 +1,7 @@
 #include "apps/terrane/window/window.h"
 
 #include <epoxy/gl.h>
-// epoxy declares OpenGL, so GLFW must not.
+// epoxy declares OpenGL; GLFW must not.
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
@@ -19,7 +19,7 @@ namespace terrane::app {
 
 namespace {
 
-// Where a window appears that began as the full screen.
+// Position of the window after it was created as full screen.
 constexpr int kLeft = 40, kTop = 40;
 
 struct KeyCode {
@@ -76,7 +76,7 @@ GLFWwindow* openWindow(const WindowOptions& options) {
     glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
-    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // everything is drawn into framebuffers of our own
+    glfwWindowHint(GLFW_DEPTH_BITS, 0);  // rendering uses its own framebuffers
     glfwWindowHint(GLFW_STENCIL_BITS, 0);
     glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
     GLFWmonitor* monitor = options.fullScreen ? glfwGetPrimaryMonitor() : nullptr;
@@ -94,9 +94,9 @@ struct Window::State {
     std::vector<InputEvent> events;
     bool isAnyKeyPressed = false;
     glm::dvec2 cursor = {0.0, 0.0};
-    bool cursorKnown = false;  // false: the next position starts a new motion
+    bool cursorKnown = false;  // false: the next position is only a reference
     std::unique_ptr<gpu::DebugLog> debugLog;
-    glm::ivec4 place{kLeft, kTop, 1280, 720};  // and size of the window, for when it leaves the full screen
+    glm::ivec4 place{kLeft, kTop, 1280, 720};  // and size of the window, to restore after full screen
 
     State() = default;
     State(const State&) = delete;
@@ -258,7 +258,7 @@ void Window::setFullScreen(bool isFullScreen) {
 void Window::setIcon(int width, int height, std::span<const std::byte> pixels) {
     assert(pixels.size() ==
            std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
-    std::vector<unsigned char> copy(pixels.size());  // GLFW wants them writable
+    std::vector<unsigned char> copy(pixels.size());  // GLFW takes a writable pointer
     std::memcpy(copy.data(), pixels.data(), pixels.size());
     const GLFWimage image{width, height, copy.data()};
     glfwSetWindowIcon(state_->window, 1, &image);
@@ -294,7 +294,7 @@ std::optional<Gamepad> Window::gamepad() const {
 
 void Window::setCursorCaptured(bool captured) {
     glfwSetInputMode(state_->window, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
-    // The position jumps between the modes; that jump is no motion of the player's hand.
+    // The position jumps when the mode changes; that jump is no mouse motion.
     state_->cursorKnown = false;
 }
 

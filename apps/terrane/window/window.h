@@ -1,5 +1,5 @@
-// A window with an OpenGL 4.5 core context and its input, through GLFW. The program's main thread makes one,
-// and uses it alone. One window at a time: destroying it ends GLFW.
+// A GLFW window with an OpenGL 4.5 core context and its input. Used on the program's main thread. One window
+// at a time: destroying it terminates GLFW.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -20,7 +20,7 @@ struct WindowOptions {
     std::string title = "Terrane";
     int width = 1280;  // screen units, larger where contentScale() is
     int height = 720;
-    bool fullScreen = false;  // on the first monitor in its present mode; width and height are not used
+    bool fullScreen = false;  // on the first monitor in its current mode; ignores width and height
     bool debug = false;       // as ContextOptions
 };
 
@@ -33,10 +33,10 @@ class Window {
     Window& operator=(Window&&) noexcept;
     ~Window();
 
-    // Reads what happened since the last call; what the next three tell changes here only.
+    // Polls input; the results of the next three functions change only here.
     void pollEvents();
     [[nodiscard]] std::span<const InputEvent> events() const;
-    [[nodiscard]] bool anyKeyPressed() const;  // one that Key does not name, too
+    [[nodiscard]] bool anyKeyPressed() const;  // also keys that Key does not name
     [[nodiscard]] bool keyDown(Key key) const;
 
     void swapBuffers();
@@ -44,24 +44,24 @@ class Window {
     void cancelClose();
 
     [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
-    [[nodiscard]] float contentScale() const;          // how much larger than usual things are to be drawn
-    [[nodiscard]] float pixelsPerUnit() const;         // pixels of the framebuffer along a screen unit
-    // The whole of the first monitor, or a window as it was before.
+    [[nodiscard]] float contentScale() const;          // scale of the user interface
+    [[nodiscard]] float pixelsPerUnit() const;         // framebuffer pixels per screen unit
+    // Full screen on the first monitor, or the former window.
     void setFullScreen(bool isFullScreen);
-    // `pixels`: width × height × 4 bytes, red first, rows from above. Ignored where windows have no icons.
+    // `pixels`: width × height × 4 bytes, RGBA, top row first. Does nothing on systems without window icons.
     void setIcon(int width, int height, std::span<const std::byte> pixels);
-    // The first gamepad, none where there is none.
+    // The first gamepad, if there is one.
     [[nodiscard]] std::optional<Gamepad> gamepad() const;
 
-    void setVsync(bool isOn);  // frames wait for the screen
+    void setVsync(bool isOn);  // frames wait for vertical sync
 
-    // A captured cursor is hidden and moves without end.
+    // A captured cursor is hidden and its motion is unlimited.
     void setCursorCaptured(bool captured);
     [[nodiscard]] double timeSeconds() const;  // since the window was made
 
     // Null without the debug option.
     [[nodiscard]] gpu::DebugLog* debugLog() const;
-    // For user interface libraries with a GLFW back end of their own.
+    // For Dear ImGui's GLFW back end.
     [[nodiscard]] GLFWwindow* handle() const;
 
   private:

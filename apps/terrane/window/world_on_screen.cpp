@@ -9,8 +9,8 @@
 
 namespace terrane::app {
 
-// A program that is in use would stay until the next one is used, and its name would be taken for one that
-// is still there.
+// OpenGL keeps a program in use until another one is used, and its name could then be mistaken for a live
+// one.
 WorldOnScreen::~WorldOnScreen() {
     glUseProgram(0);
 }

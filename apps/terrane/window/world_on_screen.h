@@ -1,5 +1,5 @@
-// A session and all that draws it, made together and destroyed in the right order. Used on the thread of the
-// OpenGL context.
+// A session and the objects that draw it, created together and destroyed in the right order. Used on the
+// thread of the OpenGL context.
 #pragma once
 
 #include <memory>

@@ -13,14 +13,14 @@
 namespace terrane::app {
 namespace {
 
-// Others may have put a picture there.
+// A limit, since the file may be from elsewhere.
 constexpr std::int64_t kMaxPicturePixels = 16 * kThumbnailWidth * kThumbnailHeight;
 
 gpu::Texture2D textureOf(const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(file, ignored)) return {};
     const auto image = base::readPng(file, kMaxPicturePixels);
-    if (!image) return {};  // a list without a picture is no loss
+    if (!image) return {};  // shown without an image
     const base::Image small = thumbnailFrom(*image);
     gpu::Texture2D texture({small.width, small.height}, GL_RGBA8, 1, "picture of a world");
     texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(small.rgba)));
@@ -35,7 +35,7 @@ std::string sizeText(std::uintmax_t bytes) {
 
 std::string timeText(std::filesystem::file_time_type time) {
     using namespace std::chrono;
-    // What clock the file system has is its own: its distance from now is not.
+    // The epoch of the file clock is unspecified: convert by the distance from now.
     const auto age = std::filesystem::file_time_type::clock::now() - time;
     const auto when =
         system_clock::to_time_t(system_clock::now() - duration_cast<system_clock::duration>(age));

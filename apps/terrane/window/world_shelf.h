@@ -1,5 +1,5 @@
-// The player's worlds as the title screen lists them: their pictures, which one is chosen, and a copy that is
-// being made. Used on the thread of the OpenGL context.
+// The list of worlds of the title screen: thumbnails, the chosen world, and a running copy. Used on the
+// thread of the OpenGL context.
 #pragma once
 
 #include <atomic>
@@ -22,24 +22,24 @@ class WorldShelf {
     WorldShelf(const WorldShelf&) = delete;
     WorldShelf& operator=(const WorldShelf&) = delete;
 
-    void reload();  // looks into the folder again; the chosen name stays chosen
+    void reload();  // reads the folder again; keeps the chosen name
     const std::vector<store::WorldEntry>& worlds() const { return worlds_; }
     const store::WorldEntry* chosen() const;  // null: there is none
     void choose(std::size_t index) { chosen_ = index; }
-    // The last played one that can be played; null: there is none.
+    // The last played world that can be opened; null: none.
     const store::WorldEntry* last() const;
-    // The OpenGL texture of a world's picture, 0: none. Read when it is first asked for.
+    // The OpenGL texture of a world's thumbnail, 0: none. Read at the first request.
     unsigned picture(const store::WorldEntry& world);
 
-    // Of the chosen world. Errors are one line for the player.
+    // Change the chosen world. Errors are one line for the player.
     [[nodiscard]] base::Result<void> rename(const std::string& newName);
     [[nodiscard]] base::Result<void> remove();
     void startCopy(const std::string& newName);
-    // A copy is being made: how much of it is done.
+    // Whether a copy is running, and its progress, 0 to 1.
     bool isCopying() const { return copying_.valid(); }
     float copied() const { return share_.load(); }
     void cancelCopy() { isCancelled_ = true; }
-    // Once a copy has ended: what went wrong, or nothing. None before.
+    // The result of a finished copy, once; none while it runs.
     std::optional<base::Result<void>> takeCopy();
 
   private:
@@ -47,14 +47,14 @@ class WorldShelf {
     const world::BlockRegistry* blocks_;
     std::vector<store::WorldEntry> worlds_;
     std::size_t chosen_ = 0;
-    std::map<std::string, gpu::Texture2D> pictures_;  // by name; empty ones where there is none
+    std::map<std::string, gpu::Texture2D> pictures_;  // by name; empty for worlds without one
     std::string copyName_;
     std::future<base::Result<void>> copying_;
     std::atomic<float> share_{0};
     std::atomic<bool> isCancelled_{false};
 };
 
-// "continents, seed 12, 4.2 MB, today 14:03"; what is wrong with it instead.
+// "continents, seed 12, 4.2 MB, today 14:03"; for a damaged world, its problem.
 std::string describe(const store::WorldEntry& world);
 
 }  // namespace terrane::app

@@ -15,10 +15,10 @@ using store_postgres::Connection;
 using store_postgres::Job;
 using Clock = std::chrono::steady_clock;
 
-// Chunks generated at once: enough for all threads or a batch of the GPU.
+// Chunks generated at a time: enough for all threads or a batch of the GPU.
 constexpr std::size_t kBatch = 128;
 constexpr std::chrono::seconds kRenewEvery{2};
-constexpr std::chrono::milliseconds kLookEvery{200};  // for a job, where there is none
+constexpr std::chrono::milliseconds kLookEvery{200};  // for a job while there is none
 
 std::vector<world::ChunkPos> positionsOf(const world::ChunkArea& area) {
     std::vector<world::ChunkPos> positions;
@@ -61,7 +61,7 @@ class Worker {
         return {};
     }
 
-    // Whether no job is left: one that another worker has may come back.
+    // True if no job is left; waits while another worker has one, since it may come back.
     base::Result<bool> waitForJob() {
         const auto status = parts_.pool.run<store_postgres::WorkStatus>(
             [](Connection& connection) { return workStatus(connection); });
@@ -93,7 +93,7 @@ class Worker {
         return parts_.pool.run<void>([&](Connection& connection) { return finishJob(connection, job); });
     }
 
-    // Chunks are written while the next are made.
+    // Chunks are written while the next ones are generated.
     base::Result<void> makeBatch(std::span<const world::ChunkPos> positions) {
         const std::vector<store::LoadedChunk> stored = parts_.store.loadMany(positions);
         const auto missing = store::missingOf(positions, stored);
@@ -109,7 +109,7 @@ class Worker {
         return {};
     }
 
-    // Where the database is away the store tries again, and so does this.
+    // While the database cannot be reached the store retries, and so does this.
     base::Result<void> flush(const Job& job) {
         while (true) {
             auto done = parts_.store.flush();
@@ -119,14 +119,14 @@ class Worker {
         }
     }
 
-    // False: the job is another worker's now, or nobody's.
+    // False if the job is no longer this worker's.
     base::Result<bool> renewIfDue(const Job& job) {
         const Clock::time_point now = Clock::now();
         if (now - renewed_ < kRenewEvery) return true;
         const double seconds = std::chrono::duration<double>(now - renewed_).count();
         renewed_ = now;
         const std::int64_t chunks = std::exchange(untold_, 0);
-        // The first time it is not known for how long they took.
+        // At the first renewal the time spent on the chunks is unknown.
         const double rate = std::exchange(isFirst_, false) ? 0 : static_cast<double>(chunks) / seconds;
         return parts_.pool.run<bool>(
             [&](Connection& connection) { return renewLease(connection, number_, job, chunks, rate); });
@@ -135,7 +135,7 @@ class Worker {
     const WorkerParts& parts_;
     std::int64_t number_ = 0;
     WorkerResult result_;
-    std::int64_t untold_ = 0;  // chunks that others do not know of
+    std::int64_t untold_ = 0;  // chunks since the last renewal
     Clock::time_point renewed_{};
     bool isFirst_ = true, saidPaused_ = false;
 };

@@ -1,5 +1,5 @@
-// A worker of `terrane work`: takes squares of chunks from the queue of a world in PostgreSQL, generates what
-// the world lacks of them, and goes on until none is left.
+// A worker of `terrane work`: takes squares of chunks from the queue of a world in PostgreSQL, generates
+// their missing chunks, and continues until the queue is empty.
 #pragma once
 
 #include <functional>
@@ -17,18 +17,17 @@ struct WorkerParts {
     store::ChunkStore& store;        // of the world, opened with WorldSharing::Generating
     store_postgres::ConnectionPool& pool;
     std::string name;
-    bool waits = false;  // for more jobs, where none is left
+    bool waits = false;  // for more jobs when the queue is empty
     std::function<bool()> stopAsked;
 };
 
 struct WorkerResult {
-    std::int64_t jobs = 0;     // that it finished
-    std::int64_t chunks = 0;   // that it generated
-    std::int64_t skipped = 0;  // that were there
+    std::int64_t jobs = 0;     // finished by this worker
+    std::int64_t chunks = 0;   // generated
+    std::int64_t skipped = 0;  // already stored
 };
 
-// Returns when no job is left that it could do, or stopAsked(). What it has begun then goes back to the
-// queue.
+// Returns when no job is left or stopAsked(). An unfinished job goes back to the queue.
 [[nodiscard]] base::Result<WorkerResult> work(const WorkerParts& parts);
 
 }  // namespace terrane::app

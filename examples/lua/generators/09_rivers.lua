@@ -3,7 +3,7 @@
 local seaLevel <const> = 80
 local height, water = g:field("height", "float"), g:field("water", "float")
 
--- Land without its details: what rivers follow.
+-- The terrain without details, which rivers follow.
 local function wideLand(p)
     return 104 + p:perlin2D("wide land", 128, {7, 14, 20, 26, 34})
 end

@@ -1,0 +1,35 @@
+#include "apps/terrane/serve/file_records.h"
+
+#include "terrane/net/sqlite_records.h"
+
+namespace terrane::app {
+
+base::Result<WorldRecords> openFileRecords(const store::WorldLocation& world,
+                                           const world::BlockRegistry& blocks) {
+    const auto path = store::fileOf(world);
+    if (!path) return tl::unexpected(path.error());
+    auto records = net::SqliteRecords::open(net::serverFilePath(*path), blocks);
+    if (!records) return tl::unexpected(records.error());
+    return WorldRecords{std::move(*records), {}};
+}
+
+base::Result<net::History> openFileHistory(const store::WorldLocation& world,
+                                           const world::BlockRegistry& blocks) {
+    const auto path = store::fileOf(world);
+    if (!path) return tl::unexpected(path.error());
+    return net::readHistoryFile(net::serverFilePath(*path), blocks);
+}
+
+bool hasFileRecords(const store::WorldLocation& world) {
+    const auto path = store::fileOf(world);
+    std::error_code ignored;
+    return path && std::filesystem::exists(net::serverFilePath(*path), ignored);
+}
+
+base::Result<std::filesystem::path> filesBeside(const store::WorldLocation& world) {
+    auto path = store::fileOf(world);
+    if (path) path->replace_extension();
+    return path;
+}
+
+}  // namespace terrane::app
