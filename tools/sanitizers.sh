@@ -91,7 +91,7 @@ land() {
 
 servers() {
     address '^(app|game|net|web|maps|store_postgres|net_postgres)($|[.])|^store[.]kill_test' \
-        'terrane save_loop game_tests net_tests web_tests maps_tests store_postgres_tests net_postgres_tests' \
+        'terrane save_loop game_tests net_tests web_tests maps_tests store_postgres_tests' \
         'messages server_session target' "${LONG_SERVERS[@]}"
 }
 
