@@ -11,7 +11,7 @@
 namespace terrane::app {
 namespace {
 
-constexpr float kSide = 44, kGap = 4;  // of a block's square, before scaling
+constexpr float kSide = 44, kSquareGap = 4;  // of a block's square, before scaling
 
 // Groups of built-in blocks have translated names; others are shown as they are.
 std::string shownGroup(const std::string& group, const Texts& tr) {
@@ -47,7 +47,7 @@ void drawGroups(PaletteState& state, const std::vector<std::string>& groups, con
 std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<world::BlockId>& shown,
                                          const BlockFace& face) {
     std::optional<world::BlockId> choice;
-    const float side = kSide * uiScale(), gap = kGap * uiScale();
+    const float side = kSide * uiScale(), gap = kSquareGap * uiScale();
     const auto columns =
         static_cast<std::size_t>(std::max(1.0f, (ImGui::GetContentRegionAvail().x + gap) / (side + gap)));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
