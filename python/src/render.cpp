@@ -63,7 +63,7 @@ void addRenderMethods(WorldClass& world) {
 position: (x, y, z) of the eyes, blocks. yaw: degrees, 0 looks along x, 90 along y. pitch: degrees, 90 looks up.
 size: (width, height), pixels, up to 8,192 each.
 time: of day, 0 midnight, 0.2 dawn, 0.5 noon (default), 0.8 dusk. view_distance: chunks in full detail, 1 to 64,
-16. horizon: chunks of coarse terrain, 0 to 4,096; 0, the default: none. preset: low, medium, high
+16. horizon: chunks from the camera up to which land is drawn, coarse beyond view_distance; 0 to 4,096, by default 0: none. preset: low, medium, high
 (default), ultra, thesis. field_of_view: degrees, vertical, 70.
 Each call makes an OpenGL 4.5 context without a window. Raises Error if the machine has none.)");
 }

@@ -110,7 +110,7 @@ TEST_F(PackFilesTest, PacksAreFoundByNameOrPath) {
 }
 
 TEST_F(PackFilesTest, AnUnreadableFolderHidesNoPack) {
-    write("isles/pack.toml", infoOf("isles"));
+    writeFolder(folder_ / "isles", files_);
     for (int k = 0; k < 20; ++k) {
         const fs::path loop = folder_ / std::to_string(k);
         fs::create_symlink(loop, loop);
