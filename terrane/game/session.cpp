@@ -61,7 +61,14 @@ void Session::buildTiles() {
 
 EditResult Session::edit(const EditCommand& command) {
     if (authority_.edited && command.player != kNoPlayer) return editAhead(command);
-    return edit(std::span(&command, 1)).front();
+    return applyAll(std::span(&command, 1)).front();
+}
+
+std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
+    if (!authority_.edited) return applyAll(commands);
+    std::vector<EditResult> results;  // the authority decides on one command at a time
+    for (const EditCommand& command : commands) results.push_back(edit(command));
+    return results;
 }
 
 // Applies a command before the authority decides on it. The authority keeps the player's steps.
@@ -77,7 +84,7 @@ EditResult Session::editAhead(const EditCommand& command) {
     return result;
 }
 
-std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
+std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands) {
     std::vector<EditResult> results;
     std::vector<world::BlockEdit> edits;
     std::unordered_map<PlayerId, PlayerChanges> changes;

@@ -111,6 +111,7 @@ class Session {
     struct PlayerChanges {
         world::BlockRecorder steps, uses;
     };
+    std::vector<EditResult> applyAll(std::span<const EditCommand> commands);
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                      PlayerChanges& changes);
     bool canReach(PlayerId player, world::BlockPos pos) const;

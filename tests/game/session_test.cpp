@@ -1,5 +1,7 @@
 #include "terrane/game/session.h"
 
+#include <gmock/gmock.h>
+
 #include "terrane/game/container.h"
 #include "terrane/light/light_chunk.h"
 #include "tests/game/session_fixture.h"
@@ -34,6 +36,19 @@ TEST_F(SessionTest, PlayersReachEightBlocks) {
     session_.removePlayer(7);
     EXPECT_EQ(session_.edit(put(kOnGround, "air", 7)), EditResult::OutOfReach);
     EXPECT_EQ(session_.world().block(kOnGround), contentBlock("sand"));
+}
+
+TEST_F(SessionTest, AnAuthorityIsToldOfEachOfManyEdits) {
+    session_.setPlayer(7, {.position = {5.5, 5.5, kGroundHeight + 2.0}});
+    std::vector<world::BlockPos> told;
+    Authority authority;
+    authority.edited = [&](const EditCommand& command, auto) { told.push_back(command.pos); };
+    session_.setAuthority(authority);
+    const world::BlockPos beside{6, 5, kGroundHeight};
+    const std::vector<EditCommand> commands = {put(kOnGround, "sand", 7), put(beside, "sand", 7),
+                                               put({7, 5, kGroundHeight}, "sand")};
+    EXPECT_THAT(session_.edit(commands), testing::Each(EditResult::Applied));
+    EXPECT_THAT(told, testing::ElementsAre(kOnGround, beside)) << "nobody asks for a script";
 }
 
 TEST_F(SessionTest, AChestIsBrokenOnlyWhenItIsEmpty) {
