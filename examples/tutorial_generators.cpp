@@ -62,7 +62,7 @@ void writeStep3(GeneratorBuilder& g) {
     g.pass3D("ground", [&](Pass& p) { p.setBlock(solidBlock(p, height, cover)); });
 }
 
-// Step 4: caves. 3D noise is expensive: inside an if_ layers of air and water skip it.
+// Step 4: caves. 3D noise is expensive: it is inside an if_, so that layers of air and water skip it.
 void writeStep4(GeneratorBuilder& g) {
     const auto height = g.field<Int>("height");
     const auto cover = g.field<Block>("cover");

@@ -24,7 +24,7 @@ void addContentOption(CLI::App& command, WorldOptions& options);
 // --area "X0,Y0,X1,Y1" in chunks, the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
-// --radius and --area, of which the command line has at most one.
+// --radius or --area; at most one may be given.
 struct AreaOptions {
     std::optional<int> radius;  // (2R+1)² chunks around 0,0
     std::optional<world::ChunkArea> area;

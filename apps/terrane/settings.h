@@ -27,8 +27,9 @@ using SettingValues = std::map<std::string, std::string>;  // option without das
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 
-// Writes the differences between `before` and `after`; the rest of the file stays, comments and order too. A
-// changed preset replaces all `graphics` options. Creates the file and its folder; a symbolic link stays one.
+// Writes only the differences between `before` and `after`, so that options of the command line do not become
+// settings; the rest of the file stays, comments and order too. A changed preset replaces all `graphics`
+// options. Creates the file and its folder; a symbolic link stays one.
 base::Result<void> writeChanges(const std::filesystem::path& file, const SettingValues& before,
                                 const SettingValues& after, const std::vector<std::string>& graphics);
 

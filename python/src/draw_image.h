@@ -23,7 +23,7 @@ struct ImageRequest {
     float fieldOfView = 70;     // degrees, vertical
     float timeDay = 0.5f;       // 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk
     int viewDistance = 16;      // chunks in full detail
-    int horizon = 0;            // chunks of coarse terrain; 0: none beyond viewDistance
+    int horizon = 0;            // chunks up to which coarse terrain is drawn; 0: none
     std::string preset = "high";
 };
 

@@ -76,7 +76,7 @@ ThreadBuffer& threadBuffer() {
     return *buffer;
 }
 
-// As a JSON string.
+// Quotes and escapes the text for JSON.
 std::string jsonString(std::string_view text) {
     std::string out = "\"";
     for (const char c : text) {

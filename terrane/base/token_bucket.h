@@ -26,7 +26,7 @@ class TokenBucket {
         return true;
     }
 
-    // Takes tokens even if there are too few: later calls of take() wait until they are refilled.
+    // Takes tokens even if there are too few: take() then fails until they are refilled.
     void spend(double count) { tokens_ -= count; }
 
   private:

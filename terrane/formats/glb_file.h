@@ -1,5 +1,5 @@
-// Writes triangles with textures as binary glTF 2.0 (.glb), one file that viewers and 3D programs open. Plain
-// functions; any thread.
+// Writes triangles with textures as binary glTF 2.0 (.glb), one file that viewers and 3D programs open.
+// Called by `terrane export`, for the models of glb_mesh.h. Plain functions; any thread.
 #pragma once
 
 #include <cstdint>

@@ -12,7 +12,7 @@ namespace terrane::game {
 namespace {
 
 constexpr int kSkyReach = 40;  // blocks above the ears that are searched for a roof
-// Wind begins at the first height and is full at the second; z.
+// Wind grows from kLeastWind at the first height to 1 at the second; z.
 constexpr double kCalm = 70, kStormy = 200, kLeastWind = 0.15;
 constexpr int kStep = 2;        // between the columns that are searched for water
 constexpr int kWaterDepth = 5;  // blocks above and below the ears

@@ -27,7 +27,7 @@ class BlockInteraction {
     // Uses the block that the player looks at, for example opens a door. False if it cannot be used.
     bool use(Session& session, PlayerId id);
 
-    // Chooses the block that the player looks at in the hotbar. False if there is none.
+    // Chooses in the hotbar the block that the player looks at. False if there is none that can be built.
     bool pick(const Session& session);
 
     // Breaks or builds while a button is held, by commands to the session; never builds into the player.

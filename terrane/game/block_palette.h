@@ -18,7 +18,7 @@ struct PaletteFilter {
     std::string_view search;  // each word is in the shown name or in the type's name; case is ignored
     std::function<std::string(world::BlockId)> shownName;
 };
-// In the order of the registry; blocks whose name begins with the first searched word come first.
+// In the order of the registry; blocks whose shown name begins with the first searched word come first.
 std::vector<world::BlockId> paletteBlocks(const world::BlockRegistry& blocks, const PaletteFilter& filter);
 
 }  // namespace terrane::game

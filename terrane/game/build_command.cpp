@@ -149,7 +149,7 @@ BuildOutcome Session::build(const BuildCommand& command) {
     }
     const PlannedBlocks plan = plannedBlocks(world_, *blocks_, command.change, command.player != kNoPlayer);
     if (!mayChangeAll(permissions, command.player, plan.blocks)) return {Result::NotAllowed};
-    // Blocks of a structure keep their states; behaviors set those of a fill.
+    // Blocks of a structure keep their states; behaviors may change those of a fill.
     const bool isFill = std::holds_alternative<FillBox>(command.change);
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;

@@ -24,8 +24,8 @@ EditStep stepSince(const world::World& world, world::BlockRecorder& recorder);
 EditStep allSince(const world::World& world, world::BlockRecorder& recorder);
 EditStep stepOf(EditStep changes);
 
-// The blocks that undo a step: those that are still what the step made them. A block that somebody else
-// changed since, or whose data changed, is left out; one that only grew or was opened is not.
+// The blocks that undo a step: those that are still what the step made them. A block is left out if it was
+// replaced since, or if its data changed; changes of its state alone (growth, opening) do not count.
 std::vector<world::PlacedBlock> blocksBefore(const world::World& world, const EditStep& step);
 
 enum class HistoryWay : std::uint8_t { Undo, Redo };
@@ -41,7 +41,7 @@ class EditHistory {
     void add(EditStep step);
     // The next step to undo or redo; null if there is none. Valid until the history changes.
     const EditStep* next(HistoryWay way) const;
-    // Replaces that step, which was taken back, by `reverse` the other way. An empty one is not kept.
+    // Removes that step after it was taken back, and adds `reverse`, unless empty, the other way.
     void takenBack(HistoryWay way, EditStep reverse);
 
     std::size_t stepCount(HistoryWay way) const { return of(way).steps.size(); }

@@ -27,7 +27,7 @@ std::optional<Place> placeFrom(const std::string& line);
 // Skips lines that are no place or have no name, and those beyond kMaxPlaces places.
 std::vector<Place> placesFrom(std::string_view text);
 
-// The typed text without control characters and without spaces at its ends, cut to kMaxPlaceName bytes
+// The typed text with control characters as spaces and without spaces at its ends, cut to kMaxPlaceName bytes
 // between characters.
 std::string placeName(std::string_view typed);
 // Adds a place with this name; a place of the same name moves there. False if there are kMaxPlaces already or

@@ -36,7 +36,7 @@ class BatchGenerator {
 };
 
 // Generates on `threads` − 1 threads of its own and, while it waits in take(), on the calling one. With one
-// thread take() generates even where it is not asked to wait.
+// thread take() generates even if it is not asked to wait.
 std::unique_ptr<BatchGenerator> makeCpuGenerator(Generator generator, unsigned threads);
 
 // The chunks at `positions`, in their order. Waits; nothing else may be in flight.

@@ -1,5 +1,5 @@
 // Nesting depth of the branches and loops of a scheduled pass. The compiler, the executor and GLSL compilers
-// recurse once per level, so GeneratorBuilder::finish() refuses passes that nest too deep. Any thread.
+// recurse once per level, so GeneratorBuilder::finish() refuses passes that nest too deeply. Any thread.
 #pragma once
 
 #include <string>
@@ -20,7 +20,7 @@ constexpr int kMaxBranchChain = 1024;
 int branchDepth(const PassGraph& pass);
 int branchChain(const PassGraph& pass);
 
-// The reason where a pass is too deep, else empty.
+// The reason if a pass nests too deeply, else empty.
 std::string branchMistake(const PassGraph& pass);
 
 }  // namespace terrane::gen

@@ -67,7 +67,7 @@ class GeneratorBuilder {
 
     // Mistakes so far, one line each. terrane/lua adds the line of the script whose call made one.
     const std::vector<std::string>& mistakes() const { return errors_; }
-    // The generator as far as it is recorded. It makes sense where there are no mistakes.
+    // The generator as far as it is recorded. Valid only without mistakes.
     const GeneratorGraph& recorded() const { return generator_; }
 
     [[nodiscard]] base::Result<GeneratorGraph> finish();
@@ -78,8 +78,8 @@ class GeneratorBuilder {
     std::uint32_t newField(std::string_view name, Type type);
     void setTint(std::uint32_t field, Type type);
     void addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body);
-    // Returns the call with the weights of the level. Notes a mistake in it and returns a valid call instead.
-    // A name belongs to one noise.
+    // Returns the call with the weights of the level. If the call has a mistake, notes it and returns a valid
+    // call instead. A name belongs to one noise.
     NoiseCall checkedNoise(Pass& pass, std::string_view kind, NoiseCall call);
     std::uint32_t noiseIndex(const NoiseCall& call);
     std::uint32_t hashSlot(const std::string& seedName);

@@ -15,8 +15,8 @@
 
 namespace terrane::gen {
 
-// Receives the blocks of layer z, x + 16 y, and drops columns whose lower layers are not needed: those may
-// have any blocks.
+// Receives the blocks of layer z, x + 16 y, and drops columns whose lower layers are not needed: these layers
+// may have any blocks there.
 using LayerTaker =
     std::function<void(int z, std::span<const world::BlockId, kTileLanes> layer, WantedColumns& wanted)>;
 

@@ -191,7 +191,8 @@ std::vector<std::uint32_t> countUpstream(const std::vector<std::uint32_t>& next)
     return counts;
 }
 
-// Subtracts nodes farther upstream: each is upstream of a node that is kMaxUpstream + 1 steps away.
+// Counts nodes up to kMaxUpstream steps upstream: from all nodes upstream it subtracts those farther away,
+// which are upstream of the nodes kMaxUpstream + 1 steps away.
 void countFlow(DrainageNetwork& n) {
     static_assert(std::has_single_bit(static_cast<unsigned>(kMaxUpstream)), "steps are doubled");
     const std::vector<std::uint32_t> next = nextNodes(n), counts = countUpstream(next);

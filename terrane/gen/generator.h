@@ -63,7 +63,7 @@ class Generator {
     // coordinates wrap.
     world::Chunk generate(world::ChunkPos pos) const;
 
-    // The same. Appends reports of its 3D passes, but not of passes that neighbors had run already.
+    // The same. Appends reports of its 3D passes, but not of passes that had run already for neighbors.
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
 
     // Passes the chunk's blocks to `take`, layer by layer from the top, until no column is requested: cheaper

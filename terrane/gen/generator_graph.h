@@ -72,7 +72,7 @@ struct GeneratorGraph {
     std::vector<std::string> hashNames;  // of seed slots
     std::vector<DrainageGraph> drainages;
     std::vector<PassGraph> passes;             // the last one is 3D
-    std::shared_ptr<const ShapeTable> shapes;  // null where no pass stamps
+    std::shared_ptr<const ShapeTable> shapes;  // null if no pass stamps
     std::shared_ptr<const TintGraph> tint;     // null: the generator has none
 };
 

@@ -105,7 +105,7 @@ void cellsAlong(std::int32_t rest, std::uint32_t cell, std::int32_t step, std::i
     }
 }
 
-// Returns false where the gradients do not fit into a vector.
+// Returns false if the gradients do not fit into a vector.
 bool nodeRow2D(const AxisCells& x, std::uint32_t y, std::uint32_t seed, float* one, float* yFactor) {
     if (!fits(x)) return false;
     const VU h = mixBits(hn::Xor(mixHalf(nodeHash(x, seed)), hn::Set(du, y * shared::kHashY)));

@@ -25,7 +25,7 @@ struct LevelGenerators::Impl {
     std::array<std::optional<base::Result<std::optional<Tint>>>, world::kMaxLevel + 1> tints;
     base::Result<std::optional<Tint>> makeTint(int level);
 
-    // Null where the level has none.
+    // Null if the level has none.
     const Tint* tint(int level);
     base::Result<std::optional<Tint>>& madeTint(int level);  // under the mutex
 };

@@ -27,16 +27,16 @@ class LevelGenerators {
     LevelGenerators(LevelGenerators&&) noexcept;
     LevelGenerators& operator=(LevelGenerators&&) noexcept;
 
-    // The generator of a level, 0…world::kMaxLevel, which lives as long as this object; or what is wrong with
-    // its graph.
+    // The generator of a level, 0…world::kMaxLevel, which lives as long as this object; or the error of its
+    // graph.
     [[nodiscard]] base::Result<const Generator*> at(int level) const;
 
-    // The chunk of the position's level. Throws std::invalid_argument with the reason where there is none.
+    // The chunk of the position's level. Throws std::invalid_argument with the reason if there is none.
     [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
 
     // Whether the generator has a tint at level 0. Records that level's graph, once.
     [[nodiscard]] bool hasTint() const;
-    // The tint of the chunk's columns; none where its level or level 0 has none. Makes no blocks, and no
+    // The tint of the chunk's columns; none if its level or level 0 has none. Makes no blocks, and no
     // generator of them. Errors as generate().
     [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 

@@ -122,7 +122,7 @@ struct OpRecord {
     std::uint8_t argCount;
     std::array<Type, 3> argTypes;  // of Select and Phi: arguments 1 and 2 are of the result's type
     Type result;
-    // The value for constant arguments; null where it is not a function of its arguments alone.
+    // The value for constant arguments; null if it is not a function of its arguments alone.
     Bits (*evaluate)(std::span<const Bits> args);
     // The same in GLSL, {0} {1} {2} standing for the arguments; empty for what glsl_emitter.cpp writes
     // itself.

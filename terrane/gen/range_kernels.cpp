@@ -30,7 +30,7 @@ void rangeOfInts(const Bits* values, std::int32_t& lowest, std::int32_t& highest
     highest = hn::GetLane(hn::MaxOfLanes(di, high));
 }
 
-// Returns false where some value is NaN.
+// Returns false if some value is NaN.
 bool rangeOfFloats(const Bits* values, float& lowest, float& highest) {
     const auto load = [&](std::size_t k) HWY_ATTR {
         return hn::BitCast(df, hn::Load(hn::RebindToUnsigned<decltype(df)>(), values + k));

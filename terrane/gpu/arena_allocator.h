@@ -1,6 +1,6 @@
-// Hands out ranges over several buffers (arenas), none of which is larger than a limit. A range lies in one
-// arena. Units are the caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that
-// a growth asks for. Not synchronised: one thread at a time.
+// Allocates ranges of several buffers (arenas) of limited size. A range lies in one arena. Units are the
+// caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that a growth asks for.
+// Not synchronized: one thread at a time.
 //
 // An address is arena × arenaSize + offset, so that 32 bits name a unit in any arena. Only the last arena
 // grows: it doubles, which copies it, up to the limit. When it cannot grow further, or there is no room for

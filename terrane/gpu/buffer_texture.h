@@ -1,6 +1,6 @@
-// A buffer seen as a texture of one dimension, which shaders read by texelFetch from a samplerBuffer:
-// elements in a format of the texture unit. Software renderers gather those, where they read storage buffers
-// number by number. Used on the thread of its context.
+// A buffer as a one-dimensional texture, which shaders read by texelFetch from a samplerBuffer, in a texture
+// format. Software renderers gather texels, but read storage buffers one number at a time. Used on the thread
+// of its context.
 #pragma once
 
 #include <string_view>

@@ -43,7 +43,7 @@ std::vector<EGLDeviceEXT> listDevices(bool withSoftware) {
 }  // namespace
 
 base::Result<HeadlessContext> HeadlessContext::createOn(void* display, const ContextOptions& options) {
-    // Displays are never terminated: EGL hands every caller the same one, so that would end other contexts
+    // Displays are never terminated: EGL gives every caller the same one, so that would end other contexts
     // too.
     if (display == EGL_NO_DISPLAY || eglInitialize(display, nullptr, nullptr) == EGL_FALSE)
         return base::fail("EGL finds no display to draw without a window");

@@ -16,7 +16,7 @@ struct ContextOptions {
 
 class HeadlessContext {
   public:
-    // Takes a graphics card where the system has one, else the software renderer.
+    // Uses a graphics card if the system has one, else the software renderer.
     [[nodiscard]] static base::Result<HeadlessContext> create(const ContextOptions& options);
 
     HeadlessContext() = default;

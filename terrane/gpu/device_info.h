@@ -23,7 +23,7 @@ struct DeviceInfo {
     float maxAnisotropy = 1.0F;  // 1: not offered
     int subpixelBits = 4;        // a pixel is 2^bits steps of the grid that the rasterizer moves corners to
     std::int64_t maxStorageBlockBytes = 0;
-    std::int64_t videoMemoryBytes = 0;  // free on the graphics card when asked; 0: the driver does not tell
+    std::int64_t videoMemoryBytes = 0;  // free on the graphics card when queried; 0: unknown
 };
 
 [[nodiscard]] DeviceInfo queryDevice();

@@ -1,5 +1,5 @@
-// The fixed-function state of a draw. Each draw states all of it, so that no pass depends on what the one
-// before it left behind. Used on the thread of the context.
+// The fixed-function state of a draw. Each draw states all of it, so that no pass depends on the state left
+// by the previous one. Used on the thread of the context.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,8 @@
 
 namespace terrane::gpu {
 
-// Comparison of the new depth with that of the target by which fragments pass. Off also writes no depth.
+// Comparison of a fragment's depth with that of the target that must hold for it to pass. Off also writes no
+// depth.
 enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
 // Over: premultiplied color over the target.
 // Through: color plus the target times the second output of the shader, for each channel.
@@ -29,7 +30,8 @@ struct PipelineState {
     bool operator==(const PipelineState&) const = default;
 };
 
-// Sets the state of its context, and only what differs from the state before. One for each owner of draws.
+// Sets the state of its context, and only what differs from the state before. Every object that draws in the
+// context has its own.
 class Pipeline {
   public:
     void set(const PipelineState& state);

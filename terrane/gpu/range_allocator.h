@@ -1,5 +1,5 @@
-// Hands out ranges of one large buffer: best fit, neighbors merged when freed. Units are the caller's
-// (bytes, quads). Plain bookkeeping without OpenGL; not synchronised: one thread at a time.
+// Allocates ranges of one large buffer: best fit, neighbors merged when freed. Units are the caller's (bytes,
+// quads). Plain bookkeeping without OpenGL; not synchronized: one thread at a time.
 #pragma once
 
 #include <cstdint>

@@ -46,7 +46,7 @@ class GpuTimer {
         Handle<ObjectKind::Query> end;
     };
     struct Frame {
-        std::vector<Zone> zones;  // kept with their queries from use to use
+        std::vector<Zone> zones;  // reused with their queries
         std::size_t usedZones = 0;
         std::size_t lastEnded = 0;  // the zone that ended last
         bool pending = false;

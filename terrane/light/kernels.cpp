@@ -18,7 +18,7 @@
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {
 namespace HWY_NAMESPACE {
-// A row and where its neighbors are.
+// Pointers to the values of a row and of its neighbors.
 struct RowPlace {
     const LightValue *self, *west, *east, *south, *north, *below, *above;
 };
@@ -108,7 +108,7 @@ void settleBrick(LightField& field, int index, Rule rule) {
     };
     while ((dirty[0] | dirty[1] | dirty[2] | dirty[3]) != 0) {
         for (std::size_t word = 4; word-- > 0;) {
-            // Rows marked above the last one wait for the way up.
+            // Rows marked above the last one are processed on the way up.
             std::uint64_t below = ~std::uint64_t{0};
             while ((dirty[word] & below) != 0) {
                 const int bit = 63 - std::countl_zero(dirty[word] & below);

@@ -25,7 +25,7 @@ constexpr LightValue withLevel(LightValue value, int component, int level) {
     return static_cast<LightValue>((value & ~(kMaxLevel << 4 * component)) | level << 4 * component);
 }
 
-// The same level in all four components, as opacities are kept beside light.
+// The same level in all four components, the form of opacities.
 constexpr LightValue allComponents(int level) {
     return static_cast<LightValue>(level * 0x1111);
 }

@@ -42,7 +42,7 @@ class LightWorkspace {
     light::LightBrick brickAt(std::size_t entry) const;
 
     std::vector<world::ChunkPos> requested_;  // empty: no batch
-    std::size_t chunkCount_ = 0;              // solved
+    std::size_t chunkCount_ = 0;              // solved chunks
     shared::uint roundsDone_ = 0;
     world::PackedSections input_;
     gpu::Buffer sections_, data_, neighbors_;  // of the batch

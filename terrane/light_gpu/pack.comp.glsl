@@ -1,6 +1,6 @@
 // Packs the result: bricks of 16³ in the order of a section's blocks; bricks of one value have an entry only. A work
-// group packs one brick of one of the first chunks. While light tiles are left that could change, only their number is
-// written.
+// group packs one brick of a requested chunk; these come first. While light tiles are left that could change, only
+// their number is written.
 #include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/solver_state.glsl"
 

@@ -1,7 +1,7 @@
 // One round: raises each light tile of the list, with the levels around it as they are, until it is stable. Neighbors
-// that it could raise are added to the next round's list. Levels only grow, and each is that of a neighbor less the
-// loss. So neither the order of work groups nor reading a neighbor before or after its change matters: a tile that
-// changes late lists its neighbors.
+// that it could raise are added to the next round's list. Levels only grow, and each is a source or that of a neighbor
+// less the loss. So neither the order of work groups nor reading a neighbor before or after its change matters: a tile
+// that changes late lists its neighbors.
 #include "terrane/light_gpu/light_tiles.glsl"
 #include "terrane/light_gpu/work_list.glsl"
 

@@ -30,7 +30,7 @@ class Budget {
 
     // Sets the state whose line line() gives.
     void watch(lua_State* state) { state_ = state; }
-    // The script's line where a limit was met, 0 where none ran. Steps and time come before memory.
+    // The script's line where a limit was met, 0 if none ran. Steps and time come before memory.
     int line() const { return line_; }
 
     // A lua_Alloc whose first argument is a Budget. Returns null beyond the limits; then Lua ends the script.

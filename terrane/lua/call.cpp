@@ -200,7 +200,7 @@ bool isWhole(lua_State* L, int argument) {
     return lua_isinteger(L, argument) != 0;
 }
 
-// The kind of a literal; Count where it has none.
+// The kind of a literal; Count if it has none.
 Kind literalKind(lua_State* L, int argument) {
     switch (lua_type(L, argument)) {
         case LUA_TNUMBER:

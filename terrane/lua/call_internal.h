@@ -58,12 +58,12 @@ class Call {
     std::int32_t size(int argument) const { return integer(argument, 1, 65536); }  // in blocks
     std::vector<float> weights(int argument);                                      // of 1 to 12 octaves
     void table(int argument) const;
-    // The length of a list. Throws where its positive whole keys are not exactly 1…n: where a list has holes,
+    // The length of a list. Throws if its positive whole keys are not exactly 1…n: if a list has holes,
     // the length that Lua gives depends on a hash seed. Goes through all keys, which costs steps.
     lua_Integer listLength(int argument);
     void function_(int argument) const;
 
-    // The expression that an argument is, if any; null for literals. Throws where it belongs to another pass.
+    // The expression that an argument is, if any; null for literals. Throws if it belongs to another pass.
     const Expression* expression(int argument) const;
     // An argument as an expression of a kind: literals of the kind too.
     Parts parts(int argument, Kind kind);
@@ -71,7 +71,7 @@ class Call {
     T get(int argument) {
         return fromParts<T>(parts(argument, kKindOf<T>));
     }
-    // The kind that arguments share: numbers take that of the others. Throws where there is none.
+    // The kind that arguments share: numbers take that of the others. Throws if there is none.
     Kind commonKind(std::initializer_list<int> arguments) const;
     const Object& object(int argument, Tag tag) const;
     // The number of the field that is the argument. Throws unless it is of this kind.

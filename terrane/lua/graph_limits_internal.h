@@ -7,7 +7,7 @@
 
 namespace terrane::lua {
 
-// Returns the reason where a chunk may take too long, else an empty string. The graph has no mistakes. Stamps
+// Returns the reason if a chunk may take too long, else an empty string. The graph has no mistakes. Stamps
 // count once it has its table of shapes.
 std::string unboundedWork(const gen::GeneratorGraph& graph);
 

@@ -24,7 +24,7 @@ struct Limits {
 };
 
 // Limits of what a script records. The larger generators of the program have some 3,000 nodes a pass. All
-// passes together have at most 100,000 nodes, as a node counts 40 steps (call.cpp).
+// passes together have at most 100,000 nodes: Limits::steps / 40, the steps of a node (call.cpp).
 constexpr std::size_t kMaxNodesInPass = 20'000;
 constexpr std::size_t kMaxPasses = 32;
 constexpr std::size_t kMaxFields = 128;

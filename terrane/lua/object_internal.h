@@ -17,7 +17,7 @@ struct Object {
     Expression expression{};   // a variable, field or pass sets kind and pass alone
 };
 
-// Null where the value is no object.
+// Null if the value is no object.
 const Object* objectAt(lua_State* L, int index);
 // "Float", "Pass", "Field": what type() gives.
 std::string_view nameOf(const Object& object);

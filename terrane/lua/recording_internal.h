@@ -27,8 +27,8 @@ class BlockNames {
     BlockNames(const world::BlockRegistry& blocks, std::string_view pack, Aliases aliases = {})
         : blocks_(blocks), pack_(pack), aliases_(std::move(aliases)) {}
 
-    // Returns the registry's name of a block. A block of the pack comes first. Throws ScriptError where there
-    // is none.
+    // Returns the registry's name of a block. A block of the pack comes first. Throws ScriptError if there is
+    // none.
     std::string find(std::string_view name);
     // Returns the registry's names from find() and addUsed() in the order of first use, without air.
     const std::vector<std::string>& used() const { return used_; }

@@ -41,7 +41,7 @@ base::Result<gen::GeneratorGraph> record(const Script& script, BlockNames& names
     return graph;
 }
 
-// For names that content files do not allow, such as "pack:block", other names that they do.
+// Replacements for names that content files do not allow, such as "pack:block".
 BlockNames::Aliases aliasesOf(const std::vector<std::string>& names) {
     BlockNames::Aliases aliases;
     const auto isTaken = [&](const std::string& alias) {

@@ -22,15 +22,15 @@ struct Script {
 
 struct ScriptNames {
     std::string generator;  // name of the graph
-    std::string pack;       // block "x" is "PACK:x" where the registry has it, else "x"; empty: only "x"
+    std::string pack;       // block "x" is "PACK:x" if the registry has it, else "x"; empty: only "x"
 };
 
 // The graph of one level, 0…world::kMaxLevel. An error is one line, "FILE:LINE: reason", or "FILE: reason"
-// where it concerns the whole generator.
+// if it concerns the whole generator.
 [[nodiscard]] base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                              const world::BlockRegistry& blocks, int level);
 
-// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels where it names the step) and of
+// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels if it names the step) and of
 // the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
 // comments or layout. Saves keep it as the generator's version. print() of the script writes nothing.
 [[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,

@@ -17,8 +17,8 @@ namespace {
 
 // Brightness of faces: tops, southern ones at the left, and eastern ones at the right.
 constexpr float kTop = 1.0f, kSouth = 0.78f, kEast = 0.6f;
-// Trees are drawn as a crown over the ground: this share of the height between them thick, at most kMaxCrown
-// blocks.
+// Trees are drawn as a crown over the ground. Its thickness is this share of the height from ground to top,
+// at most kMaxCrown blocks.
 constexpr float kCrownShare = 0.6f;
 constexpr int kMaxCrown = 6;
 constexpr double kLiquidHeight = 0.9;  // of its topmost block

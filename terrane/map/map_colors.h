@@ -21,7 +21,7 @@ struct BlockColor {
     bool isTinted = false;
     SurfaceKind kind = SurfaceKind::Ground;
     glm::vec3 emission{0};  // 0…1
-    float reach = 0;        // distance that it lights, blocks
+    float reach = 0;        // distance to which it shines, blocks
 };
 using MapColors = std::vector<BlockColor>;  // by block id
 

@@ -41,7 +41,7 @@ class MapPainter {
         SurfaceCache* cache = nullptr;
         std::optional<gen::Biomes> biomes = {};
     };
-    // Fails if a texture cannot be read. All but the textures outlive this.
+    // Fails if a texture cannot be read. All parts but the textures outlive this.
     [[nodiscard]] static base::Result<MapPainter> create(Parts parts);
 
     // The digest of all inputs of images besides the land: colors of blocks, and the way of painting.

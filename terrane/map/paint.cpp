@@ -23,7 +23,7 @@ constexpr float kRelief = 0.6f, kReliefOfLevel = 1.45f;
 // Relief is the slope of the land around, and for this share the step beside a column: steps show buildings,
 // slopes the shape of hills.
 constexpr float kStepShare = 0.35f;
-constexpr float kSkyShare = 0.32f;  // light of the sky, without direction, on flat ground
+constexpr float kSkyShare = 0.32f;  // of the light on flat ground: the sky's, which has no direction
 constexpr glm::vec3 kNight(0.30f, 0.34f, 0.48f);
 constexpr float kLampShare = 1.1f;  // of the color by day, beside a lamp
 
@@ -152,7 +152,7 @@ class LampLight {
         const BlockId top = surfaces_.at(x, y).top;
         return top < colors.size() && colors[top].reach > 0 ? &colors[top] : nullptr;
     }
-    // In a lake of lava only the blocks at the shore shine.
+    // In a lake of lava only the blocks at the shore light their surroundings.
     bool isInside(const MapColors& colors, int x, int y) const {
         for (const auto& [dx, dy] : {std::pair(1, 0), std::pair(-1, 0), std::pair(0, 1), std::pair(0, -1)})
             if (isIn(x + dx, y + dy) && !lampAt(colors, x + dx, y + dy)) return false;

@@ -37,8 +37,7 @@ constexpr std::size_t kSurfaceColumns = static_cast<std::size_t>(world::kChunkSi
 using Surface = std::array<SurfaceColumn, kSurfaceColumns>;  // x + 16 y
 
 Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds);
-// The same for a chunk of the generator, which generates no more than needed. Errors as
-// gen::Generator::generate().
+// The same for a generated chunk; generates no more of it than needed. Errors as gen::Generator::generate().
 Surface surfaceOf(const gen::Generator& generator, world::ChunkPos pos, const SurfaceKinds& kinds);
 
 }  // namespace terrane::map

@@ -35,7 +35,7 @@ class SurfaceCache {
     ~SurfaceCache();
 
     bool contains(BlobPos pos) const;
-    // Nothing if it is not there or damaged; then it is removed.
+    // Nothing if the entry is missing or damaged; a damaged one is removed.
     std::optional<std::vector<SurfaceColumn>> find(BlobPos pos);
     // Removes the least recently used entries if the file would grow too large. A failure to write is logged
     // once.

@@ -145,7 +145,8 @@ void SurfaceSource::Impl::readBlobs(std::span<const ChunkPos> chunks) {
         }
 }
 
-// Whether all chunks of the blob are noted. Stops at the first one that is not: some 10 µs at most.
+// Whether all chunks of the blob are in memory or noted as edited. Stops at the first that is not: some 10 µs
+// at most.
 bool SurfaceSource::Impl::isWhole(BlobPos blob) {
     const std::vector<ChunkPos> chunks = chunksOf(blob);
     const std::lock_guard lock(mutex);

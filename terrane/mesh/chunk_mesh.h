@@ -19,7 +19,7 @@ struct QuadRange {
 // The vertical unit of culling and drawing. Its quads are contiguous: by draw bucket, then face direction.
 struct MeshSection {
     QuadRange ranges[kDrawBucketCount][kFaceDirectionCount];
-    int minZ = 0, maxZ = 0;  // the quads lie in blocks minZ … maxZ − 1; both 0 where there are none
+    int minZ = 0, maxZ = 0;  // the quads lie in blocks minZ … maxZ − 1; both 0 if there are none
 
     bool operator==(const MeshSection&) const = default;
 };

@@ -9,7 +9,6 @@ namespace terrane::mesh {
 // Whether a liquid flows in the section or its neighbors.
 bool hasFlow(const SectionView& view);
 
-// Flowing blocks of a liquid.
 BitCube flowingBlocks(const ModelBlocks& liquid);
 
 // Adds all faces of flowing blocks, and those of still blocks toward flowing ones. `stillSurface`: the still

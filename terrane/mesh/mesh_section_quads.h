@@ -37,7 +37,7 @@ inline std::array<QuadRange, shared::kRangesPerMeshSection> rangesOf(const MeshS
 
 // The same mesh section with its quads from `first` on.
 inline MeshSection movedTo(std::uint32_t first, MeshSection meshSection) {
-    const std::uint32_t by = first - firstQuad(meshSection);  // modulo 2³² also where it moves down
+    const std::uint32_t by = first - firstQuad(meshSection);  // modulo 2³²: it may be negative
     for (auto& bucket : meshSection.ranges) {
         for (QuadRange& range : bucket) range.first += by;
     }

@@ -205,8 +205,8 @@ void SectionFaces::addLiquid(const TypeBlocks& blocks) {
 }
 
 // Blocks under anything but the same liquid or an opaque cube are surface: their top lies lower, and so do
-// their sides. These merge along u only, since no surface block stands on another. Of a full block beside a
-// surface block the strip above that surface is left out.
+// their sides. These merge along u only, since no surface block stands on another. A full block next to a
+// surface block has no face for the strip above that surface.
 void SectionFaces::addStillLiquid(const TypeBlocks& blocks, const BitCube& still) {
     const BlockType& type = blocks.type;
     const BitCube stillAlongY = transposed(still, blocks.layers);

@@ -1,5 +1,5 @@
-// Finds the visible faces of one section by the rules of each shape and hands them to a FaceWriter. Called by
-// chunk_mesher.cpp for each section of a chunk, on the meshing worker's thread.
+// Finds the visible faces of one section by the rules of each shape and passes them to a FaceWriter. Called
+// by chunk_mesher.cpp for each section of a chunk, on the meshing worker's thread.
 #pragma once
 
 #include <array>

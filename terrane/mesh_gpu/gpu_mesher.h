@@ -6,9 +6,10 @@
 // per section with faces that may be visible: 4,096 block indices read once (512 to 8,192 bytes) and 1,536 of
 // its neighbors, 256 invocations with 20 bit operations a side. Then greedy merging takes 96 planes, one
 // invocation each, with two to three reads of shared memory a row and rectangle; the other methods take two
-// to eight passes over 1,536 rows or columns. A work group has 29 KB of shared memory (OpenGL guarantees 32):
-// the 228 KB of a large GPU hold seven of the eight that fill its 2,048 invocations, the 64 KB of a small one
-// two. Empty planes end at once; a warp of 32 planes takes as long as the plane with most rectangles.
+// to eight passes over 1,536 rows or columns. A work group has 29 KB of shared memory (OpenGL guarantees 32
+// KB): the 228 KB of a large GPU hold seven of the eight that fill its 2,048 invocations, the 64 KB of a
+// small one two. Empty planes end at once; a warp of 32 planes takes as long as the plane with most
+// rectangles.
 #pragma once
 
 #include <cstdint>

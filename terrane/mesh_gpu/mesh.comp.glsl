@@ -61,7 +61,7 @@ void main() {
     uint local = gl_LocalInvocationIndex, unitIndex = gl_WorkGroupID.x;
     MeshUnit unit = units[unitIndex];
 #if WRITES_QUADS
-    if (unitCounts[kMeshUnitWords * unitIndex + kRangesPerMeshSection] == 0u) return;  // nothing to be seen
+    if (unitCounts[kMeshUnitWords * unitIndex + kRangesPerMeshSection] == 0u) return;  // no visible faces
     if (places[kRangesPerMeshSection * unit.meshSection] == kNoPlace) return;
 #endif
     begin(unit, unitIndex, local);

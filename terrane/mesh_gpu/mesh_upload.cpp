@@ -41,8 +41,8 @@ uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
     return world::appendSection(packed_, section, entryOf);
 }
 
-// Whether faces of a section may be visible: not for air only, nor for opaque cubes only, within and around.
-// 4 or 5 of 16 sections of a landscape chunk are left.
+// Whether faces of a section may be visible. False for air only, and for opaque cubes surrounded by opaque
+// cubes: 4 or 5 of 16 sections of a landscape chunk are left.
 bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
     const Section& section = chunk.center->section(number);
     const auto isInvisible = [&](std::uint16_t id) {

@@ -53,7 +53,7 @@ bool travels(const ChangedBlock& block) {
 }
 
 struct Kinds {
-    std::vector<Kind> list;  // in the order in which blocks first have them
+    std::vector<Kind> list;  // in order of first occurrence
     std::map<Kind, std::uint32_t> numbers;
 };
 

@@ -15,7 +15,8 @@
 namespace terrane::net {
 
 struct LinkEvents {
-    // Called before anything is sent: whether the server has the same key as before. An error ends the link.
+    // Called before anything is sent. Returns whether the server has its known key, or none was known
+    // (known_servers.h). False or an error ends the link.
     std::function<base::Result<bool>(const std::string& serverKey)> trusts;
     // Returns the digests of the sample chunks, or why this program cannot play there.
     std::function<base::Result<SampleDigests>(const WorldOffer&)> prove;

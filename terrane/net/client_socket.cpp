@@ -42,7 +42,7 @@ base::Result<ServerAddress> serverAddress(const std::string& text) {
         if (!rest.empty() && port.empty()) return wrong();
     } else {
         address.host = text.substr(0, end);
-        if (address.host.find(':') != std::string::npos) {  // an address of IPv6 alone
+        if (address.host.find(':') != std::string::npos) {  // an IPv6 address without a port
             address.host = text;
         } else if (end != std::string::npos) {
             port = std::string_view(text).substr(end + 1);

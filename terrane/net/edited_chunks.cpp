@@ -34,7 +34,7 @@ bool EditedChunks::add(ChunkPos chunk) {
     bool isNew = false;
     for (int level = 0; level <= world::kMaxLevel; ++level) {
         const ChunkPos pos{chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
-        if (!positions_[static_cast<std::size_t>(level)].insert(pos).second) break;  // the tiles above, too
+        if (!positions_[static_cast<std::size_t>(level)].insert(pos).second) break;  // so are all above
         isNew = true;
     }
     return isNew;

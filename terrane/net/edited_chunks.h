@@ -22,7 +22,7 @@ namespace terrane::net {
 
 class EditedChunks {
   public:
-    // All of it outlives this; the jobs end before it.
+    // All parts outlive this, except `jobs`, which is destroyed first.
     struct Parts {
         const gen::LevelGenerators& generators;
         store::ReadableStore& store;
@@ -59,7 +59,7 @@ class EditedChunks {
 
   private:
     struct Known {
-        ChunkDifference difference;  // while pending: changes since the job began
+        ChunkDifference difference;  // while pending: the tail, and changes since the job began
         bool isPending = false;
         std::uint64_t job = 0, used = 0;
     };

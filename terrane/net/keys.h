@@ -21,7 +21,7 @@ struct PlayerKey {
     PublicKey publicKey{};
 };
 
-// Cryptographically secure random bytes.
+// Fills `bytes` with cryptographically secure random values.
 void fillRandom(std::span<std::byte> bytes);
 
 PlayerKey newPlayerKey();

@@ -15,7 +15,7 @@ base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const wor
         client = worldFingerprint(own, *graph, blocks);
     }
     const std::string difference = differenceOf(offer.world, client);
-    // If the generator is missing here, report only the difference, not other errors.
+    // A missing generator shows up as a difference, unless the server claims the values of a missing one.
     if (!graph && difference.empty()) return tl::unexpected(graph.error());
     if (!difference.empty()) return base::fail(base::ErrorCode::Incompatible, "{}", difference);
     return gen::Generator(std::move(*graph), own.seed);

@@ -149,7 +149,7 @@ Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
             static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
 }
 
-// Whether the chunks of a command, which are requested, are loaded, or the session will refuse it anyway.
+// Requests the chunks of a command. Returns whether all are loaded, or the session will refuse it anyway.
 bool isReady(ServerState& server, const ServerClient& client, const world::BlockBox& box) {
     const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
     return !isNear || areLoaded(server, box);

@@ -29,7 +29,7 @@ class ServerFile {
     // Opens the file, creating it if needed. Errors name the file.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerFile>> open(const std::filesystem::path& path,
                                                                         const world::BlockRegistry& blocks);
-    ~ServerFile();  // writes all queued writes
+    ~ServerFile();  // commits queued writes, in one attempt
     ServerFile(const ServerFile&) = delete;
     ServerFile& operator=(const ServerFile&) = delete;
 

@@ -36,7 +36,7 @@ std::int64_t newestEdit(const ServerState& server) {
 }
 
 base::Result<void> restoreEdits(ServerState& server) {
-    if (server.records.shared()) return {};  // the tail of the history (server_sharing.h)
+    if (server.records.shared()) return {};  // beginSharing() reads the tail instead
     ServerHistory& history = server.history;
     const auto ends = server.records.historyEnds();
     if (!ends) return tl::unexpected(ends.error());
@@ -105,8 +105,7 @@ base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& f
     };
     auto plan = rollback(forEachEdit, filter);
     if (!plan) return tl::unexpected(plan.error());
-    // Within a plan each block occurs once; parts of an earlier rollback may contain the same chunk and stay
-    // separate.
+    // Each block occurs once in the plan. Parts of earlier rollbacks stay separate, even of the same chunk.
     const std::size_t first = server.rollbacks.size();
     for (RolledBack& block : *plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);

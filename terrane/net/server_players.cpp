@@ -13,8 +13,8 @@ namespace terrane::net {
 namespace {
 
 constexpr std::uint64_t kTicksPerPing = 100, kTicksPerClock = 200;
-// Maximum distance in chunks between a client's position and the center of its view, since it may have moved
-// meanwhile.
+// Maximum distance in chunks between a client's last known position and the center of its view. The client
+// may have moved since.
 constexpr int kViewAway = 4;
 
 bool isInWorld(const WirePose& pose) {

@@ -46,7 +46,7 @@ class SharedWorld;  // shared_world.h
 
 class ServerRecords {
   public:
-    virtual ~ServerRecords() = default;  // writes all queued writes
+    virtual ~ServerRecords() = default;  // commits queued writes
 
     // Read the durable state; these block. Invalid rows are an error.
     [[nodiscard]] virtual base::Result<std::vector<KnownPlayer>> players() = 0;

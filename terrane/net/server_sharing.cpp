@@ -49,7 +49,7 @@ void applyOther(ServerState& server, const LoggedEdit& edit) {
     noteUnsaved(server, edit.chunk, edit.number);
 }
 
-// One undecided write fewer changes the edit's blocks.
+// Removes an edit from the counts of undecided edits per block and chunk.
 void settle(SharingState& sharing, const LoggedEdit& edit) {
     for (const ChangedBlock& block : edit.after) {
         const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
@@ -109,7 +109,7 @@ void dropTail(ServerState& server, std::int64_t nowSaved) {
         before = sharing.savedAt.front().second;
     if (!before) return;
     const std::int64_t saved = *before;
-    std::vector<ChunkPos> changed;  // in the store
+    std::vector<ChunkPos> changed;  // chunks whose stored rows have new edits
     for (auto& [chunk, edits] : sharing.tail)
         if (std::erase_if(edits, [&](const SharingState::TailEdit& edit) { return edit.number <= saved; }) >
             0)
@@ -229,7 +229,7 @@ void completeLoaded(ServerState& server) {
 void keepSharing(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
-    sharing.refused.clear();  // players still connected were told
+    sharing.refused.clear();  // the players were told, unless they left
     tellPosesIfDue(server);
     saveOrphans(server);
     tellSavedPlaces(server);

@@ -34,8 +34,7 @@ struct SharingState {
         int undecided = 0;  // number of own undecided writes that change the block
     };
     std::unordered_map<world::BlockPos, Settled, world::BlockPosHash> settled;
-    // Number of own undecided writes per chunk. The pipeline reads it until it ends, which is after the
-    // server.
+    // Number of own undecided edits per chunk. Shared with the pipeline, which outlives the server.
     using ChunkCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
     std::shared_ptr<ChunkCounts> undecidedChunks = std::make_shared<ChunkCounts>();
     std::set<std::uint64_t> refused;  // numbers of writes whose players are not told yet
@@ -48,7 +47,7 @@ struct SharingState {
     std::unordered_map<world::ChunkPos, std::vector<TailEdit>, world::ChunkPosHash> tail;
     std::int64_t newest = 0, saved = 0;                 // edit numbers: newest known; saved by all servers
     std::deque<std::pair<Time, std::int64_t>> savedAt;  // history of `saved`, for chunks being loaded
-    std::int64_t ownSaved = 0;                          // all edits up to this one are saved by this server
+    std::int64_t ownSaved = 0;                          // no edit up to this one is unsaved on this server
     std::unordered_map<world::ChunkPos, std::int64_t, world::ChunkPosHash> firstUnsaved;  // number of an edit
 
     struct OtherAt {
@@ -57,7 +56,7 @@ struct SharingState {
     };
     std::unordered_map<game::PlayerId, OtherAt> players;  // on other servers
     std::unordered_map<game::PlayerId, WirePose> toldPoses;
-    std::vector<OtherServer> servers;  // that run
+    std::vector<OtherServer> servers;  // running ones
     // Servers that stopped without saving: their unsaved chunks are loaded, a few per tick, and saved.
     struct Orphans {
         std::int64_t server = 0, newest = 0;
@@ -77,9 +76,10 @@ struct SharingState {
 void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits);
 // Applies the changes of other servers. Call at the beginning of each tick.
 void takeNews(ServerState& server);
-// Applies the tail to loaded chunks. Call after each update of the pipeline.
+// Applies the tail to newly loaded chunks. Call after each update of the pipeline.
 void completeLoaded(ServerState& server);
-// Tells other servers of players and of this server's state. Call in each tick.
+// Tells other servers about players, saved places and this server's state, and saves the chunks of stopped
+// servers. Call in each tick.
 void keepSharing(ServerState& server);
 // Replaces keepSaving() for a shared world: saves, and notes what is saved.
 void keepSharedSaved(ServerState& server);

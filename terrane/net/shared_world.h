@@ -2,7 +2,7 @@
 // chat. Implemented by shared records (ServerRecords::shared()), such as net_postgres. On the server's
 // thread.
 //
-// An edit is applied at once where it is made and decided later, in one order for all servers: it is accepted
+// An edit is applied at once where it is made and decided later, in one order for all servers. It is accepted
 // unless another server changed one of its blocks before, unknown to this one. Every server sees the same
 // order, so all have the same blocks after all events (server_sharing.h).
 #pragma once
@@ -84,7 +84,7 @@ class SharedWorld {
   public:
     virtual ~SharedWorld() = default;
 
-    // Edits that append() makes later are based on all news returned here.
+    // A later append() counts as made with knowledge of all news returned here.
     virtual SharedNews takeNews() = 0;
 
     virtual void say(const SharedLine& line) = 0;
@@ -100,7 +100,7 @@ class SharedWorld {
 
     // Call once a second. `saved`: all changes of this server up to this edit are in the store.
     virtual void tellState(int players, std::int64_t saved) = 0;
-    // Requests regions in which this server lets time pass, where mayGrow() allows it.
+    // Requests leases of these regions instead of earlier ones. Time passes in a region only if mayGrow().
     virtual void requestRegions(std::vector<Region> regions) = 0;
     virtual bool mayGrow(Region region) const = 0;
 

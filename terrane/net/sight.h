@@ -19,9 +19,9 @@ constexpr double kSightBlocks = 256, kLostBlocks = 288;
 // Only the nearest players are seen.
 constexpr std::size_t kMaxSeen = 128;
 
-// Maximum number of ticks between two poses of a moving player, by its distance. With ticks of 50 ms, a pose
+// Interval in ticks between two poses of a moving player, by its distance. With ticks of 50 ms, a pose
 // is at most 100 ms old on the server within 24 blocks, and a second at the edge of sight.
-constexpr std::uint64_t kTicksPerSight = 2;  // interval of Sight::update()
+constexpr std::uint64_t kTicksPerSight = 2;  // interval between calls of Sight::update()
 constexpr std::uint64_t ticksBetweenPoses(double distanceBlocks) {
     return distanceBlocks < 24 ? 2 : distanceBlocks < 64 ? 4 : distanceBlocks < 128 ? 10 : 20;
 }

@@ -44,7 +44,7 @@ struct HeardEvent {
 };
 struct Heard {
     std::vector<HeardEvent> events;
-    std::vector<game::PlayerId> refused;  // players
+    std::vector<game::PlayerId> refused;  // added players whose names were taken
     bool isWritten = false;               // the batch of write() is committed
 };
 

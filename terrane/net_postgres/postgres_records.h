@@ -32,7 +32,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     // Opens for reading players, claims, texts and edits only; changes nothing in the database.
     [[nodiscard]] static base::Result<std::unique_ptr<PostgresRecords>> openToRead(
         const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name);
-    ~PostgresRecords() override;  // writes queued writes, waiting up to 10 s
+    ~PostgresRecords() override;  // commits queued writes, for up to 10 s
     PostgresRecords(const PostgresRecords&) = delete;
     PostgresRecords& operator=(const PostgresRecords&) = delete;
 

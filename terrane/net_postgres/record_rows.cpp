@@ -75,7 +75,7 @@ std::vector<game::PlayerId> playersOf(const Rows& rows) {
     return players;
 }
 
-// One value, or none.
+// An array of one value, or empty.
 std::vector<std::string> textIfGiven(const std::optional<std::string>& text) {
     return text ? std::vector<std::string>{*text} : std::vector<std::string>{};
 }

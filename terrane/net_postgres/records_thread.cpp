@@ -1,4 +1,4 @@
-// The thread of PostgresRecords: writes queued writes, listens to other servers, sends heartbeats.
+// The thread of PostgresRecords: commits queued writes, listens to other servers, sends heartbeats.
 #include <poll.h>
 #include <unistd.h>
 
@@ -82,8 +82,7 @@ base::Result<void> PostgresRecords::work() {
     return beatIfDue();
 }
 
-// Takes the locks of a server: a program that plays alone or regenerates the world waits until this server
-// ends.
+// Takes the locks of a server: until it ends, programs that play alone or regenerate the world get Busy.
 base::Result<void> PostgresRecords::connect() {
     if (!connection_ || !connection_->isUsable()) {
         auto connection = store_postgres::reconnect(pool_.address(), store::WorldSharing::Servers, contents_);
@@ -96,8 +95,8 @@ base::Result<void> PostgresRecords::connect() {
     return mustLookUp_ ? lookUp() : base::Result<void>();
 }
 
-// Reads everything that notes report about players. Changes queued here are newer: their own notes report
-// them again.
+// Reads all players, claims, places, the password, and who plays elsewhere, since notes may have been missed.
+// Changes queued here are newer: their own notes report them again.
 base::Result<void> PostgresRecords::lookUp() {
     auto players = readPlayers(*connection_);
     if (!players) return tl::unexpected(players.error());
@@ -275,7 +274,7 @@ base::Result<void> PostgresRecords::beatIfDue() {
     return {};
 }
 
-// Queried once per server; its death may be reported to the server's thread later.
+// Queries the unsaved chunks of each stopped server once. The server's thread may learn of them later.
 base::Result<void> PostgresRecords::findUnsaved(std::vector<net::OtherServer>& others) {
     std::erase_if(gone_, [&](const auto& entry) {
         return std::ranges::none_of(others, [&](const auto& other) { return other.number == entry.first; });

@@ -12,7 +12,7 @@
 
 namespace terrane::pack {
 
-// Bounds of one pack, which untrusted packs cannot exceed either.
+// Bounds of one pack. Larger packs are refused, so untrusted packs stay within them.
 constexpr std::size_t kMaxFiles = 4096;
 constexpr std::size_t kMaxPackBytes = std::size_t{64} << 20;  // of all files together
 constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
@@ -59,7 +59,6 @@ std::string placeOf(const Pack& pack, std::string_view path);
 // pack the name itself.
 std::string qualified(const Pack& pack, std::string_view name);
 
-// The pack that comes with the program.
 [[nodiscard]] base::Result<Pack> builtInPack();
 
 }  // namespace terrane::pack

@@ -11,7 +11,7 @@ namespace terrane::pack {
 // The name of the skeleton's generator, within the pack.
 constexpr std::string_view kSkeletonGenerator = "hills";
 
-// Writes a pack that works as it is: a block that glows with its texture, a generator that uses it, names of
+// Writes a pack that works as it is: a glowing block with its texture, a generator that uses it, names of
 // blocks, all with comments. The pack has the folder's name. An error if the folder exists.
 [[nodiscard]] base::Result<void> writeSkeleton(const std::filesystem::path& folder);
 

@@ -118,7 +118,8 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
             return renderer->configure(wanted->size, options);
         };
         if (configure()) {
-            // The second frame has a late pass with other shaders, for surfaces that the first frame hid.
+            // All quads count as hidden before the first frame, so its late pass draws them; in the second
+            // the early pass does.
             for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
             glFinish();
         }

@@ -1,6 +1,6 @@
 // The texture of a face at a point. Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
-// FACE_SAMPLING: 1 where some faces wrap or filter their textures in their own way, or have textures smaller than the array
-// (block_textures.h). Otherwise the shader is shorter.
+// FACE_SAMPLING: 1 if some faces wrap or filter their textures in their own way, or have textures smaller than the
+// array (block_textures.h). Otherwise the shader is shorter.
 layout(binding = kBlockTexturesUnit) uniform sampler2DArray blockTextures;
 #if FACE_SAMPLING == 1
 layout(binding = kSmoothTexturesUnit) uniform sampler2DArray smoothTextures;
@@ -45,7 +45,7 @@ vec4 sharpTexture(sampler2DArray textures, uint face, vec2 inTextures, vec2 dx, 
     vec2 at = largest < 1.0 ? sharp : texel;
     vec2 margin = min(vec2(0.5 * max(largest, 1.0)), 0.5 * size);
     at = keptInside(face, at, inTextures, size, margin);
-    // An enlarged texture is not read above its own level: texels are smaller there, and so are their edges.
+    // No level finer than an enlarged texture's own is read: its texels are smaller, and so are their edges.
     if (doublings > 0u && max(length(dx * size), length(dy * size)) < 1.0) {
         dx = vec2(1.0 / size.x, 0.0);
         dy = vec2(0.0, 1.0 / size.y);
@@ -75,7 +75,7 @@ vec4 blockTexture(uint face, vec2 inTextures, vec2 dx, vec2 dy) {
 }
 
 // Level of the mipmap whose texels are nearest to a pixel's size along its shorter side, so that planes seen edge-on
-// stay open. Not above the texture's own size.
+// stay open. Never a level finer than the texture's own.
 int nearestLevel(vec2 dx, vec2 dy) {
     int doublings = int(optionsDoublings(inSampling));
     vec2 size = vec2(textureSize(blockTextures, 0).xy >> doublings);

@@ -6,9 +6,8 @@
 
 namespace terrane::render {
 
-// `samples`: of a pixel, as the driver has them. With one sample surfaces do not fade over a sky that was
-// drawn behind them, and layers are shaded together with the surface behind. Reflected shores read the scene
-// image.
+// `samples`: of a pixel, as the driver has them. With one sample and no clouds surfaces need no sky drawn
+// behind them, and layers are shaded together with the surface behind. Reflected shores read the scene image.
 constexpr bool isDirectImage(const RenderOptions& o, int samples) {
     return samples == 1 && !o.clouds && !o.godRays && !o.depthOfField && o.occlusion == Occlusion::Off &&
            o.singleTransparencyLayer == 0 && (o.water == Water::Plain || o.transparencyLayers == 0);

@@ -35,7 +35,7 @@ const vec3 kEyeColors[kEyes] = vec3[](vec3(0.22, 0.38, 0.60), vec3(0.30, 0.20, 0
 vec3 shirtOf(uint look) {
     return kShirtColors[look % kShirts];
 }
-// Never that of the shirt.
+// Never the color of the shirt.
 vec3 scarfOf(uint look) {
     return kShirtColors[(look + 2u + choiceOf(look, 2u, kShirts - 4u)) % kShirts];
 }
@@ -111,7 +111,7 @@ vec3 colorOf(uint part, uint side, uint look, vec3 place) {
     return part == kPartHair ? hairOrCap(look) : hairOf(look);
 }
 
-// Brighter or darker by square; nothing where squares are smaller than pixels.
+// Random brightness of a square; 0 if squares are smaller than pixels.
 float grainAt(uint part, uint side, vec3 place) {
     uint axis = side >> 1;
     vec2 onFace = (axis == 0u ? place.yz : axis == 1u ? place.zx : place.xy) / kTexel;

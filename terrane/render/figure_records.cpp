@@ -10,7 +10,7 @@
 namespace terrane::render {
 namespace {
 
-// Players may stand at one place, as at the spawn: from within one would see back faces.
+// Players may stand at one place, as at the spawn: from inside a figure the camera would see back faces.
 bool isWithin(const world::Figure& figure, const glm::dvec3& camera) {
     constexpr double kAside = 0.4, kUnder = world::kEyeHeight + 0.1, kOver = 0.3;  // of the eyes
     const glm::dvec3 from = camera - figure.eyes;

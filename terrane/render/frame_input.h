@@ -16,7 +16,7 @@ enum class View : std::uint8_t { Color, Normal, Depth, Merging, Light };
 struct FrameInput {
     Camera camera;
     world::Environment environment;
-    float fogDistance = 256;  // blocks: the fog is complete
+    float fogDistance = 256;  // blocks at which the fog is complete
     float timeSeconds = 0;    // for animations
     View view = View::Color;
     int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air

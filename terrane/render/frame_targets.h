@@ -49,7 +49,7 @@ struct FrameTargets {
     gpu::Texture2D sceneColor, ldrColor, maskDepth;
     gpu::Framebuffer gbuffer;  // the G-buffer
     gpu::Framebuffer scene;    // light, and coverage in alpha; depth: that of the one sample, or the mask
-    gpu::Framebuffer mask;     // where a pixel has several samples: see pixel_mask.h
+    gpu::Framebuffer mask;     // with several samples a pixel: see pixel_mask.h
     gpu::Framebuffer ldr;      // LDR target: as the screen shows it
     gpu::Framebuffer direct;   // with one sample a pixel, the same with the depth: see direct_image.h
 };

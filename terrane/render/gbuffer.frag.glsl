@@ -13,8 +13,8 @@ layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outSurface;
 
 #if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
-// Without gl_SampleMask all samples that the triangle covers would be drawn. A sample is a hole by the nearest texel: a
-// filter would read eight.
+// Without gl_SampleMask all samples that the triangle covers would be drawn. The nearest texel decides whether a sample
+// is in a hole: a filter would read eight texels.
 bool isHole(vec2 texel, int level) {
     return nearestTexel(inFace.x, texel, level).a < minAlpha(inFace.x);
 }

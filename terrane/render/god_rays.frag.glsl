@@ -33,7 +33,7 @@ void main() {
     float turn = 6.2831853 * random(9u), offset = random(10u);
     float sum = 0.0;
     for (int k = 0; k < kSamples; ++k) {
-        // Samples of the disc lie on a spiral; those along the way are in another order.
+        // Samples lie on a spiral over the disc, in another order than along the way.
         float angle = 2.3999632 * float(k) + turn, radius = kSource * disc * sqrt((float(k) + 0.5) / float(kSamples));
         vec2 source = frame.lightOnScreen + radius * vec2(cos(angle), sin(angle)) / aspect;
         float onWay = share * (float(7 * k % kSamples) + offset) / float(kSamples);

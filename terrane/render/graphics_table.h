@@ -35,7 +35,7 @@ struct GraphicsChoices {
 };
 
 std::string presetNames();                               // "auto, low, …"
-std::string presetNameError(const std::string& preset);  // empty, or what is wrong with it
+std::string presetNameError(const std::string& preset);  // empty if it is valid
 GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer);
 
 }  // namespace terrane::render

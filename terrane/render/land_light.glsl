@@ -1,11 +1,11 @@
 // Light that the land around the camera leaves, up to the horizon (shared/land.h). LAND: 1 if its textures exist
 // (land_textures.h), 0 otherwise. Needs frame_uniforms.glsl.
 struct Land {
-    vec4 ground;  // red, green, blue: its color, linear; alpha: the share of the sky that is seen from it
+    vec4 ground;  // red, green, blue: its color, linear; alpha: visible share of the sky
     float share;  // of the sun's or moon's disc that land does not hide
 };
 
-const Land kOpenLand = Land(vec4(0.12, 0.16, 0.07, 1.0), 1.0);  // where nothing is known
+const Land kOpenLand = Land(vec4(0.12, 0.16, 0.07, 1.0), 1.0);  // if no level has the place
 
 #if LAND == 1
 #include "terrane/shared/land.h"
@@ -28,7 +28,6 @@ vec3 landPlace(vec2 place) {
     return found;
 }
 
-// Land light at a point of the surface.
 Land landAt(vec3 position) {
     vec3 at = landPlace(position.xy);
     vec4 ground = textureLod(landGrounds, at, 0.0);

@@ -11,7 +11,7 @@ namespace {
 
 // Shadows of a light at the horizon would be endless.
 constexpr float kMinSlope = 0.01f;
-constexpr float kOverhead = 1e-3f;  // a light straight above throws none
+constexpr float kOverhead = 1e-3f;  // a light straight above casts none
 
 // Order of a sweep over the square: line by line away from the light.
 struct Walk {
@@ -57,7 +57,7 @@ void sweepShadows(const LandHeights& land, glm::vec3 direction,
     const Walk walk = walkFrom(direction, land.side);
     const float stride = land.texelBlocks * std::hypot(1.0f, walk.sideways);
     const float drop = stride * std::max(direction.z / across, kMinSlope);
-    const std::size_t shift = walk.sideways < 0 ? 0 : 1;  // where q's first texel lies
+    const std::size_t shift = walk.sideways < 0 ? 0 : 1;  // of q's first texel
     const float share = walk.sideways - std::floor(walk.sideways) + (walk.sideways == 1.0f ? 1.0f : 0.0f);
     const auto texel = [&](int line, std::size_t k) {
         const auto l = static_cast<std::size_t>(line);

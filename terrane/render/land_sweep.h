@@ -29,8 +29,8 @@ struct LandHeights {
 void sweepShadows(const LandHeights& land, glm::vec3 direction,
                   const std::function<LandShadow(glm::vec2)>& outside, std::span<LandShadow> shadows);
 
-// Computes the share of the sky that terrain forms of at least `minBlocks` leave visible, 0…1, row by row: 1
-// − the mean of sin² of the horizon's angle in eight directions.
+// Computes the share of the sky that terrain forms of at least `minBlocks` leave visible, 0…1, row by row. It
+// is 1 − the mean of sin² of the horizon's angle in eight directions.
 void skyVisibility(const LandHeights& land, float minBlocks, std::span<float> visibility);
 
 }  // namespace terrane::render

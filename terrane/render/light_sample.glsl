@@ -1,15 +1,16 @@
 // Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH selects
-// the way of sampling, see docs/light.md: 0 classic, 1 smooth, 2 smooth for distant surfaces, without the wide filter.
+// the way of sampling, see docs/light.md: 0 classic, 1 smooth, 2 smooth for distant surfaces, without the wide filter,
+// whose effect is invisible there.
 #include "terrane/render/light_nodes.glsl"
 #if LIGHT_SMOOTH
 #include "terrane/render/light_smooth.glsl"
 #endif
 
-// Nodes lie in the middles of blocks. Half a block along the normal from the surface the sample is in the layer of
-// nodes in front of it. So the dark solid blocks behind the surface do not count; solid blocks that stand on that layer
-// do, and darken inner corners. The eight nodes are in one light tile, or in two along each axis: the part in a light
-// tile takes one entry and one filtered fetch. The loop goes through the subsets of the axes on which a second light
-// tile begins; for most samples that is the empty one.
+// Nodes lie in the middles of blocks. The sample is half a block off the surface along the normal, in the layer of
+// nodes in front of it. So the dark solid blocks behind the surface do not count; solid blocks in that layer do, and
+// darken inner corners. The eight nodes are in one light tile, or in two along each axis: the part in a light tile
+// takes one entry and one filtered fetch. The loop goes through the subsets of the axes on which a second light tile
+// begins; for most samples that is the empty one.
 vec4 sampleClassic(vec3 at) {
     const float kOnNode = 1.0 / 64.0;  // this near a node the next one does not count
     const float kSteps = 256.0;        // makes sums exact, so that the place of a light tile in the pool is not visible

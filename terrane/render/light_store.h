@@ -53,7 +53,7 @@ class LightStore {
     using Entries = std::array<std::uint32_t, shared::kLightTilesPerChunk>;  // of the grid
 
     std::optional<std::uint32_t> allocateTile();
-    bool growPool();  // false where it is as large as it can be
+    bool growPool();  // false if it cannot grow
     int slabs() const;
     int slabsWithin(std::size_t bytes) const;
     void uploadTile(std::uint32_t tile, const std::uint16_t* values);
@@ -67,7 +67,7 @@ class LightStore {
     std::vector<std::optional<world::ChunkPos>> shown_;  // by place in the grid, which many chunks share
     std::size_t maxBytes_ = SIZE_MAX, peakBytes_ = 0;
     gpu::Texture3D grid_, pool_;
-    std::size_t tileCount_ = 0;  // handed out so far, free ones included
+    std::size_t tileCount_ = 0;  // allocated so far, free ones included
     std::vector<std::uint32_t> free_;
     std::size_t uploadedTiles_ = 0;
     std::unordered_map<world::ChunkPos, Entries, world::ChunkPosHash> chunks_;

@@ -19,7 +19,7 @@ vec4 levelsAt(vec3 position, Surface s) {
 #endif
 }
 
-// Brightness of a level, near level^0.85.
+// Brightness of a level, near level^0.85, so that half of all levels are useful.
 vec4 brightnessOf(vec4 levels) {
     return mix(levels, sqrt(levels), 0.23);
 }

@@ -70,7 +70,7 @@ class MeshSectionTable {
     void uploadRecords();
     void uploadOrder();
 
-    // Slots by mesh section, kNoSlot where it has no quads.
+    // Slots by mesh section, kNoSlot if it has no quads.
     std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
     std::vector<shared::MeshSectionRecord> cpuRecords_;
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots

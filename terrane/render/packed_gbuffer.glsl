@@ -11,7 +11,7 @@ struct Surface {
     float glow;
     uint direction;
     bool isFar;  // of a tile of level 1 or more, which has no light levels
-    bool isFigure;  // `direction`: the one next to the normal
+    bool isFigure;  // `direction`: the nearest one to the normal
 };
 
 const uint kFarTile = 7u;

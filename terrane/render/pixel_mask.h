@@ -1,6 +1,6 @@
 // Selects the pixels that a full-screen pass draws, for targets with several samples a pixel. The depth test
-// rejects the others before the shader runs; all neighboring pixels would run a branch in the shader. Used by
-// passes on the context's thread.
+// rejects the others before the shader runs, whereas neighboring pixels would run a branch in the shader too.
+// Used by passes on the context's thread.
 #pragma once
 
 #include "terrane/render/frame_targets.h"

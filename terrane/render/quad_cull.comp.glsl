@@ -39,7 +39,7 @@ layout(std430, binding = kQuadsBinding) buffer Quads {
 
 const uint kTestedRanges = 2u * kRangesOfTwoBuckets;  // of opaque and tested faces
 const float kRounding = 1.0 / 64.0;                   // pixels
-const float kLongestMiter = 64.0;                     // as edge_expansion.glsl has it
+const float kLongestMiter = 64.0;                     // as in edge_expansion.glsl
 
 // Bounds of a quad on the screen, in pixels, and the depth of its nearest corner.
 struct Footprint {

@@ -60,7 +60,7 @@ class QuadStore {
     const std::unordered_map<world::ChunkPos, ChunkMeshSections, world::ChunkPosHash>& chunks() const {
         return chunks_;
     }
-    // Empty where the chunk has no quads.
+    // Empty if the chunk has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
     gpu::ArenaBuffers buffers() const;  // until the next change
     const gpu::BufferTexture& texels(std::size_t arena) const {

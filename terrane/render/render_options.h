@@ -36,7 +36,7 @@ enum class ShadowReach : std::uint8_t {
     Off,
     Near,     // 50 blocks
     Far,      // 800 blocks
-    Horizon,  // as far as one sees
+    Horizon,  // as far as land is visible
 };
 
 struct RenderOptions {
@@ -81,7 +81,7 @@ struct Preset {
     RenderOptions options;
     mesh::MeshOptions mesh = {};
     int detail = kDefaultDetail;
-    std::optional<int> viewDistance = {}, horizon = {};  // none: as they are
+    std::optional<int> viewDistance = {}, horizon = {};  // none: unchanged
     // GPU time of a frame relative to low: docs/rendering.md. None: preset_choice.h never selects it.
     std::optional<double> relativeCost = {};
 };

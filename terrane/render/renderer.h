@@ -32,8 +32,8 @@ class Renderer {
     // Replaces the textures, for the same blocks, from the next frame on. On failure the old ones stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
 
-    // Sets the size of the image in pixels and the options. Comes before the first frame and after every
-    // change. Fails if the driver does not support them; the old configuration stays then.
+    // Sets the size of the image in pixels and the options. Comes before the first frame and whenever one of
+    // them changes. If the driver does not support them it fails, and the old configuration stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return options_; }
     // Loads all shaders again, for the next frame. On failure the old ones stay.

@@ -12,7 +12,7 @@
 
 namespace terrane::render {
 
-// Pixels from `min` on, the one at `max` excluded; row 0 is the lowest. Empty where max is not above min.
+// Pixels from `min` on, the one at `max` excluded; row 0 is the lowest. Empty if max is not above min.
 struct ScreenRect {
     glm::ivec2 min{0}, max{0};
 

@@ -18,7 +18,7 @@ struct ShadingInputs {
     const LightStore& light;
     const ShadowMap& shadowMap;
     const SkyNoise& noise;
-    bool isUnderWater = false;  // of the camera: shaders have variants for it
+    bool isUnderWater = false;  // the camera; shaders have variants for it
 
     void bind() const {
         light.bind();

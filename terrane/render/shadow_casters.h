@@ -11,7 +11,6 @@
 
 namespace terrane::render {
 
-// Box of a mesh section.
 CasterBox casterBoxOf(const shared::MeshSectionRecord& record);
 
 // Opaque and tested quads, one-sided and two-sided.

@@ -123,8 +123,9 @@ void ShadowClipmap::markChanged(const CasterBox& box) {
     }
 }
 
-// A map that is unusable, or may be incomplete, restarts with the plane; one other map at a time gets a new
-// map beside it. A direction that changes faster than maps are drawn is skipped.
+// Starts a map again with the plane if nothing around the camera is drawn, or if all tiles are drawn at once.
+// Otherwise one cascade at a time gets a new map beside the old one. A direction that changes faster than
+// maps are drawn is skipped.
 void ShadowClipmap::followLight(const Camera& camera, const ShadowPlane& plane, bool isAtOnce) {
     if (isAtOnce) next_ = -1;
     for (int cascade = 0; cascade < cascades_; ++cascade) {
@@ -179,7 +180,7 @@ std::vector<ShadowClipmap::Wanted> ShadowClipmap::wantedTiles(const Camera& came
     return wanted;
 }
 
-// Puts the finished new map into use. Tiles that changed after they were drawn are marked stale in it.
+// Puts the finished new map into use. Tiles that changed since they were drawn stay marked as stale.
 void ShadowClipmap::finishNext(const Camera& camera) {
     if (next_ < 0) return;
     std::vector<Wanted> missing;

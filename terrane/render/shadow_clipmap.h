@@ -85,7 +85,7 @@ class ShadowClipmap {
     // One more than there are cascades.
     int layers() const { return cascades_ + 1; }
 
-    // Marks the tiles as stale that the shadow of the box falls on.
+    // Marks the tiles that the shadow of the box falls on as stale.
     void markChanged(const CasterBox& box);
     // Selects up to `limit` tiles around the camera, missing and near ones first; they count as drawn from
     // now on. With kAllTiles nothing is missing or stale afterwards.

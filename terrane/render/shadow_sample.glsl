@@ -69,8 +69,8 @@ float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
 #endif
 }
 
-// 0…1, spread evenly over neighboring pixels (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced Warfare,
-// 2014).
+// 0…1, spread evenly over neighboring pixels (J. Jimenez, Next Generation Post Processing in Call of Duty: Advanced
+// Warfare, 2014).
 float pixelNoise() {
     return fract(52.9829189 * fract(dot(gl_FragCoord.xy, vec2(0.06711056, 0.00583715))));
 }

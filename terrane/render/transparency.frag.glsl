@@ -58,7 +58,7 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
     } else {
         passed = over(vec4(shade(layer.surface, litOf(layer.surface), land, levels, shadow, visibility) * layer.alpha, layer.alpha));
     }
-    // Share of the layer that is left after fading in the distance.
+    // `share`: coverage of the layer; air.a: part of it that is left after fading in the distance.
     float share = max(passed.color.a, 1e-3);
     vec4 air = throughAir(passed.color.rgb / share, toPoint, levels.a);
     return Passed(air * share, 1.0 - air.a * (1.0 - passed.through));

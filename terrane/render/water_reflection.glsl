@@ -21,8 +21,8 @@ bool isBehind(vec3 at) {
     return at.z < depthAt(pixelAt(at.xy), 0);
 }
 
-// Color, and its share: 0 if the ray leaves the image. `at`: a point of the ray behind a surface, one step after
-// `before`.
+// Color, and its share: 0 far behind near surfaces, in water, and at the edge of the image. `at`: the first point of
+// the ray found behind a surface; `before`: the last one in front of it.
 vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
     float seen = blocksOfDepth(depthAt(pixelAt(at.xy), 0)), blocks = blocksOfDepth(at.z);
     // The ray may pass far behind near surfaces.

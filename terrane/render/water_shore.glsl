@@ -3,8 +3,8 @@
 
 const float kShoreReach = 48.0;  // blocks from the camera: farther foam is thinner than a pixel
 
-// 1 if an opaque surface is at a place of the water surface, as far as the depth shows: at most three blocks in front
-// of it.
+// 1 if an opaque surface seems to stand at a place of the water surface: the depth shows one up to three blocks in
+// front.
 float groundAt(vec4 clip) {
     vec2 screen = clip.xy / clip.w;
     float inFront = clip.w - blocksOfDepth(depthAt(ivec2((0.5 + 0.5 * screen) * frame.viewportSize), 0));

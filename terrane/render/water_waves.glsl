@@ -29,8 +29,8 @@ vec2 turned(vec2 v) {
     return vec2(v.x + v.y, v.x - v.y);
 }
 
-// Adds a wave with `count` periods along 64 blocks of each axis and this steepness; its speed is that of deep water, by
-// the square root of the wave number (G. B. Airy, Tides and Waves, 1845). A wave shorter than two pixels is left out.
+// Adds a wave with `count` periods along 64 blocks of each axis and this steepness. Its angular frequency is √(g k), as
+// in deep water (G. B. Airy, Tides and Waves, 1845). Waves fade out toward a length of two pixels.
 void addSwell(inout Waves waves, vec2 count, float steepness, vec2 at, vec2 dx, vec2 dy) {
     vec2 k = count * (6.2831853 / 64.0);
     vec2 over = vec2(dot(k, dx), dot(k, dy));

@@ -13,9 +13,9 @@ const uint kSkyTableRows = 32u;
 struct AirFrame {
     vec4 lightAzimuth;  // x, y: level direction toward the light, unit length; z: scale of the table; w: 0
     vec4 aureole;       // narrow glow around the light; w: its sharpness
-    // x, y: optical depth of a block at the camera's altitude in powers of ½, of molecules for red and of
-    // haze for
-    // all colors. z: 1 / scale height of the haze. w: share by which molecules thin with each block of rise.
+    // x, y: optical depth of a block at the camera's altitude in powers of ½: of molecules for red, and of
+    // haze for all colors. z: 1 / scale height of the haze. w: share by which the mean density of molecules
+    // on the way decreases with each block of rise.
     vec4 depth;
 };
 

@@ -16,7 +16,7 @@ const uint kFigureBoxes = 14u;           // the last one of the hair, if any
 const uint kVerticesPerFigureBox = 18u;  // of three faces
 
 struct FigureRecord {
-    vec4 feet;  // middle of the underside, from the corner of the camera's chunk; w: where the body looks
+    vec4 feet;  // middle of the underside, from the corner of the camera's chunk; w: yaw of the body
     vec4 pose;  // yaw and pitch of the head, phase of the legs; w: 0 stands … 1 runs
     float swing;
     uint look;

@@ -46,8 +46,8 @@ struct Frame {
     float discSine;          // sine of the radius of the sun's or moon's disc
 
     float starBrightness;  // 0…1
-    float starTurn;        // how far the stars have turned, 0…1
-    float lightRayShare;   // how much of the light's rays is seen, 0…1
+    float starTurn;        // turn of the stars, 0…1
+    float lightRayShare;   // visible share of the light's rays, 0…1
     uint isMoon;           // 1 at night, when the light is the moon
 
     uint isUnderWater;  // blocks of water over the camera, its own included; 0 in air

@@ -9,8 +9,7 @@ SHARED_BEGIN
 // Upper limit on rounds of a loop in a generator: no mistake in a generator hangs a GPU.
 const int kMaxLoopRounds = 1024;
 
-// Farthest offset that a pass reads from its column, in blocks along x and y: the eight chunks around its
-// own.
+// Farthest offset that a pass reads from its column, blocks along x and y: into the chunks around its own.
 const int kMaxReadOffset = 16;
 
 // Storage buffers of a generator pass

@@ -1,5 +1,5 @@
-// The land around the camera as light sees it, in textures: where the sun or moon is hidden, how much of the
-// sky is seen, and the color of the ground.
+// Textures of the land around the camera, for lighting: heights hidden from the sun or moon, visible share of
+// the sky, and color of the ground.
 #ifndef TERRANE_SHARED_LAND_H
 #define TERRANE_SHARED_LAND_H
 
@@ -7,22 +7,22 @@
 
 SHARED_BEGIN
 
-// Level l has texels of 2^(l + 3) blocks, the columns of the generator's level l + 3; seen from where a level
-// begins to be used a texel is at most 1/48 rad wide. The coarsest reaches 114,688 blocks.
+// Level l has texels of 2^(l + 3) blocks, the columns of the generator's level l + 3; a texel is at most 1/48
+// rad wide at the distance where its level begins to be used. The coarsest reaches 114,688 blocks.
 const uint kLandLevels = 8u;
 
 // A level's middle part is used, up to this share of its half side; its outermost texels hold the next
-// level's values, so that no ring is seen where levels change.
+// level's values, so that no ring is visible where levels change.
 const float kLandUsed = 0.9375f;  // 120 of 128 texels
 
-// The shadow texture, 16 bits a channel. Red: from which height on light begins to be seen; green: over how
-// many blocks above that it comes out whole. A step of the height is 1/128 block.
+// The shadow texture, 16 bits a channel. Red: height above which some of the light is visible; green: blocks
+// above it until all of the light is. A step of the height is 1/128 block.
 const float kLandLowest = -128.0f;
 const float kLandHeights = 512.0f;  // blocks from kLandLowest on
 const float kLandMaxEdge = 128.0f;  // blocks
 
 // A level: x, y: texture coordinates of the corner of the camera's chunk; z: texture coordinates a block; w:
-// 1 where the level is there, else 0.
+// 1 if the level exists, else 0.
 struct LandFrame {
     vec4 levels[kLandLevels];
 };

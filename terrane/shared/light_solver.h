@@ -51,7 +51,7 @@ struct SolverRound {
 const uint kTileIsUniform = 0x10000u;
 const uint kTileIsOpaque = 0x20000u;  // no light gets in
 
-// The result, in words: how many light tiles are left on the list of the last round; if none is, sixteen
+// The result, in words: the number of light tiles left on the list of the last round; if it is 0, sixteen
 // entries a chunk, each the one value of a brick or the number of its words; the words of bricks, kBrickWords
 // each.
 const uint kBrickUniformBit = 0x80000000u;

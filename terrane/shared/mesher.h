@@ -13,7 +13,7 @@ const uint kMeshTypesBinding = 2u;
 const uint kMeshFormsBinding = 3u;
 const uint kMeshUnitsBinding = 4u;
 const uint kMeshUnitCountsBinding = 5u;
-const uint kMeshSectionCountsBinding = 6u;  // counts, or where the next quad goes
+const uint kMeshSectionCountsBinding = 6u;  // counts, or places of the next quads
 const uint kMeshQuadsBinding = 7u;
 
 // Palettes of packed sections of blocks hold the id and, from bit 16 on, the flags of its type; those of
@@ -31,7 +31,7 @@ struct MeshUnit {
     uint section;
     uint blockState;
     uint meshSection;  // of all mesh sections of the batch
-    uint layers;       // of the section: the first, and the one behind the last << 16
+    uint layers;       // of the section: the first, and the one after the last << 16
     uint neighbors[6];
     uint neighborStates[4];
     uint baseZ;  // of the section
@@ -41,9 +41,8 @@ struct MeshUnit {
 // A block type: its flags, and for each side the material and, from bit 16 on, its draw bucket. In the list
 // of forms it has from `forms` & 0xFFFF on:
 //   - a plant that grows: material and bucket of each stage, `forms` >> 16 of them,
-//   - a model: for each value of the state's bits in the mask `forms` >> 16 where its faces begin in the
-//   list,
-//     and from bit 24 on how many there are.
+//   - a model: for each value of the state's bits in the mask `forms` >> 16 the index of its first face in
+//     the list, and from bit 24 on the number of its faces.
 // A face of a model: bits 0–10 the shape face, 11–13 the side, 14 whether it lies in the cell's side.
 struct MeshType {
     uint flags;
@@ -70,12 +69,12 @@ const uint kMeshFlowFalling = 8u;
 const uint kMeshFaceSideShift = 11u;
 const uint kMeshFaceOnBorderBit = 1u << 14;
 
-// Words of a unit: its number of quads by range, then one that is 0 where it has no faces.
+// Words of a unit: its number of quads by range, then one that is 0 if it has no faces.
 const uint kMeshUnitWords = 25u;
 
 struct MeshSectionCounts {
     uint quads[kRangesPerMeshSection];
-    uint minZ;  // as in mesh::MeshSection; above maxZ where there are no quads
+    uint minZ;  // as in mesh::MeshSection; above maxZ if there are no quads
     uint maxZ;
 };
 

@@ -36,7 +36,7 @@ SHARED_FN uint maxLevels(uint a, uint b) {
 }
 
 // Each level minus the loss, at least 0. `loss` has the same number in all four bytes or in the two bytes of
-// a block, so that it is one for even and odd nibbles.
+// a block: it applies to even and odd nibbles alike.
 SHARED_FN uint lessLevels(uint levels, uint loss) {
     return lessOfBytes(levels & kEvenLevels, loss) | lessOfBytes((levels >> 4) & kEvenLevels, loss) << 4;
 }

@@ -25,7 +25,7 @@ struct ShadowFrame {
     vec4 reach;       // 1 / blocks from the camera that it holds
     vec4 layers;      // its map
     vec4 texels;      // blocks a texel; w: most texels to each side of a soft edge
-    float strength;   // 0 where no light casts shadows
+    float strength;   // 0 if no light casts shadows
     float mapTexels;  // along a side of a map
     float unused0, unused1;
 };

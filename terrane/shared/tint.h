@@ -21,7 +21,7 @@ const uint kTintTexels = 256u;  // along a side of a level
 const uint kTintTiles = 16u;    // the same in tiles
 
 // A level: x, y: texture coordinates of the corner of the camera's chunk; z: texture coordinates a block; w:
-// how far from the camera it is complete, along each axis, blocks: 0 where the level is not used.
+// distance from the camera along each axis up to which it is complete, blocks; 0 if the level is not used.
 struct TintFrame {
     vec4 levels[kTintLevels];
 };

@@ -160,7 +160,7 @@ double SoundPlayer::Device::loudness(const Source& source) const {
     return double{source.volume} * (source.position ? gainAt(glm::distance(*source.position, ears)) : 1);
 }
 
-// A silent source, else the quietest one if it is quieter than the new sound; null if there is none.
+// A source that is not playing, else the quietest one if it is quieter than the new sound, else null.
 Source* SoundPlayer::Device::freeSource(double loudnessOfNew) {
     for (Source& source : sources)
         if (!isPlaying(source)) return &source;

@@ -109,8 +109,8 @@ class ChunkStore : public ReadableStore {
     // Call setDerivedRows() first.
     [[nodiscard]] virtual base::Result<void> deriveAll(std::string_view rules) = 0;
 
-    // For a world that several servers write: later saves include all edits of their history up to this one;
-    // a late older snapshot never replaces a newer one. Other stores ignore it.
+    // For a world that several servers write: declares that later saves include all edits of the history up
+    // to this one. A late older snapshot never replaces a newer one. Other stores ignore it.
     virtual void setVersion(std::int64_t /*newestEdit*/) {}
 
     virtual bool isPersistent() const = 0;  // false: all is lost when the program ends

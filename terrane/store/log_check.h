@@ -9,7 +9,7 @@
 
 namespace terrane::store {
 
-// Errors of the log, one line each; empty if it is intact, empty or missing. Reads the log once, frame by
+// Errors of the log, one line each; none if the log is intact, empty or missing. Reads it once, frame by
 // frame.
 std::vector<std::string> logProblems(const std::filesystem::path& save);
 

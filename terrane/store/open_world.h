@@ -30,7 +30,8 @@ struct WorldRequest {
     WorldAccess access = WorldAccess::ReadWrite;
     // The identity of a new world, created with its folders if none exists. No value: the world must exist.
     std::optional<WorldIdentity> create;
-    // Requirements for an existing world (compareWorld()). A world is copied before it is regenerated.
+    // Requirements for an existing world (compareWorld()). A world is copied before it is regenerated, except
+    // for followsGenerator.
     RequestedWorld world;
     GeneratorVersionOf versionOf;  // versions of the program's generators
     WorldSharing sharing = WorldSharing::Alone;

@@ -49,7 +49,7 @@ class ReadableRows {
     // Any thread.
     [[nodiscard]] virtual StoredRow read(world::ChunkPos pos) = 0;
     // Passes each row with its index in `positions` to `take` before reading many more. Up to 256 rows are
-    // consistent.
+    // read as of one moment.
     using TakeRow = std::function<void(std::size_t, StoredRow)>;
     virtual void readMany(std::span<const world::ChunkPos> positions, const TakeRow& take) = 0;
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;

@@ -18,9 +18,8 @@ namespace {
 constexpr int kMaxFileProblems = 20;  // one broken page causes many
 constexpr std::size_t kMaxListed = 1000;
 
-// Each line is a separate problem. Runs only after all rows were read without an error: integrity_check
-// recurses without a limit through damaged page trees, such as a page that is its own ancestor, where reading
-// rows stops.
+// Each line is a separate problem. Runs only after all rows were read without an error: damaged page trees,
+// such as a page that is its own ancestor, stop reading, but make integrity_check recurse without a limit.
 base::Result<void> checkPages(Database& database, CheckReport& report) {
     const auto take = [&](const Statement& row) -> base::Result<void> {
         if (row.text(0) == "ok") return {};

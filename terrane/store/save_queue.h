@@ -84,7 +84,7 @@ class SaveQueue {
     using WriteBatch = std::function<base::Result<void>(const SaveBatch&)>;
 
     SaveQueue(WriteBatch write, SaveLimits limits);
-    ~SaveQueue();  // writes queued saves; failures are lost, and logged unless flush() reported them
+    ~SaveQueue();  // writes queued saves; those that fail are lost, and logged unless flush() reported them
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 

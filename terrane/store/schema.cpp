@@ -103,7 +103,7 @@ base::Result<void> migrate(Database& database, std::span<const Migration> steps,
     if (auto copied = database.backUpTo(backup); !copied) return copied;
     auto migrated = runSteps(database, *way, current);
     if (!migrated) {
-        // The save is unchanged. Otherwise each attempt would leave another copy.
+        // The save is unchanged: remove the copy, or each attempt would leave another one.
         std::error_code ignored;
         std::filesystem::remove(backup, ignored);
     }

@@ -94,7 +94,7 @@ class Database {
     std::unique_ptr<sqlite3, Close> database_;
 };
 
-// Calls visit(const Statement&) for each row of a query; it returns a base::Result<void>, and an error stops.
+// Calls visit(const Statement&) for each row of a query, until visit() returns an error.
 template <class Visit>
 [[nodiscard]] base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
     auto select = database.prepare(sql);

@@ -17,7 +17,7 @@ void guardConnection(sqlite3* database);
 // statements whose duration depends on a damaged file, such as reading the list of its tables.
 class StepLimit {
   public:
-    StepLimit(sqlite3* database, int thousands);  // thousands of VM steps, about 0.1 ms each
+    StepLimit(sqlite3* database, int thousands);  // limit in 1,000 VM steps, which take about 0.1 ms
     ~StepLimit();
     StepLimit(const StepLimit&) = delete;
     StepLimit& operator=(const StepLimit&) = delete;

@@ -22,7 +22,7 @@ struct CopyReport {
 // Called from time to time; false stops the copy, which can be resumed later.
 using RowsProgress = std::function<bool(std::uint64_t rows)>;
 
-// Access to create the target world with.
+// The access that creates the target world.
 SaveAccess accessOfCopy(const ReadableRows& from);
 
 // Marks `to`, which was opened with that access, as an unfinished copy of `from`, and returns the last key

@@ -57,8 +57,8 @@ struct SaveAccess {
     std::optional<WorldIdentity> create;
     // For a new world: ids and names of another world whose rows it will get.
     std::vector<SavedName> blockNames = {};
-    // Decides from the identity of an existing save what is regenerated, after a backup beside it; an error
-    // leaves it alone. Empty: nothing is regenerated.
+    // Decides from the identity of an existing save what is regenerated, after a backup beside it. On an
+    // error the world is not opened. Empty: nothing is regenerated.
     std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
 };
 

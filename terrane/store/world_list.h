@@ -30,8 +30,8 @@ struct WorldEntry {
 // Sorted by lastPlayed, newest first; empty if there is no folder. Opens at most 1,000 saves.
 std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const world::BlockRegistry& blocks);
 
-// Fails for a name that a new world cannot have: as checkSaveName(), and names that end with ".sqlite", a
-// space or a dot.
+// Fails for a name that a new world cannot have: one that checkSaveName() rejects, or that ends with
+// ".sqlite", a space or a dot.
 [[nodiscard]] base::Result<void> checkWorldName(std::string_view name);
 
 std::filesystem::path worldFile(const std::filesystem::path& folder, std::string_view name);
@@ -41,8 +41,8 @@ std::filesystem::path thumbnailOf(const std::filesystem::path& save);
 // The first unused name of the form "World", "World 2", …; shortened if too long.
 std::string freeWorldName(const std::filesystem::path& folder, std::string_view name);
 
-// These include the thumbnail. Errors: BadInput for an invalid or used name, NotFound, Busy if another
-// program has the world, Incompatible for a link.
+// These also rename, delete or copy the thumbnail. Errors: BadInput for an invalid or used name, NotFound,
+// Busy if another program has the world, Incompatible for a link.
 [[nodiscard]] base::Result<void> renameWorld(const std::filesystem::path& folder, std::string_view name,
                                              std::string_view newName);
 [[nodiscard]] base::Result<void> deleteWorld(const std::filesystem::path& folder, std::string_view name);

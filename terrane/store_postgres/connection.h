@@ -32,7 +32,7 @@ struct Command {
     Parameters parameters = {};
 };
 
-// Result of a statement. Columns count from 0; a value of another type reads as 0 or empty.
+// Result of a statement. Columns count from 0. NULL reads as 0 or empty; types are not checked.
 class Rows {
   public:
     Rows() = default;

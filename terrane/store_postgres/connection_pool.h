@@ -58,7 +58,7 @@ class ConnectionPool {
     }
 
     base::Result<Connection> take();
-    void giveBack(Connection connection);  // if it is broken, drops the idle ones, too
+    void giveBack(Connection connection);  // a broken one drops the idle ones, which are as old
 
     Address address_;
     RetryTimes times_;

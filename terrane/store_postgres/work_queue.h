@@ -35,7 +35,7 @@ struct Job {
 
 // Adds a worker and returns its number. The name is for display.
 [[nodiscard]] base::Result<std::int64_t> addWorker(Connection& connection, const std::string& name);
-// Removes a worker that ended and releases its job; its chunks only count for the world.
+// Removes a worker that ended and releases its job. Its chunks only remain in the totals.
 [[nodiscard]] base::Result<void> removeWorker(Connection& connection, std::int64_t worker);
 
 // Takes the next job under a lease. No value if none is waiting or the work is paused.

@@ -35,7 +35,7 @@ Parameters lockParameters(const Address& address, WorldLock lock) {
     return Parameters().integer(numberOf(address)).integer(static_cast<std::int32_t>(lock));
 }
 
-// Describes the program that holds the lock; details of other users may be hidden.
+// For messages: the program that holds the lock. PostgreSQL may hide the address of other users.
 std::string holderOf(Connection& connection, const Address& address, WorldLock lock) {
     const auto rows = connection.run(
         kHolder, Parameters().number(numberOf(address)).number(static_cast<std::int64_t>(lock)));

@@ -17,12 +17,12 @@ class ChangeQueue {
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks);
     // Sets new quads of `meshSections`. Other sections of a waiting mesh stay.
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
-    // Whoever takes the change is to make the mesh.
+    // Asks the taker of the change to make the mesh.
     void askForMesh(world::ChunkPos pos);
     bool asksForMesh(world::ChunkPos pos) const;
     // The chunk is no longer on screen.
     void hide(world::ChunkPos pos);
-    // Puts an edited chunk before all others.
+    // Moves an edited chunk ahead of all that were not edited.
     void putFirst(world::ChunkPos pos);
 
     std::vector<ChunkChange> take(std::size_t limit);

@@ -25,7 +25,7 @@ namespace {
 // frame; a chunk takes at most about 0.05 ms.
 constexpr std::size_t kEditedMeshesPerUpdate = 64;
 
-// Chunks for a batch lighter at once. Two such batches may wait.
+// Chunks that a batch lighter gets at once. At most two such batches wait or are in progress.
 constexpr std::size_t kLightBatch = 64;
 // The longest wait for a batch, since batches end without a signal.
 constexpr std::chrono::milliseconds kBatchPause{1};

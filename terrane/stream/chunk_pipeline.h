@@ -68,7 +68,7 @@ class ChunkPipeline {
     // Returns up to `limit` chunks whose mesh or light changed since the last call. Edited chunks come first,
     // then the rest in order of change.
     std::vector<ChunkChange> takeChanges(std::size_t limit) { return changes_.take(limit); }
-    // Takes only the changes of chunks that are no longer on screen: they free memory.
+    // Takes only chunks that are no longer on screen, ahead of all other changes: they free memory.
     std::vector<world::ChunkPos> takeHidden() { return changes_.takeHidden(); }
     // Takes all chunks off the screen. They are lit, meshed and shown again in the next updates.
     void hideAll();

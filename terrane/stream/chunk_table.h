@@ -47,7 +47,7 @@ struct ChunkRecord {
 
     // Lighting.
     std::uint8_t loadedAround = 0;  // of its eight neighbors; those beyond the world count
-    bool isOutdated = false;        // blocks changed since its lighting began
+    bool isOutdated = false;        // blocks, mesh options or open sides changed after its lighting began
     LocalLightPtr localLight{};     // null once nobody needs it
     light::ChunkLightPtr light{};   // of visible chunks
 
@@ -78,7 +78,7 @@ struct ChunkTable {
     std::size_t meshJobCount = 0;  // on workers
 };
 
-ChunkRecord* findRecord(ChunkTable& table, world::ChunkPos pos);  // null where it is absent
+ChunkRecord* findRecord(ChunkTable& table, world::ChunkPos pos);  // null if absent
 const ChunkRecord* findRecord(const ChunkTable& table, world::ChunkPos pos);
 std::optional<ChunkStage> stageAt(const ChunkTable& table, world::ChunkPos pos);
 bool isAt(const ChunkTable& table, world::ChunkPos pos, ChunkStage stage);

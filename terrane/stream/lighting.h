@@ -13,11 +13,12 @@ namespace terrane::stream {
 // Lighting.
 std::vector<world::ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit);
 
-// Makes a Lighting chunk Visible, whose light and mesh are there. False if blocks of it or of a neighbor
-// changed meanwhile, or the view has left it: the result is outdated, and the chunk is Loaded again.
+// Called when the lighting of a Lighting chunk is finished: makes it Visible. False if blocks of it or of a
+// neighbor, the mesh options or its open sides changed meanwhile, or if the view has left it: the result is
+// outdated, and the chunk is Loaded again.
 bool finishLighting(ChunkTable& table, world::ChunkPos pos);
 
-// Blocks of a chunk changed: light of it and its neighbors that is being computed is outdated.
+// Called when blocks of a chunk changed: lighting in progress for it and its neighbors is outdated.
 void outdateLighting(ChunkTable& table, world::ChunkPos pos);
 
 // Called when the chunk or a neighbor was loaded: it may be ready to be lit.

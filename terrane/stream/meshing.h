@@ -17,7 +17,7 @@ void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
 
 struct MeshRequest {
     world::ChunkPos pos;
-    mesh::MeshSectionSet meshSections = 0;  // all if a job was to mesh the chunk
+    mesh::MeshSectionSet meshSections = 0;  // all if the chunk waited for a mesh job or was in one
 };
 // Takes up to `limit` chunks that edits touched; the caller meshes them at once.
 std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);

@@ -16,7 +16,7 @@ struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
     mesh::MeshSectionSet meshSections = 0;  // of the mesh that changed; the others have no quads in it
-    bool needsMesh = false;                 // whoever takes the change is to make the mesh: see MeshPolicy
+    bool needsMesh = false;                 // the taker of the change is to make the mesh: see MeshPolicy
     light::ChunkLightPtr light;
     std::uint16_t bricks = 0;  // of the light that changed, a bit each
     bool isHidden = false;     // it is no longer on screen
@@ -37,7 +37,7 @@ struct TaskTime {
     double microseconds = 0;  // of all
 };
 
-// The maker of meshes of whole chunks: workers, or whoever takes the changes, as on the GPU, from
+// The maker of meshes of whole chunks: workers, or the taker of the changes, for example on the GPU, from
 // ChunkPipeline::meshBlocks(). The pipeline meshes sections that edits touch either way, so that edits are
 // visible in the next frame.
 enum class MeshPolicy : std::uint8_t { Workers, Caller };

@@ -65,7 +65,7 @@ ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& wo
 }
 
 // Light reaches 15 blocks, less than a chunk: an edit changes only light in its chunk's 3×3. Chunks around
-// unlit ones are lit from scratch after the others, which corrects whatever these took from them.
+// unlit ones are lit from scratch after the others, which replaces light that these got wrong there.
 std::vector<light::LightChange> relightEdits(ChunkTable& table, const world::World& world,
                                              std::span<const world::BlockEdit> edits,
                                              const light::LightTable& lights) {

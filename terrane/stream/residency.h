@@ -13,7 +13,7 @@ constexpr std::chrono::seconds kUnloadAfter{5};
 // Moves the view (view_order.h). False if nothing changed.
 bool setView(ChunkTable& table, world::ChunkPos center, int distance, glm::vec2 direction = {});
 
-// Requests a chunk of the world for others than the view: it is loaded soon and kept for 5 s.
+// Requests a chunk of the world independently of the view: it is loaded soon and kept for 5 s.
 void requestChunk(ChunkTable& table, world::ChunkPos pos, Time now);
 
 // Takes up to `limit` absent chunks to load, most urgent first, and makes them Loading.
@@ -21,7 +21,7 @@ std::vector<world::ChunkPos> popLoadRequests(ChunkTable& table, std::size_t limi
 // Whether nobody needs the chunk any more, so that its load may be cancelled. Requested chunks are always
 // loaded.
 bool mayCancelLoad(const ChunkTable& table, world::ChunkPos pos);
-// A Loading chunk becomes Loaded; an abandoned one is absent again.
+// finishLoad() makes a Loading chunk Loaded, abandonLoad() makes it absent again.
 void finishLoad(ChunkTable& table, world::ChunkPos pos, Time now);
 void abandonLoad(ChunkTable& table, world::ChunkPos pos);
 

@@ -6,12 +6,12 @@
 
 namespace terrane::stream {
 
-// The depth of water in blocks that hides the ground: the light of far tiles is gone after 15
-// (render/water.glsl), and hardly a twentieth of its own color is left.
+// The depth of water in blocks that hides the ground: on far tiles no light is left after 15
+// (render/water.glsl), and the color of the water itself is within a twentieth of that of deep water.
 constexpr int kDeepestSeen = 24;
 
 // Raises ground that lies deeper than that under a liquid to that depth, with one kind of block: in tiles
-// with a quarter of sea that saves most quads, which nobody sees.
+// with a quarter of sea this saves most quads, which are invisible.
 void raiseDeepFloor(world::Chunk& tile, const world::BlockRegistry& blocks);
 
 }  // namespace terrane::stream

@@ -46,7 +46,8 @@ class TilePipeline {
     void setView(const TileView& view) { setTileView(table_, view); }
     // Sets whether a chunk of level 0 can be shown.
     void setChunkReady(world::ChunkPos pos, bool isReady) { stream::setChunkReady(table_, pos, isReady); }
-    // A listener that makes the pipeline make these tiles again. It may outlive the pipeline.
+    // Returns a listener; the pipeline makes the tiles that it is called with again. It may outlive the
+    // pipeline.
     TileListener tileListener() const;
     // Takes the results of workers and submits new work. Call each frame. Throws what a worker threw.
     void update(mesh::MergeMethod method);
@@ -60,7 +61,7 @@ class TilePipeline {
     // Tiles to show, hide and drop among those that the caller has. Cancels the work on dropped tiles.
     TileChanges takeChanges();
 
-    // The caller has dropped all tiles: all are made again.
+    // The caller has dropped all chunks and tiles: all tiles are made again.
     void forgetAll();
 
     const TileTable& table() const { return table_; }

@@ -14,7 +14,7 @@ using world::ChunkPos;
 
 namespace {
 
-// The coarsest level is so much coarser than the outermost ring that few tiles cover everything at once.
+// The coarsest level is this many levels above the outermost ring's: few tiles cover everything at once.
 constexpr int kCoarserFirst = 2;
 // Every third level of divided tiles, counted from the coarsest, is made as well: the land shown while others
 // load is at most 2^3 times too coarse.
@@ -26,7 +26,7 @@ constexpr int kEarly = 16;
 // Tiles of level 1 under the outermost chunks of level 0 are kept ready, since the chunks vanish at once.
 // They are dropped twice as far inside.
 constexpr int kStandby = 4;
-// Tiles of a level are made in bands around the camera, so many tiles wide, row by row: neighbors, which
+// Tiles of a level are made in bands around the camera, this many tiles wide, row by row: neighbors, which
 // share much of their generation, then follow each other.
 constexpr int kBandTiles = 16;
 // Larger than all distances.
@@ -102,7 +102,7 @@ void Walk::visitAll() {
     }
 }
 
-// Adds all that shows the tile to `shown`. False if some of it cannot be shown yet.
+// Adds the nodes that show the tile to `shown`. False if some of it cannot be shown yet.
 bool Walk::visit(ChunkPos tile, bool isRequested) {
     auto found = table_.records.find(tile);
     const bool isKnown = found != table_.records.end();

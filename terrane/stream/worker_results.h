@@ -27,7 +27,7 @@ struct WorkerResults {
     struct Lit {
         world::ChunkPos pos;
         light::ChunkLightPtr light;
-        MeshPtr mesh;  // null where the caller of the pipeline makes meshes
+        MeshPtr mesh;  // null if the caller of the pipeline makes meshes
     };
     struct Meshed {
         MeshJob job;

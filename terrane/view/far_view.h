@@ -36,8 +36,8 @@ class FarView {
     void update() { tiles_.update(pipeline_.meshOptions().method); }
     // Passes tiles to the renderer until the deadline. False if there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
-    // Shows new tiles and hides replaced ones. While tiles load, only some times a second, unless a shown one
-    // is gone.
+    // Shows new tiles and hides replaced ones. While tiles load, at most every 15 ms, unless a shown one is
+    // gone.
     void applyChanges();
     // The same at once.
     void applyNow();

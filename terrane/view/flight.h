@@ -35,8 +35,8 @@ struct FlightLog {
     std::size_t takeOff = 0, landing = 0;  // frames: the flight's first, the first after it
     double secondsToLoad = 0, secondsOfFlight = 0, secondsToLoadAgain = 0;
     render::Camera camera;    // at the end
-    std::size_t missing = 0;  // chunks in view that were not there on landing
-    int viewDistance = 0;     // at the end: less than asked for where GPU memory allows no more
+    std::size_t missing = 0;  // chunks in view that were not loaded on landing
+    int viewDistance = 0;     // at the end: less than requested if GPU memory allows no more
 };
 
 // Flies and draws into the renderer's own image. On the thread of the session and of the OpenGL context.

@@ -17,8 +17,8 @@ FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& i
         glFinish();
         times.milliseconds.push_back(
             std::chrono::duration<double, std::milli>(FrameClock::now() - start).count());
-        // Pass times are those of the frame before, which the GPU has finished. Before the first frame is one
-        // that is not counted.
+        // Pass times are those of the previous frame, which the GPU has finished. The one before the first
+        // frame does not count.
         if (k == 0 && count > 1) continue;
         for (const gpu::GpuTiming& pass : renderer.passTimes())
             times.passes[pass.name].push_back(pass.milliseconds);

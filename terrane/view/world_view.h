@@ -54,7 +54,7 @@ class WorldView {
     // GPU, within this time a frame. Comes before the first upload.
     base::Result<void> meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds);
 
-    // Requests chunks up to `viewDistance` around the camera, or as far as memory allows, those in view
+    // Requests chunks up to `viewDistance` around the camera, or as far as memory allows, those in the view
     // direction first. Receives finished chunks.
     void follow(const render::Camera& camera, int viewDistance);
     // The same without receiving chunks. `direction`: see stream::ViewOrder.
@@ -110,7 +110,7 @@ class WorldView {
     world::ChunkPos center_;
     glm::vec2 direction_{};
     int requestedDistance_ = -1, viewDistance_ = -1;  // chunks; -1: no view yet
-    std::size_t fixedBytes_ = 0;                      // when all chunks were taken back last
+    std::size_t fixedBytes_ = 0;                      // when all chunks were removed last
     bool hasWarned_ = false, hasNoticed_ = false;
     std::optional<std::string> notice_;
 };

@@ -23,7 +23,7 @@
 namespace terrane::volume {
 
 struct WorldParts {
-    std::shared_ptr<const world::BlockRegistry> blocks;  // stays where it is: others refer to it
+    std::shared_ptr<const world::BlockRegistry> blocks;  // not moved: others refer to it
     gen::LevelGenerators generators;                     // has level 0
     std::unique_ptr<store::ChunkStore> store;
     unsigned threads = 1;  // that work at a time, the calling one among them; 1 or more
@@ -62,7 +62,7 @@ class OpenedWorld {
   private:
     explicit OpenedWorld(WorldParts parts);
 
-    // They refer to each other: destroyed in reverse order.
+    // These refer to each other and are destroyed in reverse order.
     std::shared_ptr<const world::BlockRegistry> blocks_;
     light::LightTable lights_;
     map::SurfaceKinds kinds_;

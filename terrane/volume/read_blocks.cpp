@@ -7,7 +7,7 @@
 namespace terrane::volume {
 namespace {
 
-// Kept at once for a digest: about 10 KiB each.
+// Chunks in memory at once for a digest, about 10 KiB each.
 constexpr std::int64_t kChunksOfDigest = 1024;
 
 BlockArea areaOfChunk(world::ChunkPos pos) {

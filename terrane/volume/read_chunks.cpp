@@ -13,10 +13,10 @@
 namespace terrane::volume {
 namespace {
 
-// Loaded by one call of the store. Few, so that threads end together.
+// Chunks that one call of the store loads. Few, so that threads end together.
 constexpr std::int64_t kChunksOfPart = 4;
 
-// The first error by number, however threads meet.
+// The error of the lowest number, whatever the order of threads.
 class FirstError {
   public:
     void note(std::int64_t number, base::Error error) {
@@ -40,7 +40,7 @@ class FirstError {
 
 base::Result<world::Chunk> chunkFrom(store::LoadedChunk& stored, world::ChunkPos pos,
                                      const OpenedWorld& world) {
-    if (!world::isInWorld(pos)) return world::Chunk();  // what is stored by its key is another's
+    if (!world::isInWorld(pos)) return world::Chunk();  // its key is that of another chunk
     if (stored.isUnread && !stored.isOverBudget)
         return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(pos), stored.problem);
     if (stored.chunk) return std::move(*stored.chunk);

@@ -9,8 +9,8 @@
 namespace terrane::volume {
 namespace {
 
-// Lit at once, and a ring of one chunk around them, since light travels up to 15 blocks: 18² chunks of 110 KB
-// of local light are 36 MB.
+// Side of the square of chunks that is lit at once, with a ring of one chunk around it, since light travels
+// up to 15 blocks: 18² chunks of 110 KB of local light are 36 MB.
 constexpr int kSquareChunks = 16;
 
 light::LightScratch& volumeLightScratch() {

@@ -7,7 +7,7 @@
 namespace terrane::volume {
 namespace {
 
-// Width and height of a piece, which one thread reads: 8×8 chunks.
+// Width and height of a piece, which one thread reads: 8×8 chunks of 16 columns.
 constexpr int kPieceColumns = 128;
 
 // Piece `number` of an area, by y, then x; those at its end may be smaller.

@@ -25,7 +25,7 @@ std::string streamHeader();
 inline Answer textAnswer(int status, std::string text) {
     return {.status = status, .body = std::make_shared<const std::string>(std::move(text))};
 }
-// An error that may be temporary: the browser retries after a second.
+// An error that may be temporary: asks the client to retry after a second.
 inline Answer busyAnswer(int status, std::string text) {
     Answer answer = textAnswer(status, std::move(text));
     answer.retryAfter = 1;

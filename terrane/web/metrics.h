@@ -10,7 +10,7 @@
 
 namespace terrane::web {
 
-// Counts values up to each bound.
+// Counts of values between ascending bounds.
 struct Histogram {
     explicit Histogram(std::vector<double> ascendingBounds)
         : bounds(std::move(ascendingBounds)), counts(bounds.size()) {}

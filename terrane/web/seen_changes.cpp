@@ -66,7 +66,7 @@ void SeenChanges::look() {
         const bool wasGenerated = generated_.erase(chunk.pos) > 0;
         changes->push_back({std::move(chunk), wasGenerated});
     }
-    // Priority above tiles, which should show the result.
+    // Before tiles, which should show the result.
     job_ = parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_,
                                    &painter = parts_.painter, post = parts_.post](const base::CancelToken&) {
         std::vector<ChunkPos> seen = seenAmong(painter, *changes, *digests);

@@ -25,9 +25,9 @@ struct Target {
     std::optional<std::string_view> parameter(std::string_view name) const;
 };
 
-// Decodes percent escapes (RFC 3986); "+" is a plus. No value if the target is not a valid absolute path:
-// invalid escapes, control characters or bytes above 0x7e outside of escapes, segments that are empty, "." or
-// "..", or contain a slash, backslash or zero byte after decoding.
+// Decodes percent escapes (RFC 3986); "+" is a plus. No value if the target is not an absolute path, or has
+// invalid escapes, or has control characters or bytes above 0x7e outside of escapes. Also no value for
+// segments that are empty, "." or "..", or contain a slash, backslash or zero byte after decoding.
 std::optional<Target> parseTarget(std::string_view target);
 
 }  // namespace terrane::web

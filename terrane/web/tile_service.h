@@ -1,6 +1,5 @@
-// Provides the tiles of a map as PNG files: caches recent ones in memory, paints others on workers on
-// request, once for concurrent requests, and cancels when nobody waits any more. On the web's thread;
-// painting runs on workers.
+// Provides the tiles of a map as PNG files. Recent ones are cached in memory. Workers paint the others, once
+// for concurrent requests; queued tiles that nobody waits for any more are cancelled. On the web's thread.
 #pragma once
 
 #include <chrono>

@@ -65,7 +65,8 @@ struct Tables {
 };
 
 struct Gathered {
-    glm::vec3 light{0}, share{0};  // seen from there: light scattered once, and of light that is 1 everywhere
+    // As seen from there: light that was scattered once, and the same if the light were 1 everywhere.
+    glm::vec3 light{0}, share{0};
 };
 
 // Integrates along a direction, with phase functions that are equal on all sides (Hillaire 2020, equations 5

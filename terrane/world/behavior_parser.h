@@ -6,8 +6,8 @@
 
 namespace terrane::world {
 
-// Behaviors that other keys imply come first: the block's shape, growth and slots are read before. Errors go
-// to the table.
+// Behaviors that other keys imply come first: the block's shape, growth and slots must be read before. Errors
+// go to the table.
 void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorTable& behaviors);
 
 }  // namespace terrane::world

@@ -37,7 +37,7 @@ struct BlockBehavior {
     std::function<bool(const World&, const BlockRegistry&, BlockPos pos, BlockId id)> canStand = {};
     // Called when an edit or a behavior has placed the block; not for generated terrain and loaded chunks.
     std::function<void(BlockUpdate&, BlockPos pos)> placed = {};
-    // Called when another block has replaced it. `pos` has that one.
+    // Called when another block, which is at `pos` now, has replaced it.
     std::function<void(BlockUpdate&, BlockPos pos, const RemovedBlock&)> removed = {};
     // Called when the block beside it on `side` has changed.
     std::function<void(BlockUpdate&, BlockPos pos, Face side)> neighborChanged = {};
@@ -55,10 +55,10 @@ struct BehaviorTemplate;  // behavior_template.h
 
 class BehaviorTable {
   public:
-    // Replaces one with the same name.
+    // Both replace a behavior with the same name.
     void add(BlockBehavior behavior);
     void addTemplate(BehaviorTemplate behavior);
-    BehaviorPtr find(std::string_view name) const;  // null where there is none
+    BehaviorPtr find(std::string_view name) const;  // null if there is none
     std::shared_ptr<const BehaviorTemplate> findTemplate(std::string_view name) const;
     std::vector<std::string_view> names() const;  // of both kinds
 
@@ -70,7 +70,7 @@ class BehaviorTable {
 // plant      needs ground: a full block, or its own kind (cactus); it is removed with the block below
 // crop       is placed at its youngest stage of growth and grows by ticks; its state counts the stages left
 // falling    falls through air and liquids when it is placed or when the block below changes
-// flows      of a liquid: it flows (liquid_flow.h)
+// flows      makes a liquid flow (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
 // and those of shape_behaviors.h; with parameters those of behavior_template.h
 const BehaviorTable& builtInBehaviors();

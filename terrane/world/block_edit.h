@@ -52,7 +52,7 @@ enum class RestoreScope : std::uint8_t {
 };
 
 // A change of the world in progress: each change appends its event and notes the behaviors to call; run()
-// calls them in this order. Calls that they cause come after these. Nothing happens where no chunk is loaded,
+// calls them in this order, those that are noted meanwhile last. Nothing happens where no chunk is loaded,
 // above and below the world. Used on the world's thread.
 class BlockUpdate {
   public:
@@ -68,9 +68,9 @@ class BlockUpdate {
     // Moves a block with its data; `from` becomes air. Calls neither `placed` nor `removed` of it. The block
     // stays where it is if it cannot stand at `to`.
     void move(BlockPos from, BlockPos to);
-    // Sets exactly these blocks, each once, without calling `canStand`, `placed` and `removed`. Calls
-    // `neighborChanged` for blocks that touch one of them, and for these by `scope`; these calls do not count
-    // toward kMaxBehaviorCalls.
+    // Sets exactly these blocks (each position once) without calling `canStand`, `placed` and `removed`.
+    // Calls `neighborChanged` for blocks that touch one of them, and for these by `scope`; these calls do not
+    // count toward kMaxBehaviorCalls.
     void restore(std::span<const PlacedBlock> blocks, RestoreScope scope = RestoreScope::Border);
     // Compacts the block states of the section at `pos`: its palette has only states that are in use.
     void compactState(BlockPos pos);
@@ -81,7 +81,7 @@ class BlockUpdate {
     struct Call {
         std::function<void(BlockUpdate&, BlockPos)> BlockBehavior::*simple = nullptr;  // placed, tick or used
         BlockPos pos;
-        BlockId id = kAir;       // the call is left out if the block is another by then
+        BlockId id = kAir;       // the call is left out if another block is there by then
         Face side = kFaceCount;  // of neighborChanged
         RemovedBlock removed;    // of `removed`
     };

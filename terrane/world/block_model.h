@@ -77,7 +77,7 @@ Box selectionBounds(const BlockType& type, std::uint16_t state);
 
 // Bits of the state that choose a form.
 std::uint16_t formMask(const ShapeDescription& shape);
-// The boxes of a state.
+// The boxes of a state, with facing, form, arms and half applied.
 std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state);
 
 constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;

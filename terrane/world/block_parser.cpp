@@ -235,7 +235,7 @@ base::Error oneLine(std::string message) {
     return {base::ErrorCode::BadInput, inOneLine(std::move(message))};
 }
 
-// The tables of a kind; null where there are none.
+// The tables of a kind; null if there are none.
 const toml::array* tablesOf(ContentTable& top, std::string_view kind) {
     const toml::node* found = top.node(kind);
     const toml::array* tables = found ? found->as_array() : nullptr;

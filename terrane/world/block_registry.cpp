@@ -85,7 +85,8 @@ class Materials {
     std::vector<std::string> textures_;
 };
 
-// Leaves are closed from afar, and hide what lies behind them; so they may not wave.
+// Through the holes of leaves mostly more leaves are visible: from afar the holes are closed. The block then
+// hides blocks behind it, so it must not wave.
 void lookFromAfar(BlockDescription& block) {
     for (FaceLook& face : block.faces) {
         if (face.alpha != AlphaMode::Test) continue;

@@ -25,14 +25,14 @@ class BlockRegistry {
         std::string_view toml, std::string_view name, const BehaviorTable& behaviors = builtInBehaviors());
 
     // The same from descriptions, of several files or made by a program. Names are unique and none of "air",
-    // "missing"; behaviors name blocks as the registry does. Errors that belong to no block begin with
-    // `name`.
+    // "missing"; textures and blocks of behaviors have the registry's names. Errors that belong to no block
+    // begin with `name`.
     [[nodiscard]] static base::Result<BlockRegistry> fromDescriptions(std::vector<BlockDescription> blocks,
                                                                       std::string_view name);
 
     std::span<const BlockType> types() const { return types_; }  // index is the id
     const BlockType& type(BlockId id) const { return types_[id < types_.size() ? id : missing_]; }
-    const BlockType* find(std::string_view name) const;  // null where there is none
+    const BlockType* find(std::string_view name) const;  // null if there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
 
     // The same blocks with fewer faces, for meshes of far tiles: cubes with holes are closed and not

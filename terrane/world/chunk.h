@@ -33,7 +33,7 @@ class Chunk {
     void setBlockState(BlockIndex i, std::uint16_t value);
 
     // Block entity data of a block, beside its block state.
-    const BlockEntityData* blockEntityData(BlockIndex i) const;  // null where the block has none
+    const BlockEntityData* blockEntityData(BlockIndex i) const;  // null if the block has none
     BlockEntityDataPtr sharedBlockEntityData(BlockIndex i) const;
     void setBlockEntityData(BlockIndex i, BlockEntityData data);
     void shareBlockEntityData(BlockIndex i,

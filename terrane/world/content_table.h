@@ -33,8 +33,8 @@ std::string listed(const Names& names) {
 // The message without line breaks, which texts of a file may have: an error is one line.
 std::string inOneLine(std::string message);
 
-// Readers return the key's value, or `fallback` if it is absent or wrong. All tables of a file share one
-// error, which keeps the first.
+// Readers return the key's value, or `fallback` if it is absent; a wrong value gives an error and an
+// arbitrary result. All tables of a file share one error, the first.
 class ContentTable {
   public:
     ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error)

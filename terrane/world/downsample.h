@@ -1,5 +1,5 @@
 // Makes one column, twice as wide, of 2×2 columns of blocks, and so tiles of the next level from edited
-// chunks. Called by stream/edited_tiles.h. Pure functions; any thread.
+// chunks. Called by stream/edited_tiles.cpp. Pure functions; any thread.
 #pragma once
 
 #include <array>

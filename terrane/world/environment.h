@@ -1,5 +1,5 @@
 // The light and the sky at a time of day: pure functions, any thread. Colors come from the model of the air
-// (air.h); a response curve of the eye, which sees in twilight too, makes colors of a screen of them.
+// (air.h); a response curve of the eye, which sees in twilight too, turns them into screen colors.
 #pragma once
 
 #include <glm/vec3.hpp>

@@ -22,7 +22,7 @@ constexpr int kTickRadius = 8;
 
 // The blocks of these chunks to be changed by RunTick (block_edit.h); chunks that are not loaded have none.
 // `tick`: the number of ticks before; the same world and number give the same blocks. Reads only sections
-// where some block has block state: a block whose state is 0 is at rest. On the world's thread.
+// in which some block has block state: a block whose state is 0 is at rest. On the world's thread.
 std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
                                    std::span<const ChunkPos> chunks);
 

@@ -24,7 +24,7 @@ struct RayHit {
 // The first block whose selection box the ray enters within `maxDistance` blocks. A box around the origin is
 // hit at distance 0, on the face through which the ray would have entered it. Chunks that are not loaded are
 // passed as air. None also for a direction of length zero and for values that are not finite. Rays pass
-// liquids, but stop at the sources of `liquid`, where one is given.
+// liquids, but stop at the sources of `liquid`, if given.
 std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry, const Ray& ray,
                               double maxDistance, BlockId liquid = kAir);
 

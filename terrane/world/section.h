@@ -61,8 +61,8 @@ class Section {
     // Palette form: indices, bits() each, lowest index in the lowest bits. Dense form: values, 16 bits each.
     std::span<const std::uint64_t> words() const { return words_; }
 
-    // True if all values surely meet the condition: false for dense sections, which are not searched, and
-    // for a palette with another value, even if no block has it any more.
+    // True if all values surely meet the condition. False for dense sections, which are not searched, and if
+    // a value of the palette does not meet it, even if no block has that value any more.
     template <class Condition>
     bool surelyAll(const Condition& condition) const {
         if (isUniform()) return condition(uniform_);

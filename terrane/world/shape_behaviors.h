@@ -15,7 +15,8 @@ namespace terrane::world {
 // door             opens; NAME and NAME_top are its halves, placed, removed and opened together
 std::vector<BlockBehavior> shapeBehaviors();
 
-// Whether the block is the upper half of a door, and the other half of a door; air if it has none.
+// Whether the block is the upper half of a door. otherHalf() gives the other half of a door; air if it has
+// none.
 bool isUpperHalf(const BlockType& type);
 BlockId otherHalf(const BlockRegistry& blocks, BlockId id);
 

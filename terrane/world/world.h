@@ -28,7 +28,7 @@ class World {
     // A block's 16 bits of block state, and the bytes it keeps beyond them. Where no chunk is loaded there
     // are none. A pointer holds until the chunk changes or goes.
     std::uint16_t blockState(BlockPos pos) const;
-    const BlockEntityData* blockEntityData(BlockPos pos) const;  // null where the block has none
+    const BlockEntityData* blockEntityData(BlockPos pos) const;  // null if the block has none
 
     std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t memoryBytes() const;  // of all chunks

@@ -44,7 +44,7 @@ Cells generating(const std::string& scene, const std::string& distances) {
         fmt::format("render --scene {} --preset low --view-distance {} --size 320x180", scene, distances));
 }
 
-// Loads the same view from a save that a run before it fills: one chunk more, for its light.
+// Loads the same view from a save. A run before it generates the save, with a border of one chunk for light.
 Cell loading(const std::string& scene, int distance) {
     Cell cell = generating(scene, fmt::to_string(distance))[0];
     const std::string save = fmt::format("{}-{}", scene, distance);
@@ -61,8 +61,8 @@ Cell loading(const std::string& scene, int distance) {
     return cell;
 }
 
-// A straight flight over the landscape in real time, generated or from a save. Without a graphics card it
-// uses the low preset and a small image.
+// A straight flight over the landscape in real time, generated, or from a save that an equal flight filled.
+// Without a graphics card it uses the low preset and a small image.
 Cell flight(const BenchSettings& s, bool isFromSave) {
     Cell cell = expandLine(
         fmt::format("flight-bench --scene landscape --duration {:g} --preset {} --view-distance {} --size {}",
@@ -137,7 +137,7 @@ Cells resolutions(const BenchSettings& s) {
     return cells;
 }
 
-// Each effect on its own, against `--preset low`.
+// `--preset low`, and the same with each single option changed.
 Cells effectCosts(const BenchSettings& s) {
     Cells cells;
     for (const char* flag :

@@ -55,7 +55,7 @@ struct BotWorld {
     std::unordered_map<world::BlockPos, int, world::BlockPosHash> owners;  // the only bot that builds there
     std::vector<double> joinedKb, joinedMs;  // from the connection to the complete view
     std::vector<double> seenMs;              // from an edit until another bot receives it
-    std::vector<double> decidedMs;           // from an edit until the server acknowledges it
+    std::vector<double> decidedMs;           // from an edit until the answer that it is durable
     std::uint64_t edits = 0, refused = 0, corrections = 0, cuts = 0, joins = 0;
 };
 

@@ -16,7 +16,7 @@
 namespace terrane::app {
 namespace {
 
-// Chunks decoded at a time and stored before the next: 128 × about 1 MiB of NBT.
+// Chunks decoded at a time, and durable before the next ones: 128 × about 1 MiB of NBT.
 constexpr std::size_t kImportBatch = 128;
 
 struct DecodedChunk {

@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Limit on a folder: 2^20 regions cover 16,384 blocks × 2^15 in each direction.
+// Limit on a folder: 2^20 regions of 512² blocks, 1,024 × 1,024 of them, are 524,288 blocks a side.
 constexpr std::size_t kMaxRegions = std::size_t{1} << 20;
 
 bool isFolder(const fs::path& path) {

@@ -10,7 +10,7 @@
 
 namespace terrane::app {
 
-// They outlive the recorder.
+// All parts outlive the recorder.
 struct RecorderParts {
     const Script& script;
     Offscreen& world;

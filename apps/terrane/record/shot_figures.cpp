@@ -36,7 +36,7 @@ world::Figure figureAt(const Shot& shot, const PlayerCue& player, double seconds
     const int steps = static_cast<int>(std::max(secondsInShot, 0.0) * kStepsPerSecond + kTimeSlack);
     for (int step = 0; step < steps; ++step) {
         const double seconds = static_cast<double>(step) / kStepsPerSecond;
-        // Motion reaches this pose when the next one is told.
+        // The motion reaches this pose when the next one arrives.
         if (step % kStepsPerPose == 0)
             motion.told(poseAt(player, seconds + static_cast<double>(kStepsPerPose) / kStepsPerSecond),
                         momentOf(seconds));

@@ -10,7 +10,7 @@ namespace terrane::app {
 [[nodiscard]] base::Result<net::History> openFileHistory(const store::WorldLocation& world,
                                                          const world::BlockRegistry& blocks);
 [[nodiscard]] bool hasFileRecords(const store::WorldLocation& world);
-// As serverFilesOf() of a world in a file.
+// serverFilesOf() for a world in a file.
 [[nodiscard]] base::Result<std::filesystem::path> filesBeside(const store::WorldLocation& world);
 
 }  // namespace terrane::app

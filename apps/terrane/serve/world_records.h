@@ -22,7 +22,7 @@ struct WorldRecords {
 // The records of an open world. Errors name the file or the database.
 [[nodiscard]] base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
-// Opens the records for reading only: a database may be a replica.
+// Opens the records to read them. Does not write to a database, which may be a replica.
 [[nodiscard]] base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(
     const store::WorldLocation& world, const world::BlockRegistry& blocks);
 

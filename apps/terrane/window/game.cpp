@@ -36,7 +36,7 @@ base::Result<void> save(GameState& game) {
                       session.store().status().waiting);
 }
 
-// Moves a player who is on foot below the world to the surface; it would fall forever.
+// Moves a player on foot below the world to the surface, since it would fall forever.
 void liftFromBelow(GameState& game) {
     const game::Movement movement = game.settings.movement;
     if (movement == game::Movement::Fast || movement == game::Movement::Medium) return;

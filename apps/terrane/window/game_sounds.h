@@ -14,7 +14,7 @@ namespace terrane::app {
 class GameSounds {
   public:
     // Listens to the edits of `session`, which outlives this. A volume above 0 opens the device in the
-    // background; without one the game is silent.
+    // background; without a device the game is silent.
     explicit GameSounds(game::Session& session);
     ~GameSounds();
     GameSounds(const GameSounds&) = delete;

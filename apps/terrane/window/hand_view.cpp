@@ -26,8 +26,8 @@ ImVec2 at(glm::vec2 p) {
     return {p.x, p.y};
 }
 
-// Draws a part of the arm as a box seen along its length: a lit top and a darker side. `from` and `to` are
-// the centers of its ends.
+// Draws a part of the arm as a long box: a lit top and a darker side. `from` and `to` are the centers of its
+// ends.
 void drawArmPart(ImDrawList& draw, glm::vec2 from, glm::vec2 to, float width, const ImU32 (&colors)[2]) {
     const glm::vec2 along = to - from;
     const float length = std::max(std::sqrt(along.x * along.x + along.y * along.y), 1.0f);

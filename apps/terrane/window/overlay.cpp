@@ -65,7 +65,7 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
                 const TargetView& view) {
     const auto& [world, blocks, isHighContrast] = view;
     const world::BlockType& type = blocks.type(world.block(target.block));
-    constexpr double kGrow = 1.0 / 256;  // outside of the block's faces, against z-fighting
+    constexpr double kGrow = 1.0 / 256;  // blocks: the outline is just outside of the faces
     const glm::dvec3 corner(target.block.x, target.block.y, target.block.z);
     const world::Box box = world::selectionBounds(type, world.blockState(target.block));
     const glm::dvec3 min = corner + glm::dvec3(box.min) - kGrow;

@@ -34,7 +34,7 @@ struct GivenOptions {
     bool namesWorld = false;  // the world or a place in it: skips the title
     bool movement = false;
     bool resourcePack = false;
-    bool graphics = false;  // the settings count too
+    bool graphics = false;  // by the command line or the settings
 };
 
 }  // namespace terrane::app

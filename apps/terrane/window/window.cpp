@@ -19,7 +19,7 @@ namespace terrane::app {
 
 namespace {
 
-// Position of the window after it was created as full screen.
+// Position of a window that was created as full screen, once it leaves full screen.
 constexpr int kLeft = 40, kTop = 40;
 
 struct KeyCode {

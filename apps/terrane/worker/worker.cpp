@@ -135,7 +135,7 @@ class Worker {
     const WorkerParts& parts_;
     std::int64_t number_ = 0;
     WorkerResult result_;
-    std::int64_t untold_ = 0;  // chunks since the last renewal
+    std::int64_t untold_ = 0;  // chunks not yet reported to the database
     Clock::time_point renewed_{};
     bool isFirst_ = true, saidPaused_ = false;
 };

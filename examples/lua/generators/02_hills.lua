@@ -1,4 +1,4 @@
--- 2. Hills and lakes. A 2D pass computes the height once a column and hands it on in a field.
+-- 2. Hills and lakes. A 2D pass computes the height once per column and passes it on in a field.
 
 local seaLevel <const> = 80
 local height = g:field("height", "float")
@@ -20,7 +20,7 @@ g:pass3D("ground", function(p)
     p:setBlock(multiSelect({{depth:lt(0), open}, {depth:lt(1), top}, {depth:lt(4), soil}}, "stone"))
 end)
 
--- Plants stand on what the pass before put there. Columns wider than 2 blocks show none.
+-- Plants stand on blocks of the pass before. Columns wider than 2 blocks have none.
 if g.step <= 2 then
     g:pass3D("plants", function(p)
         local isFree = p:blockHere():eq("air") & p.z:gt(1)

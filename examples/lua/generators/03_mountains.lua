@@ -22,7 +22,7 @@ g:pass2D("erosion", function(p)
     p:set(ridge, eroded.ridge)
 end)
 
--- Steep land is bare. Snow lies on what is high, first on the ridges.
+-- Steep land is bare. Snow covers high land, first the ridges.
 g:pass2D("cover", function(p)
     local ground, steepness = p:read(height), length(p:slope(height))
     local spots = p:perlin2DWithGrain("spots", 8, {0.4, 0.6})

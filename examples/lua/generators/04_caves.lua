@@ -1,4 +1,4 @@
--- 4. Caves: tunnels where two noises are both near 0, halls where a third is large, and what grows in them.
+-- 4. Caves: tunnels where two noises are both near 0, halls where a third is large, and plants and crystals in them.
 
 local seaLevel <const> = 80
 local height = g:field("height", "float")
@@ -29,8 +29,8 @@ g:pass3D("ground", function(p)
             {p:perlin3D("limestone", 48, {1}):gt(0.25), "limestone"},
         }, "stone")
     end)
-    -- Noise in space costs most: it stands where a cave may be, away from the water and the bottom. From afar nobody
-    -- sees caves.
+    -- 3D noise costs most: it is computed only where a cave may be, away from the water and the bottom. Caves are not
+    -- visible from afar.
     if p.step <= 2 then
         p:if_(depth:ge(0) & p.z:gt(4) & p:read(height):gt(seaLevel + 4), function()
             block.value = select(isTunnel(p) | isHall(p), "air", block.value)

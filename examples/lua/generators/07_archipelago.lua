@@ -6,7 +6,7 @@ local palm, palmBase = g:field("palm", "int"), g:field("palm base", "int")
 local trees = g:trees()
 
 g:pass2D("land", function(p)
-    -- An island around each point of a Voronoi diagram, as large as chance will have it.
+    -- An island of random size around each point of a Voronoi diagram.
     local cells = p:voronoi2D("islands", 220, 1)
     local center = p.x + cells.offset.x
     local size = p:random2D("size", center, p.y + cells.offset.y) * 0.6 + 0.3

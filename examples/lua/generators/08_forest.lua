@@ -1,4 +1,4 @@
--- 8. Forest: trees of several kinds. A 2D pass says where their feet are, the 3D pass asks for their blocks.
+-- 8. Forest: trees of several kinds. A 2D pass places their feet, the 3D pass reads their blocks.
 
 local seaLevel <const> = 80
 local height = g:field("height", "float")
@@ -12,7 +12,7 @@ g:pass2D("land", function(p)
     p:set(height, 88 + hills + smoothstep(4, 18, hills) * 14)
 end)
 
--- Which kind grows is decided by a noise for the place and a number for each tree, so that woods mix at their edges.
+-- Noise and a random number for each tree choose its kind, so that woods mix at their edges.
 local function kindOfTree(p, point)
     local wood = p:perlin2D("woods", 128, {0.3, 1}) + (p:random2D("mix", point.at.x, point.at.y) - 0.5) * 0.5
     return multiSelect({
@@ -42,7 +42,7 @@ g:pass2D("trees", function(p)
     p:set(lowBase, int(ground) + 1)
 end)
 
--- Grass is darker under trees of the north, lighter in clearings.
+-- The color of grass follows a wide noise, from dark and cool to light and warm.
 g:pass2D("colors", function(p)
     local warm = smoothstep(-0.5, 0.6, p:perlin2D("warmth", 256, {1}))
     p:set(grassColor, packColor(lerp(0.30, 0.46, warm), lerp(0.46, 0.55, warm), lerp(0.24, 0.2, warm)))

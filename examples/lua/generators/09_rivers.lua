@@ -13,7 +13,7 @@ local rivers = g:drainage("rivers", {spacing = 128, seaLevel = seaLevel, minFlow
 g:pass2D("land", function(p)
     local s = p:drainage(rivers)
     local land = wideLand(p) + p:perlin2D("small hills", 16, {1, 2, 4})
-    -- Lakes first, so that a river keeps its banks where it comes to one. Noise bends their round shores.
+    -- Lakes first, so that a river keeps its banks where it meets one. Noise bends their round shores.
     local shore = s.lakeDistance + p:perlin2D("shores", 16, {3, 6})
     local bank = s.distance - s.halfWidth  -- below 0 in the river
     local ground = lerp(s.lakeLevel + 1, land, smoothstep(0, 60, shore))

@@ -9,7 +9,7 @@ local trees = g:trees()
 g:pass2D("islands", function(p)
     local cells = p:voronoi2D("islands", 140, 1)
     local cx, cy = p.x + cells.offset.x, p.y + cells.offset.y
-    -- Chance decides for each island how high it floats and how large it is.
+    -- Height and size of each island are random.
     local level = lowest + p:random2D("level", cx, cy) * 80
     local size = 0.28 + p:random2D("size", cx, cy) * 0.3
     local coast = p:perlin2D("coasts", 12, {0.03, 0.06, 0.1})

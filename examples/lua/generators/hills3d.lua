@@ -1,10 +1,10 @@
--- Land from noise in space: hills with overhangs, arches and floating rocks, grass wherever the sky is near.
+-- Land from 3D noise: hills with overhangs, arches and floating rocks, grass wherever the sky is near.
 -- The same blocks, to the bit, as terrane/gen/generators/hills3d.cpp.
 
 local seaLevel <const> = 80
 local middle = g:field("middle", "float")
 
--- Solid where the noise is denser than the height above the middle of the land takes away.
+-- Solid where the noise exceeds the threshold, which grows with the height above the middle of the land.
 local function isSolid(p)
     local above = float(p.z) - p:read(middle)
     local solid = p:var(above:lt(0))

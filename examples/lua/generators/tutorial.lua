@@ -11,7 +11,7 @@ g:pass2D("land", function(p)
     p:set(height, int(82 + hills + where * ridge * 120))
 end)
 
--- Steepness from the heights around, snow on high land.
+-- Rock on steep ground, from the heights around, and snow on high ground.
 g:pass2D("cover", function(p)
     local here = p:read(height)
     local dx = p:readAt(height, 1, 0) - p:readAt(height, -1, 0)
@@ -23,7 +23,7 @@ g:pass2D("cover", function(p)
     }, "grass"))
 end)
 
--- Noise in space is costly: it stands in an if_, so that layers of air and water skip it.
+-- 3D noise is expensive: it is inside an if_, so that layers of air and water skip it.
 g:pass3D("ground", function(p)
     local depth = p:read(height) - p.z
     local block = p:var(select(p.z:le(80), "water", "air"))
@@ -36,7 +36,7 @@ g:pass3D("ground", function(p)
     p:setBlock(block.value)
 end)
 
--- A last pass sees what the caves left: mushrooms on their floors, tufts on the grass.
+-- A last pass reads the blocks left by the caves: mushrooms on their floors, tufts on the grass.
 g:pass3D("plants", function(p)
     local below = p:blockInColumn(p.z - 1)
     p:if_(p:blockHere():eq("air") & p:randomBool3D("grows", 0.1), function()

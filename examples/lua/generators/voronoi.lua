@@ -1,4 +1,4 @@
--- Mountains that are nothing but Voronoi diagrams: bowls with a lake around every point, sharp ridges between
+-- Mountains made only of Voronoi diagrams: bowls with a lake around every point, sharp ridges between
 -- them, and boxy caves of a diagram in space. The same blocks, to the bit, as terrane/gen/generators/voronoi.cpp.
 
 local seaLevel <const> = 80
@@ -29,7 +29,7 @@ g:pass3D("ground", function(p)
     local block = p:var(select(z:le(seaLevel), "water", "air"))
     p:if_(depth:ge(0), function() block.value = "stone" end)
     p:if_(depth:ge(0) & depth:lt(3), function() block.value = cover end)
-    -- Nobody sees them from afar, and they are most of the cost.
+    -- Caves are not visible from afar, and cost most.
     if p.step == 1 then
         p:if_(depth:gt(6) & z:gt(3), function() carveChambers(p, block) end)
     end

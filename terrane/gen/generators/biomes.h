@@ -15,7 +15,7 @@ namespace terrane::gen {
 
 class Biomes {
   public:
-    // None where the built-in generator of this name has no biomes. `blocks` outlives it.
+    // None if the built-in generator of this name has no biomes. `blocks` outlives it.
     static std::optional<Biomes> create(std::string_view generator, const world::BlockRegistry& blocks,
                                         std::uint64_t seed);
 

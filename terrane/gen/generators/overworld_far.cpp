@@ -79,8 +79,7 @@ Growth crownOrPlant(Pass& p, const Fields& f) {
 
 void farPass(Pass& p, const Fields& f) {
     const Int z = p.z(), surface = p.read(f.surface);
-    // With columns of one block, the top and the side of a slope lie side by side; here they lie below each
-    // other.
+    // Blocks that make the surface of a slope at level 0 lie below each other in one column here.
     const int cover = std::min(p.step(), kMaxCover);
     const Int stoneTop = surface - std::max(kSoilDepth + 1, cover);
     const Growth growth = p.step() <= kMaxTreeStep ? treeAndPlant(p, f) : crownOrPlant(p, f);
