@@ -30,6 +30,7 @@ void ClientLink::connect() {
     triedAt_ = now_;
     SocketEvents events;
     events.opened = [this](const Bytes& channel, const std::string& serverKey) {
+        if (stage_ == Stage::Ended) return socket_->close();  // leave() while connecting
         const base::Result<bool> trusted = isTrusted(serverKey);
         if (!trusted) return end(trusted.error().message);
         if (!*trusted && isToldKey_) return onCut("another server answers");

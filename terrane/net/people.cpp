@@ -18,7 +18,7 @@ bool isName(std::string_view name) {
 }
 
 std::string nameRule() {
-    return fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends",
+    return fmt::format("a name has 1 to {} bytes, no quotation mark and no spaces at its ends, and is not *",
                        kMaxNameBytes);
 }
 

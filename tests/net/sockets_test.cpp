@@ -94,6 +94,16 @@ TEST_F(SocketsTest, PlayersJoinOverTls) {
     expectNobodyElse(1);
 }
 
+TEST_F(SocketsTest, ALinkThatLeavesWhileItConnectsAsksForNoTrust) {
+    start();
+    LinkPlayer& ann = addPlayer("Ann");
+    ann.link.leave();
+    LinkPlayer& bob = addPlayer("Bob");
+    ASSERT_TRUE(runUntil([&] { return bob.isLoaded(); })) << bob.link.reason();
+    EXPECT_TRUE(ann.serverKey.empty());
+    expectNobodyElse(1);
+}
+
 TEST_F(SocketsTest, ConnectionsWithoutTlsAreClosed) {
     start();
     LinkPlayer& ann = addPlayer("Ann");
