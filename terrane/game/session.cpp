@@ -56,7 +56,7 @@ Session::Session(SessionParts parts)
 
 void Session::buildTiles() {
     const auto built = stream::buildTileRows(*store_);
-    if (!built) base::logError("edits far away are not seen: {}", built.error().message);
+    if (!built) base::logError("distant land is shown without edits: {}", built.error().message);
 }
 
 EditResult Session::edit(const EditCommand& command) {

@@ -64,12 +64,14 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
     auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
     if (!loaded) return tl::unexpected(loaded.error());
+    auto colors = world::topColors(blocks, textures);
+    if (!colors) return tl::unexpected(colors.error());
     if (targets_.size.x > 0) {
         auto done = configurePasses(targets_, options_,
                                     {needsFaceSampling(blocks, *loaded), tints_.isUsed(), land_.isUsed()});
         if (!done) return done;
     }
-    if (auto colors = world::topColors(blocks, textures)) topColors_ = std::move(*colors);
+    topColors_ = std::move(*colors);
     if (land_.isUsed()) land_ = LandTextures::create(topColors_);  // its tiles come again, with these colors
     resources_.setTextures(blocks, std::move(*loaded));
     passes_.shadowMap.forget();

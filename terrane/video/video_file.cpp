@@ -149,7 +149,7 @@ class VideoFile : public FrameSink {
 
     std::string lastMessage() const {
         std::array<char, 1024> line{};
-        std::string last = "it ended without a word";
+        std::string last = "it reported no reason";
         std::rewind(child_.messages.get());
         while (std::fgets(line.data(), line.size(), child_.messages.get())) {
             std::string text = line.data();

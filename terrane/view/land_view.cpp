@@ -28,7 +28,7 @@ world::LandTile tileOf(const gen::LevelGenerators& generators, const world::Bloc
 
 LandView::LandView(const game::Session& session, render::Renderer& renderer) : renderer_(renderer) {
     if (const auto used = renderer.useLand(true); !used) {
-        base::logError("land in the distance throws no shadows: {}", used.error().message);
+        base::logError("distant land casts no shadows: {}", used.error().message);
         return;
     }
     const auto make = [&generators = session.generators(), &blocks = session.blocks()](world::ChunkPos pos) {
