@@ -34,7 +34,7 @@ class Sizes:
 
 
 FULL = Sizes(mapchunks=11, radius=26, floors_radius=32, search_mapchunks=26, search_radius=64, places=5,
-             view_distances=VIEW_DISTANCES, seconds=10, fill_seconds=600, frames=9)
+             view_distances=VIEW_DISTANCES, seconds=10, fill_seconds=1800, frames=9)
 QUICK = Sizes(mapchunks=3, radius=7, floors_radius=8, search_mapchunks=13, search_radius=32, places=1,
               view_distances=VIEW_DISTANCES[:1], seconds=4, fill_seconds=300, frames=3)
 

@@ -1,6 +1,7 @@
 """Luanti: worlds, settings, its server. Debian packages: minetest, minetest-server (or luanti, luanti-server)."""
 import contextlib
 import json
+import math
 import pathlib
 import re
 import shutil
@@ -41,11 +42,12 @@ def free_port():
         return probe.getsockname()[1]
 
 
-def box_around(x, z, radius):
-    """All mapchunks that have a block within `radius`; (x0, y0, z0, x1, y1, z1), ends included."""
-    first = lambda n: (n - radius - MAPCHUNK_BEGIN) // MAPCHUNK * MAPCHUNK + MAPCHUNK_BEGIN
-    last = lambda n: (n + radius - MAPCHUNK_BEGIN) // MAPCHUNK * MAPCHUNK + MAPCHUNK_BEGIN + MAPCHUNK - 1
-    return first(x), BOTTOM, first(z), last(x), TOP, last(z)
+def box_around(x, y, z, radius, below, above):
+    """All mapchunks that have a block within `radius` of x and z and from y - below to y + above;
+    (x0, y0, z0, x1, y1, z1), ends included."""
+    begin = lambda n: math.floor((n - MAPCHUNK_BEGIN) / MAPCHUNK) * MAPCHUNK + MAPCHUNK_BEGIN
+    end = lambda n: begin(n) + MAPCHUNK - 1
+    return begin(x - radius), begin(y - below), begin(z - radius), end(x + radius), end(y + above), end(z + radius)
 
 
 def square(mapchunks):

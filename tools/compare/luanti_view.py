@@ -1,4 +1,5 @@
 """Frames of Luanti's client on a virtual screen, from one place."""
+import math
 import os
 import pathlib
 import re
@@ -16,6 +17,8 @@ sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from virtual_display import Display  # noqa: E402
 
 SIZE = (1280, 720)
+FIELD_OF_VIEW = 70     # vertical, degrees
+MAPBLOCK = 16
 WATER_LEVEL = 1
 EYE_HEIGHT = 1.47      # of a player, blocks
 # The server sends blocks ahead of the camera, ring by ring, and restarts when the camera turns: each direction waits until
@@ -29,10 +32,10 @@ REPORT_SECONDS = 2     # of its profiler
 
 CLIENT_SETTINGS = {
     "screen_w": SIZE[0], "screen_h": SIZE[1], "fullscreen": "false", "autosave_screensize": "false", "vsync": "false",
-    "fps_max": 1000, "fps_max_unfocused": 1000, "fov": 70, "enable_dynamic_shadows": "false", "enable_clouds": "false",
+    "fps_max": 1000, "fps_max_unfocused": 1000, "fov": FIELD_OF_VIEW, "enable_dynamic_shadows": "false", "enable_clouds": "false",
     "max_block_send_distance": 40, "max_block_generate_distance": 0, "max_simultaneous_block_sends_per_client": 400,
     "emergequeue_limit_diskonly": 20000, "emergequeue_limit_total": 60000, "client_mapblock_limit": -1,
-    "client_unload_unused_data_timeout": 100000, "num_emerge_threads": 1, "profiler_print_interval": REPORT_SECONDS}
+    "client_unload_unused_data_timeout": 100000, "num_emerge_threads": os.cpu_count(), "profiler_print_interval": REPORT_SECONDS}
 
 
 class Search:
@@ -50,7 +53,12 @@ class Search:
         return places.read_lines(self.world.path / "heights.txt", WATER_LEVEL).places(count)
 
     def generate_around(self, place, blocks):
-        self.world.emerge("generate", [luanti.box_around(place[0], place[1], blocks + 16)], threads=os.cpu_count())
+        """All that the camera can see within `blocks`, sky and underground too: the server does not go on to the next ring
+        while it finds blocks of the last one neither in memory nor on the disk."""
+        x, z, y, _ = place
+        radius = blocks + 2 * MAPBLOCK
+        below, above = (radius * math.sin(math.radians(FIELD_OF_VIEW / 2 + pitch)) for pitch in (PITCH, -PITCH))
+        self.world.emerge("generate", [luanti.box_around(x, y, z, radius, below, above)], threads=os.cpu_count())
 
 
 class Client:
