@@ -79,12 +79,12 @@ base::Result<fs::path> findPack(std::string_view nameOrPath, std::span<const fs:
 
 std::vector<fs::path> packsIn(const fs::path& folder) {
     std::vector<fs::path> packs;
-    std::error_code error, unreadable;
+    std::error_code error;
     std::size_t seen = 0;
     for (fs::directory_iterator it(folder, error), end; !error && it != end && seen < kMaxListedPacks;
          it.increment(error), ++seen) {
         const fs::path& path = it->path();
-        const bool isPack = path.extension() == ".zip" || fs::exists(path / "pack.toml", unreadable);
+        const bool isPack = path.extension() == ".zip" || fs::exists(path / "pack.toml", error);
         if (isPack) packs.push_back(path);
     }
     std::ranges::sort(packs);

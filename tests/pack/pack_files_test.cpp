@@ -109,15 +109,6 @@ TEST_F(PackFilesTest, PacksAreFoundByNameOrPath) {
     EXPECT_THAT(packsIn(folder_), testing::ElementsAre(folder_ / "isles", folder_ / "ores.zip"));
 }
 
-TEST_F(PackFilesTest, AnUnreadableFolderHidesNoPack) {
-    writeFolder(folder_ / "isles", files_);
-    for (int k = 0; k < 20; ++k) {
-        const fs::path loop = folder_ / std::to_string(k);
-        fs::create_symlink(loop, loop);
-    }
-    EXPECT_THAT(packsIn(folder_), testing::ElementsAre(folder_ / "isles"));
-}
-
 TEST_F(PackFilesTest, TheSkeletonWorks) {
     ASSERT_TRUE(writeSkeleton(folder_ / "mine"));
     auto pack = readPack(folder_ / "mine");
