@@ -105,6 +105,8 @@ parts=("$@")
 [[ $# -gt 0 ]] || parts=(blocks land servers threads)
 for part in "${parts[@]}"; do
     [[ $part =~ ^(blocks|land|servers|threads)$ ]] || fail "no part $part; there are blocks, land, servers, threads"
+done
+for part in "${parts[@]}"; do
     echo "sanitizers: $part"
     "$part"
 done
