@@ -3,9 +3,11 @@
 import fcntl
 import json
 import os
+import pathlib
 import shutil
 import sqlite3
 import subprocess
+import time
 
 import support
 from support import Npy, Image, ProgramTest, run
@@ -323,6 +325,10 @@ class PlayedSaves(ProgramTest):
         flight = subprocess.Popen([support.program(), *map(str, words)], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
                                   text=True, env=support.environment())
         self.addCleanup(flight.kill)
+        # A command that reads the save before the flight has it would keep the flight out.
+        lock = pathlib.Path(f"{self.save}-lock")
+        while flight.poll() is None and not (lock.exists() and str(flight.pid) in lock.read_text("ascii")):
+            time.sleep(0.01)
         chunks, in_use = [], 0
         look = self.look()
         while flight.poll() is None:
