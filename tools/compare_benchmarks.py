@@ -76,7 +76,7 @@ def read_lines(path, text):
                 for name, time in times_in(value["result"]):
                     times.setdefault(f"{' '.join(value['cell'])}: {name}", []).append(time)
         except (ValueError, KeyError, TypeError, AttributeError) as error:
-            raise BadInput(f"{path}:{number}: no result of terrane bench") from error
+            raise BadInput(f"{path}:{number}: not a result of terrane bench") from error
     if number == 0:
         raise BadInput(f"{path}:1: neither JSON of Google Benchmark nor results of terrane bench")
     return times

@@ -26,7 +26,7 @@ def draw(axes, folder, name):
     flight = pandas.read_csv(folder / f"{name}.csv")
     standing = pandas.read_csv(folder / f"standing_{distance}.csv", names=["seconds", "milliseconds"])
     axes.vlines(flight.time_s, 0, flight.frame_ms, color="#9db8d2", label="frame")
-    axes.vlines(flight.time_s, 0, flight.follow_processor_ms + flight.upload_processor_ms, color="#c0392b",
+    axes.vlines(flight.time_s, 0, flight.follow_cpu_ms + flight.upload_cpu_ms, color="#c0392b",
                 label="of it loading (CPU time)")
     axes.plot(standing.seconds, standing.milliseconds, color="#2e7d32", linewidth=2,
               label="the same place, nothing to load")

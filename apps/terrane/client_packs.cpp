@@ -89,7 +89,7 @@ void writeToCache(const ClientPacks& packs, const net::PackOffer& offer, const s
     fs::create_directories(packs.cache, error);
     const std::string_view bytes(reinterpret_cast<const char*>(archive.data()), archive.size());
     if (auto written = base::writeFile(cacheFile(packs, offer.hash), bytes); !written)
-        base::logWarning("the server's pack is not kept: {}", written.error().message);
+        base::logWarning("the server's pack cannot be kept: {}", written.error().message);
     pruneCache(packs.cache);
 }
 
@@ -118,7 +118,7 @@ base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const n
         return base::fail("the server's content packs are too large: {} MiB, at most {}", bytes >> 20,
                           kMaxServerPackBytes >> 20);
     if (!packs.missing.empty())
-        return base::fail("the server's world needs content packs that are not here: {}",
+        return base::fail("the server's world needs content packs that are not installed: {}",
                           describe(packs.missing));
     return numbers;
 }
@@ -128,7 +128,7 @@ base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer, con
     auto pack = pack::packOf(archive, fmt::format("{} of the server", base::printable(offer.name)));
     if (!pack) return tl::unexpected(pack.error());
     if (pack::hashOf(*pack) != offer.hash)
-        return base::fail("the server sent another content pack than it offered: {}",
+        return base::fail("the server sent a different content pack than it offered: {}",
                           base::printable(offer.name));
     std::size_t bytes = bytesOf(*pack);
     for (const HeldPack& held : packs.packs) bytes += held.isSent ? bytesOf(held.pack) : 0;

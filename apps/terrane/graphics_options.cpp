@@ -57,7 +57,7 @@ void addGpuMemoryOption(CLI::App& command, std::optional<int>& mebibytes) {
             "Limit of memory on the graphics card in MiB; the view distance shrinks to stay within it")
         ->check(numberFrom(16, 1 << 20))
         ->type_name("MIB")
-        ->default_str("half of what is free; 2048 where the driver does not tell");
+        ->default_str("half of the free memory; 2048 if the driver does not report it");
 }
 
 void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string preset) {

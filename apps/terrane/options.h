@@ -96,7 +96,8 @@ base::Result<void> checkFormatOptions(const CLI::App& command, const std::vector
         for (const std::string_view option : format.options) {
             const bool isKnown = std::ranges::find(chosen.options, option) != chosen.options.end();
             if (!isKnown && !command.get_option(std::string(option))->empty())
-                return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", option, chosen.name);
+                return base::fail(base::ErrorCode::BadInput, "{} cannot be used with {}", option,
+                                  chosen.name);
         }
     }
     return {};

@@ -94,7 +94,7 @@ class NbtReader {
         NbtList list;
         list.type = number<std::uint8_t>();
         const std::size_t size = count(1);
-        if (list.type == 0 && size > 0) wrong("a list of nothing that is not empty");
+        if (list.type == 0 && size > 0) wrong("a list without a type that is not empty");
         for (std::size_t k = 0; k < size && problem_.empty(); ++k) list.tags.push_back(tag(list.type, depth));
         return list;
     }

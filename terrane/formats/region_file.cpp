@@ -34,11 +34,12 @@ base::Result<std::string> decompressed(std::string_view bytes, std::uint8_t comp
                 return base::fail(base::ErrorCode::OutOfResources, "more than {} bytes", kMaxChunkBytes);
             return std::string(bytes);
         case kLz4:
-            return base::fail(base::ErrorCode::Unsupported,
-                              "compressed by LZ4, which is not read: set region-file-compression=deflate in "
-                              "server.properties, and optimize the world");
+            return base::fail(
+                base::ErrorCode::Unsupported,
+                "compressed by LZ4, which is not supported: set region-file-compression=deflate in "
+                "server.properties, and optimize the world");
         default:
-            return base::fail(base::ErrorCode::Unsupported, "compression {} is not read", compression);
+            return base::fail(base::ErrorCode::Unsupported, "compression {} is not supported", compression);
     }
 }
 
@@ -77,7 +78,7 @@ base::Result<std::string> readRegionChunk(std::string_view region, int number,
     const auto compression = static_cast<std::uint8_t>(region[start + 4]);
     if ((compression & kIsExternal) == 0)
         return decompressed(region.substr(start + 5, length - 1), compression);
-    if (!external) return base::fail(base::ErrorCode::NotFound, "lies in a file of its own");
+    if (!external) return base::fail(base::ErrorCode::NotFound, "is in a separate file");
     const auto bytes = external();
     if (!bytes) return tl::unexpected(bytes.error());
     return decompressed(*bytes, static_cast<std::uint8_t>(compression & ~kIsExternal));

@@ -140,9 +140,9 @@ base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyId
     const NbtCompound& schematic = inner ? *inner : root->compound;
     if (schematic.get<NbtBytes>("Blocks")) return readNumbered(schematic, ids);
     const auto version = schematic.integer("Version");
-    if (!version) return damagedSchematic("it has no version: no schematic");
+    if (!version) return damagedSchematic("it has no version: not a schematic");
     if (*version < 1 || *version > 3)
-        return base::fail(base::ErrorCode::Unsupported, "schematic: version {} is not read, but 1 to 3",
+        return base::fail(base::ErrorCode::Unsupported, "schematic: version {} is not supported, only 1 to 3",
                           *version);
     const auto* blocks = schematic.get<NbtCompound>("Blocks");
     const NbtCompound& holder = *version == 3 && blocks ? *blocks : schematic;
@@ -155,7 +155,7 @@ base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyId
 base::Result<std::string> encodeSchematic(const NamedVolume& volume) {
     const glm::ivec3 size = volume.size;
     if (std::max({size.x, size.y, size.z}) > kMaxSide)
-        return base::fail(base::ErrorCode::BadInput, "a schematic has at most {} blocks to a side", kMaxSide);
+        return base::fail(base::ErrorCode::BadInput, "a schematic has at most {} blocks per side", kMaxSide);
     // Palette entries are numbered in the order of the file, so that equal boxes give equal files.
     NbtCompound palette;
     std::unordered_map<std::string, std::int32_t> numbers;  // entries may have the same name

@@ -108,9 +108,9 @@ class VoxPartsReader {
   public:
     base::Result<VoxParts> read(std::string_view bytes) {
         VoxReader reader(bytes);
-        if (reader.take(4) != "VOX ") return bad("it does not begin as one");
+        if (reader.take(4) != "VOX ") return bad("its header is wrong");
         reader.number();  // version
-        if (reader.take(4) != "MAIN") return bad("it has no part MAIN");
+        if (reader.take(4) != "MAIN") return bad("its part MAIN is missing");
         const std::size_t own = reader.count();
         reader.count();  // bytes of the parts inside; wrong in some files
         reader.take(own);
@@ -150,7 +150,7 @@ class VoxPartsReader {
         for (int axis = 0; axis < 3; ++axis) {
             size_[axis] = reader.number();
             if (size_[axis] < 1 || size_[axis] > kMaxVoxSide)
-                problem_ = fmt::format("a model has {} blocks to a side", size_[axis]);
+                problem_ = fmt::format("a model has {} blocks per side", size_[axis]);
         }
     }
 

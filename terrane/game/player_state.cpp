@@ -25,10 +25,10 @@ SavedPlayer savedPlayer(store::ReadableStore& store) {
     player.resourcePack = store.metadata(kResourcePack);
     if (pose) player.pose = poseFrom(*pose);
     if (pose && !player.pose)
-        base::logWarning("the save's camera is no place and direction in the world: {:?}", *pose);
+        base::logWarning("the save's camera is not a position and direction in the world: {:?}", *pose);
     if (time) player.timeDay = timeDayFrom(*time);
     if (time && !player.timeDay)
-        base::logWarning("the save's time of day is no number from 0 to 1: {:?}", *time);
+        base::logWarning("the save's time of day is not a number from 0 to 1: {:?}", *time);
     return player;
 }
 

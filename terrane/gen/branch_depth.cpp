@@ -41,7 +41,8 @@ int branchChain(const PassGraph& pass) {
 std::string branchMistake(const PassGraph& pass) {
     const auto mistake = [&](int depth, int most) {
         return fmt::format(
-            "pass \"{}\": its branches nest {} levels deep, {} are possible: an if_ whose variable only one "
+            "pass \"{}\": its branches nest {} levels deep, at most {} are possible: an if_ whose variable "
+            "only one "
             "side of the next if_ reads stands inside that side",
             pass.name, depth, most);
     };

@@ -74,10 +74,10 @@ std::string octaveMistake(const NoiseCall& call) {
 std::string cellMistake(const NoiseCall& call) {
     if (call.size > kMaxVoronoiSize) return fmt::format("cells are at most {} blocks", kMaxVoronoiSize);
     if (call.maxPoints < 1 || call.maxPoints > 4) {
-        return fmt::format("{} points a cell, 1 to 4 are possible", call.maxPoints);
+        return fmt::format("{} points per cell, expected 1 to 4", call.maxPoints);
     }
     if (call.exponent < 2 || call.exponent > 8) {
-        return fmt::format("metric exponent {}, 2 to 8 are possible", call.exponent);
+        return fmt::format("metric exponent {}, expected 2 to 8", call.exponent);
     }
     return "";
 }
@@ -130,9 +130,10 @@ void GeneratorBuilder::checkRegisters() {
     const auto check = [this](const PassGraph& pass, const std::vector<NoiseCall>& noises) {
         const std::uint32_t rows = compile(pass, noises).arenaRows;
         if (rows <= kMaxArenaRows) return;
-        errors_.push_back(fmt::format(
-            "pass \"{}\": its values need {} rows of registers, {} are possible: divide it into several",
-            pass.name, rows, kMaxArenaRows));
+        errors_.push_back(
+            fmt::format("pass \"{}\": its values need {} rows of registers, at most {} are possible: split "
+                        "it into several passes",
+                        pass.name, rows, kMaxArenaRows));
     };
     for (const PassGraph& pass : generator_.passes) check(pass, generator_.noises);
     for (const DrainageGraph& map : generator_.drainages) check(map.heights, map.noises);
@@ -154,8 +155,8 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
     } else {
         const PassGraph& last = generator_.passes.back();
         for (const FieldOutput& f : last.fields) {
-            errors_.push_back(fmt::format("pass \"{}\": field \"{}\": no pass comes after that could read it",
-                                          last.name, generator_.fields[f.field].name));
+            errors_.push_back(fmt::format("pass \"{}\": field \"{}\": no later pass could read it", last.name,
+                                          generator_.fields[f.field].name));
         }
     }
     if (errors_.empty()) checkBranches(generator_);

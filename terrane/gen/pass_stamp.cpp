@@ -42,12 +42,12 @@ void GeneratorBuilder::makeShapeTable() {
     auto table = std::make_shared<ShapeTable>();
     for (const VoxelShape& shape : shapes_) addShape(*table, shape, generator_.level, blocks_);
     if (shapeCellBytes(*table) > kMaxCellBytes) {
-        errors_.push_back(
-            fmt::format("its shapes take {} bytes, {} are possible", shapeCellBytes(*table), kMaxCellBytes));
+        errors_.push_back(fmt::format("its shapes take {} bytes, at most {} are possible",
+                                      shapeCellBytes(*table), kMaxCellBytes));
     }
     if (shapePaletteSize(*table) >= shared::kShapePaletteWords) {
-        errors_.push_back(fmt::format("its shapes have {} blocks, {} are possible", shapePaletteSize(*table),
-                                      shared::kShapePaletteWords - 1));
+        errors_.push_back(fmt::format("its shapes have {} blocks, at most {} are possible",
+                                      shapePaletteSize(*table), shared::kShapePaletteWords - 1));
     }
     generator_.shapes = std::move(table);
 }

@@ -190,7 +190,7 @@ const Expression* Call::expression(int argument) const {
     if (found->tag != Tag::Expression) return nullptr;
     const bool isForeign = found->expression.pass != 0 && !recording.isOpenPass(found->expression.pass);
     if (isForeign)
-        fail("{}this {} belongs to another pass: hand it on in a field", prefix(argument), nameOf(*found));
+        fail("{}this {} belongs to another pass: pass it on in a field", prefix(argument), nameOf(*found));
     return &found->expression;
 }
 
@@ -236,7 +236,7 @@ Parts Call::parts(int argument, Kind kind) {
     if (literal != kind) expected(argument, nameOf(kind));
     if (kind == Kind::Int) return {gen::Int(integer(argument))};
     if (kind == Kind::Bool) return {gen::Bool(lua_toboolean(L, argument) != 0)};
-    if (recording.pass == nullptr) fail("{}blocks belong into a pass", prefix(argument));
+    if (recording.pass == nullptr) fail("{}blocks can only be used in a pass", prefix(argument));
     return {pass().block(recording.blocks.find(text(argument)))};
 }
 
@@ -289,8 +289,8 @@ void Call::checkMistakes() {
     recording.chargedNodes = nodes;
     if (nodes > kMaxNodesInPass)
         fail(
-            "a pass has more than {} operations: divide it into several, or leave out what large steps do "
-            "not show",
+            "a pass has more than {} operations: split it into several, or leave out what large steps do not "
+            "show",
             kMaxNodesInPass);
 }
 

@@ -42,7 +42,7 @@ int select(Call& c) {
 // Pushes a case's condition and value.
 void pushCase(Call& c, int cases, int number) {
     if (lua_geti(c.L, cases, number) != LUA_TTABLE)
-        fail("multiSelect: case {} is no {{condition, value}}", number);
+        fail("multiSelect: case {} is not {{condition, value}}", number);
     lua_geti(c.L, -1, 1);
     lua_geti(c.L, -2, 2);
     lua_remove(c.L, -3);

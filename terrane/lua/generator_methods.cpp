@@ -69,7 +69,7 @@ class OpenPass {
 
 // Calls the script's function of a pass.
 void callBody(Call& c, int argument, int results) {
-    luaL_checkstack(c.L, 10, "too many calls within calls");
+    luaL_checkstack(c.L, 10, "calls are nested too deeply");
     lua_pushvalue(c.L, argument);
     Object object{Tag::Pass, 0, {}};
     object.expression.pass = c.recording.passNumber;
@@ -147,7 +147,8 @@ int drainage(Call& c) {
 }
 
 gen::ShapeBlock shapeBlock(Call& c, lua_Integer number) {
-    if (lua_geti(c.L, -1, number) != LUA_TTABLE) fail("shape: block {} is no {{name = …, rank = …}}", number);
+    if (lua_geti(c.L, -1, number) != LUA_TTABLE)
+        fail("shape: block {} is not {{name = …, rank = …}}", number);
     gen::ShapeBlock block;
     if (lua_getfield(c.L, -1, "name") != LUA_TSTRING) fail("shape: block {} has no name", number);
     block.name = c.recording.blocks.find(c.text(lua_gettop(c.L)));
@@ -158,7 +159,7 @@ gen::ShapeBlock shapeBlock(Call& c, lua_Integer number) {
 }
 
 gen::ShapeVoxel shapeVoxel(Call& c, lua_Integer number, std::size_t blocks) {
-    if (lua_geti(c.L, -1, number) != LUA_TTABLE) fail("shape: voxel {} is no {{x, y, z, block}}", number);
+    if (lua_geti(c.L, -1, number) != LUA_TTABLE) fail("shape: voxel {} is not {{x, y, z, block}}", number);
     std::array<int, 4> values{};
     for (int k = 0; k < 4; ++k) {
         lua_geti(c.L, -1, k + 1);
@@ -222,7 +223,7 @@ void pushKind(Call& c, const gen::trees::KindRecord& kind) {
 
 int trees(Call& c) {
     requireNoPass(c);
-    if (c.recording.hasTrees) fail("trees: they are there already: keep what the first call gave");
+    if (c.recording.hasTrees) fail("trees: called before: keep the result of the first call");
     c.recording.hasTrees = true;
     c.recording.budget.pauseClock();  // the first call of a process grows them
     const gen::trees::TreeKinds kinds = gen::trees::record(c.recording.builder);

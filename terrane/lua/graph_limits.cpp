@@ -83,7 +83,7 @@ std::string unboundedWork(const gen::GeneratorGraph& graph) {
         const PassWork work = workOf(pass, noises, columns);
         operations += work.operationsPerVoxel;
         if (work.loopDepth <= static_cast<int>(kMaxLoopDepth)) return "";
-        return fmt::format("pass \"{}\": more than {} loops within each other", pass.name, kMaxLoopDepth);
+        return fmt::format("pass \"{}\": more than {} nested loops", pass.name, kMaxLoopDepth);
     };
     for (const gen::PassGraph& pass : graph.passes) {
         if (std::string reason = add(pass, graph.noises, 1.0 / 256); !reason.empty()) return reason;
@@ -95,14 +95,14 @@ std::string unboundedWork(const gen::GeneratorGraph& graph) {
     }
     if (operations > kMaxOperationsPerVoxel) {
         return fmt::format(
-            "a chunk may take {:.0f} operations a voxel, {:.0f} are allowed: loops count as 1,024 rounds",
+            "a chunk may take {:.0f} operations per voxel, {:.0f} are allowed: loops count as 1,024 rounds",
             operations, kMaxOperationsPerVoxel);
     }
     const int rings = ringsOf(graph, static_cast<int>(graph.passes.size()));
     if (rings > kMaxRings)
         return fmt::format(
-            "chunks need {} rings of others around them, {} are allowed: passes read around that read "
-            "around themselves",
+            "chunks need {} rings of neighbors, {} are allowed: passes with offsets read passes that have "
+            "offsets themselves",
             rings, kMaxRings);
     return "";
 }

@@ -25,7 +25,7 @@ int pushMethod(Call& c, const char* table, std::string_view type) {
     lua_pushvalue(c.L, 2);
     lua_rawget(c.L, -2);
     if (!lua_isnil(c.L, -1)) return 1;
-    if (lua_type(c.L, 2) != LUA_TSTRING) fail("{} has no members but named ones", type);
+    if (lua_type(c.L, 2) != LUA_TSTRING) fail("{} has only named members", type);
     std::vector<std::string> names;
     lua_pushnil(c.L);
     while (lua_next(c.L, -3) != 0) {
@@ -77,7 +77,7 @@ Variable& variableAt(Call& c) {
     const Object& object = c.object(1, Tag::Variable);
     if (!c.recording.isOpenPass(object.expression.pass)) fail("this variable belongs to another pass");
     if (lua_type(c.L, 2) != LUA_TSTRING || c.text(2) != "value")
-        fail("a variable has nothing but its value: v.value");
+        fail("a variable has only its value: v.value");
     return c.recording.variables[object.number];
 }
 

@@ -136,15 +136,15 @@ int bitNot(Call& c) {
 }
 
 int refuseLess(Call&) {
-    fail("< and > compare no expressions: write a:lt(b) or a:gt(b)");
+    fail("< and > do not compare expressions: write a:lt(b) or a:gt(b)");
 }
 
 int refuseLessEqual(Call&) {
-    fail("<= and >= compare no expressions: write a:le(b) or a:ge(b)");
+    fail("<= and >= do not compare expressions: write a:le(b) or a:ge(b)");
 }
 
 int refuseEqual(Call&) {
-    fail("== and ~= compare no expressions: write a:eq(b) or a:ne(b)");
+    fail("== and ~= do not compare expressions: write a:eq(b) or a:ne(b)");
 }
 
 int refuseJoin(Call& c) {

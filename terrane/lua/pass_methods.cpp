@@ -120,7 +120,7 @@ int var(Call& c) {
     } else if (kind == Kind::Block) {
         variables.push_back(makeVariable(c, c.get<gen::Block>(1)));
     } else {
-        fail("var: a variable holds no {}: make one of each component", nameOf(kind));
+        fail("var: a variable cannot hold a {}: make one for each component", nameOf(kind));
     }
     Object object{Tag::Variable, static_cast<std::uint32_t>(variables.size() - 1), {}};
     object.expression.pass = c.recording.passNumber;
@@ -130,7 +130,7 @@ int var(Call& c) {
 
 // Calls a function that the script passed as an argument.
 void callBack(Call& c, int argument, int results) {
-    luaL_checkstack(c.L, 10, "too many calls within calls");
+    luaL_checkstack(c.L, 10, "calls are nested too deeply");
     lua_pushvalue(c.L, argument);
     lua_call(c.L, 0, results);
 }

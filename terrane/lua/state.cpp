@@ -85,7 +85,7 @@ int nameLine(lua_State* L) {
         lua_tostring(L, 1);  // changes it in place
     } else if (lua_type(L, 1) != LUA_TSTRING) {
         lua_settop(L, 0);
-        lua_pushliteral(L, "error: its message is no text");
+        lua_pushliteral(L, "error: its message is not a text");
     }
     if (std::strchr(lua_tostring(L, 1), kFileMark) != nullptr) return 1;
     luaL_checkstack(L, 4, nullptr);

@@ -67,7 +67,7 @@ int format(Call& c) {
     if (pattern.size() > 1000) fail("format: the pattern is longer than 1000 bytes");
     for (std::size_t k = pattern.find('%'); k != std::string_view::npos; k = pattern.find('%', k)) {
         k = std::min(pattern.find_first_not_of("-+ #0123456789.", k + 1), pattern.size());
-        if (k < pattern.size() && pattern[k] == 'p') fail("format: %p is not there");
+        if (k < pattern.size() && pattern[k] == 'p') fail("format: %p is not supported");
         k = std::min(k + 1, pattern.size());
     }
     for (int k = 2; k <= c.count(); ++k) {

@@ -87,8 +87,7 @@ base::Result<store::Database> openFile(const std::filesystem::path& file, const 
     const auto empty = hasNoSurfaces(*database);
     if (!empty) return tl::unexpected(empty.error());
     if (!*empty)
-        return base::fail(base::ErrorCode::Incompatible, "{}: does not say of which world it is",
-                          file.string());
+        return base::fail(base::ErrorCode::Incompatible, "{}: does not name its world", file.string());
     auto insert = database->prepare("INSERT INTO origin VALUES (?)");
     if (!insert) return tl::unexpected(insert.error());
     insert->bind(1, std::string_view(origin));
@@ -186,7 +185,7 @@ base::Result<void> SurfaceCache::Impl::write(std::int64_t key, store::ByteView b
 void SurfaceCache::Impl::check(const base::Result<void>& done) {
     if (done || isBroken) return;
     isBroken = true;
-    base::logWarning("{}; the map keeps nothing on the disk any more", done.error().message);
+    base::logWarning("{}; the map keeps nothing on disk any more", done.error().message);
 }
 
 // Stores the order of uses for the next run.

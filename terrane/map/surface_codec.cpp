@@ -66,7 +66,7 @@ base::Result<std::vector<SurfaceColumn>> decodeSurfaces(store::ByteView bytes) {
     if (auto read = store::decompress(reader.rest(), std::as_writable_bytes(std::span(raw))); !read)
         return tl::unexpected(read.error());
     if (checksum(std::as_bytes(std::span(raw))) != expected)
-        return base::fail(base::ErrorCode::Damaged, "surfaces: the checksum is another one");
+        return base::fail(base::ErrorCode::Damaged, "surfaces: wrong checksum");
     std::vector<SurfaceColumn> columns(kColumnsOfBlob);
     const auto plane = [&](Plane p, std::size_t k) { return unsigned{raw[p * kPlaneBytes + k]}; };
     for (std::size_t k = 0; k < kColumnsOfBlob; ++k) {

@@ -35,8 +35,7 @@ void ClientLink::connect() {
         if (!trusted) return end(trusted.error().message);
         if (!*trusted && isToldKey_) return onCut("another server answers");
         if (!*trusted)
-            return end(textOf(address_) +
-                       ": the server has another key than before: it may be another server");
+            return end(textOf(address_) + ": the server's key has changed: it may be another server");
         channel_ = channel;
         say(helloOf(identity_));
     };
@@ -54,7 +53,7 @@ void ClientLink::update(std::chrono::steady_clock::time_point now) {
     if (stage_ == Stage::Waiting && now >= tryAt_) connect();
     if (stage_ == Stage::Connecting && now - triedAt_ > kLoginTime) onCut("the server does not answer");
     if (stage_ == Stage::Joined && now - heardAt_ > kSilence)
-        onCut("nothing was heard of the server for too long");
+        onCut("no message from the server for too long");
 }
 
 void ClientLink::send(const ClientMessage& message) {

@@ -112,7 +112,7 @@ base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, c
         }
         if (blocks.size() <= kMaxRollback) return {};
         return base::fail(base::ErrorCode::OutOfResources,
-                          "more than {} blocks to roll back: say a shorter time or a smaller area",
+                          "more than {} blocks to roll back: choose a shorter time or a smaller area",
                           kMaxRollback);
     };
     if (auto done = forEachEdit(filter, EditOrder::NewestFirst, take); !done)

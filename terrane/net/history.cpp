@@ -14,8 +14,8 @@ namespace terrane::net {
 base::Result<History> readHistoryFile(const std::filesystem::path& file, const world::BlockRegistry& blocks) {
     std::error_code error;
     if (!std::filesystem::exists(file, error))
-        return base::fail(base::ErrorCode::NotFound, "{}: there is no such file: no server had this world",
-                          file.string());
+        return base::fail(base::ErrorCode::NotFound,
+                          "{}: there is no such file: no server has run this world", file.string());
     auto database = store::Database::open(file, store::OpenMode::ReadOnly);
     if (!database) return tl::unexpected(database.error());
     const auto names = store::readBlockNames(*database);

@@ -93,7 +93,7 @@ base::Result<PlayerKey> loadPlayerKey(const std::filesystem::path& file) {
                          std::string_view(end, text->data() + text->size()).find_first_not_of("\r\n ") ==
                              std::string_view::npos;
     if (isWhole) return playerKeyFrom(seed);
-    return base::fail(base::ErrorCode::Damaged, "{}: no key of a player: expected 64 hexadecimal digits",
+    return base::fail(base::ErrorCode::Damaged, "{}: not a player's key: expected 64 hexadecimal digits",
                       file.string());
 }
 

@@ -13,7 +13,7 @@ base::Result<bool> takePart(PackFetch& fetch, const PackPart& part) {
         return base::fail("the server sent a part of a pack that was not asked for");
     const std::size_t size = fetch.offer.packs[part.number].bytes;
     if (part.data.empty() || fetch.archive.size() + part.data.size() > size)
-        return base::fail("the server sent another pack than it offered");
+        return base::fail("the server sent a different pack than it offered");
     store::append(fetch.archive, part.data);
     return fetch.archive.size() == size;
 }

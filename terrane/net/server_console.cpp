@@ -64,10 +64,10 @@ std::string list(ServerState& server, Words) {
 
 std::string kick(ServerState& server, Words words) {
     ServerClient* client = playingClient(server, std::string_view(words[0]));
-    if (!client) return fmt::format("{} does not play now", words[0]);
+    if (!client) return fmt::format("{} is not online", words[0]);
     const std::string reason = joined(words.subspan(1));
     refuse(server, *client, Refusal::Kicked,
-           reason.empty() ? "you were sent away" : "you were sent away: " + reason);
+           reason.empty() ? "you were kicked" : "you were kicked: " + reason);
     return words[0] + " is sent away";
 }
 
@@ -257,7 +257,7 @@ constexpr ConsoleCommand kCommands[] = {
     {"mark", "X Y Z NAME", "names a place on maps; players name their own position: /mark NAME", 4, kAny,
      mark},
     {"unmark", "NAME", "removes a named place", 1, kAny, unmark},
-    {"marks", "", "all places that have names", 0, 0, marks},
+    {"marks", "", "lists all named places", 0, 0, marks},
     {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1, setTime},
     {"password", "PASSWORD|off", "sets or removes the password for joining", 1, 1, setPassword},
     {"save", "", "saves all changes now; the server also saves every five seconds", 0, 0, save},

@@ -51,9 +51,8 @@ base::Result<void> prepareTables(store::Database& database) {
     if (*mark != kApplicationId)
         return base::fail(base::ErrorCode::Incompatible, "{}: not the file of a server", database.path());
     if (*version != kFormatVersion)
-        return base::fail(base::ErrorCode::Incompatible,
-                          "{}: format {} of a server's file is not known to this program", database.path(),
-                          version->value_or(0));
+        return base::fail(base::ErrorCode::Incompatible, "{}: unknown format {} of a server's file",
+                          database.path(), version->value_or(0));
     return {};
 }
 

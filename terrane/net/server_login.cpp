@@ -48,7 +48,7 @@ void refuseStranger(ServerState& server, ServerClient& client) {
     if (!client.address.isOwnMachine &&
         std::cmp_greater_equal(ofAddress, server.settings.maxPlayersOfAddress))
         return refuse(server, client, Refusal::Full,
-                      fmt::format("{} players of your address are here already", ofAddress));
+                      fmt::format("{} players from your address are online already", ofAddress));
     const bool isAgain = known && server.playing.contains(known->id);
     const bool isOperator = known && known->role == game::Role::Operator;
     if (server.playing.size() >= server.settings.maxPlayers && !isAgain && !isOperator)
@@ -201,7 +201,7 @@ void join(ServerState& server, ServerClient& client) {
 void onProof(ServerState& server, ServerClient& client, const Proof& proof) {
     if (proof.digests != server.digests)
         return refuse(server, client, Refusal::OtherWorld,
-                      "your program generates another world than the server: use the program that it uses");
+                      "your program generates a different world than the server: use the same program");
     refuseStranger(server, client);
     if (client.stage != Stage::Proof) return;
     if (!server.people.byKey(client.key) && !mayComeNew(server, client.address))
@@ -228,8 +228,7 @@ void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessa
     if (const auto* ask = std::get_if<AskPack>(&message); ask && client.stage == Stage::Proof)
         return onAskPack(server, client, *ask);
     if (proof && client.stage == Stage::Proof) return onProof(server, client, *proof);
-    refuse(server, client, Refusal::ProtocolError,
-           fmt::format("the message {} does not come at this time", nameOf(message)));
+    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
 }
 
 void updateLogins(ServerState& server) {

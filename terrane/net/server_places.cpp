@@ -55,9 +55,10 @@ std::string markPlace(ServerState& server, std::string_view typed, const world::
     if (name.empty()) return "a place needs a name: mark NAME";
     if (!isPlainText(name)) return "the name of a place is text in UTF-8 without control characters";
     const bool isTaken = hasPlace(server, name);
-    if (isTaken && !mayMove) return fmt::format("there is a place {}: operators alone move it", name);
+    if (isTaken && !mayMove) return fmt::format("there is a place {}: only operators can move it", name);
     if (!isTaken && game::savedPlaces(server.session.store()).size() >= game::kMaxPlaces)
-        return fmt::format("{} places have names already, no more can: unmark removes one", game::kMaxPlaces);
+        return fmt::format("there are {} named places, the maximum: remove one with unmark",
+                           game::kMaxPlaces);
     change(server, {name, wirePose(pose), false});
     return fmt::format("{} is marked", name);
 }
@@ -80,7 +81,7 @@ std::string placeList(ServerState& server) {
 }
 
 std::string markHere(ServerState& server, const ServerClient& client, std::string_view name) {
-    if (client.role == game::Role::Guest) return "guests mark no places";
+    if (client.role == game::Role::Guest) return "guests cannot mark places";
     return markPlace(server, name, poseOf(client.pose), client.role == game::Role::Operator);
 }
 

@@ -37,7 +37,7 @@ void onView(ServerClient& client, const View& view) {
 }
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
-    if (!client.buckets.chat.take(1, server.now)) return say(client, "you talk too fast");
+    if (!client.buckets.chat.take(1, server.now)) return say(client, "you chat too fast");
     if (message.text.empty()) return;
     if (message.text.front() != '/') {
         base::logInfo("<{}> {}", client.name, message.text);
@@ -46,7 +46,7 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     constexpr std::string_view kMark = "/mark ";
     if (message.text.starts_with(kMark))
         return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
-    if (client.role != game::Role::Operator) return say(client, "only operators give commands");
+    if (client.role != game::Role::Operator) return say(client, "only operators can give commands");
     // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
     say(client, runConsoleLine(server, message.text.substr(1)));
@@ -105,8 +105,7 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
         return;
     }
     if (std::holds_alternative<Leave>(message)) return leave(server, client);
-    refuse(server, client, Refusal::ProtocolError,
-           fmt::format("the message {} does not come at this time", nameOf(message)));
+    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
 }
 
 void tellSight(ServerState& server) {
@@ -126,11 +125,11 @@ void tellSight(ServerState& server) {
 void keepInTouch(ServerState& server) {
     forEachPlaying(server, [&](ServerClient& client) {
         if (server.now - client.heardAt > server.settings.silentAfter)
-            return refuse(server, client, Refusal::Silent, "nothing was heard of you for too long");
+            return refuse(server, client, Refusal::Silent, "no message from you for too long");
         if ((server.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(server.now)});
         if ((server.tick + client.id) % kTicksPerClock == 0) send(client, clockOf(server));
         if (client.outgoing.size() + client.unsent > server.settings.maxUnsentBytes)
-            refuse(server, client, Refusal::TooSlow, "your connection is too slow for what the server tells");
+            refuse(server, client, Refusal::TooSlow, "your connection is too slow for the server's messages");
     });
 }
 

@@ -7,6 +7,7 @@
 #include <openssl/x509.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cstdio>
 #include <memory>
 #include <system_error>
@@ -50,10 +51,11 @@ base::Result<void> makeKeyFile(const std::filesystem::path& file) {
     const bool isWritten = out &&
                            PEM_write_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr) &&
                            PEM_write_X509(out, certificate.get());
-    const int error = errno;
+    int error = isWritten ? 0 : errno != 0 ? errno : EIO;
     if (!out && descriptor >= 0) ::close(descriptor);
-    const bool isClosed = out && std::fclose(out) == 0;
-    if (isWritten && isClosed) return {};
+    // Closing writes what is still in the buffer.
+    if (out && std::fclose(out) != 0 && error == 0) error = errno;
+    if (error == 0) return {};
     if (descriptor >= 0) ::unlink(file.c_str());  // do not leave a partial key
     return base::fail(base::ErrorCode::Io, "{}: the server's key cannot be written: {}", file.string(),
                       base::systemReason(error));
@@ -91,7 +93,7 @@ base::Result<ssl::context> serverContext(const std::filesystem::path& keyFile) {
     context.use_certificate_chain_file(keyFile.string(), failed);
     if (!failed) context.use_private_key_file(keyFile.string(), ssl::context::pem, failed);
     if (failed)
-        return base::fail(base::ErrorCode::Damaged, "{}: no key and certificate of a server: {}",
+        return base::fail(base::ErrorCode::Damaged, "{}: not a key and certificate of a server: {}",
                           keyFile.string(), failed.message());
     return context;
 }

@@ -36,11 +36,10 @@ std::string differenceOf(const WorldFingerprint& server, const WorldFingerprint&
         return fmt::format("the server has version {} of the generator {}, this program version {}",
                            theirs.generatorVersion, theirs.generator, ours.generatorVersion);
     if (server.blocks != client.blocks)
-        return "the server has other types of blocks than this program: use the program that it uses";
+        return "the server has other block types than this program: use the same program";
     if (server.graph != client.graph)
-        return fmt::format(
-            "the server's generator {} {} is another than this program's: use the program that it uses",
-            theirs.generator, theirs.generatorVersion);
+        return fmt::format("the server's generator {} {} differs from this program's: use the same program",
+                           theirs.generator, theirs.generatorVersion);
     return {};
 }
 

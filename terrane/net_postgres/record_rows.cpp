@@ -131,7 +131,7 @@ base::Result<std::vector<game::Place>> readPlaces(Connection& connection) {
 base::Result<net::HistoryEnds> readEnds(Connection& connection) {
     const auto rows = connection.run(kEnds);
     if (!rows) return tl::unexpected(rows.error());
-    if (rows->count() != 1) return damaged(connection, "the table history has no one row");
+    if (rows->count() != 1) return damaged(connection, "the table history does not have exactly one row");
     return net::HistoryEnds{rows->number(0, 0), rows->number(0, 1)};
 }
 

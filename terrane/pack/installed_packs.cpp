@@ -19,9 +19,10 @@ base::Result<Pack> readNamed(const std::string& nameOrPath) {
     auto read = readPack(*path);
     const bool isNamed = isPackName(nameOrPath) && *path != std::filesystem::path(nameOrPath);
     if (read && isNamed && read->info.name != nameOrPath)
-        return base::fail(base::ErrorCode::BadInput,
-                          "{}: this pack is called \"{}\": in the packs folder it has that name, too",
-                          path->string(), read->info.name);
+        return base::fail(
+            base::ErrorCode::BadInput,
+            "{}: this pack is called \"{}\": in the packs folder, give its folder or file that name",
+            path->string(), read->info.name);
     return read;
 }
 

@@ -100,7 +100,7 @@ bool isPackPath(std::string_view path) {
 base::Result<Pack> makePack(PackFiles files, std::string where) {
     const auto info = files.find(kInfoFile);
     if (info == files.end())
-        return base::fail(base::ErrorCode::BadInput, "{}: no content pack: there is no pack.toml", where);
+        return base::fail(base::ErrorCode::BadInput, "{}: not a content pack: there is no pack.toml", where);
     Pack pack{{}, {}, std::move(where)};
     const std::string file = pack.where + "/pack.toml";
     try {

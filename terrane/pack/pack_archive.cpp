@@ -33,7 +33,7 @@ std::string textOf(store::ByteView bytes) {
 
 base::Result<PackFiles> filesOf(store::ByteView raw, const std::string& where) {
     const auto wrong = [&](std::string_view what) {
-        return base::fail(base::ErrorCode::BadInput, "{}: no archive of a content pack: {}", where, what);
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack: {}", where, what);
     };
     store::ByteReader reader(raw);
     PackFiles files;
@@ -49,7 +49,7 @@ base::Result<PackFiles> filesOf(store::ByteView raw, const std::string& where) {
         if (!files.empty() && path <= files.rbegin()->first) return wrong("files out of order");
         files.emplace_hint(files.end(), std::move(path), std::move(data));
     }
-    if (!reader.rest().empty()) return wrong("bytes behind its end");
+    if (!reader.rest().empty()) return wrong("bytes after its end");
     return files;
 }
 
@@ -83,13 +83,13 @@ base::Result<Pack> packOf(store::ByteView archive, const std::string& where) {
     const auto magic = reader.number<std::uint32_t>();
     const auto size = reader.number<std::uint32_t>();
     if (magic != kMagic || reader.isPastEnd())
-        return base::fail(base::ErrorCode::BadInput, "{}: no archive of a content pack", where);
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack", where);
     if (size > kMaxRawBytes)
         return base::fail(base::ErrorCode::BadInput, "{}: the pack has more than {} MiB", where,
                           kMaxPackBytes >> 20);
     store::Bytes raw(size);
     if (auto done = store::decompress(reader.rest(), raw); !done)
-        return base::fail(base::ErrorCode::BadInput, "{}: no archive of a content pack: {}", where,
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack: {}", where,
                           done.error().message);
     auto files = filesOf(raw, where);
     if (!files) return tl::unexpected(files.error());

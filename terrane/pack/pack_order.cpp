@@ -34,7 +34,8 @@ base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs) {
                                        [&](const std::string& name) { return done.contains(name); });
         });
         if (next == packs.end())
-            return base::fail(base::ErrorCode::BadInput, "{}/pack.toml: requires: a circle of packs",
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}/pack.toml: requires: packs require each other in a circle",
                               packs.front().where);
         done.insert(next->info.name);
         ordered.push_back(std::move(*next));

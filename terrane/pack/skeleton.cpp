@@ -34,11 +34,12 @@ std::string withName(std::string_view text, const std::string& name) {
 base::Result<void> writeSkeleton(const fs::path& folder) {
     const std::string name = folder.filename().string();
     if (!isPackName(name))
-        return base::fail(base::ErrorCode::BadInput, "{}: a pack's name has 1 to {} of a-z, 0-9 and _",
-                          folder.string(), kMaxPackName);
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: a pack's name has 1 to {} characters of a-z, 0-9 and _", folder.string(),
+                          kMaxPackName);
     std::error_code error;
     if (fs::exists(fs::symlink_status(folder, error)))
-        return base::fail(base::ErrorCode::BadInput, "{}: is there already", folder.string());
+        return base::fail(base::ErrorCode::BadInput, "{}: exists already", folder.string());
     for (const char* inside : kSubfolders) {
         fs::create_directories(folder / inside, error);
         if (error) return base::fail("{}: cannot be made: {}", (folder / inside).string(), error.message());

@@ -37,7 +37,7 @@ base::Result<Zip> openZip(std::string_view bytes, const std::string& where) {
     const int code = zip_error_code_zip(&error);
     zip_error_fini(&error);
     if (!zip)
-        return base::fail(base::ErrorCode::BadInput, "{}: no zip file of a content pack: {}", where,
+        return base::fail(base::ErrorCode::BadInput, "{}: not a zip file of a content pack: {}", where,
                           textOf(code));
     return Zip(zip);
 }

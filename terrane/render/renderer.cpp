@@ -84,17 +84,17 @@ base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const 
     auto done = passes_.configure(targets, options, features);
     if (done || targets_.size.x == 0) return done;
     const auto undone = passes_.configure(targets_, options_, this->features());
-    if (!undone) base::logError("options cannot be as they were: {}", undone.error().message);
+    if (!undone) base::logError("the previous options cannot be restored: {}", undone.error().message);
     return done;
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
     if (options.msaaSamples > device_.maxSamples) {
-        return base::fail("{} samples a pixel: the graphics driver has at most {}", options.msaaSamples,
+        return base::fail("{} samples per pixel: the graphics driver has at most {}", options.msaaSamples,
                           device_.maxSamples);
     }
     if (std::max(size.x, size.y) > device_.maxTextureSize) {
-        return base::fail("{} × {} pixels: the graphics driver has at most {} a side", size.x, size.y,
+        return base::fail("{} × {} pixels: the graphics driver has at most {} per side", size.x, size.y,
                           device_.maxTextureSize);
     }
     std::optional<FrameTargets> made;

@@ -127,14 +127,14 @@ base::Result<void> SoundPlayer::Device::open(SoundOutput output) {
     } else if (hasSoundCard()) {
         device.reset(alcOpenDevice(nullptr));
     }
-    if (!device) return base::fail(base::ErrorCode::NotFound, "the system has no device to play on");
+    if (!device) return base::fail(base::ErrorCode::NotFound, "the system has no audio device");
     context.reset(alcCreateContext(device.get(), output == SoundOutput::Memory ? inMemory.data() : nullptr));
     if (!context || alcMakeContextCurrent(context.get()) != ALC_TRUE)
-        return base::fail("the device for sounds cannot be used");
+        return base::fail("the audio device cannot be used");
     alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
     for (Source& source : sources) alGenSources(1, &source.id);
     return alGetError() == AL_NO_ERROR ? base::Result<void>()
-                                       : base::fail("the device for sounds has too few sources");
+                                       : base::fail("the audio device has too few sources");
 }
 
 base::Result<void> SoundPlayer::Device::addBuffers(const SoundSet& sounds) {

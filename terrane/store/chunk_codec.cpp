@@ -133,7 +133,7 @@ base::Result<SectionHead> readHead(ByteReader& reader) {
         case 16:
             return head;
         default:
-            return base::fail(base::ErrorCode::Damaged, "a section has {} bits a block", head.bits);
+            return base::fail(base::ErrorCode::Damaged, "a section has {} bits per block", head.bits);
     }
 }
 

@@ -37,7 +37,7 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget&
 }
 
 std::string rowProblem(const Statement& row, int dataColumn, int originColumn) {
-    if (row.type(dataColumn) != ColumnType::Blob) return "its data is no blob";
+    if (row.type(dataColumn) != ColumnType::Blob) return "its data is not a blob";
     const bool isNumber = row.type(originColumn) == ColumnType::Integer;
     if (isNumber && (row.number(originColumn) == 0 || row.number(originColumn) == 1)) return "";
     return fmt::format("its origin is \"{}\", expected 0 or 1", row.text(originColumn).substr(0, 64));

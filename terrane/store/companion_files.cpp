@@ -31,7 +31,7 @@ base::Result<void> checkOrdinary(const fs::path& path) {
     const fs::file_status status = fs::symlink_status(path, error);
     if (!fs::exists(status)) return {};
     if (fs::is_regular_file(status) && fs::hard_link_count(path, error) == 1) return {};
-    return base::fail(ErrorCode::Incompatible, "{}: a link, or no file; nothing is opened through it",
+    return base::fail(ErrorCode::Incompatible, "{}: a link, or not a regular file; it is not opened",
                       path.string());
 }
 

@@ -70,7 +70,7 @@ base::Result<FileLock> FileLock::acquire(const std::filesystem::path& path, Kind
         FileLock lock(descriptor, kind, file);
         if (!isOrdinary(descriptor)) {
             lock.file_.clear();
-            return base::fail(base::ErrorCode::Io, "{}: a link, or no file; it is left as it is",
+            return base::fail(base::ErrorCode::Io, "{}: a link, or not a regular file; it is not opened",
                               file.string());
         }
         if (::flock(descriptor, (kind == Kind::Exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) != 0) {

@@ -42,8 +42,8 @@ void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
 base::Result<void> requireWhole(ReadableStore& world, const std::string& where) {
     const auto mark = world.metadata(kCopyMark);
     if (!mark || !mark->starts_with(kUnfinishedCopy)) return {};
-    return base::fail(base::ErrorCode::Incompatible,
-                      "{}: a copy that was not finished; `terrane copy` goes on with it", where);
+    return base::fail(base::ErrorCode::Incompatible, "{}: an unfinished copy; `terrane copy` continues it",
+                      where);
 }
 
 StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,

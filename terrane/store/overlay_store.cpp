@@ -87,7 +87,7 @@ SaveNumber OverlayStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Proven
 
 SaveNumber OverlayStore::setMetadata(std::string_view name, std::string value) {
     if (isReserved(name)) {
-        base::logError("{} is written by the store alone and stays as it is", name);
+        base::logError("only the store writes {}; it stays unchanged", name);
         return queue_->status().queued;
     }
     const std::lock_guard lock(mutex_);

@@ -70,9 +70,9 @@ LoadedChunk QueuedStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
         std::exchange(loaded.problem, fmt::format("{}: {}: {}", rows_->name(), nameOf(pos), loaded.problem));
     if (loaded.isUnread) {
         if (!loaded.isOverBudget || budget_.isFirstRefusal())
-            base::logWarning("{}; what it has stays", loaded.problem);
+            base::logWarning("{}; its saved data stays", loaded.problem);
     } else {
-        base::logWarning("{}; what it had is kept in the table quarantine", loaded.problem);
+        base::logWarning("{}; its old data is kept in the table quarantine", loaded.problem);
         queue_->add(DamagedRow{pos, hashOfRow((*row)->data), reason});
     }
     return loaded;
@@ -131,12 +131,12 @@ std::optional<std::string> QueuedStore::metadata(std::string_view name) {
 
 SaveNumber QueuedStore::setMetadata(std::string_view name, std::string value) {
     if (isReserved(name)) {
-        base::logError("{}: {} is written by the store alone and stays as it is", rows_->name(), name);
+        base::logError("{}: only the store writes {}; it stays unchanged", rows_->name(), name);
         return queue_->status().queued;
     }
     const std::lock_guard lock(metadataMutex_);
     if (!fitsMetadata(metadata_, name, value)) {
-        base::logError("{}: the setting {} of {} bytes is more than a save keeps, and is not saved",
+        base::logError("{}: the setting {} has {} bytes, too many for a save, and is not saved",
                        rows_->name(), name.substr(0, 64), value.size());
         return queue_->status().queued;
     }

@@ -32,7 +32,7 @@ base::Result<void> checkPages(Database& database, CheckReport& report) {
 
 std::string problemOf(const Statement& row, const SaveFile& file) {
     if (!world::isInWorld(posOf(row.number(0))))
-        return fmt::format("the key {} is no position", row.number(0));
+        return fmt::format("the key {} is not a position", row.number(0));
     if (std::string problem = rowProblem(row, 2, 1); !problem.empty()) return problem;
     const std::uint64_t seed = seedOf(posOf(row.number(0)), row.number(1), file.format);
     const auto chunk = decodeChunk(row.blob(2), file.ids, seed);
@@ -47,7 +47,7 @@ base::Result<void> forEachRowInOrder(Database& database, std::string_view sql, V
     return forEachRow(database, sql, [&](const Statement& row) -> base::Result<void> {
         const std::int64_t number = row.number(0);
         if (last && number <= *last)
-            return base::fail(base::ErrorCode::Damaged, "{}: damaged: rows are out of order behind {}",
+            return base::fail(base::ErrorCode::Damaged, "{}: damaged: rows are out of order after {}",
                               database.path(), *last);
         last = number;
         return visit(row);
@@ -111,8 +111,8 @@ void checkLog(const std::string& path, CheckReport& report) {
     report.fileProblems = logProblems(path);
     if (hasLostLog(path))
         report.fileProblems.push_back(
-            fmt::format("{}-wal: it is gone, though a program that wrote to it was killed: what was saved "
-                        "last is missing",
+            fmt::format("{}-wal: missing, although a program that wrote to it was killed: the last saved "
+                        "changes are lost",
                         path));
 }
 

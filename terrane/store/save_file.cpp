@@ -110,7 +110,7 @@ base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveA
         const fs::path backup = backupPath(path, "before-migration");
         auto migrated = migrate(file.database, migrations(), kFormatVersion, backup);
         if (!migrated) return migrated;
-        base::logInfo("{}: brought to format {}; the old file is {}", path.string(), kFormatVersion,
+        base::logInfo("{}: migrated to format {}; the old file is {}", path.string(), kFormatVersion,
                       backup.string());
     }
     return {};
@@ -141,8 +141,8 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
     if (auto done = deleteRegenerated(file.database, by); !done) return done;
     if (auto done = transaction->commit(); !done) return done;
     base::logInfo("{}: regenerated{}{}{}", path.string(),
-                  by.chunks == Regenerate::All ? "" : " but for chunks with edits",
-                  by.keepsCopy ? "; the world as it was is " : "", backup.string());
+                  by.chunks == Regenerate::All ? "" : " except for chunks with edits",
+                  by.keepsCopy ? "; the old world is " : "", backup.string());
     return {};
 }
 
@@ -209,8 +209,7 @@ base::Result<void> readFormat(SaveFile& file) {
     if (!version) return tl::unexpected(version.error());
     file.format = version->value_or(0);
     if (file.format >= kOldestReadable) return {};
-    return base::fail(ErrorCode::Incompatible, "{}: in format {}, which is unknown", file.database.path(),
-                      file.format);
+    return base::fail(ErrorCode::Incompatible, "{}: unknown format {}", file.database.path(), file.format);
 }
 
 // A shared lock, or the program that writes.
@@ -234,7 +233,7 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
         return base::fail(ErrorCode::Busy, "{}: {}, which is making or migrating it", path.string(),
                           reading.inUse);
     return base::fail(ErrorCode::Incompatible,
-                      "{}: its last change was cut short and is undone when it is opened to play",
+                      "{}: its last change was interrupted and is undone when it is opened to play",
                       path.string());
 }
 

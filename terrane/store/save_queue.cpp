@@ -41,7 +41,7 @@ base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch&
 std::string listOf(const SaveBatch& batch) {
     std::string text = fmt::format("{} chunks", batch.chunks.size());
     for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
-    if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows put aside", batch.damaged.size());
+    if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows in quarantine", batch.damaged.size());
     return text;
 }
 

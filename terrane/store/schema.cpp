@@ -26,7 +26,7 @@ base::Result<void> checkName(const Database& database, const Statement& row, int
     const bool isText = row.type(column) == ColumnType::Text;  // text() changes the type
     const std::string_view name = row.text(column);
     if (isText && name.size() <= kMaxNameBytes) return {};
-    return base::fail(ErrorCode::Damaged, "{}: damaged: the name {} is no text of at most {} bytes",
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the name {} is not a text of at most {} bytes",
                       database.path(), name.substr(0, 64), kMaxNameBytes);
 }
 
@@ -40,8 +40,7 @@ base::Result<std::vector<Migration>> findWay(Database& database, std::span<const
         const auto step =
             std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
         if (step == steps.end())
-            return base::fail(ErrorCode::Incompatible, "{}: in format {}, which is unknown", database.path(),
-                              at);
+            return base::fail(ErrorCode::Incompatible, "{}: unknown format {}", database.path(), at);
         way.push_back(*step);
     }
     return way;
@@ -142,8 +141,8 @@ base::Result<Metadata> readMetadata(Database& database) {
         if (auto isName = checkName(database, row, 0); !isName) return isName;
         std::string name(row.text(0));
         if (row.type(1) != ColumnType::Text)
-            return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is no text", database.path(),
-                              name);
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is not a text",
+                              database.path(), name);
         std::string value(row.text(1));
         totalBytes += name.size() + value.size();
         if (totalBytes > kMaxMetadataBytes || metadata.size() == kMaxMetadata)
@@ -151,7 +150,7 @@ base::Result<Metadata> readMetadata(Database& database) {
                               "{}: damaged: more than {} settings, or more than {} bytes of them",
                               database.path(), kMaxMetadata, kMaxMetadataBytes);
         if (!metadata.emplace(std::move(name), std::move(value)).second)
-            return base::fail(ErrorCode::Damaged, "{}: damaged: a setting is there twice", database.path());
+            return base::fail(ErrorCode::Damaged, "{}: damaged: a setting occurs twice", database.path());
         return {};
     };
     const auto read = forEachRow(database, "SELECT name, value FROM settings", take);

@@ -97,11 +97,11 @@ class SchemaComparison {
         const auto found =
             std::ranges::find_if(all, [&](const auto& o) { return o.type == type && o.name == name; });
         if (found == all.end())
-            return base::fail(ErrorCode::Damaged, "{}: damaged: it has {}, which no save has", path_,
-                              titleOf(row.text(0), row.text(1)));
+            return base::fail(ErrorCode::Damaged, "{}: damaged: it has {}, which does not belong in a save",
+                              path_, titleOf(row.text(0), row.text(1)));
         const bool isNew = roots_.insert(row.number(3)).second && seen_.insert(name).second;
         if (!isNew || lowered(row.text(2)) != found->table || normalizedSql(row.text(4)) != found->sql)
-            return base::fail(ErrorCode::Damaged, "{}: damaged: {} is not as it is in a save", path_,
+            return base::fail(ErrorCode::Damaged, "{}: damaged: {} is not that of a save", path_,
                               titleOf(type, name));
         return {};
     }

@@ -13,7 +13,8 @@ base::Result<std::unique_ptr<ReadableRows>> openSqliteToRead(const std::filesyst
     if (!file) return tl::unexpected(file.error());
     if (auto ended = file->database.execute("COMMIT"); !ended) return tl::unexpected(ended.error());
     if (!file->inUse.empty())
-        base::logInfo("{}: {}; read as it is saved, and left as it is", file->database.path(), file->inUse);
+        base::logInfo("{}: {}; its saved state is read, nothing is changed", file->database.path(),
+                      file->inUse);
     return std::make_unique<SqliteReadRows<ReadableRows>>(std::move(*file));
 }
 

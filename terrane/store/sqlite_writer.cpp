@@ -181,7 +181,7 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
     if (!row && row.error().code == base::ErrorCode::Damaged) return putAside(pos, row.error().message);
     if (!row) return tl::unexpected(row.error());
     if (!damaged) return {};
-    base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", file_.database.path(),
+    base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", file_.database.path(),
                      nameOf(pos), damaged->reason);
     return quarantine(*damaged);
 }

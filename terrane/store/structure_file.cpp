@@ -57,7 +57,7 @@ std::size_t dataBytes(const Structure& structure) {
 base::Result<void> checkLimits(const Structure& s) {
     if (!isSize(s.size.x) || !isSize(s.size.y) || s.size.z < 1 || s.size.z > world::kChunkHeight)
         return damagedStructure(
-            fmt::format("{} × {} × {} blocks are no structure", s.size.x, s.size.y, s.size.z));
+            fmt::format("{} × {} × {} blocks are not a structure", s.size.x, s.size.y, s.size.z));
     if (s.blockCount() > world::kMaxStructureBlocks)
         return damagedStructure(fmt::format("the structure has {} blocks, expected at most {}",
                                             s.blockCount(), world::kMaxStructureBlocks));
@@ -102,7 +102,7 @@ base::Result<void> readPalette(ByteReader& reader, Structure& structure) {
         StructureBlock block{.name = {reinterpret_cast<const char*>(name.data()), name.size()}};
         block.state = reader.number<std::uint16_t>();
         if (!reader.isPastEnd() && !isBlockName(block.name))
-            return damagedStructure(fmt::format("{:?} is no name of a block", block.name));
+            return damagedStructure(fmt::format("{:?} is not a name of a block", block.name));
         structure.palette.push_back(std::move(block));
     }
     return {};
@@ -174,7 +174,7 @@ base::Result<Bytes> encodeStructure(const Structure& structure) {
         return base::fail("the blocks have {} bytes of data, a file keeps at most {}", bytes,
                           kMaxStructureDataBytes);
     for (const StructureBlock& block : structure.palette)
-        if (!isBlockName(block.name)) return base::fail("{:?} is no name of a block", block.name);
+        if (!isBlockName(block.name)) return base::fail("{:?} is not a name of a block", block.name);
     const Bytes plain = structureContent(structure);
     Bytes rest;
     appendNumber(rest, kStructureVersion);
@@ -190,7 +190,7 @@ base::Result<Bytes> encodeStructure(const Structure& structure) {
 base::Result<Structure> decodeStructure(ByteView bytes) {
     ByteReader reader(bytes);
     if (reader.number<std::uint64_t>() != kStructureMagic || bytes.size() < kStructureHeaderBytes)
-        return base::fail(base::ErrorCode::BadInput, "it is no structure");
+        return base::fail(base::ErrorCode::BadInput, "it is not a structure");
     const ByteView rest = bytes.subspan(kChecksumEnd);
     if (reader.number<std::uint64_t>() != XXH64(rest.data(), rest.size(), 0))
         return damagedStructure("the checksum is wrong");

@@ -36,7 +36,7 @@ std::optional<std::int64_t> lastKeyOf(std::string_view mark) {
 }
 
 std::string problemOf(const KeyedRow& row) {
-    if (!world::isInWorld(posOf(row.key))) return fmt::format("the key {} is no position", row.key);
+    if (!world::isInWorld(posOf(row.key))) return fmt::format("the key {} is not a position", row.key);
     if (!row.row.problem.empty()) return row.row.problem;
     const auto good = verifyChunk(row.row.data, row.row.seed);
     return good ? std::string() : good.error().message;
@@ -51,7 +51,7 @@ base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int6
     for (const KeyedRow& row : *rows)
         if (row.row.seed != checksumSeed(posOf(row.key), row.row.provenance == Provenance::Edited))
             return base::fail(ErrorCode::Incompatible,
-                              "{}: in an older format; opened once to be written it is brought to the newest",
+                              "{}: in an older format; it is migrated when it is opened for writing",
                               world.name());
     if (!rows->empty()) key = rows->back().key;
     std::erase_if(*rows, [&](const KeyedRow& row) {
@@ -115,14 +115,14 @@ class Copy {
             if (auto done = to_.change(ending()); !done) return tl::unexpected(done.error());
             return report_;
         }
-        return base::fail(ErrorCode::Busy, "{}: it changes while it is copied; close what plays it",
-                          from_.name());
+        return base::fail(ErrorCode::Busy,
+                          "{}: it changes while it is copied; close the program that plays it", from_.name());
     }
 
   private:
     base::Result<void> goOn() {
         if (!progress_ || progress_(rows_)) return {};
-        return base::fail(ErrorCode::Busy, "{}: the copy was stopped; it goes on when it is started again",
+        return base::fail(ErrorCode::Busy, "{}: the copy was stopped; start it again to continue",
                           to_.name());
     }
 
@@ -226,8 +226,7 @@ SaveAccess accessOfCopy(const ReadableRows& from) {
 base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     const auto source = from.metadata().find(kCopyMark);
     if (source != from.metadata().end() && lastKeyOf(source->second))
-        return base::fail(ErrorCode::Incompatible, "{}: a copy that was not finished; start it again",
-                          from.name());
+        return base::fail(ErrorCode::Incompatible, "{}: an unfinished copy; start it again", from.name());
     const auto mark = to.metadata().find(kCopyMark);
     const auto first = to.rowsAfter(kBeforeAll, 1);
     if (!first) return tl::unexpected(first.error());
@@ -235,11 +234,11 @@ base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     const auto lastKey = mark == to.metadata().end() ? std::nullopt : lastKeyOf(mark->second);
     if (!isEmpty && !lastKey)
         return base::fail(ErrorCode::Incompatible, "{}: there is a world already, {}", to.name(),
-                          mark == to.metadata().end() ? "which is no copy" : "a copy that was finished");
+                          mark == to.metadata().end() ? "which is not a copy" : "a copy that was finished");
     if (auto same = requireSame(to.identity(), from.identity(), to.name()); !same)
         return tl::unexpected(same.error());
     if (!hasNames(to.ids(), from.ids().names()))
-        return base::fail(ErrorCode::Incompatible, "{}: its names of blocks are not those of {}", to.name(),
+        return base::fail(ErrorCode::Incompatible, "{}: its block names are not those of {}", to.name(),
                           from.name());
     // Marks it as a copy even if nothing else gets written.
     if (isEmpty) {

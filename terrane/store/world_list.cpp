@@ -71,7 +71,7 @@ base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
     const fs::file_status status = fs::symlink_status(path, ignored);
     if (!fs::exists(status)) return base::fail(ErrorCode::NotFound, "there is no world \"{}\"", name);
     if (!fs::is_regular_file(status))
-        return base::fail(ErrorCode::Incompatible, "{}: a link, or no file; it is left as it is",
+        return base::fail(ErrorCode::Incompatible, "{}: a link, or not a regular file; it is not opened",
                           path.string());
     return path;
 }

@@ -17,7 +17,7 @@ constexpr Statement kSizes = {
     "pg_total_relation_size('quarantine'::regclass)"};
 
 std::string problemOf(const store::KeyedRow& row, const store::BlockIdMap& ids) {
-    if (!world::isInWorld(store::posOf(row.key))) return fmt::format("the key {} is no position", row.key);
+    if (!world::isInWorld(store::posOf(row.key))) return fmt::format("the key {} is not a position", row.key);
     if (!row.row.problem.empty()) return row.row.problem;
     const auto chunk = store::decodeChunk(row.row.data, ids, row.row.seed);
     return chunk ? "" : chunk.error().message;

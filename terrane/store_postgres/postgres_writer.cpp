@@ -155,7 +155,7 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
         if (isText(name) && isText(value))
             commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
         else
-            base::logError("{}: the setting {} is no text in UTF-8, and is not saved", connection_.shown(),
+            base::logError("{}: the setting {} is not a text in UTF-8, and is not saved", connection_.shown(),
                            name.substr(0, 64));
     }
     if (!isComplete_) commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
@@ -255,7 +255,7 @@ base::Result<void> PostgresWriter::putAsideDamaged(std::span<const std::int64_t>
                     problem = good.error().message;
             if (problem.empty()) continue;
             const ChunkPos pos = store::posOf(row.key);
-            base::logWarning("{}: {}: {}; what it had is kept in the table quarantine", connection_.shown(),
+            base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", connection_.shown(),
                              store::nameOf(pos), problem);
             if (auto done = putAside(pos, problem); !done) return done;
         }

@@ -124,8 +124,8 @@ base::Result<int> formatOf(Connection& connection, int newest) {
         return base::fail(ErrorCode::Refused, "{}: this user may not use the schema", connection.shown());
     if (tables->number(0, 0) == 0) return 0;
     if (tables->number(0, 1) == 0)
-        return base::fail(ErrorCode::Incompatible, "{}: the schema holds tables of another program, no world",
-                          connection.shown());
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: the schema holds tables of another program, not a world", connection.shown());
     const auto format = connection.run(kFormat);
     if (!format) return tl::unexpected(format.error());
     const std::int64_t number = format->count() == 1 ? format->number(0, 0) : 0;

@@ -81,7 +81,7 @@ base::Result<void> makeCurrent(Connection& connection, const Address& address,
     }
     if (*format == newestFormat()) return {};
     auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, *format); });
-    if (done) base::logInfo("{}: brought from format {} to {}", address.shown, *format, newestFormat());
+    if (done) base::logInfo("{}: migrated from format {} to {}", address.shown, *format, newestFormat());
     return done;
 }
 
@@ -111,7 +111,7 @@ base::Result<std::vector<SavedName>> readBlockNames(Connection& connection) {
             return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has the id {}",
                               connection.shown(), name.substr(0, 64), id);
         if (!seen.insert(name).second || (!names.empty() && id == names.back().id))
-            return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} is there twice",
+            return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} occurs twice",
                               connection.shown(), name);
         names.push_back({static_cast<world::BlockId>(id), std::string(name)});
     }
@@ -197,8 +197,8 @@ base::Result<void> regenerate(Connection& connection, const Address& address, co
     auto done = inTransaction(connection, [&] { return copyAndDelete(connection, address, by, *copy); });
     if (!done) return done;
     base::logInfo("{}: regenerated{}{}{}", address.shown,
-                  by.chunks == Regenerate::All ? "" : " but for chunks with edits",
-                  by.keepsCopy ? "; the world as it was is the schema " : "", *copy);
+                  by.chunks == Regenerate::All ? "" : " except for chunks with edits",
+                  by.keepsCopy ? "; the old world is the schema " : "", *copy);
     return {};
 }
 
@@ -227,7 +227,7 @@ base::Result<void> readHistory(Connection& connection, WorldSharing sharing, Wor
     const auto history = connection.run(kHistory);
     if (!history) return tl::unexpected(history.error());
     if (history->count() != 1)
-        return base::fail(ErrorCode::Damaged, "{}: damaged: the table history has not one row",
+        return base::fail(ErrorCode::Damaged, "{}: damaged: the table history does not have exactly one row",
                           connection.shown());
     contents.newestEdit = history->number(0, 0);
     contents.openings = history->number(0, 2);
@@ -286,7 +286,7 @@ base::Result<WorldConnection> openToRead(const Address& address, const world::Bl
     if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
     if (*format < newestFormat())
         return base::fail(ErrorCode::Incompatible,
-                          "{}: in format {}; it is brought to format {} when it is opened to be written",
+                          "{}: in format {}; it is migrated to format {} when it is opened for writing",
                           address.shown, *format, newestFormat());
     WorldConnection opened{std::move(*connection), {}};
     opened.contents.format = *format;
@@ -329,8 +329,8 @@ base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
     if (!openings) return tl::unexpected(openings.error());
     if (*openings == contents.openings) return connection;
     return base::fail(ErrorCode::Incompatible,
-                      "{}: another program had the world for itself while the connection was lost; what was "
-                      "not saved before is not saved over what it did",
+                      "{}: another program wrote the world while the connection was lost; unsaved changes do "
+                      "not overwrite it",
                       address.shown);
 }
 

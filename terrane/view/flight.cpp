@@ -135,7 +135,7 @@ std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
 
 base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {
     std::ofstream out(file);
-    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,"
+    out << "time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_cpu_ms,upload_cpu_ms,uploads,"
            "visible_chunks,chunks_in_view,queued_chunks\n";
     for (const FlightFrame& f : frames) {
         fmt::print(out, "{:.4f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{:.3f},{},{},{},{}\n", f.seconds, f.all,

@@ -18,7 +18,7 @@ class FrameMeter {
         }
         count(seconds);
     }
-    // Frames a second.
+    // Frames per second.
     double now() const { return total_ > 0 ? static_cast<double>(frames_.size()) / total_ : 0; }
     double min() const { return frames_.empty() ? 0 : 1 / *std::ranges::max_element(frames_); }
     double max() const {

@@ -34,7 +34,7 @@ int fittingViewDistance(const MemoryNeed& need, int distance) {
 }
 
 std::string shortViewNotice(int requested, int reached, std::size_t budgetBytes) {
-    return fmt::format("view distance {} in place of {}: {} MiB of GPU memory hold no more (--gpu-memory)",
+    return fmt::format("view distance {} instead of {}: {} MiB of GPU memory hold no more (--gpu-memory)",
                        reached, requested, budgetBytes / kMebibyte);
 }
 

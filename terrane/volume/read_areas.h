@@ -16,7 +16,7 @@ namespace terrane::volume {
                                             std::span<world::BlockId> blocks, const GoesOn& goesOn);
 
 // Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
-// as zeros. BadInput if a chunk lies outside the world.
+// as zeros. BadInput if a chunk is outside the world.
 [[nodiscard]] base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
                                                  std::span<world::BlockId> blocks, const GoesOn& goesOn);
 

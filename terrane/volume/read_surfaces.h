@@ -20,7 +20,7 @@ struct ColumnArea {
 };
 
 // The columns of a level that cover blocks x0 … x1 − 1, y0 … y1 − 1. BadInput if the level is not 0…15,
-// the area lies outside the world, is empty, or has more than kMaxColumns.
+// the area is outside the world, is empty, or has more than kMaxColumns.
 [[nodiscard]] base::Result<ColumnArea> columnsOver(int level, std::int64_t x0, std::int64_t y0,
                                                    std::int64_t x1, std::int64_t y1);
 

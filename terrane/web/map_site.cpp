@@ -197,7 +197,7 @@ std::string MapSite::Impl::metrics() {
                    static_cast<double>(parts.cache->bytes()));
     text.gauge("process_resident_memory_bytes", "Memory of the program.",
                static_cast<double>(base::residentBytes()));
-    text.counter("process_cpu_seconds_total", "Processor time of the program.", base::cpuSeconds());
+    text.counter("process_cpu_seconds_total", "CPU time of the program.", base::cpuSeconds());
     if (parts.metrics) parts.metrics(text);
     return text.text();
 }

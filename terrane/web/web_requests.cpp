@@ -40,7 +40,7 @@ void WebServer::Impl::onRead(const ConnectionPtr& connection, const SocketError&
     parser.put(asio::const_buffer(connection->buffer.data().data(), bytes), wrong);
     connection->buffer.consume(bytes);
     if (wrong == http::error::body_limit)
-        return reply(connection, textAnswer(413, "a request has no body here\n"));
+        return reply(connection, textAnswer(413, "requests have no body here\n"));
     if (wrong || !parser.is_header_done()) return reply(connection, textAnswer(400, "not a request\n"));
     handle(connection, parser);
 }
@@ -64,9 +64,9 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
         ++statistics.refused;
         return reply(connection, busyAnswer(429, "too many requests\n"));
     }
-    if (hasBody) return reply(connection, textAnswer(413, "a request has no body here\n"));
+    if (hasBody) return reply(connection, textAnswer(413, "requests have no body here\n"));
     if (request.method() != http::verb::get && !connection->isHead)
-        return reply(connection, textAnswer(405, "GET and HEAD alone\n"));
+        return reply(connection, textAnswer(405, "only GET and HEAD are allowed\n"));
     const auto target = parseTarget({request.target().data(), request.target().size()});
     if (!target) return reply(connection, textAnswer(400, "not a path\n"));
     const Route route = routeOf(*target);

@@ -36,7 +36,7 @@ class Packs(support.ProgramTest):
         self.assertEqual(glow["shown_name"], "Glow rock")
         self.assertNotEqual(self.digest("--content", "isles", "--generator", "isles:hills"),
                             self.digest("--generator", "flat"))
-        self.assertIn("is there already", self.terrane("packs", "init", "isles", code=2))
+        self.assertIn("exists already", self.terrane("packs", "init", "isles", code=2))
 
     def test_a_folder_and_a_zip_file_make_the_same_world(self):
         self.terrane("packs", "init", self.folder / "isles")
@@ -100,7 +100,7 @@ class Packs(support.ProgramTest):
         shutil.copy(self.packs / "isles" / "textures" / "glow_rock.png", self.packs / "isles" / "textures" / "unused.png")
         done = subprocess.run([support.program(), "packs", "check", "isles"], capture_output=True, text=True,
                               timeout=support.HANG_SECONDS, env=self.environment, check=True)
-        self.assertIn("unused.png: no block has this texture", done.stderr)
+        self.assertIn("unused.png: no block uses this texture", done.stderr)
         self.assertIn("languages/en.toml: blocks.glow_rok: the pack has no such block", done.stderr)
 
     def test_a_server_sends_its_packs(self):

@@ -73,7 +73,7 @@ class World(Postgres):
         self.assertIn("damage: chunk -1,-1: ", done.stdout)
         # Generating sets it aside and generates it again.
         run("generate", "--radius", "1", "--world", self.url)
-        self.assertRegex(self.succeed("check", self.url), "1 damaged chunks were put aside before\ngood\n")
+        self.assertRegex(self.succeed("check", self.url), "1 damaged chunks are in quarantine\ngood\n")
 
 
 class Refused(Postgres):

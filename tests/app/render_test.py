@@ -82,7 +82,7 @@ class Render(ProgramTest):
         self.assertLessEqual(result["bytes"]["gpu"], 24 << 20)
         told = [line for line in done.stderr.splitlines() if "--gpu-memory" in line]
         self.assertEqual(len(told), 1, done.stderr)
-        self.assertIn(f"view distance {reached} in place of 12: 24 MiB", told[0])
+        self.assertIn(f"view distance {reached} instead of 12: 24 MiB", told[0])
         enough = run(*draw, "--view-distance", str(reached), "--horizon", "0", "-o", whole)
         self.assertNotIn("--gpu-memory", enough.stderr)
         self.assertEqual(json.loads(enough.stdout)["view_distance"], reached)

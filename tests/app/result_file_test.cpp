@@ -62,7 +62,7 @@ TEST_F(ResultFileTest, NeverReplacesAFile) {
     write("precious");
     const auto file = ResultFile::create(path, kSettings);
     ASSERT_FALSE(file);
-    EXPECT_THAT(file.error().message, HasSubstr("is there already"));
+    EXPECT_THAT(file.error().message, HasSubstr("exists already"));
     EXPECT_EQ(text(), "precious");
 }
 
@@ -97,13 +97,13 @@ TEST_F(ResultFileTest, OtherFilesAreRefused) {
     EXPECT_THAT(refusal(), HasSubstr("cannot be read"));
     for (const char* text : {"", "text", "text\n", "7\n", "{}\n"}) {
         write(text);
-        EXPECT_THAT(refusal(), HasSubstr(":1: no results of terrane bench")) << text;
+        EXPECT_THAT(refusal(), HasSubstr(":1: not results of terrane bench")) << text;
     }
     const std::string head = json{{"settings", kSettings}}.dump() + "\n";
     for (const char* line : {"text", "7", "{}", R"({"cell":7,"result":{}})", R"({"cell":[7],"result":{}})",
                              R"({"cell":["a"]})", ""}) {
         write(head + line + "\n");
-        EXPECT_THAT(refusal(), HasSubstr(":2: no result of terrane bench")) << line;
+        EXPECT_THAT(refusal(), HasSubstr(":2: not a result of terrane bench")) << line;
     }
 }
 

@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/terrane/window/key_help_table.h"
+#include "apps/terrane/window/key_help.h"
 
 namespace terrane::app {
 namespace {
@@ -59,18 +59,6 @@ std::set<std::string> textsOfTheProgram() {
     return texts;
 }
 
-std::set<std::string> textsOfKeys() {
-    std::set<std::string> texts;
-    for (const KeyHelpLine& line : keyHelpLines()) {
-        texts.insert(line.action);
-        // Names of single keys are not translated.
-        const bool isWords =
-            line.keys.find("button") != line.keys.npos || line.keys.find("wheel") != line.keys.npos;
-        if (isWords) texts.insert(line.keys);
-    }
-    return texts;
-}
-
 TEST(Text, TextsInSourcesAreFound) {
     EXPECT_THAT(
         textsIn("Button(tr(\"a \\\"b\\\"\")), say(tr_(\n  \"one \"\n  \"two\")), attr(\"no\"), tr(name)"),
@@ -79,9 +67,8 @@ TEST(Text, TextsInSourcesAreFound) {
 }
 
 TEST(Text, EveryTextIsTranslated) {
-    std::set<std::string> texts = textsOfTheProgram();
+    const std::set<std::string> texts = textsOfTheProgram();
     EXPECT_GT(texts.size(), 20u);
-    texts.merge(textsOfKeys());
     for (const char* code : {"cs", "de"}) {
         const content::Language language = content::loadLanguage(code).value();
         for (const std::string& text : texts)
@@ -90,14 +77,36 @@ TEST(Text, EveryTextIsTranslated) {
     }
 }
 
-TEST(Text, KeysAreInTwoColumns) {
-    const auto lines = keyHelpLines();
-    ASSERT_GT(lines.size(), 5u);
-    for (const KeyHelpLine& line : lines) {
-        EXPECT_FALSE(line.keys.empty());
-        EXPECT_FALSE(line.action.empty()) << line.keys;
+// Each action is in one line, with the key that the player chose.
+TEST(KeyHelp, HasThePlayersKeys) {
+    for (const ActionRow& row : actionTable()) {
+        KeyBindings bindings;
+        const auto before = keyHelpLines(bindings, {});
+        bindings.bind(row.action, Key::F9);  // no default
+        const auto after = keyHelpLines(bindings, {});
+        ASSERT_EQ(before.size(), after.size());
+        int changed = 0;
+        for (std::size_t k = 0; k < after.size(); ++k) {
+            if (before[k].keys == after[k].keys) continue;
+            ++changed;
+            EXPECT_THAT(after[k].keys, testing::HasSubstr("F9")) << row.name;
+        }
+        EXPECT_EQ(changed, 1) << row.name;
     }
-    EXPECT_EQ(lines.back().keys, "Esc");
+}
+
+TEST(KeyHelp, IsInThePlayersLanguage) {
+    KeyBindings bindings;
+    bindings.unbind(Action::Run);
+    EXPECT_THAT(keyHelpLines(bindings, textsOf("de")),
+                testing::Contains(testing::AllOf(testing::Field(&KeyHelpLine::keys, "Leertaste, keine"),
+                                                 testing::Field(&KeyHelpLine::effect, "springen; rennen"))));
+}
+
+TEST(KeyHelp, IsATextInTwoColumns) {
+    EXPECT_THAT(keyHelpText(), testing::HasSubstr("\n  W, A, S, D          walk\n"));
+    EXPECT_THAT(keyHelpText(), testing::EndsWith("\n  Esc                 close what is open, else the menu: "
+                                                 "settings, save and quit\n"));
 }
 
 TEST(Text, TranslatesAsAskedFor) {

@@ -40,7 +40,7 @@ class Upgrade(ProgramTest):
     def test_writing_brings_it_to_the_present_format_and_keeps_a_copy(self):
         done = support.run("generate", "--world", self.save, "--area", "4,4,5,5")
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn(f"{self.save}: brought to format 3; the old file is {self.copy}", done.stderr)
+        self.assertIn(f"{self.save}: migrated to format 3; the old file is {self.copy}", done.stderr)
         self.assertEqual(self.blocks(self.save), NAMES)
         self.assertEqual(self.blocks(self.copy), NAMES)
         self.assertIn("format 1, ", self.succeed("check", self.copy))

@@ -55,7 +55,7 @@ class Watch(ProgramTest):
             self.script.write_text("p:oops(")
             game.wait_for(lambda: "plain.lua:1" in game.output())
             self.script.write_text(SCRIPT % "stone")
-            game.wait_for(lambda: "regenerated but for chunks with edits" in game.output())
+            game.wait_for(lambda: "regenerated except for chunks with edits" in game.output())
             game.wait_for_ground(is_brown)  # the hole is still there
             game.process.send_signal(signal.SIGTERM)
             self.assertEqual(game.process.wait(HANG_SECONDS), 0, game.output())

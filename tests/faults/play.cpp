@@ -150,7 +150,7 @@ void Play::expectGoodCheck(bool mayBeUndone) const {
         using base::ErrorCode;
         const bool isNone = report.error().code == ErrorCode::NotFound ||
                             report.error().message.find("empty, not a save") != std::string::npos;
-        const bool isUndone = report.error().message.find("was cut short") != std::string::npos;
+        const bool isUndone = report.error().message.find("was interrupted") != std::string::npos;
         EXPECT_TRUE(mayBeUndone && (isNone || isUndone)) << report.error().message;
         return;
     }

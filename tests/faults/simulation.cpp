@@ -129,7 +129,7 @@ void Simulation::expectGoodSave(bool isClosed) {
         const std::string& problem = report.error().message;
         const bool isUnfinished = report.error().code == base::ErrorCode::NotFound ||
                                   problem.find("empty, not a save") != std::string::npos ||
-                                  problem.find("was cut short") != std::string::npos;
+                                  problem.find("was interrupted") != std::string::npos;
         EXPECT_TRUE(!isClosed && isUnfinished) << problem;
         return;
     }

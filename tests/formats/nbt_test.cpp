@@ -124,7 +124,8 @@ TEST(Nbt, RefusesWhatIsDeepOrLarge) {
     // Lists with more elements than bytes.
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x09\0\0\x01\x7f\xff\xff\xff", 11)), HasSubstr("cut off"));
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x0c\0\0\x10\0\0\0\0\0", 12)), HasSubstr("cut off"));
-    EXPECT_THAT(nbtError(std::string("\x0a\0\0\x09\0\0\0\0\0\0\x01\0", 12)), HasSubstr("list of nothing"));
+    EXPECT_THAT(nbtError(std::string("\x0a\0\0\x09\0\0\0\0\0\0\x01\0", 12)),
+                HasSubstr("list without a type"));
     EXPECT_THAT(nbtError(std::string("\x0a\0\0\x0d\0\0\0", 7)), HasSubstr("unknown type"));
     EXPECT_THAT(nbtError(std::string("\x08\0\0\0\0", 5)), HasSubstr("expected a compound"));
     // 5 MiB of lists without anything in them.

@@ -60,7 +60,7 @@ TEST(RegionFile, ReadsChunksInFilesOfTheirOwn) {
         regionError(readRegionChunk(
             region, 7, []() -> base::Result<std::string> { return base::fail("c.7.0.mcc: missing"); })),
         HasSubstr("c.7.0.mcc"));
-    EXPECT_THAT(regionError(readRegionChunk(region, 7, {})), HasSubstr("file of its own"));
+    EXPECT_THAT(regionError(readRegionChunk(region, 7, {})), HasSubstr("separate file"));
 }
 
 TEST(RegionFile, KnowsWhichChunksAreThere) {

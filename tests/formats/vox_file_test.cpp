@@ -154,7 +154,7 @@ TEST(VoxFile, TellsWhatIsWrong) {
     EXPECT_THAT(voxError("VOXX"), HasSubstr("begin"));
     EXPECT_THAT(voxError(voxFile("")), HasSubstr("no model"));
     EXPECT_THAT(voxError(voxFile(voxPart("SIZE", voxNumber(0) + voxNumber(1) + voxNumber(1)))),
-                HasSubstr("0 blocks to a side"));
+                HasSubstr("0 blocks per side"));
     EXPECT_THAT(voxError(voxFile(voxPart("XYZI", voxNumber(0)))), HasSubstr("no size"));
     EXPECT_THAT(voxError(voxFile(voxPart("SIZE", voxNumber(1) + voxNumber(1) + voxNumber(1)) +
                                  voxPart("XYZI", voxNumber(1) + std::string("\1\0\0\1", 4)))),

@@ -113,7 +113,7 @@ TEST(BuilderErrors, SetAtInABranchTwiceOrInTheLastPass) {
     });
     EXPECT_THAT(error, HasSubstr("pass \"first\": field \"f\": setAt stands inside if_ or while_"));
     EXPECT_THAT(error, HasSubstr("pass \"first\": field \"twice\" is set twice"));
-    EXPECT_THAT(error, HasSubstr("pass \"final\": field \"last\": no pass comes after that could read it"));
+    EXPECT_THAT(error, HasSubstr("pass \"final\": field \"last\": no later pass could read it"));
 }
 
 TEST(BuilderErrors, AValueThatLeavesALoop) {
@@ -165,7 +165,7 @@ TEST(BuilderErrors, AMetricThatIsNone) {
     const std::string error = errorOf([](GeneratorBuilder& g) {
         g.pass3D("solid", [&](Pass& p) { p.setBlock(Block(p.voronoi3D("cells", 8, 1, 1).offset.x)); });
     });
-    EXPECT_THAT(error, HasSubstr("noise \"cells\": metric exponent 1, 2 to 8 are possible"));
+    EXPECT_THAT(error, HasSubstr("noise \"cells\": metric exponent 1, expected 2 to 8"));
 }
 
 TEST(BuilderErrors, WeightsThatAreAllZero) {
@@ -252,7 +252,7 @@ TEST(BuilderErrors, NoiseOfBadOctavesOrPoints) {
                 HasSubstr("the largest octave is beyond 2^20 blocks"));
     EXPECT_THAT(errorIn2D([](Pass& p) { p.voronoi2D("n", 8, 0); }), HasSubstr("0 points a cell"));
     EXPECT_EQ(errorIn2D([](Pass& p) { p.voronoi2D("n", 8, 5); }),
-              "generator \"test\": pass \"faulty\": noise \"n\": 5 points a cell, 1 to 4 are possible");
+              "generator \"test\": pass \"faulty\": noise \"n\": 5 points per cell, expected 1 to 4");
 }
 
 TEST(BuilderErrors, WhatOnly3DPassesHave) {

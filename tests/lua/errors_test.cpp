@@ -11,9 +11,9 @@ struct Mistake {
 // In the second line of a 2D pass.
 constexpr Mistake kMistakes[] = {
     {"local a = p.x + p:random2D(\"r\")", "Int and Float do not match: write float(…)"},
-    {"local a = p.x < 3", "< and > compare no expressions: write a:lt(b) or a:gt(b)"},
-    {"local a = p.x >= p.y", "<= and >= compare no expressions: write a:le(b) or a:ge(b)"},
-    {"local a = p.x == p.y", "== and ~= compare no expressions: write a:eq(b) or a:ne(b)"},
+    {"local a = p.x < 3", "< and > do not compare expressions: write a:lt(b) or a:gt(b)"},
+    {"local a = p.x >= p.y", "<= and >= do not compare expressions: write a:le(b) or a:ge(b)"},
+    {"local a = p.x == p.y", "== and ~= do not compare expressions: write a:eq(b) or a:ne(b)"},
     {"local a = p.x / 2", "Int has no operator /: write // for whole numbers, or float(a) / b"},
     {"local a = p.x + 1.5", "expected Int, got number 1.5"},
     {"local a = p.x + 5000000000", "5000000000 is not in -2147483648…2147483647"},
@@ -36,7 +36,7 @@ constexpr Mistake kMistakes[] = {
     {"local a = p:perlin2D(\"n\", 8, {0/0})", "perlin2D: number "},
     {"local a = p:perlin2D(\"n\", 8, {1}) + p:perlin2D(\"n\", 9, {1})",
      "noise \"n\" is used twice with different parameters"},
-    {"local a = p:voronoi2D(\"v\", 8, 9)", "9 points a cell, 1 to 4 are possible"},
+    {"local a = p:voronoi2D(\"v\", 8, 9)", "9 points per cell, expected 1 to 4"},
     {"local a = p.z", "pass \"land\": z: only in 3D passes"},
     {"p:setBlock(\"stone\")", "pass \"land\": setBlock: only in 3D passes"},
     {"p:read(g:field(\"f\", \"int\"))", "field: not inside of a pass"},
@@ -44,8 +44,8 @@ constexpr Mistake kMistakes[] = {
     {"g:pass2D(\"x\", function() end)", "pass2D: not inside of a pass"},
     {"local v = p:var(1) v.value = 1.5", "expected Int, got number 1.5"},
     {"local v = p:var(1) local w = v + 1", "this is a variable: its value is v.value"},
-    {"local v = p:var(1) v.x = 1", "a variable has nothing but its value: v.value"},
-    {"local v = p:var(vec2(1, 2))", "var: a variable holds no Vec2: make one of each component"},
+    {"local v = p:var(1) v.x = 1", "a variable has only its value: v.value"},
+    {"local v = p:var(vec2(1, 2))", "var: a variable cannot hold a Vec2: make one for each component"},
     {"p.x.value = 1", "Int cannot be changed"},
     {"p:if_(p.x, function() end)", "if_: argument 1: expected Bool, got Int"},
     {"p:if_(p.x:lt(0), 3)", "if_: argument 2: expected a function, got number 3"},
@@ -108,9 +108,9 @@ TEST(ScriptErrors, ValuesOfOtherPassesAreRefused) {
         return mistakeOf(text);
     };
     EXPECT_EQ(mistake("p.x", "local y = kept + 1"),
-              "test.lua:4: this Int belongs to another pass: hand it on in a field");
+              "test.lua:4: this Int belongs to another pass: pass it on in a field");
     EXPECT_EQ(mistake("p.x", "p:setBlock(select(kept:lt(p.x), \"stone\", \"air\"))"),
-              "test.lua:4: this Int belongs to another pass: hand it on in a field");
+              "test.lua:4: this Int belongs to another pass: pass it on in a field");
     EXPECT_EQ(mistake("p:var(1)", "kept.value = 2"), "test.lua:4: this variable belongs to another pass");
     EXPECT_EQ(mistake("p", "kept:setBlock(\"stone\")"),
               "test.lua:4: setBlock: this pass is not the one that is being written");

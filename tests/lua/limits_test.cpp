@@ -67,7 +67,7 @@ TEST(Limits, OfWorkCountTheHeightsOfDrainageMaps) {
                                      rounds));
     };
     EXPECT_EQ(mistake(1'000), "");
-    EXPECT_NE(mistake(2'500).find("operations a voxel"), std::string::npos) << mistake(2'500);
+    EXPECT_NE(mistake(2'500).find("operations per voxel"), std::string::npos) << mistake(2'500);
 }
 
 TEST(Limits, OfWorkCountTheRunsOfStampedShapes) {
@@ -78,7 +78,7 @@ TEST(Limits, OfWorkCountTheRunsOfStampedShapes) {
         g:pass3D("ground", function(p) p:setBlock(p:stamp(shape, base)) end))");
     ASSERT_TRUE(graph) << graph.error().message;
     EXPECT_EQ(unboundedWork(*graph), "");
-    // 48² · runs / 65,536 operations a voxel.
+    // 48² · runs / 65,536 operations per voxel.
     const auto workWith = [&](std::uint32_t runs) {
         gen::ShapeTable table = *graph->shapes;
         table.shapes[0].firstRun.back() = runs;
@@ -99,7 +99,7 @@ TEST(Limits, OfWorkAreSeenBeforeMistakesOfCompiling) {
             end) end) end)
             p:setBlock(select(v.value:gt(0), "stone", "air"))
         end))");
-    EXPECT_EQ(mistake, "test.lua: pass \"nested\": more than 2 loops within each other");
+    EXPECT_EQ(mistake, "test.lua: pass \"nested\": more than 2 nested loops");
 }
 
 TEST(Limits, ShapesHaveAFoot) {

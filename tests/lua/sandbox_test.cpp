@@ -54,7 +54,7 @@ TEST(Sandbox, ShowsNoAddresses) {
     EXPECT_EQ(said("error(tostring({}) .. tostring(print) .. tostring(g) .. tostring(vec2(1, 2)))"),
               "tablefunctionGeneratorVec2");
     EXPECT_EQ(said("error(string.format(\"%s\", {}))"), "format: argument 2: table has no text");
-    EXPECT_EQ(said("error(string.format(\"%5p\", 1))"), "format: %p is not there");
+    EXPECT_EQ(said("error(string.format(\"%5p\", 1))"), "format: %p is not supported");
     EXPECT_EQ(said("error(string.format(\"%d%%p %s\", 3, true))"), "3%p true");
 }
 
@@ -103,7 +103,7 @@ TEST(Sandbox, NaNHasOneName) {
 TEST(Sandbox, ErrorsMayBeNumbers) {
     EXPECT_EQ(said("error(5)"), "5");
     EXPECT_EQ(said("error(2.5)"), "2.5");
-    EXPECT_EQ(said("error({})"), "error: its message is no text");
+    EXPECT_EQ(said("error({})"), "error: its message is not a text");
 }
 
 // Lua's length of such a list depends on a hash seed.

@@ -22,7 +22,7 @@ TEST_F(HostileConsole, PlayersGiveNoCommands) {
     std::size_t told = 0;
     for (const ServerMessage& message : bob->take()) {
         const auto* said = std::get_if<Said>(&message);
-        told += said && said->text == "only operators give commands";
+        told += said && said->text == "only operators can give commands";
     }
     EXPECT_EQ(told, 6u);
     EXPECT_FALSE(server_->state().isStopping);

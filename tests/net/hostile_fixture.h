@@ -40,7 +40,7 @@ class HostileTest : public testing::Test {
     }
     void TearDown() override {
         if (!server_) return;
-        // Long enough to avoid the answer "you talk too fast".
+        // Long enough to avoid the answer "you chat too fast".
         for (int k = 0; k < 20; ++k) {
             ann_->say(Pong{0});
             server_->tick();

@@ -97,7 +97,7 @@ TEST_F(HostileTestOfPlay, WhoTalksTooFastIsToldAndStays) {
     EXPECT_LE(heard, 8u);
     EXPECT_TRUE(plays(*bob));
     const auto answers = bob->take();
-    EXPECT_EQ(std::get<Said>(answers.back()).text, "you talk too fast");
+    EXPECT_EQ(std::get<Said>(answers.back()).text, "you chat too fast");
 }
 
 // ——— moves and views

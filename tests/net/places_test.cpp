@@ -42,12 +42,12 @@ TEST_F(MarkedPlaces, APlayerNamesWhereItStands) {
     const auto at = poseOf(server_.state().clients.begin()->second.pose).position;
     EXPECT_EQ(places()[0].pose.position, at);
     EXPECT_EQ(answer(ann_, "/mark   "), "a place needs a name: mark NAME");
-    EXPECT_EQ(answer(ann_, "/mark"), "only operators give commands");
+    EXPECT_EQ(answer(ann_, "/mark"), "only operators can give commands");
 }
 
 TEST_F(MarkedPlaces, OperatorsAloneMoveThem) {
     EXPECT_EQ(run("mark 10 -20.5 80 The mill"), "The mill is marked");
-    EXPECT_EQ(answer(ann_, "/mark The mill"), "there is a place The mill: operators alone move it");
+    EXPECT_EQ(answer(ann_, "/mark The mill"), "there is a place The mill: only operators can move it");
     EXPECT_EQ(places()[0].pose.position, glm::dvec3(10, -20.5, 80));
     (void)run("op Ann");
     (void)ann_.take();
@@ -59,7 +59,7 @@ TEST_F(MarkedPlaces, OperatorsAloneMoveThem) {
 TEST_F(MarkedPlaces, GuestsMarkNothing) {
     (void)run("guest Ann");
     (void)ann_.take();
-    EXPECT_EQ(answer(ann_, "/mark here"), "guests mark no places");
+    EXPECT_EQ(answer(ann_, "/mark here"), "guests cannot mark places");
     EXPECT_TRUE(places().empty());
 }
 
@@ -78,7 +78,7 @@ TEST_F(MarkedPlaces, OddPlacesAreRefused) {
         EXPECT_FALSE(run(line).ends_with("is marked")) << line;
     EXPECT_TRUE(places().empty());
     for (std::size_t k = 0; k < game::kMaxPlaces; ++k) (void)run(fmt::format("mark 0 0 70 {}", k));
-    EXPECT_EQ(run("mark 0 0 70 one more"), "200 places have names already, no more can: unmark removes one");
+    EXPECT_EQ(run("mark 0 0 70 one more"), "there are 200 named places, the maximum: remove one with unmark");
     EXPECT_EQ(run("mark 5 0 70 7"), "7 is marked") << "it moves";
 }
 

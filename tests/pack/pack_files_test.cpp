@@ -91,7 +91,8 @@ TEST_F(PackFilesTest, WhatIsNoPackIsSaid) {
     fs::create_directories(folder_ / "empty");
     EXPECT_THAT(readPack(folder_ / "empty").error().message, HasSubstr("there is no pack.toml"));
     ASSERT_TRUE(base::writeFile(folder_ / "text.zip", "no zip at all"));
-    EXPECT_THAT(readPack(folder_ / "text.zip").error().message, HasSubstr("no zip file of a content pack"));
+    EXPECT_THAT(readPack(folder_ / "text.zip").error().message,
+                HasSubstr("not a zip file of a content pack"));
     EXPECT_FALSE(readPack(folder_ / "nowhere"));
 }
 

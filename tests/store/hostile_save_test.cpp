@@ -57,7 +57,7 @@ TEST_F(HostileSaveTest, AViewInPlaceOfATable) {
                "DROP TABLE " + name + "; CREATE VIEW " + name +
                    " AS WITH RECURSIVE n(key) AS (SELECT 1 UNION ALL SELECT key + 1 FROM n) "
                    "SELECT key, key AS id, 'x' AS name, 'y' AS value, 0 AS origin, x'' AS data FROM n");
-        expectRefused("it has the view \"" + name + "\", which no save has");
+        expectRefused("it has the view \"" + name + "\", which does not belong in a save");
         std::filesystem::remove(path_);
     }
 }
@@ -104,7 +104,7 @@ TEST_F(HostileSaveTest, OtherColumns) {
     for (const auto& [name, columns] : cases) {
         // Without the index of `blocks`, which would be reported as missing first.
         runSql(path_, "DROP TABLE " + name + "; CREATE TABLE " + name + " (" + columns + ")");
-        expectRefused("the table \"" + name + "\" is not as it is in a save");
+        expectRefused("the table \"" + name + "\" is not that of a save");
         std::filesystem::remove(path_);
         SetUp();
     }
@@ -114,7 +114,7 @@ TEST_F(HostileSaveTest, TwoTablesOnOnePage) {
     rewriteSchema(
         "UPDATE sqlite_schema SET rootpage = (SELECT rootpage FROM sqlite_schema WHERE name = 'chunks') "
         "WHERE name = 'quarantine'");
-    expectRefused("the table \"quarantine\" is not as it is in a save");
+    expectRefused("the table \"quarantine\" is not that of a save");
 }
 
 TEST_F(HostileSaveTest, TheSameTablesInOtherWords) {
@@ -159,7 +159,7 @@ TEST_F(HostileSaveTest, RowsOfOtherTypes) {
     const CheckReport report = check();
     ASSERT_EQ(report.damaged.size(), 3u);
     EXPECT_EQ(report.damaged[0].problem, "its origin is \"abc\", expected 0 or 1");
-    EXPECT_EQ(report.damaged[1].problem, "its data is no blob");
+    EXPECT_EQ(report.damaged[1].problem, "its data is not a blob");
     EXPECT_EQ(report.damaged[2].problem, "its origin is \"7\", expected 0 or 1");
     {
         const auto store = SqliteStore::open(path_, registry_, {});
@@ -193,7 +193,7 @@ TEST_F(HostileSaveTest, NullInARow) {
 
 TEST_F(HostileSaveTest, NamesAndSettings) {
     const std::pair<std::string, std::string> cases[] = {
-        {"UPDATE settings SET value = x'00' WHERE name = 'seed'", "the setting seed is no text"},
+        {"UPDATE settings SET value = x'00' WHERE name = 'seed'", "the setting seed is not a text"},
         {"UPDATE blocks SET name = x'00' WHERE id = 1", "the name"},
         {"UPDATE blocks SET name = hex(zeroblob(600)) WHERE id = 1", "the name 0000"},
         {"UPDATE blocks SET id = 65536 WHERE id = 1", "the block stone has the id 65536"},

@@ -130,7 +130,7 @@ TEST_F(SaveFileTest, ReadingUndoesNothing) {
     journal.resize(512);
     writeAll(path_.string() + "-journal", journal);
     const std::string before = readAll(path_);
-    EXPECT_THAT(errorOfReading(), HasSubstr("cut short"));
+    EXPECT_THAT(errorOfReading(), HasSubstr("interrupted"));
     EXPECT_EQ(readAll(path_), before);
     EXPECT_EQ(readAll(path_.string() + "-journal"), journal);
     EXPECT_EQ(errorOfWriting(kMustBeThere), "");
@@ -205,7 +205,7 @@ TEST_F(SaveFileTest, AMakingThatWasCutShortIsUndone) {
     journal.resize(512);
     writeAll(path_.string() + "-journal", journal);
     writeAll(path_, std::string(8192, '\0'));
-    EXPECT_THAT(errorOfReading(), HasSubstr("cut short"));
+    EXPECT_THAT(errorOfReading(), HasSubstr("interrupted"));
     EXPECT_EQ(errorOfWriting(), "");
     EXPECT_EQ(errorOfReading(), "");
 }
@@ -401,7 +401,7 @@ TEST_F(SaveFileTest, ChunksWithEditsStayWhereTheOthersAreMadeAnew) {
     path_ = folder_ / "a.backup-1.sqlite";
     auto copy = SqliteStore::open(path_, registry_, kMustBeThere);
     ASSERT_TRUE(copy) << copy.error().message;
-    EXPECT_EQ(*(*copy)->load({2, 1}).chunk, *numberedChunk(2)) << "the world as it was";
+    EXPECT_EQ(*(*copy)->load({2, 1}).chunk, *numberedChunk(2)) << "the old world";
     EXPECT_EQ((*copy)->identity(), kIdentity);
 }
 

@@ -197,7 +197,7 @@ TEST(SaveQueue, WhatTheLastAttemptLosesIsNamed) {
                   queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
                   queue.add(DamagedRow{{1, 1}, 0, "cut off"});
               }),
-              "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows put aside\n");
+              "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows in quarantine\n");
     EXPECT_EQ(lastWords([](SaveQueue& queue) {
                   queue.add("time", "0.5");
                   EXPECT_FALSE(queue.flush());

@@ -63,9 +63,9 @@ TEST_F(MigrationTest, ACopyThatFailsLeavesNothing) {
 }
 
 TEST_F(MigrationTest, FormatsWithoutAWayOn) {
-    EXPECT_THAT(migrateTo(6).error().message, HasSubstr("in format 4, which is unknown"));
+    EXPECT_THAT(migrateTo(6).error().message, HasSubstr("unknown format 4"));
     runSql(path_, "PRAGMA user_version = 0");
-    EXPECT_THAT(migrateTo(2).error().message, HasSubstr("in format 0, which is unknown"));
+    EXPECT_THAT(migrateTo(2).error().message, HasSubstr("unknown format 0"));
     EXPECT_FALSE(std::filesystem::exists(backup_)) << "nothing is copied where there is no way";
 }
 

@@ -124,7 +124,7 @@ TEST(StructureFile, EveryTruncationOfTheContentIsAnError) {
 }
 
 TEST(StructureFile, SaysWhatIsWrong) {
-    EXPECT_THAT(fileError({}), HasSubstr("no structure"));
+    EXPECT_THAT(fileError({}), HasSubstr("not a structure"));
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 2)), HasSubstr("version 2"));
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 1, 1u << 30)), HasSubstr("1073741824"));
     EXPECT_THAT(fileError(framed(content(0, 1, 1, 1))), HasSubstr("0 × 1 × 1"));
@@ -133,7 +133,7 @@ TEST(StructureFile, SaysWhatIsWrong) {
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 2))), HasSubstr("2 entries"));
     Bytes named = content(1, 1, 1, 1);
     appendBlock(named, "a\nb");
-    EXPECT_THAT(fileError(framed(named)), HasSubstr("no name of a block"));
+    EXPECT_THAT(fileError(framed(named)), HasSubstr("not a name of a block"));
     Bytes beyond = content(1, 1, 1, 1);
     appendBlock(beyond, "stone");
     appendNumber(beyond, std::uint8_t{1});
@@ -173,7 +173,7 @@ TEST(StructureFile, LiesInAFolder) {
     EXPECT_TRUE(*readStructure(*structurePath(place, "tower")) == structure);
     const auto bad = readStructure(*structurePath(place, "bad"));
     ASSERT_FALSE(bad);
-    EXPECT_THAT(bad.error().message, HasSubstr("bad.structure: it is no structure"));
+    EXPECT_THAT(bad.error().message, HasSubstr("bad.structure: it is not a structure"));
     EXPECT_FALSE(readStructure(*structurePath(place, "absent")));
     for (const char* name : {"", "../x", "a/b", ".hidden", "a\nb"}) EXPECT_FALSE(structurePath(place, name));
 }

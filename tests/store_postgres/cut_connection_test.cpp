@@ -103,8 +103,7 @@ TEST_F(CutConnectionTest, AnotherProgramTookTheWorld) {
     EXPECT_EQ(query("SELECT count(*) FROM chunks"), "1");
     EXPECT_EQ(*second->load({0, 0}).chunk, *store::numberedChunk(2));
     second.reset();
-    expectError(errorOf(first->flush()), base::ErrorCode::Incompatible, address_.shown,
-                "had the world for itself");
+    expectError(errorOf(first->flush()), base::ErrorCode::Incompatible, address_.shown, "wrote the world");
     first.reset();
     EXPECT_EQ(query("SELECT count(*) FROM chunks"), "1");
     EXPECT_EQ(*open()->load({0, 0}).chunk, *store::numberedChunk(2));

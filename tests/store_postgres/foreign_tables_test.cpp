@@ -36,9 +36,9 @@ class ForeignTablesTest : public PostgresWorldTest {
 
 TEST_F(ForeignTablesTest, TablesOfAnotherProgram) {
     sql("CREATE SCHEMA " + schema_ + "; CREATE TABLE chunks (key bigint); INSERT INTO chunks VALUES (5)");
-    expectRefused(ErrorCode::Incompatible, "the schema holds tables of another program, no world");
+    expectRefused(ErrorCode::Incompatible, "the schema holds tables of another program, not a world");
     sql("DROP TABLE chunks; CREATE VIEW terrane_format AS SELECT 1 AS format");
-    expectRefused(ErrorCode::Incompatible, "the schema holds tables of another program, no world");
+    expectRefused(ErrorCode::Incompatible, "the schema holds tables of another program, not a world");
     EXPECT_EQ(tables(), "");
 }
 
@@ -85,9 +85,9 @@ TEST_F(ForeignTablesTest, BlockNames) {
         ErrorCode::Damaged, "the block far has the id 70000");
     expectDamage(
         "ALTER TABLE blocks DROP CONSTRAINT blocks_name_key; INSERT INTO blocks VALUES (99, 'stone')",
-        ErrorCode::Damaged, "the block stone is there twice");
+        ErrorCode::Damaged, "the block stone occurs twice");
     expectDamage("ALTER TABLE blocks DROP CONSTRAINT blocks_pkey; INSERT INTO blocks VALUES (1, 'other')",
-                 ErrorCode::Damaged, "is there twice");
+                 ErrorCode::Damaged, "occurs twice");
 }
 
 TEST_F(ForeignTablesTest, AnOlderFormatIsMigratedWhereItIsWritten) {
@@ -99,7 +99,7 @@ TEST_F(ForeignTablesTest, AnOlderFormatIsMigratedWhereItIsWritten) {
     sql("INSERT INTO settings VALUES ('seed', '7'), ('generator', 'flat'), ('generator_version', '3'), "
         "('player', '1,2')");
     expectError(errorOf(openReader(address_, registry_)), ErrorCode::Incompatible, address_.shown,
-                "it is brought to format");
+                "it is migrated to format");
     EXPECT_EQ(query("SELECT format FROM terrane_format"), std::to_string(former.size()));
     const auto store = tryOpen(kWorldMustBeThere);
     ASSERT_TRUE(store) << store.error().message;

@@ -142,7 +142,7 @@ TEST_F(NamesTest, MetadataThatIsNoTextIsLeftOut) {
         const auto flushed = store->flush();
         const std::string log = testing::internal::GetCapturedStderr();
         ASSERT_TRUE(flushed) << flushed.error().message;
-        EXPECT_THAT(log, HasSubstr("the setting value is no text in UTF-8, and is not saved"));
+        EXPECT_THAT(log, HasSubstr("the setting value is not a text in UTF-8, and is not saved"));
         EXPECT_EQ(std::ranges::count(log, '\n'), 2) << log;
         EXPECT_EQ(log.find('\xff'), std::string::npos);
         EXPECT_EQ(query("SELECT count(*) FROM settings"), "4") << "the world's three, and player";

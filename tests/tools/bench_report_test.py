@@ -149,16 +149,16 @@ class BadInput(ReportTest):
         for line in ("text", "7", "{}", "", '{"cell":7,"result":{}}', '{"cell":[7],"result":{}}', '{"cell":["a"]}',
                      '{"cell":["a"],"result":7}', '{"cell":["a"],"result":{"b":NaN}}', 5000 * "["):
             self.write([*self.lines[:4], line + "\n", *self.lines[4:]])
-            self.assertRefused(f"bench_report: {self.folder}/results.jsonl:5: no result of terrane bench\n")
+            self.assertRefused(f"bench_report: {self.folder}/results.jsonl:5: not a result of terrane bench\n")
 
     def test_a_line_that_is_no_utf_8(self):
         (self.folder / "results.jsonl").write_bytes(self.lines[0].encode() + b'{"cell": ["\xff"], "result": {}}\n')
-        self.assertRefused("results.jsonl:2: no result of terrane bench")
+        self.assertRefused("results.jsonl:2: not a result of terrane bench")
 
     def test_other_files(self):
         for content in ("", "text", "text\n", "7\n", "{}\n", '{"settings": 7}\n'):
             self.write([content])
-            self.assertRefused("results.jsonl:1: no results of terrane bench")
+            self.assertRefused("results.jsonl:1: not results of terrane bench")
         self.write(['{"settings": {"quick": true}}\n'])
         self.assertRefused("without the settings of terrane bench")
 

@@ -18,7 +18,7 @@ except ModuleNotFoundError as missing:
 
 # As terrane flight-bench writes it.
 FLIGHT = """\
-time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_processor_ms,upload_processor_ms,uploads,visible_chunks,\
+time_s,frame_ms,follow_ms,upload_ms,draw_ms,follow_cpu_ms,upload_cpu_ms,uploads,visible_chunks,\
 chunks_in_view,queued_chunks
 0.0000,20.000,1.000,2.000,15.000,0.500,1.500,3,9,25,0
 0.0200,90.000,1.000,60.000,15.000,0.500,59.500,3,9,25,0

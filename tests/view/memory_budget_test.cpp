@@ -55,7 +55,7 @@ TEST(FittingViewDistance, EachStepIsShorterUntilTheLeast) {
 
 TEST(ShortViewNotice, TellsBothDistancesAndTheOption) {
     EXPECT_EQ(shortViewNotice(16, 6, 24 * kMebibyte),
-              "view distance 6 in place of 16: 24 MiB of GPU memory hold no more (--gpu-memory)");
+              "view distance 6 instead of 16: 24 MiB of GPU memory hold no more (--gpu-memory)");
 }
 
 }  // namespace

@@ -47,13 +47,13 @@ def read_results(path):
         raise BadInput(f"{path}: cannot be read: {error.strerror}") from error
     about = parse(lines[0]) if lines else None
     if not isinstance(about, dict) or not isinstance(about.get("settings"), dict):
-        raise BadInput(f"{path}:1: no results of terrane bench")
+        raise BadInput(f"{path}:1: not results of terrane bench")
     runs, arrays, failures = [], {}, {}
     for number, line in enumerate(lines[1:], 2):
         try:
             take_run(parse(line), runs, arrays, failures)
         except (ValueError, KeyError, TypeError) as error:
-            raise BadInput(f"{path}:{number}: no result of terrane bench") from error
+            raise BadInput(f"{path}:{number}: not a result of terrane bench") from error
     frame = pandas.DataFrame(runs, columns=None if runs else ["cell"])
     return Results(about["settings"], frame, arrays, failures)
 

@@ -27,7 +27,7 @@ std::string difference(const json& there, const json& here) {
 base::Result<ResultFile> ResultFile::create(const fs::path& path, const json& settings) {
     std::error_code ignored;
     if (fs::exists(path, ignored)) {
-        return base::fail("{}: is there already; --resume goes on with it, or name another folder",
+        return base::fail("{}: exists already; continue it with --resume, or name another folder",
                           path.string());
     }
     ResultFile file(path);
@@ -46,15 +46,15 @@ base::Result<ResultFile> ResultFile::resume(const fs::path& path, const json& se
         const json value = json::parse(line, nullptr, false);
         if (number == 1) {
             if (!value.is_object() || !value.contains(kSettings))
-                return base::fail("{}:1: no results of terrane bench", path.string());
+                return base::fail("{}:1: not results of terrane bench", path.string());
             if (value[kSettings] != settings)
                 return base::fail("{}: results of other settings: {}", path.string(),
                                   difference(value[kSettings], settings));
         } else if (!file.takeLine(value)) {
-            return base::fail("{}:{}: no result of terrane bench", path.string(), number);
+            return base::fail("{}:{}: not a result of terrane bench", path.string(), number);
         }
     }
-    if (whole == 0) return base::fail("{}:1: no results of terrane bench", path.string());
+    if (whole == 0) return base::fail("{}:1: not results of terrane bench", path.string());
     std::error_code error;
     if (whole < text->size()) fs::resize_file(path, whole, error);
     if (error) return base::fail("{}: cannot be written: {}", path.string(), error.message());

@@ -48,7 +48,7 @@ base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
     auto end = base::runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
     if (!end) return tl::unexpected(end.error());
     json info = json::parse(end->output, nullptr, false);
-    if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json does not work");
+    if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json failed");
     if (info["graphics"].contains("error"))
         return base::fail("{}", info["graphics"]["error"].get<std::string>());
     return info;
@@ -207,9 +207,7 @@ CommandEntry addBench(CLI::App& app) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command =
         app.add_subcommand("bench", "Measure, for the tables that tools/bench_report.py makes");
-    command
-        ->add_option("-o,--output", options->output,
-                     "The folder for results.jsonl, made where it is not there")
+    command->add_option("-o,--output", options->output, "Folder for results.jsonl; created if needed")
         ->type_name("DIR");
     const auto isTable = [](const std::string& text) -> std::string {
         const std::vector<std::string> names = tableNames();
@@ -223,7 +221,7 @@ CommandEntry addBench(CLI::App& app) {
         ->type_name("TABLE");
     command->add_flag("--quick", options->isQuick,
                       "Less of everything: some minutes without a graphics card");
-    command->add_flag("--resume", options->resumes, "Go on with the results that are in the folder");
+    command->add_flag("--resume", options->resumes, "Continue with the results in the folder");
     command->add_flag("--list", options->lists,
                       "Print settings and command lines as JSON lines, measure nothing");
     addSettings(*command, *options);

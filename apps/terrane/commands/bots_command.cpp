@@ -155,7 +155,7 @@ CommandEntry addBots(CLI::App& app) {
     CLI::App* command = app.add_subcommand("bots", "Run simulated players that walk and build on a server");
     command
         ->add_option("--connect", options->servers,
-                     "The server; said again, bots take turns among servers of one world")
+                     "The server; repeated, bots are spread over servers of one world")
         ->type_name("HOST[:PORT]")
         ->required();
     command->add_option("--count", options->count, "Number of bots")
@@ -195,7 +195,7 @@ CommandEntry addBots(CLI::App& app) {
     command
         ->add_option("--acknowledged", options->acknowledged,
                      "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "
-                     "NAME is ? where a newer edit is not decided")
+                     "NAME is ? if a newer edit is not decided")
         ->type_name("FILE");
     return {command, [options] { return runBots(*options); }};
 }

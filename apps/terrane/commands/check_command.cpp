@@ -43,8 +43,7 @@ nlohmann::json toJson(const store::CheckReport& report) {
 
 void printText(const std::string& file, const store::CheckReport& report) {
     if (!report.inUse.empty())
-        base::printLine("{}: looked at as it was at one moment, without its log; nothing is changed",
-                        report.inUse);
+        base::printLine("{}: read as of one moment, without its log; nothing is changed", report.inUse);
     if (report.format > 0) {
         base::printLine("{}: format {}, generator {} version {}, seed {}", file, report.format,
                         report.identity.generator, report.identity.generatorVersion, report.identity.seed);
@@ -52,8 +51,7 @@ void printText(const std::string& file, const store::CheckReport& report) {
                         report.chunks, report.editedChunks, report.tiles, report.chunkBytes,
                         report.fileBytes);
     }
-    if (report.quarantined > 0)
-        base::printLine("{} damaged chunks were put aside before", report.quarantined);
+    if (report.quarantined > 0) base::printLine("{} damaged chunks are in quarantine", report.quarantined);
     for (const std::string& name : report.unknownBlocks) base::printLine("unknown block: {}", name);
     for (const std::string& problem : report.fileProblems) base::printLine("damage: {}", problem);
     for (const store::DamagedChunk& chunk : report.damaged)

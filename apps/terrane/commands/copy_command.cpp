@@ -95,10 +95,10 @@ base::Result<void> copy(CopyOptions& options) {
 
 CommandEntry addCopy(CLI::App& app) {
     auto options = std::make_shared<CopyOptions>();
-    CLI::App* command = app.add_subcommand(
-        "copy", "Copy a world to another place; exit code 1 where damaged chunks were left out");
+    CLI::App* command =
+        app.add_subcommand("copy", "Copy a world; exit code 1 if damaged chunks were left out");
     addWorldArgument(*command, "from", options->from, "The world");
-    addWorldArgument(*command, "to", options->to, "Where no world is yet, or a copy that was not finished");
+    addWorldArgument(*command, "to", options->to, "A new world, or an unfinished copy");
     command->add_flag("--json", options->json, "Print the result as JSON");
     return {command, [options] { return copy(*options); },
             [options] { return options->foundDamage ? 1 : 0; }};

@@ -47,8 +47,8 @@ void report(const view::FlightLog& log) {
         view::framesInFlight(log).size(), p.x, p.y, p.z, statistics.median, statistics.longest,
         statistics.maxLoading);
     base::logInfo(
-        "{} frames over twice the median; without the time in loading {} would not be, without its CPU "
-        "time {}",
+        "{} frames over twice the median; {} of them because of the time in loading, {} because of its CPU "
+        "time",
         statistics.slow, statistics.slowByLoadingTime, statistics.slowByLoadingCpu);
 }
 

@@ -123,7 +123,7 @@ std::string described(const gen::PassReport& report, const std::string& name) {
         if (layers[way] > 0) parts.push_back(fmt::format("{} {}", layers[way], words));
     };
     add(Way::Filled, "filled");
-    add(Way::Copied, "copied from the pass before");
+    add(Way::Copied, "copied from the previous pass");
     add(Way::Repeated, "like the layer below");
     if (const int count = layers[Way::Short]) {
         const double mean = static_cast<double>(instructions) / count;
@@ -168,7 +168,7 @@ void report(const GenerateOptions& options, const Generated& result, double seco
     const double speed = static_cast<double>(result.chunks) / seconds;
     const unsigned threads = threadCount(options.world);
     if (result.skipped > 0)
-        base::logInfo("{}: {} chunks were there already",
+        base::logInfo("{}: {} chunks existed already",
                       store_postgres::shownOf(store::worldLocation(options.save.world)), result.skipped);
     base::logInfo("{} chunks in {:.2f} s, {:.0f} chunks/s, back end {}, threads {}", result.chunks, seconds,
                   speed, backend, threads);
@@ -201,7 +201,7 @@ base::Result<void> generate(GenerateOptions& options) {
         return explain(options.world, *content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
-        return base::fail("--simd: this machine has no {}, but {}", options.simd,
+        return base::fail("--simd: this machine does not have {}, only {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
     auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *content,

@@ -105,8 +105,7 @@ CommandEntry addHistory(CLI::App& app) {
         ->type_name("X0,Y0,X1,Y1")
         ->delimiter(',')
         ->expected(4);
-    command->add_option("--minutes", options->minutes, "Only the last so many minutes")
-        ->check(numberFrom(0, 1e8));
+    command->add_option("--minutes", options->minutes, "Only the last N minutes")->check(numberFrom(0, 1e8));
     command->add_flag("--each-block", options->showsEachBlock, "Print a line for each block of an edit");
     command->add_option("--limit", options->limit, "Maximum number of edits")
         ->check(numberFrom(1, 1e9))

@@ -80,7 +80,7 @@ base::Result<void> checkOptions(const MapOptions& options, const CLI::App& comma
                              "--map-disk", "--map-memory"}) {
         const CLI::Option* option = command.get_option_no_throw(name);
         if (option && !option->empty() && !belongs(name))
-            return base::fail(base::ErrorCode::BadInput, "{} does not go with {}", name,
+            return base::fail(base::ErrorCode::BadInput, "{} cannot be used with {}", name,
                               !options.output.empty()      ? "-o"
                               : !options.site.http.empty() ? "--http"
                                                            : "--tiles");

@@ -93,7 +93,7 @@ void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
         const std::string name = pack::qualified(pack, std::filesystem::path(path).stem().string());
         if (path.starts_with("textures/") &&
             std::ranges::find(blocks.textures(), name) == blocks.textures().end())
-            base::logWarning("{}: no block has this texture", pack::placeOf(pack, path));
+            base::logWarning("{}: no block uses this texture", pack::placeOf(pack, path));
         if (!path.starts_with("languages/")) continue;
         const auto language = content::parseLanguage(data, pack::placeOf(pack, path));
         if (!language) continue;
@@ -106,7 +106,8 @@ void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
 
 // Loads each pack alone, with the packs that it requires, which finds all its errors.
 base::Result<void> checkPacks(const PacksOptions& options) {
-    if (options.names.empty()) return base::fail(base::ErrorCode::BadInput, "packs check: which pack?");
+    if (options.names.empty())
+        return base::fail(base::ErrorCode::BadInput, "packs check: expected the name of a pack");
     for (const std::string& name : options.names) {
         WorldOptions world;
         world.content = {name};
@@ -131,8 +132,8 @@ base::Result<std::filesystem::path> newFolder(const std::string& nameOrPath) {
     const std::filesystem::path path(nameOrPath);
     if (!pack::isPackName(path.filename().string()))
         return base::fail(base::ErrorCode::BadInput,
-                          "packs init: a name has 1 to {} of a-z, 0-9 and _, got \"{}\"", pack::kMaxPackName,
-                          base::printable(path.filename().string()));
+                          "packs init: a name has 1 to {} characters of a-z, 0-9 and _, got \"{}\"",
+                          pack::kMaxPackName, base::printable(path.filename().string()));
     if (nameOrPath.find('/') != std::string::npos) return path;
     const auto folders = pack::packFolders();
     if (folders.empty())
@@ -142,7 +143,8 @@ base::Result<std::filesystem::path> newFolder(const std::string& nameOrPath) {
 }
 
 base::Result<void> initPack(const PacksOptions& options) {
-    if (options.names.size() != 1) return base::fail(base::ErrorCode::BadInput, "packs init: one name");
+    if (options.names.size() != 1)
+        return base::fail(base::ErrorCode::BadInput, "packs init: expected one name");
     const auto folder = newFolder(options.names.front());
     if (!folder) return tl::unexpected(folder.error());
     if (auto made = pack::writeSkeleton(*folder); !made) return made;
@@ -170,7 +172,7 @@ base::Result<void> packs(const PacksOptions& options) {
 
 CommandEntry addPacks(CLI::App& app) {
     auto options = std::make_shared<PacksOptions>();
-    CLI::App* command = app.add_subcommand("packs", "List, check or begin content packs");
+    CLI::App* command = app.add_subcommand("packs", "List, check or create content packs");
     addChoice<PacksAction>(
         *command, "action", options->action,
         {{"list", PacksAction::List}, {"check", PacksAction::Check}, {"init", PacksAction::Init}},

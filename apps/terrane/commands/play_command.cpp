@@ -14,11 +14,10 @@ namespace {
 
 constexpr const char* kWhereSaved =
     R"(
-
-Without an option that names a world the title opens. The world, the place, the time of day, the blocks at
-hand, named places and how one moves are saved while one plays, in
-$XDG_DATA_HOME/terrane/NAME.sqlite ($HOME/.local/share/terrane where that is not set); bookmarks.txt and
-screenshots/ lie beside it. Ctrl+C in the terminal saves and quits, too.)";
+Without an option that names a world, the title opens. The program saves the world during play, with position,
+time of day, hotbar, named places and movement mode, in $XDG_DATA_HOME/terrane/NAME.sqlite
+($HOME/.local/share/terrane if that is not set); bookmarks.txt and screenshots/ are beside it. Ctrl+C in the
+terminal also saves and quits.)";
 
 base::Result<Window> openWindow(const PlayOptions& options) {
     auto window = Window::create({.title = "Terrane",
@@ -147,7 +146,7 @@ CommandEntry addPlay(CLI::App& app) {
         ->add_option("--settings", options->settingsFile,
                      "File of settings that the panel writes; \"\": none")
         ->type_name("FILE");
-    command->footer(std::string("Keys:\n") + kKeyHelp + kWhereSaved);
+    command->footer("Keys:\n" + keyHelpText() + kWhereSaved);
     command->get_option("--name")->needs("--connect");
     command->get_option("--accept-packs")->needs("--connect");
     command->get_option("--connect")

@@ -120,10 +120,10 @@ CommandEntry addRecord(CLI::App& app) {
                      "Write frames as PNG files into this folder instead")
         ->type_name("DIR")
         ->excludes("--output");
-    command->add_option("--fps", options->framesPerSecond, "Frames a second")
+    command->add_option("--fps", options->framesPerSecond, "Frames per second")
         ->check(numberFrom(1, 240))
         ->capture_default_str();
-    command->add_option("--from", options->from, "Begin at this second of the path")
+    command->add_option("--from", options->from, "Start at this second of the path")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
     command->add_option("--until", options->until, "End at this second of the path")

@@ -98,7 +98,7 @@ CommandEntry addServe(CLI::App& app) {
     command->footer(
         "Commands on standard input, for operators in the chat behind a slash:\n" + net::consoleHelp() +
         "\n\nSIGTERM saves and ends, as `stop` does. The server's file NAME.server.sqlite (players, "
-        "claims, history) and\nits key NAME.server.pem lie beside the world. Several servers may serve one "
+        "claims, history) and\nits key NAME.server.pem are beside the world. Several servers may serve one "
         "world in a database.");
     return {command, [options, command] { return serve(*options, *command); }};
 }

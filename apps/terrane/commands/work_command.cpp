@@ -60,12 +60,12 @@ void print(const WorkStatus& status) {
                     status.chunksDone, status.chunks, status.waiting, status.working, status.done,
                     status.cancelled, status.isPaused ? "; paused" : "");
     if (status.rate > 0)
-        base::printLine("{:.0f} chunks/s, about {:.0f} s are left", status.rate,
+        base::printLine("{:.0f} chunks/s, about {:.0f} s left", status.rate,
                         static_cast<double>(status.chunks - status.chunksDone) / status.rate);
     for (const store_postgres::WorkerStatus& worker : status.workers) {
         const std::string at = worker.area ? fmt::format("at chunk {},{}", worker.area->x0, worker.area->y0)
                                            : "without a square";
-        base::printLine("{}: {} chunks, {:.0f} chunks/s, {}, heard of {:.0f} s ago", worker.name,
+        base::printLine("{}: {} chunks, {:.0f} chunks/s, {}, last seen {:.0f} s ago", worker.name,
                         worker.chunks, worker.rate, at, worker.silentSeconds);
     }
 }
@@ -113,7 +113,7 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
         std::cout << line.dump() << '\n';
         return {};
     }
-    base::printLine("{} squares, {} chunks made and {} there already in {:.1f} s, {:.0f} chunks/s",
+    base::printLine("{} squares, {} chunks generated and {} already there, in {:.1f} s, {:.0f} chunks/s",
                     result->jobs, result->chunks, result->skipped, seconds, rate);
     return {};
 }

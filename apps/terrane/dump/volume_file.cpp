@@ -22,7 +22,7 @@ std::size_t blocksOver(std::int32_t first, std::int32_t end) {
 base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, const world::ChunkArea& area) {
     constexpr auto kMaxChunks = static_cast<std::int64_t>(INT64_MAX / kChunkBytes) - 1;
     if (area.chunkCount() > kMaxChunks)
-        return base::fail("--area: {} chunks are more than a file can have", area.chunkCount());
+        return base::fail("--area: {} chunks are too many for a file", area.chunkCount());
     const std::string header = base::npyHeader(
         "<u2", {blocksOver(area.x0, area.x1), blocksOver(area.y0, area.y1), world::kChunkHeight});
     auto file = base::OutputFile::create(path);

@@ -53,7 +53,8 @@ class VolumePalette {
         const std::uint32_t key = std::uint32_t{block.id} << 16 | block.state;
         const auto found = entries_.find(key);
         if (found != entries_.end()) return found->second;
-        if (blocks.size() > UINT16_MAX) return base::fail("the box has more than 65,536 blocks and states");
+        if (blocks.size() > UINT16_MAX)
+            return base::fail("the box has more than 65,536 different blocks and states");
         blocks.push_back(block);
         return entries_.emplace(key, static_cast<std::uint16_t>(blocks.size() - 1)).first->second;
     }

@@ -58,7 +58,7 @@ void logReport(const ImportReport& report) {
     base::logInfo("{} chunks with {} blocks imported; {} had edits in the world and stay as they are",
                   report.chunks, sumOf(counts.blocks), report.skipped);
     if (report.unfinished > 0)
-        base::logInfo("{} of the chunks were not generated to their end in the source", report.unfinished);
+        base::logInfo("{} of the chunks are not completely generated in the source", report.unfinished);
     if (report.damageCount > 0) base::logWarning("{} chunks or files could not be read", report.damageCount);
     if (!counts.unknown.empty())
         base::logWarning("{} blocks are unknown and became \"missing\": {}", sumOf(counts.unknown),

@@ -87,7 +87,7 @@ class MinecraftImporter {
         std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
         for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
             if (signals.stopAsked())
-                return base::fail("stopped after {} chunks; the same command goes on", report_.chunks);
+                return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
             const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
             if (auto done = importBatch(region, *bytes, part); !done) return done;
             progress(static_cast<std::size_t>(part.back()) + 1);
@@ -137,15 +137,14 @@ class MinecraftImporter {
         if (!chunk) return problem(chunk.error());
         const auto [x, z] = chunkOfRegion(region.pos, number);
         if (chunk->x != x || chunk->z != z)
-            return problem(
-                {base::ErrorCode::Damaged, fmt::format("says that it is chunk {},{} of the world, and lies "
-                                                       "where {},{} belongs",
-                                                       chunk->x, chunk->z, x, z)});
+            return problem({base::ErrorCode::Damaged,
+                            fmt::format("claims to be chunk {},{} of the world, but is stored as {},{}",
+                                        chunk->x, chunk->z, x, z)});
         if (x < world::kMinChunk || x > world::kMaxChunk || z < world::kMinChunk || z > world::kMaxChunk)
-            return problem({base::ErrorCode::BadInput, "lies outside the world"});
+            return problem({base::ErrorCode::BadInput, "is outside the world"});
         result.pos = world::offsetBy(formats::chunkPosOf(*chunk), by_.x, by_.y);
         if (!world::isInWorld(result.pos))
-            return problem({base::ErrorCode::BadInput, "lies outside the world"});
+            return problem({base::ErrorCode::BadInput, "is outside the world"});
         result.isThere = edited_.contains(result.pos);
         if (result.isThere || chunk->sections.empty()) return result;
         result.isFinished = chunk->isFinished;

@@ -118,7 +118,7 @@ base::Result<formats::BlockVolume> readSource(const ImportOptions& options, cons
 
 base::Result<void> importStructure(const ImportOptions& options, VolumeReader reader, ImportReport& report) {
     if (!options.save.world.empty() || !options.at.empty())
-        return base::fail(base::ErrorCode::BadInput, "-o does not go with --world and --at");
+        return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
     const auto content = loadImportContent(options);
     if (!content) return tl::unexpected(content.error());
     const auto volume = readSource(options, *content, reader, report.counts);

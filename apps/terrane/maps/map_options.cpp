@@ -67,7 +67,7 @@ void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
         ->type_name("DIR");
     command
         .add_option("--max-zoom", options.maxZoom,
-                    "The finest images of --tiles: 2 has 4 pixels a block, -1 two blocks a pixel")
+                    "The finest images of --tiles: 2 has 4 pixels per block, -1 two blocks per pixel")
         ->check(numberFrom(map::kMinZoom, map::kMaxZoom))
         ->capture_default_str();
     command

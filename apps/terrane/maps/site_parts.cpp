@@ -62,7 +62,7 @@ std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& fil
     if (megabytes == 0) return nullptr;
     auto cache = map::SurfaceCache::open(file, origin, std::int64_t{megabytes} * 1'000'000);
     if (cache) return std::move(*cache);
-    base::logWarning("{}; the map keeps nothing on the disk", cache.error().message);
+    base::logWarning("{}; the map keeps nothing on disk", cache.error().message);
     return nullptr;
 }
 

@@ -45,7 +45,7 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
             folder.string());
     }
     if (!fs::is_empty(folder, error))
-        return base::fail(base::ErrorCode::BadInput, "{}: has other files, and no map of Terrane",
+        return base::fail(base::ErrorCode::BadInput, "{}: contains other files, not a map of Terrane",
                           folder.string());
     return base::writeFile(file, origin + "\n");
 }
@@ -79,8 +79,9 @@ base::Result<std::vector<Layer>> layersOf(const std::vector<std::string>& names,
     const bool hasBase = std::ranges::any_of(
         layers, [](Layer layer) { return layer != Layer::Height && layer != Layer::Biome; });
     if (!hasBase)
-        return base::fail(base::ErrorCode::BadInput,
-                          "--layers: height and biome lie over day, night or isometric: name one of these");
+        return base::fail(
+            base::ErrorCode::BadInput,
+            "--layers: height and biome are drawn over day, night or isometric: name one of these");
     return layers;
 }
 
@@ -183,7 +184,7 @@ base::Result<void> writeStaticMap(WorldOptions& worldOptions, const SaveOptions&
     const auto isDone = writeTiles(tiles, writer, jobs);
     if (!isDone) return tl::unexpected(isDone.error());
     base::logInfo("{}: {} of {} images written{}", options.folder, writer.written(), tiles.size(),
-                  *isDone ? "; open index.html" : " before it was stopped: the same command goes on");
+                  *isDone ? "; open index.html" : " before it was stopped: the same command continues");
     return {};
 }
 

@@ -51,7 +51,7 @@ std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::
             click = {slot, takes, ImGui::GetIO().KeyShift};
         ImGui::PopID();
     }
-    ImGui::TextUnformatted(tr("left: put in   right: take out   Shift: a stack   Esc: close"));
+    ImGui::TextUnformatted(tr("left: put in   right: take out   Shift: whole stack   Esc: close"));
     ImGui::End();
     return click;
 }

@@ -44,7 +44,7 @@ void liftFromBelow(GameState& game) {
     const auto lifted = game::backOnSurface(session.world(), session.blocks(), game.player.pose());
     if (!lifted) return;
     game.player.placeAt(*lifted, movement);
-    game.notices.say(game.tr("you were below the world, and are back on the ground"));
+    game.notices.say(game.tr("you fell out of the world and are back on the ground"));
 }
 
 void exchangeWithServer(GameState& game) {
@@ -91,7 +91,7 @@ void applyGraphics(GameState& game) {
 void applyResourcePack(GameState& game) {
     const auto changed = useResourcePack(game.parts, game.settings.resourcePack);
     if (!changed) game.settings.resourcePack = game.applied.resourcePack;
-    game.notices.say(changed ? game.tr("textures are loaded") : changed.error().message);
+    game.notices.say(changed ? game.tr("textures loaded") : changed.error().message);
 }
 
 // Applies settings that changed since the last frame, except render options, which configureRenderer()

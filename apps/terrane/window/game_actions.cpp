@@ -16,9 +16,9 @@ namespace {
 constexpr double kDayStep = 0.01;  // of a day, per press
 
 // Indexed by game::Movement.
-constexpr std::array<const char*, 4> kMovementTexts = {trLater("movement: fast"), trLater("movement: slow"),
-                                                       trLater("movement: not through walls"),
-                                                       trLater("movement: on foot")};
+constexpr std::array<const char*, 4> kMovementTexts = {
+    trLater("movement: flying fast, through blocks"), trLater("movement: flying slowly, through blocks"),
+    trLater("movement: flying, with collisions"), trLater("movement: walking")};
 
 void flip(bool& value) {
     value = !value;
@@ -61,10 +61,10 @@ void nextMovement(GameState& game) {
 
 void changeTime(GameState& game, Action action) {
     game::DayClock& clock = game.parts.session.clock;
-    if (game.remote.play) return game.notices.say(game.tr("the server keeps the time"));
+    if (game.remote.play) return game.notices.say(game.tr("the server sets the time"));
     if (action != Action::HoldTime) return clock.shift(action == Action::Later ? kDayStep : -kDayStep);
     clock.isRunning = !clock.isRunning;
-    game.notices.say(clock.isRunning ? game.tr("time passes") : game.tr("time stands still"));
+    game.notices.say(clock.isRunning ? game.tr("time runs") : game.tr("time is stopped"));
 }
 
 void saveBookmark(GameState& game) {
@@ -77,7 +77,7 @@ void saveBookmark(GameState& game) {
 void nextBookmark(GameState& game) {
     const auto bookmarks = game::readBookmarks(game.bookmarks);
     if (!bookmarks) return game.notices.say(bookmarks.error().message);
-    if (bookmarks->empty()) return game.notices.say(game.tr("no bookmark is saved yet (F5)"));
+    if (bookmarks->empty()) return game.notices.say(game.tr("no bookmark is saved yet"));
     game.player.placeAt((*bookmarks)[game.nextBookmark++ % bookmarks->size()], game.settings.movement);
 }
 
@@ -85,7 +85,7 @@ void goToSpawn(GameState& game) {
     const game::Session& session = game.parts.session;
     if (!game.hud.spawn) game.hud.spawn = game::findSpawn(session.generator(), session.blocks());
     game.player.placeAt(*game.hud.spawn, game.settings.movement);
-    game.notices.say(game.tr("back where the world begins"));
+    game.notices.say(game.tr("back at the spawn"));
 }
 
 void takeScreenshot(GameState& game) {

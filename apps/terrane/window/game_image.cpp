@@ -38,7 +38,7 @@ base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
     render::Renderer& renderer = game.parts.renderer;
     render::RenderOptions options = game.preset.options(game.settings);
     if (!shadersAreReady(game, size)) {
-        game.notices.say(game.tr("shaders are being compiled"));
+        game.notices.say(game.tr("compiling shaders"));
         if (!hasWorldImage(game)) return {};
         options = renderer.options();
     }

@@ -89,7 +89,8 @@ void drawMenu(GameState& game, const Screen& screen) {
                                          &game.parts.session.clock};
         if (menu.settings.draw(game.settings, view)) closeOne(game);
     } else if (menu.isPaused) {
-        if (const auto choice = drawPauseMenu(screen, game.tr)) answerPauseMenu(game, *choice);
+        if (const auto choice = drawPauseMenu(screen, game.settings.keys, game.tr))
+            answerPauseMenu(game, *choice);
     }
     drawSaveNotice(screen, status, game.tr);
 }
@@ -107,7 +108,7 @@ void drawInterface(GameState& game, double seconds) {
     drawBuilding(game, screen, camera);
     if (game.input.isCaptured && !game.debug.isAbove) drawCrosshair(screen);
     drawHud(game, screen, camera, seconds);
-    drawNotices(screen, game.notices, game.tr);
+    drawNotices(screen, game.notices, game.settings.keys, game.tr);
     game.wasComplete = game.wasComplete || progress.complete();
     if (!game.wasComplete) drawProgress(screen, progress, game.tr);
     drawDebugPanels(game, screen);

@@ -21,7 +21,7 @@ void JoinDialog::open() {
 }
 
 void JoinDialog::drawList(const Texts& tr) {
-    if (servers_.empty()) return dimText(tr("You were on no server yet."));
+    if (servers_.empty()) return dimText(tr("You have not joined a server yet."));
     for (const PlayedServer& played : servers_) {
         ImGui::PushID(&played);
         const bool isChosen = played.server == options_.server;
@@ -45,7 +45,7 @@ bool JoinDialog::drawFields(const Texts& tr) {
     bool isDone = editText("##address", options_.server, ImGuiInputTextFlags_EnterReturnsTrue);
     dimText(tr("Your name there"));
     isDone = editText("##player", options_.name, ImGuiInputTextFlags_EnterReturnsTrue) || isDone;
-    dimText(tr("Password, where the server wants one"));
+    dimText(tr("Password, if the server needs one"));
     isDone = editText("##password", options_.password,
                       ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_Password) ||
              isDone;

@@ -4,6 +4,7 @@
 #include <string>
 #include <utility>
 
+#include "apps/terrane/window/key_bindings.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/text.h"
 
@@ -26,6 +27,6 @@ struct Notices {
     }
 };
 
-void drawNotices(const Screen& screen, const Notices& notices, const Texts& tr);
+void drawNotices(const Screen& screen, const Notices& notices, const KeyBindings& keys, const Texts& tr);
 
 }  // namespace terrane::app

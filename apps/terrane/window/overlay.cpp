@@ -10,7 +10,6 @@
 #include <glm/trigonometric.hpp>
 
 #include "apps/terrane/window/imgui_layer.h"
-#include "apps/terrane/window/key_help_table.h"
 #include "apps/terrane/window/screen_projection.h"
 #include "terrane/base/process_statistics.h"
 #include "terrane/game/block_interaction.h"
@@ -171,15 +170,23 @@ void drawProgress(const Screen& screen, const stream::Progress& progress, const 
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.inView, 1));
     centered("progress", screen, screen.height - 90 * uiScale());
-    ImGui::TextUnformatted(tr("The world comes into view"));
+    ImGui::TextUnformatted(tr("Loading the world"));
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();
 }
 
-void drawHint(const Screen& screen, float share, const Texts& tr) {
+void drawKeyHelp(const Screen& screen, float share, const std::vector<KeyHelpLine>& lines) {
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
     centered("hint", screen, screen.height * 0.35f);
-    drawKeyHelp(screen.width - 40 * uiScale(), tr);
+    float column = 0;
+    for (const KeyHelpLine& line : lines) column = std::max(column, ImGui::CalcTextSize(line.keys.c_str()).x);
+    ImGui::PushTextWrapPos(screen.width - 40 * uiScale());
+    for (const KeyHelpLine& line : lines) {
+        ImGui::TextUnformatted(line.keys.c_str());
+        ImGui::SameLine(column + 24 * uiScale());
+        ImGui::TextUnformatted(line.effect.c_str());
+    }
+    ImGui::PopTextWrapPos();
     ImGui::End();
     ImGui::PopStyleVar();
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/terrane/window/key_help.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/gpu/timer.h"
@@ -60,8 +61,8 @@ void drawStatistics(const Statistics& statistics, float width);
 
 // Shown while chunks in view are missing.
 void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr);
-// The list of keys, shown at the start. `share`: opacity, 0 to 1.
-void drawHint(const Screen& screen, float share, const Texts& tr);
+// The list of keys, shown at the start; long lines wrap. `share`: opacity, 0 to 1.
+void drawKeyHelp(const Screen& screen, float share, const std::vector<KeyHelpLine>& lines);
 // A line about the last event. `share`: opacity, 0 to 1.
 void drawMessage(const Screen& screen, const std::string& message, float share);
 

@@ -92,7 +92,7 @@ std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& st
     const auto shown = game::paletteBlocks(blocks, {group, state.search.data(), face.name});
     ImGui::BeginChild("list");
     std::optional<world::BlockId> choice = drawBlocks(state, shown, face);
-    if (shown.empty()) ImGui::TextUnformatted(tr("No block has this in its name"));
+    if (shown.empty()) ImGui::TextUnformatted(tr("No block has this name"));
     ImGui::EndChild();
     ImGui::End();
     if (takesFirst && !shown.empty()) choice = shown.front();

@@ -99,9 +99,9 @@ void drawPlayer(PlaySettings& s, game::DayClock& day) {
     choice<std::string>("language", s.language, languages);
     float time = static_cast<float>(day.timeDay);
     if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f", kTyped)) day.timeDay = double{time};
-    ImGui::Checkbox("time passes", &day.isRunning);
+    ImGui::Checkbox("time runs", &day.isRunning);
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("minutes a day", &minutes, 0.5f, 60, "%.1f", kTyped))
+    if (ImGui::SliderFloat("minutes per day", &minutes, 0.5f, 60, "%.1f", kTyped))
         s.dayMinutes = double{minutes};
 }
 

@@ -1,20 +1,23 @@
 #include "apps/terrane/window/pause_menu.h"
 
+#include <fmt/format.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/key_help.h"
 #include "apps/terrane/window/ui_style.h"
 
 namespace terrane::app {
 
-std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr) {
+std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const KeyBindings& keys, const Texts& tr) {
+    const std::string help = fmt::format("{} ({})", tr("Keys"), keyText(keys.keyOf(Action::Help), tr));
     const std::pair<const char*, PauseChoice> buttons[] = {
         {tr("Resume (Esc)"), PauseChoice::Resume},
         {tr("Settings"), PauseChoice::Settings},
-        {tr("Keys (F1)"), PauseChoice::Help},
+        {help.c_str(), PauseChoice::Help},
         {tr("Save and quit to title (T)"), PauseChoice::ToTitle},
         {tr("Save and quit (Q)"), PauseChoice::Quit}};
     std::optional<PauseChoice> choice;

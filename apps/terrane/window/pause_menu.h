@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "apps/terrane/window/key_bindings.h"
 #include "apps/terrane/window/overlay.h"
 #include "apps/terrane/window/text.h"
 
@@ -12,6 +13,6 @@ namespace terrane::app {
 enum class PauseChoice : std::uint8_t { Resume, Settings, Help, ToTitle, Quit };
 
 // None until a button is clicked, or chosen with the arrow keys and Enter.
-std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const Texts& tr);
+std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const KeyBindings& keys, const Texts& tr);
 
 }  // namespace terrane::app

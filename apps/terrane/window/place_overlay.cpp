@@ -33,12 +33,12 @@ std::string factsText(const PlaceFacts& f, const Texts& tr) {
     text += write(trLater("chunk {}, {}\n"), static_cast<int>(std::floor(p.x / 16)),
                   static_cast<int>(std::floor(p.y / 16)));
     text +=
-        write(trLater("looks {} ({:.0f}°), {:+.0f}°\n"), tr(kDirections[direction]), degrees, f.pose.pitch);
+        write(trLater("facing {} ({:.0f}°), {:+.0f}°\n"), tr(kDirections[direction]), degrees, f.pose.pitch);
     if (!f.biome.empty()) text += std::string(tr(f.biome.c_str())) + "\n";
-    text += write(trLater("{:02}:{:02}   {:.0f} frames a second\n"), minutes / 60 % 24, minutes % 60,
+    text += write(trLater("{:02}:{:02}   {:.0f} frames per second\n"), minutes / 60 % 24, minutes % 60,
                   f.framesASecond);
     text += f.world;
-    if (!f.target.empty()) text += write(trLater("\nat {}"), f.target);
+    if (!f.target.empty()) text += write(trLater("\ntarget: {}"), f.target);
     return text;
 }
 

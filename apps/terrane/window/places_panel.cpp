@@ -19,7 +19,7 @@ bool drawNaming(PlacesState& state, std::vector<game::Place>& places, const worl
     const bool isEntered = ImGui::InputTextWithHint("##name", tr("name of this place"), state.name.data(),
                                                     state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (!ImGui::Button(tr("Name it"), {-1, 0}) && !isEntered) return false;
+    if (!ImGui::Button(tr("Add"), {-1, 0}) && !isEntered) return false;
     const bool isNamed = game::namePlace(places, state.name.data(), here);
     if (isNamed) state.name = {};
     return isNamed;
@@ -51,7 +51,7 @@ PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<ga
         ImGui::PopID();
     }
     if (places.empty())
-        ImGui::TextWrapped("%s", tr("No place has a name yet. The compass shows those that have one."));
+        ImGui::TextWrapped("%s", tr("There are no named places yet. The compass and the maps show them."));
     ImGui::EndChild();
     ImGui::End();
     if (removed) places.erase(places.begin() + static_cast<std::ptrdiff_t>(*removed));

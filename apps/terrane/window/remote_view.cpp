@@ -21,8 +21,8 @@ std::string textOf(const net::Decided& decided, const Texts& tr) {
 }
 
 void tellStage(Stage stage, Notices& notices, const Texts& tr) {
-    if (stage == Stage::Joined) notices.say(tr("back on the server"));
-    if (stage == Stage::Waiting) notices.say(tr("the connection is gone: trying again"));
+    if (stage == Stage::Joined) notices.say(tr("reconnected"));
+    if (stage == Stage::Waiting) notices.say(tr("connection lost: reconnecting"));
 }
 
 }  // namespace

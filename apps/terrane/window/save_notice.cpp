@@ -24,7 +24,7 @@ void beginNotice(const char* title, const Screen& screen, float height, ImGuiWin
 void drawProblem(const store::SaveStatus& status, const Texts& tr) {
     ImGui::TextWrapped("%s", status.problem.c_str());
     ImGui::TextWrapped(
-        tr("For %.0f s; %zu chunks wait and are tried again. Nothing is lost while the program runs."),
+        tr("For %.0f s. %zu chunks are waiting; the program keeps trying. Nothing is lost while it runs."),
         status.failingSeconds, status.waiting);
 }
 
@@ -54,7 +54,7 @@ std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::Save
     ImGui::SameLine();
     if (ImGui::Button(tr("Keep playing"))) choice = QuitChoice::Stay;
     ImGui::SameLine();
-    if (ImGui::Button(tr("Quit and lose it"))) choice = QuitChoice::QuitUnsaved;
+    if (ImGui::Button(tr("Quit without saving"))) choice = QuitChoice::QuitUnsaved;
     ImGui::End();
     return choice;
 }

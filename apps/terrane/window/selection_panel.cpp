@@ -88,7 +88,7 @@ void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
         if (column++ % 2 == 1) ImGui::SameLine();
         if (ImGui::Button(tr(button.label), size)) pressed_ = button.action;
     }
-    ImGui::TextUnformatted(tr("Shift: the place where you are"));
+    ImGui::TextUnformatted(tr("Shift: your own position"));
     if (asks_ == Asks::Name) drawName(tr);
     if (asks_ == Asks::File) drawFiles(tr);
     ImGui::End();

@@ -42,18 +42,18 @@ std::string refusal(BuildOutcome::Result result) {
     using Result = BuildOutcome::Result;
     switch (result) {
         case Result::TooLarge:
-            return fmt::format("that is too large: at most {} blocks, less on a server",
+            return fmt::format("too large: at most {} blocks, fewer on a server",
                                withCommas(world::kMaxStructureBlocks));
         case Result::OutOfWorld:
-            return "that reaches above or below the world";
+            return "it reaches above or below the world";
         case Result::NotLoaded:
-            return "a part of that is not loaded: go closer";
+            return "a part of it is not loaded: go closer";
         case Result::OutOfReach:
-            return fmt::format("that is farther than {:.0f} blocks away", game::kBuildReach);
+            return fmt::format("it is more than {:.0f} blocks away", game::kBuildReach);
         case Result::NotAllowed:
-            return "a part of that is not yours to change";
+            return "you may not change a part of it";
         case Result::Sent:
-            return "the server is asked";
+            return "waiting for the server";
         default:
             return "there is nothing to build";
     }
@@ -165,7 +165,7 @@ void SelectionTool::act(ToolAction action, const BuildView& view) {
         message_ = "nothing is copied (Ctrl+C)";
     } else if (action == ToolAction::Turn) {
         selection_.turn(view.session.blocks());
-        message_ = "turned by a quarter";
+        message_ = "rotated by 90 degrees";
     } else {
         selection_.mirror(view.session.blocks(), view.pose.yaw);
         message_ = "mirrored";
@@ -203,7 +203,7 @@ void SelectionTool::copy(const BuildView& view) {
 
 void SelectionTool::beginPaste() {
     message_ =
-        selection_.beginPaste() ? "left button: place, right button: not" : "nothing is copied (Ctrl+C)";
+        selection_.beginPaste() ? "left button: place, right button: cancel" : "nothing is copied (Ctrl+C)";
 }
 
 void SelectionTool::place(const BuildView& view) {
@@ -227,7 +227,7 @@ void SelectionTool::askFile() {
     files_ = store::structureNames(folder_);
     file_ = 0;
     if (files_.empty()) {
-        message_ = fmt::format("no structure lies in {}", folder_.string());
+        message_ = fmt::format("there are no structures in {}", folder_.string());
     } else {
         asks_ = Asks::File;
     }

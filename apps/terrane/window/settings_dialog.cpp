@@ -7,6 +7,7 @@
 #include <array>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/key_help.h"
 #include "apps/terrane/window/ui_style.h"
 
 namespace terrane::app {
@@ -72,21 +73,22 @@ void SettingsDialog::turnPage(int by) {
 void SettingsDialog::drawControls(PlaySettings& settings, const Texts& tr) {
     heading(tr("Mouse and gamepad"));
     ImGui::SliderFloat(tr("Mouse sensitivity"), &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
-    tooltipFor(tr("Degrees that the view turns for each step of the mouse."));
+    tooltipFor(tr("Degrees that the view turns per step of the mouse."));
     ImGui::Checkbox(tr("Invert up and down"), &settings.invertY);
-    tooltipFor(tr("Pushing the mouse or the stick away looks down."));
-    ImGui::Checkbox(tr("Jump by itself"), &settings.autoJump);
-    tooltipFor(tr("Walking against a step of one block climbs it."));
+    tooltipFor(tr("Moving the mouse or the stick forward looks down."));
+    ImGui::Checkbox(tr("Jump automatically"), &settings.autoJump);
+    tooltipFor(tr("Climb steps of one block by walking against them."));
     heading(tr("Keys"));
     drawKeys(settings.keys, tr);
 }
 
 void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
     if (waiting_) {
-        ImGui::TextColored(colors::kAccent, "%s",
-                           fmt::format(fmt::runtime(tr("Press the key for \"{}\"; Esc keeps it as it is.")),
-                                       tr(rowOf(*waiting_).label))
-                               .c_str());
+        ImGui::TextColored(
+            colors::kAccent, "%s",
+            fmt::format(fmt::runtime(tr("Press the new key for \"{}\", or Esc to keep the old one.")),
+                        tr(rowOf(*waiting_).label))
+                .c_str());
     } else {
         dimText(note_.empty() ? std::string(tr("Choose a key to change it.")) : note_);
     }
@@ -101,17 +103,15 @@ void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
         ImGui::TextColored(key ? colors::kText : colors::kWarning, "%s", tr(row.label));
         ImGui::TableNextColumn();
         ImGui::PushID(static_cast<int>(row.action));
-        const std::string name = waiting_ == row.action ? "..."
-                                 : key                  ? std::string(nameOf(*key))
-                                                        : std::string(tr("none"));
+        const std::string name = waiting_ == row.action ? "..." : keyText(key, tr);
         if (ImGui::Button((name + "###key").c_str(), {-1, 0})) waiting_ = row.action;
         ImGui::PopID();
     }
     ImGui::EndTable();
     ImGui::Spacing();
-    if (menuButton(tr("Usual keys"), 140 * uiScale(), !keys.isUsual())) {
+    if (menuButton(tr("Default keys"), 140 * uiScale(), !keys.isUsual())) {
         keys = KeyBindings();
-        note_ = tr("All keys are as usual.");
+        note_ = tr("All keys have their defaults.");
     }
 }
 
@@ -121,9 +121,9 @@ bool SettingsDialog::takeKey(Key key, PlaySettings& settings, const Texts& tr) {
     waiting_.reset();
     if (!canBeBound(key)) return true;
     const auto loser = settings.keys.bind(action, key);
-    note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has no key now.")), nameOf(key),
+    note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has no key now.")), keyText(key, tr),
                                 tr(rowOf(*loser).label))
-                  : fmt::format(fmt::runtime(tr("{} is \"{}\".")), nameOf(key), tr(rowOf(action).label));
+                  : fmt::format(fmt::runtime(tr("{} is \"{}\".")), keyText(key, tr), tr(rowOf(action).label));
     return true;
 }
 

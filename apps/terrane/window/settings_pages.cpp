@@ -24,42 +24,42 @@ struct PlainRow {
 
 constexpr PlainRow kRows[] = {
     {"horizon",
-     trLater("Land beyond"),
-     trLater("How far land goes on beyond what is shown in full.\nCost: some; memory grows with it."),
+     trLater("Distant land"),
+     trLater("How far coarser land continues beyond the view distance.\nCost: medium, also in memory."),
      {trLater("None"), trLater("2 km"), trLater("4 km"), trLater("8 km"), trLater("16 km"), trLater("33 km"),
       trLater("65 km")}},
     {"shadows",
      trLater("Shadows"),
-     trLater("How far the sun and the moon cast shadows.\nCost: some, more while one moves."),
+     trLater("How far the sun and the moon cast shadows.\nCost: medium, higher while you move."),
      {trLater("Off"), trLater("Near"), trLater("Far"), trLater("To the horizon")}},
     {"soft-shadows",
      trLater("Soft shadows"),
-     trLater("Shadows blur with the distance of what casts them.\nCost: little."),
+     trLater("Shadows get softer with the distance to what casts them.\nCost: low."),
      {}},
     {"samples",
-     trLater("Smooth edges"),
-     trLater("Samples of each pixel (MSAA).\nCost: high; four samples double a frame or more."),
+     trLater("Anti-aliasing"),
+     trLater("Samples per pixel (MSAA).\nCost: high; four samples at least double the frame time."),
      {trLater("Off"), trLater("2 samples"), trLater("4 samples"), trLater("8 samples")}},
     {"light",
      trLater("Light"),
-     trLater("Steps from block to block, or soft corners.\nCost: little."),
+     trLater("Steps from block to block, or smooth transitions.\nCost: low."),
      {trLater("Classic"), trLater("Smooth")}},
     {"ssao",
-     trLater("Shade in corners"),
-     trLater("Corners and gaps are a little darker.\nCost: a fourteenth of a frame."),
-     {trLater("Off"), trLater("On"), trLater("Rough")}},
+     trLater("Ambient occlusion"),
+     trLater("Corners and gaps are a little darker (SSAO).\nCost: a fourteenth of the frame time."),
+     {trLater("Off"), trLater("On"), trLater("Coarse")}},
     {"water",
      trLater("Water"),
-     trLater("Full: shores mirrored, waves, foam.\nCost: some where water is in view."),
+     trLater("Full: reflected shores, waves, foam.\nCost: medium where water is in view."),
      {trLater("Plain"), trLater("Full")}},
-    {"clouds", trLater("Clouds"), trLater("Clouds in the sky and their shadows.\nCost: some."), {}},
+    {"clouds", trLater("Clouds"), trLater("Clouds in the sky and their shadows.\nCost: medium."), {}},
     {"god-rays",
-     trLater("Rays of the sun"),
-     trLater("Rays between what stands before the sun.\nCost: little."),
+     trLater("Sun rays"),
+     trLater("Rays of light between things in front of the sun.\nCost: low."),
      {}},
     {"distance-fog", trLater("Distance fog"), trLater("Far land fades into the sky.\nCost: none."), {}},
-    {"animation", trLater("Moving plants"), trLater("Plants, leaves and water move.\nCost: little."), {}},
-    {"depth-of-field", trLater("Blur far away"), trLater("What is far away is blurred.\nCost: little."), {}},
+    {"animation", trLater("Moving plants"), trLater("Plants, leaves and water move.\nCost: low."), {}},
+    {"depth-of-field", trLater("Depth of field"), trLater("Distant things are blurred.\nCost: low."), {}},
 };
 
 const render::GraphicsRow* rowNamed(std::string_view name) {
@@ -99,13 +99,14 @@ struct Quality {
 constexpr Quality kQualities[] = {
     {"auto", trLater("Auto"), trLater("High on a graphics card, low without one.")},
     {"low", trLater("Low"),
-     trLater("For machines without a graphics card. No shadows of far things, one sample a pixel.")},
+     trLater("For machines without a graphics card. No distant shadows, one sample per pixel.")},
     {"medium", trLater("Medium"),
-     trLater("Smooth edges, clouds, rays of the sun.\nA frame takes 3.8 times as long as with low.")},
+     trLater("Anti-aliasing, clouds, sun rays.\nA frame takes 3.8 times as long as with low.")},
     {"high", trLater("High"),
-     trLater("Also shade in corners.\nA frame takes 4.5 times as long as with low.")},
+     trLater("Also ambient occlusion.\nA frame takes 4.5 times as long as with low.")},
     {"ultra", trLater("Ultra"),
-     trLater("Finer shadows and far land.\nA frame takes a little longer than with high, and memory.")},
+     trLater(
+         "Finer shadows and distant land.\nA frame takes a little longer than with high, and more memory.")},
 };
 
 void drawQuality(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
@@ -128,18 +129,19 @@ void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr)
     drawQuality(s, isSoftwareRenderer, tr);
     heading(tr("View"));
     ImGui::SliderInt(tr("View distance"), &s.graphics.viewDistance, 2, 64, tr("%d chunks"), kClamped);
-    tooltipFor(tr("Chunks of 16 blocks that are shown in full.\nCost: high; memory grows with its square."));
+    tooltipFor(
+        tr("In chunks of 16 blocks, which are shown in full.\nCost: high; memory grows with the square."));
     ImGui::SliderFloat(tr("Field of view"), &s.fieldOfView, 40, 110, tr("%.0f degrees"), kClamped);
-    tooltipFor(tr("From below to above.\nCost: little more where more is in view."));
+    tooltipFor(tr("Vertical.\nCost: a little higher if it is wider."));
     ImGui::Checkbox(tr("Full screen"), &s.fullScreen);
     heading(tr("Details"));
     for (const PlainRow& row : kRows) drawPlainRow(row, s.graphics, tr);
 }
 
 void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
-    constexpr std::array<const char*, 4> kMovements = {
-        trLater("Fast, through everything"), trLater("Slow, through everything"),
-        trLater("Flying, not through blocks"), trLater("On foot")};
+    constexpr std::array<const char*, 4> kMovements = {trLater("Fly fast, through blocks"),
+                                                       trLater("Fly slowly, through blocks"),
+                                                       trLater("Fly, with collisions"), trLater("Walk")};
     heading(tr("Time"));
     if (day) {
         float time = static_cast<float>(day->timeDay) * 24;
@@ -148,19 +150,19 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
                       static_cast<int>(time * 60) % 60);
         if (ImGui::SliderFloat(tr("Time of day"), &time, 0, 24, text, kClamped))
             day->timeDay = std::min(double{time} / 24, 0.99999);
-        ImGui::Checkbox(tr("Time passes"), &day->isRunning);
+        ImGui::Checkbox(tr("Time runs"), &day->isRunning);
     }
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat(tr("Minutes a day"), &minutes, 0.5f, 60, "%.1f", kClamped))
+    if (ImGui::SliderFloat(tr("Minutes per day"), &minutes, 0.5f, 60, "%.1f", kClamped))
         s.dayMinutes = double{minutes};
-    tooltipFor(tr("How long a day of the world takes."));
+    tooltipFor(tr("Length of a day of the world."));
     if (!day) {
-        dimText(tr("A world keeps its own time and way to move:\nplay it to change them."));
+        dimText(tr("Each world has its own time and movement mode:\nplay it to change them."));
         return;
     }
     heading(tr("Movement"));
     const auto chosen = static_cast<std::size_t>(s.movement);
-    if (!ImGui::BeginCombo(tr("How one moves"), tr(kMovements[chosen]))) return;
+    if (!ImGui::BeginCombo(tr("Movement mode"), tr(kMovements[chosen]))) return;
     for (std::size_t k = 0; k < kMovements.size(); ++k)
         if (ImGui::Selectable(tr(kMovements[k]), k == chosen)) s.movement = static_cast<game::Movement>(k);
     ImGui::EndCombo();
@@ -169,7 +171,7 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
 static void drawGeneral(PlaySettings& s, const Texts& tr) {
     // Each language in its own name, so that everyone finds theirs.
     const std::array<std::pair<const char*, const char*>, 4> languages = {
-        {{"auto", tr("As the system")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
+        {{"auto", tr("System language")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
     heading(tr("Language and sound"));
     const auto chosen = std::ranges::find(languages, s.language, [](const auto& row) { return row.first; });
     const char* const shown = chosen != languages.end() ? chosen->second : s.language.c_str();
@@ -199,11 +201,10 @@ void drawAccessibilityPage(PlaySettings& s, const Texts& tr) {
             if (ImGui::Selectable(label, s.textSize == size)) s.textSize = size;
         ImGui::EndCombo();
     }
-    tooltipFor(tr("Of all texts and menus."));
+    tooltipFor(tr("Size of all texts and menus."));
     ImGui::Checkbox(tr("High contrast"), &s.highContrast);
     tooltipFor(
-        tr("The block that is looked at gets thick lines in black, white and orange, which all eyes tell "
-           "apart."));
+        tr("The targeted block gets thick lines in black, white and orange, for color-blind players."));
     ImGui::Checkbox(tr("Reduced motion"), &s.reducedMotion);
     tooltipFor(tr("The world behind the title stands still."));
 }

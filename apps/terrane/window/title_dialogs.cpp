@@ -150,7 +150,7 @@ void TitleScreen::drawDelete(const Screen& screen) {
     beginMenu({tr_("Delete world"),
                {screen.width / 2, screen.height / 2},
                {std::min(360 * uiScale(), screen.width - 20), 0}});
-    ImGui::TextWrapped(tr_("Delete \"%s\"? It cannot be brought back."), name.c_str());
+    ImGui::TextWrapped(tr_("Delete \"%s\"? This cannot be undone."), name.c_str());
     dimText(text);
     ImGui::Spacing();
     const float width = halfWidth();
