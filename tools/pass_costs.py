@@ -68,7 +68,7 @@ def table(medians):
               if any(cell(passes.get(name, 0)) for passes, _ in medians.values())]
     lines.append(row("all passes", [cell(sums[preset]) for preset in PRESETS]))
     lines.append(row("frame, wall time", [cell(medians[preset][1]) for preset in PRESETS]))
-    lines.append(row("all passes, low is 1", [f"{sums[preset] / sums['low']:.1f}" for preset in PRESETS]))
+    lines.append(row("all passes, low is 1", [f"{sums[preset] / sums['low']:.2f}" for preset in PRESETS]))
     return "\n".join(lines)
 
 

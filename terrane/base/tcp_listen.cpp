@@ -19,7 +19,7 @@ Result<void> listenAt(boost::asio::ip::tcp::acceptor& acceptor, const std::strin
     if (!error) acceptor.listen(asio::socket_base::max_listen_connections, error);
     if (!error) return {};
     return fail(error == asio::error::address_in_use ? ErrorCode::Busy : ErrorCode::Io,
-                "{} port {}: cannot be listened on: {}", address, port, error.message());
+                "{} port {}: cannot listen: {}", address, port, error.message());
 }
 
 }  // namespace terrane::base

@@ -37,7 +37,7 @@ std::string joined(Words words) {
 }
 
 std::string unknownPlayer(const std::string& name) {
-    return fmt::format("nobody called {} ever played here", name);
+    return fmt::format("no player called {} has ever joined", name);
 }
 
 std::string sayLine(ServerState& server, Words words) {

@@ -94,7 +94,7 @@ base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
     SocketError error;
     acceptor.non_blocking(true, error);
     if (error)
-        return base::fail(base::ErrorCode::Io, "{} port {}: cannot be listened on: {}", address.address,
+        return base::fail(base::ErrorCode::Io, "{} port {}: cannot listen: {}", address.address,
                           address.port, error.message());
     accept();
     return {};

@@ -93,7 +93,7 @@ class Together(ProgramTest):
         self.server.say("x" * 10000 + " stop")
         self.server.wait_for(r"a line of more than 4096 bytes")
         self.server.say("op Nobody")
-        self.server.wait_for(r"nobody called Nobody ever played here")
+        self.server.wait_for(r"no player called Nobody has ever joined")
         bots = self.succeed("bots", "--connect", f"127.0.0.1:{self.server.port}", "--count", "5", "--seconds", "5",
                             "--behaviour", "build", "--edits-per-second", "5")
         self.assertIn('"joined": 5', bots)

@@ -151,7 +151,7 @@ TEST(VoxFile, LeavesOutWhatIsHidden) {
 }
 
 TEST(VoxFile, TellsWhatIsWrong) {
-    EXPECT_THAT(voxError("VOXX"), HasSubstr("begin"));
+    EXPECT_THAT(voxError("VOXX"), HasSubstr("header"));
     EXPECT_THAT(voxError(voxFile("")), HasSubstr("no model"));
     EXPECT_THAT(voxError(voxFile(voxPart("SIZE", voxNumber(0) + voxNumber(1) + voxNumber(1)))),
                 HasSubstr("0 blocks per side"));

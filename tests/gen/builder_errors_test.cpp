@@ -158,7 +158,7 @@ TEST(BuilderErrors, MoreValuesAtOnceThanThereAreRegisters) {
         p.setBlock(Block(sum));
     });
     EXPECT_THAT(error, HasSubstr("pass \"faulty\": its values need "));
-    EXPECT_THAT(error, HasSubstr("rows of registers, 65536 are possible"));
+    EXPECT_THAT(error, HasSubstr("rows of registers, at most 65536 are possible"));
 }
 
 TEST(BuilderErrors, AMetricThatIsNone) {
@@ -250,7 +250,7 @@ TEST(BuilderErrors, NoiseOfBadOctavesOrPoints) {
                 HasSubstr("1 to 12 octave weights"));
     EXPECT_THAT(errorIn2D([](Pass& p) { p.perlin2D("n", 65536, std::vector<float>(6, 1.0f)); }),
                 HasSubstr("the largest octave is beyond 2^20 blocks"));
-    EXPECT_THAT(errorIn2D([](Pass& p) { p.voronoi2D("n", 8, 0); }), HasSubstr("0 points a cell"));
+    EXPECT_THAT(errorIn2D([](Pass& p) { p.voronoi2D("n", 8, 0); }), HasSubstr("0 points per cell"));
     EXPECT_EQ(errorIn2D([](Pass& p) { p.voronoi2D("n", 8, 5); }),
               "generator \"test\": pass \"faulty\": noise \"n\": 5 points per cell, expected 1 to 4");
 }

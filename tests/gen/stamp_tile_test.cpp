@@ -198,7 +198,7 @@ TEST(Stamps, TooManyShapesAreRefused) {
     EXPECT_TRUE(tryToBuild(write(1024, 0)).has_value());
     EXPECT_EQ(errorOf(write(1026, 0)), "generator \"test\": more than 1024 shapes");
     EXPECT_EQ(errorOf(write(400, 16)),
-              "generator \"test\": its shapes take 24829200 bytes, 15728640 are possible");
+              "generator \"test\": its shapes take 24829200 bytes, at most 15728640 are possible");
 }
 
 TEST(Stamps, MistakesInPassesAreNamed) {

@@ -55,7 +55,7 @@ constexpr Mistake kMistakes[] = {
      "erode: there is no option octave; did you mean octaves?"},
     {"p:erode(\"e\", vec2(0, 0), 1, {octaves = 9})", "erode: octaves 9 is not in 1…8"},
     {"p:scatter(\"s\", 2000, 3)", "scatter: argument 2: 2000 is not in 1…1024"},
-    {"multiSelect({{p.x:lt(0), 1}, 5}, 2)", "multiSelect: case 2 is no {condition, value}"},
+    {"multiSelect({{p.x:lt(0), 1}, 5}, 2)", "multiSelect: case 2 is not {condition, value}"},
     {"multiSelect({{p.x:lt(0), 1}})",
      "multiSelect: argument 2: expected the value where no case holds, got nil"},
     {"error(\"mine\")", "mine"},

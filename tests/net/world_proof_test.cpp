@@ -35,7 +35,7 @@ TEST(WorldProof, EachDifferenceIsToldInOneLine) {
     EXPECT_NE(told([](auto& c) { c.identity.generator = "flat"; }).find("overworld"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.identity.generatorVersion += 1; }).find("version"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.graph ^= 1; }).find("generator"), std::string::npos);
-    EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("blocks"), std::string::npos);
+    EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("block types"), std::string::npos);
 }
 
 // An offer with an unknown generator but the right blocks.

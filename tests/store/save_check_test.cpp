@@ -153,7 +153,7 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     for (int time = 0; time < 2; ++time) {
         const CheckReport report = check();
         ASSERT_EQ(report.fileProblems.size(), 1u) << time;
-        EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: it is gone"));
+        EXPECT_THAT(report.fileProblems.front(), HasSubstr("a.sqlite-wal: missing"));
     }
     std::filesystem::create_symlink(path_, folder_ / "link.sqlite");
     EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";

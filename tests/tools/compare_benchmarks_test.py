@@ -123,9 +123,9 @@ class Compare(unittest.TestCase):
 
     def test_bad_input(self):
         good = google(a=[1])
-        cases = (("", "before:1: neither"), ("[]", "neither"), ("{}\n", "before:1: no result"),
+        cases = (("", "before:1: neither"), ("[]", "neither"), ("{}\n", "before:1: not a result"),
                  ('{"benchmarks": [{}]}', "a benchmark without name"), (terrane(1), "before is of terrane bench"),
-                 (google(b=[1]), "no time in common"), (terrane(1) + "7\n", "before:3: no result"))
+                 (google(b=[1]), "no time in common"), (terrane(1) + "7\n", "before:3: not a result"))
         for text, message in cases:
             done = self.compare(text, good)
             self.assertExit(2, done)

@@ -47,9 +47,9 @@ class Report(unittest.TestCase):
 
     def test_medians_and_ratios_of_pairs(self):
         text = self.report()
-        self.assertIn("| Generating with light and saving | chunks a CPU second | higher | 1,500 (1,000 … 2,000) | Luanti | "
+        self.assertIn("| Generating with light and saving | chunks per CPU second | higher | 1,500 (1,000 … 2,000) | Luanti | "
                       "112 (100 … 125) | 13.0 (10.0 … 16.0) | 3 |\n", text)
-        self.assertIn("| Bytes on disk | bytes a chunk | lower | 1,000 (900 … 1,100) | Luanti | 4,500 (4,000 … 5,000) | "
+        self.assertIn("| Bytes on disk | bytes per chunk | lower | 1,000 (900 … 1,100) | Luanti | 4,500 (4,000 … 5,000) | "
                       "0.235 (0.22 … 0.25) | 3 |\n", text)
         self.assertIn("| CPU | Test \\| 1 |\n", text)
         self.assertIn("| load average before each measurement | 0.5 (0.5 … 1.50), 5 measurements |\n", text)
@@ -60,7 +60,7 @@ class Report(unittest.TestCase):
         self.write(*map(json.dumps, [*LINES, line(3, "world", "peer", generation=120, disk=4500)]))
         self.assertNotIn("What failed", self.report())
         self.write(json.dumps(ABOUT), json.dumps(line(1, "world", "terrane", generation=1000)))
-        self.assertIn("| Generating with light and saving | chunks a CPU second | higher | 1,000 | Luanti |  |  | 1 |\n",
+        self.assertIn("| Generating with light and saving | chunks per CPU second | higher | 1,000 | Luanti |  |  | 1 |\n",
                       self.report())
 
     def test_incomplete_views_are_named(self):
@@ -110,7 +110,7 @@ class Report(unittest.TestCase):
     def test_summary(self):
         self.report()
         summary = (self.folder / "summary.md").read_text(encoding="utf-8")
-        self.assertIn("| Generating with light and saving, chunks a CPU second | 1,500 | Luanti 112 | 13.0 (10.0 … 16.0) |\n", summary)
+        self.assertIn("| Generating with light and saving, chunks per CPU second | 1,500 | Luanti 112 | 13.0 (10.0 … 16.0) |\n", summary)
 
 
 class Parts(unittest.TestCase):

@@ -23,10 +23,10 @@ def frame_measures():
     for blocks in VIEW_DISTANCES:
         yield Measure(f"frames_{blocks}", f"Frames, view distance {blocks} blocks", "frames/s", HIGHER, "Luanti",
                       "`render --preset low --shadows off --horizon 0`", "default renderer, no shadows, no clouds")
-        yield Measure(f"frames_horizon_{blocks}", f"Frames, the same with Terrane's land to 16 km, {blocks} blocks",
+        yield Measure(f"frames_horizon_{blocks}", f"Frames, {blocks} blocks, with Terrane's land to 16 km",
                       "frames/s", HIGHER, "Luanti", "the same with `--horizon 1024`",
                       "as above: nothing beyond the view distance")
-        yield Measure(f"triangles_{blocks}", f"Triangles drawn, {blocks} blocks", "thousands a frame", NEITHER, "Luanti",
+        yield Measure(f"triangles_{blocks}", f"Triangles drawn, {blocks} blocks", "thousands per frame", NEITHER, "Luanti",
                       "after culling, opaque and transparent", "vertices of its profiler / 2, as its quads have four")
         yield Measure(f"rss_{blocks}", f"Peak resident memory, {blocks} blocks", "MB", LOWER, "Luanti",
                       "the process that draws", "client and server in one process")
@@ -35,37 +35,37 @@ def frame_measures():
 
 
 WORLD = (
-    Measure("generation", "Generating with light and saving", "chunks a CPU second", HIGHER, "Luanti",
+    Measure("generation", "Generating with light and saving", "chunks per CPU second", HIGHER, "Luanti",
             "`generate --world`, and light from scratch added, as saves do not contain light",
             "mapgen v7 of Minetest Game with decorations, ores, caves, light, SQLite; start of the server left out"),
-    Measure("loading", "Loading from a save, with light", "chunks a CPU second", HIGHER, "Luanti",
+    Measure("loading", "Loading from a save, with light", "chunks per CPU second", HIGHER, "Luanti",
             "reading and decoding, and light from scratch", "reading and decoding; its saves contain light"),
-    Measure("disk", "Bytes on disk", "bytes a chunk", LOWER, "Luanti", "the whole file",
+    Measure("disk", "Bytes on disk", "bytes per chunk", LOWER, "Luanti", "the whole file",
             "the file without the border of the area"),
 )
 
 JOINING = (
     Measure("join_kb", "Traffic of joining, view of 256 blocks", "kB", LOWER, "Luanti",
             "both ways with TLS; the client generates the land itself and receives edits",
-            "both ways over UDP; media of the game are there"),
+            "both ways over UDP, with the game's media already present"),
     Measure("join_first_kb", "Traffic of joining for the first time", "kB", LOWER, "Luanti",
-            "the same: textures are part of the program", "with media of the game"),
+            "the same: textures are part of the program", "with the game's media"),
     Measure("join_seconds", "Time of joining", "s", LOWER, "Luanti", "until all edits in view are known",
-            "until nothing new comes; media of the game are there"),
+            "until no more data arrives, with the game's media already present"),
 )
 
 FLOORS = (
     Measure("memory_copy", "Copying memory, one thread", "GB/s", HIGHER, "memcpy", "`bench --memory-copy`: memcpy, the same",
             "memmove of 128 MiB, the best of eight"),
-    Measure("save", "Saving a chunk, to the disk", "µs a chunk", LOWER, "zstd + SQLite",
+    Measure("save", "Saving a chunk, to the disk", "µs per chunk", LOWER, "zstd + SQLite",
             "batches of `generate --world`: pack, compress, checksum, insert, commit",
             "the same contents: compress at level 1, insert, commit (WAL, `synchronous` full)"),
-    Measure("compress", "Compressing, of that", "µs a chunk", LOWER, "zstd", "", "level 1, the same contents"),
-    Measure("insert", "Inserting rows, of that", "µs a chunk", LOWER, "SQLite", "", "the same rows in as many transactions"),
-    Measure("load", "Reading and decoding a chunk", "µs a chunk", LOWER, "zstd + SQLite",
+    Measure("compress", "of which compressing", "µs per chunk", LOWER, "zstd", "", "level 1, the same contents"),
+    Measure("insert", "of which inserting rows", "µs per chunk", LOWER, "SQLite", "", "the same rows in as many transactions"),
+    Measure("load", "Reading and decoding a chunk", "µs per chunk", LOWER, "zstd + SQLite",
             "`render --world`: select, checksum, decompress, unpack", "the same rows: select, decompress"),
-    Measure("decompress", "Decompressing, of that", "µs a chunk", LOWER, "zstd", "", "the same rows"),
-    Measure("select", "Selecting rows, of that", "µs a chunk", LOWER, "SQLite", "", "one statement a chunk, by key"),
+    Measure("decompress", "of which decompressing", "µs per chunk", LOWER, "zstd", "", "the same rows"),
+    Measure("select", "of which selecting rows", "µs per chunk", LOWER, "SQLite", "", "one statement per chunk, by key"),
 )
 
 MEASURES = (*WORLD, *frame_measures(), *JOINING, *FLOORS)

@@ -20,11 +20,11 @@ BOLD_ROUNDS = 3  # at least
 PUBLISHED = pathlib.Path(__file__).with_name("published.toml")
 
 EXPLANATION = """
-Each figure is the median of the rounds, with the least and the greatest in parentheses. The ratio is Terrane divided by
-the other program in the same round: its median, least and greatest. A round measures both in turn, and rounds alternate
-which one is first. Each round takes the next of five seeds and places, so the spread contains places and noise.
-"Chunk" is 16×16×256 blocks. An empty field was not measured. A load average above that of the measured program, which is
-at most about the number of cores, means that other programs ran at that time.
+Each figure is the median of the rounds, with the minimum and maximum in parentheses. The ratio is Terrane divided by the
+other program in the same round, also as median, minimum and maximum. A round measures both programs in turn, and rounds
+alternate which one is first. Each round uses the next of five seeds and places, so the spread includes differences between
+places. A chunk is 16×16×256 blocks. Empty fields were not measured. The measured programs use all cores, so load averages up
+to about the number of cores are normal; higher ones mean that other programs ran.
 """
 
 
@@ -81,7 +81,7 @@ def loads_table(results):
     if not results.loads:
         return ""
     jobs, rounds = (list(dict.fromkeys(key[part] for key in results.loads)) for part in (1, 0))
-    text = "\n## Load averages\n\nOf the minute before each measurement: before Terrane, before the other program.\n\n"
+    text = "\n## Load averages\n\nAverages over the minute before each measurement: before Terrane, then before the other program.\n\n"
     text += head("round", *jobs)
     shown = lambda *key: f"{results.loads[key]:.2f}" if key in results.loads else "–"
     for number in sorted(rounds):
@@ -133,9 +133,9 @@ def published_table(path=PUBLISHED):
 def report_of(results):
     text = "# Terrane beside other programs\n\n"
     if results.about.get("settings", {}).get("sizes") == "quick":
-        text += "Sizes are those of `--quick`: they show that all works, and their figures mean little.\n\n"
+        text += "Sizes are those of `--quick`, which only shows that everything works.\n\n"
     text += about_table(results) + EXPLANATION + "\n## In turn on this machine\n\n" + main_table(results)
-    text += "\nBold: Terrane is better in each round, of at least three.\n\n## What each side does\n\n" + methods_table(results)
+    text += "\nBold: Terrane is better in every round, of at least three.\n\n## What each side does\n\n" + methods_table(results)
     return text + places_table(results) + loads_table(results) + failures_list(results) + published_table()
 
 

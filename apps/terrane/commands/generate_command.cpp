@@ -109,7 +109,7 @@ class AreaGenerator {
     Generated result_;
 };
 
-// "ground: 155 layers filled, 6 copied, 95 computed with 11 of 24 instructions", for a 3D pass of one chunk.
+// Counts the layers of one chunk by how a 3D pass makes them.
 std::string described(const gen::PassReport& report, const std::string& name) {
     using Way = gen::SlabRun::Way;
     std::map<Way, int> layers;

@@ -11,7 +11,7 @@ std::optional<std::string> ShaderWatch::reload(render::Renderer& renderer, view:
     read_ = written;
     auto done = renderer.reloadShaders();
     if (done) done = preview.reloadShaders();
-    if (done) return "shaders are read again";
+    if (done) return "shaders reloaded";
     base::logWarning("{}", done.error().message);
     return done.error().message;
 }
