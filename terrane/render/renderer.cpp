@@ -236,8 +236,8 @@ void Renderer::drawFigures(const FrameInput& input, const CullInput& cullInput) 
 void Renderer::shadeSurfaces(const FrameInput& input) {
     {
         const TimerZone zone(timer_, "sky");
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input),
-                                {input.fogDistance, input.environment.starLight > 0});
+        const bool isNight = input.environment.starLight > 0 || input.environment.isMoon;
+        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input), {input.fogDistance, isNight});
     }
     const TimerZone zone(timer_, "shade");
     passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);

@@ -70,8 +70,8 @@ void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, 
     }
     inputs.bind();
     (isDirect_ ? targets.direct : targets.scene).bind();
-    // The shader without stars by day: software renderers run all branches.
-    (sky.hasStars ? nightSky_ : sky_).draw(pipeline, state);
+    // By day a shader without stars and moon: software renderers run all branches.
+    (sky.isNight ? nightSky_ : sky_).draw(pipeline, state);
 }
 
 // Pixels are selected by the depth test. With one sample a pixel the triangle is at the far end, and all

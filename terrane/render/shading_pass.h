@@ -22,7 +22,7 @@ class ShadingPass {
     base::Result<void> select(const RenderOptions& options, int samples, const LightVariant& sun);
     struct Sky {
         float fogDistance;  // blocks
-        bool hasStars;
+        bool isNight;       // with stars, or the moon in place of the sun
     };
     // Draws the part of the sky that is visible, or that surfaces fade into.
     void drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,

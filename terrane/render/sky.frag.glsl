@@ -1,5 +1,5 @@
-// The visible sky, also behind surfaces that fade. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars. DIRECT: 1 writes
-// display colors (direct_image.h).
+// The visible sky, also behind surfaces that fade. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars and the face of the
+// moon. DIRECT: 1 writes display colors (direct_image.h).
 #include "terrane/render/frame_uniforms.glsl"
 #include "terrane/render/sky_color.glsl"
 #include "terrane/render/clouds.glsl"
@@ -11,11 +11,13 @@
 layout(location = 1) in vec3 inRay;
 layout(location = 0) out vec4 outColor;
 
+#if NIGHT == 1
 // Bright and dark plains of the moon.
 float moonFace(vec2 at, float rim) {
     float pattern = texture(cloudNoise, 0.12 * at + 0.3).r + 0.5 * texture(cloudNoise, 0.3 * at).g;
     return (0.35 + 0.65 * smoothstep(0.5, 1.0, pattern)) * (0.6 + 0.4 * rim);
 }
+#endif
 
 // Point where a direction in front of the camera meets the image plane, one block ahead.
 vec2 onImagePlane(vec3 direction) {
@@ -33,7 +35,10 @@ vec4 disc(vec3 direction) {
     float isFacing = step(0.0, dot(light, frame.rayAhead.xyz));
     float share = isFacing * (1.0 - smoothstep(1.0 - max(pixel, 0.06), 1.0, away));
     vec3 sun = mix(vec3(0.45, 0.34, 0.22), vec3(1.0), rim);
-    vec3 face = frame.isMoon != 0u ? vec3(moonFace(at, rim)) : sun;
+    vec3 face = sun;
+#if NIGHT == 1
+    face = frame.isMoon != 0u ? vec3(moonFace(at, rim)) : sun;
+#endif
     return vec4(frame.discColor.rgb * face, share * smoothstep(-0.004, 0.004, direction.z));
 }
 

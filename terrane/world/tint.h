@@ -24,9 +24,10 @@ constexpr PackedColor kNeutralTint =
 // Tints of the columns of a chunk of any level: x + 16 y.
 using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * kChunkSize>;
 
-// Tints a color, 0…1 as stored (sRGB): each channel c becomes c ^ (log tint / log neutral). Neutral becomes
-// the tint, black and white stay, and no pale color turns white, as it would by a factor. For display;
-// block_tint.glsl does the same.
+// Tints a color, 0…1 as stored (sRGB). Each channel c becomes c t / (t + (1 − c) (n − t) / (1 − n)), with
+// tint t and neutral n: neutral becomes the tint, black and white stay, and no pale color turns white, as it
+// would by a factor. This is Schlick's bias function (Fast Alternatives to Perlin's Bias and Gain Functions,
+// 1994), through (n, t) instead of (1/2, t). For display; block_tint.glsl does the same.
 glm::vec3 tinted(glm::vec3 color, PackedColor tint);
 
 }  // namespace terrane::world
