@@ -117,7 +117,7 @@ class Refused(Postgres):
         self.assertRefused(run("check", self.url), "reading changes nothing")
         done = run("generate", "--radius", "1", "--world", self.url)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("brought from format 1", done.stderr)
+        self.assertIn("migrated from format 1", done.stderr)
         self.assertIn("9 chunks", self.succeed("check", self.url))
 
 

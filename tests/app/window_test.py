@@ -419,7 +419,7 @@ class Window(ProgramTest):
             game = self.play(display, "--world", "home")
             code, _, _ = game.close()
             self.assertEqual(code, 0, game.output())
-            self.assertIn('warning: the save\'s time of day is no number from 0 to 1: "nan"', game.output())
+            self.assertIn('warning: the save\'s time of day is not a number from 0 to 1: "nan"', game.output())
             self.close(self.play(display, "--world", "home"))  # a time is stored again
 
     def test_keys_do_nothing_else_while_one_types(self):
