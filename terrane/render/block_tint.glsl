@@ -3,32 +3,21 @@
 #if TINT == 1
 #include "terrane/shared/tint.h"
 
-layout(std140, binding = kTintBinding) uniform TintBlock {
-    TintFrame tintFrame;
-};
 layout(binding = kTintUnit) uniform sampler2DArray tints;
-layout(location = 3) in vec2 inPlace;
+layout(location = 3) in vec4 inTintAt;  // see tint_place.glsl
+layout(location = 4) in float inTintShare;
+layout(location = 5) flat in ivec2 inTintLevels;
 
 const vec3 kNeutralTint = vec3(kNeutralTintRed, kNeutralTintGreen, kNeutralTintBlue) / 255.0;
 
-// Tint of the finest level that reaches the place; over its outer quarter it blends into the next one. Without branches:
-// software renderers execute every branch and at least one round of a loop that may end early.
-vec3 tintAt(vec2 place) {
-    vec2 away = abs(place - frame.cameraPosition.xy);
-    float distance = max(away.x, away.y), share = 0.0;
-    vec3 fine = vec3(0.5, 0.5, -1.0), next = fine;  // texture coordinates and layer
-    for (int k = int(kTintLevels) - 1; k >= 0; --k) {
-        vec4 level = tintFrame.levels[k];
-        float reached = clamp(4.0 - 4.0 * distance / max(level.w, 1e-3), 0.0, 1.0);
-        bool isUsed = reached > 0.0;
-        next = isUsed ? fine : next;
-        fine = isUsed ? vec3(level.xy + place * level.z, float(k)) : fine;
-        share = isUsed ? reached : share;
-    }
-    vec3 near = textureLod(tints, fine, 0.0).rgb, far = textureLod(tints, next, 0.0).rgb;
-    near = fine.z < 0.0 ? kNeutralTint : near;
-    far = next.z < 0.0 ? kNeutralTint : far;
-    return mix(far, near, share);
+vec3 tintOfLevel(vec2 at, int level) {
+    vec3 tint = textureLod(tints, vec3(at, float(level)), 0.0).rgb;
+    return level < 0 ? kNeutralTint : tint;
+}
+
+vec3 tintHere() {
+    vec3 near = tintOfLevel(inTintAt.xy, inTintLevels.x), far = tintOfLevel(inTintAt.zw, inTintLevels.y);
+    return mix(far, near, inTintShare);
 }
 #endif
 
@@ -38,7 +27,7 @@ vec3 tintedColor(uint face, vec4 texel) {
     if (isTinted(face)) {
         const vec3 kAtNeutral = kNeutralTint / (1.0 - kNeutralTint), kAtWhite = 1.0 / (1.0 - kNeutralTint);
         float share = alphaModeOf(face) == kAlphaTint ? texel.a : 1.0;
-        vec3 color = texel.rgb, tint = max(tintAt(inPlace), 1.0 / 255.0);
+        vec3 color = texel.rgb, tint = max(tintHere(), 1.0 / 255.0);
         return color * tint / (tint + share * (1.0 - color) * (kAtNeutral - kAtWhite * tint));
     }
 #endif

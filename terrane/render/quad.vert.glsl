@@ -47,7 +47,10 @@ layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number
 layout(location = 2) flat out uint outSampling;
 #endif
 #if TINT == 1
-layout(location = 3) out vec2 outPlace;  // blocks from the corner of the camera's chunk
+layout(location = 3) out vec4 outTintAt;  // see tint_place.glsl
+layout(location = 4) out float outTintShare;
+layout(location = 5) flat out ivec2 outTintLevels;
+#include "terrane/render/tint_place.glsl"
 #endif
 #include "terrane/render/packed_face.glsl"
 
@@ -154,7 +157,11 @@ void main() {
     outSampling = optionsSampling(material.options);
 #endif
 #if TINT == 1
-    outPlace = position.xy;
+    vec2 quadPlace = cellBlocks.xy * cell.xy + chunkCorner(chunk, level, frame.cameraChunk);
+    TintPlace tint = tintPlaceOf(quadPlace, position.xy);
+    outTintAt = tint.at;
+    outTintShare = tint.share;
+    outTintLevels = tint.levels;
 #endif
     outTexel = texelOf(quad, face, corner) * extentOf(outFace.x);
 }
