@@ -94,8 +94,8 @@ base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
     SocketError error;
     acceptor.non_blocking(true, error);
     if (error)
-        return base::fail(base::ErrorCode::Io, "{} port {}: cannot listen: {}", address.address,
-                          address.port, error.message());
+        return base::fail(base::ErrorCode::Io, "{} port {}: cannot listen: {}", address.address, address.port,
+                          error.message());
     accept();
     return {};
 }

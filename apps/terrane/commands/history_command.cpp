@@ -67,7 +67,8 @@ base::Result<void> printHistory(const HistoryOptions& options) {
     if (!options.player.empty()) {
         filter.player = net::playerCalled(*history, options.player);
         if (!filter.player)
-            return base::fail(base::ErrorCode::NotFound, "no player called {} has ever joined", options.player);
+            return base::fail(base::ErrorCode::NotFound, "no player called {} has ever joined",
+                              options.player);
     }
     if (!options.area.empty())
         filter.area = game::ColumnArea{
