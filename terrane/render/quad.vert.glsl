@@ -47,9 +47,6 @@ layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number
 layout(location = 2) flat out uint outSampling;
 #endif
 #if TINT == 1
-layout(location = 3) out vec4 outTintAt;  // see tint_place.glsl
-layout(location = 4) out float outTintShare;
-layout(location = 5) flat out ivec2 outTintLevels;
 #include "terrane/render/tint_place.glsl"
 #endif
 #include "terrane/render/packed_face.glsl"
@@ -157,11 +154,7 @@ void main() {
     outSampling = optionsSampling(material.options);
 #endif
 #if TINT == 1
-    vec2 quadPlace = cellBlocks.xy * cell.xy + chunkCorner(chunk, level, frame.cameraChunk);
-    TintPlace tint = tintPlaceOf(quadPlace, position.xy);
-    outTintAt = tint.at;
-    outTintShare = tint.share;
-    outTintLevels = tint.levels;
+    setTintPlace(cellBlocks.xy * cell.xy + chunkCorner(chunk, level, frame.cameraChunk), position.xy);
 #endif
     outTexel = texelOf(quad, face, corner) * extentOf(outFace.x);
 }

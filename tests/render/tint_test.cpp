@@ -76,6 +76,27 @@ TEST_F(TintImages, TintedBlocksTakeItAndOthersDoNot) {
     EXPECT_EQ(imageOf("grass").rgba, grass.rgba) << "none again";
 }
 
+// Of grass seen from above all texels are tinted.
+TEST_F(TintImages, ShadersTintAsTheCpuDoes) {
+    EXPECT_TRUE(renderer_->useTint(true));
+    const base::Image plain = imageOf("grass");
+    for (const world::PackedColor tint : {world::packColor(190, 60, 110), world::packColor(40, 200, 30)}) {
+        tintAll(tint);
+        const base::Image image = imageOf("grass");
+        int worst = 0;
+        for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
+            const glm::vec3 color(plain.rgba[k], plain.rgba[k + 1], plain.rgba[k + 2]);
+            const glm::vec3 expected = 255.0f * world::tinted(color / 255.0f, tint);
+            for (int c = 0; c < 3; ++c) {
+                const int got = image.rgba[k + static_cast<std::size_t>(c)];
+                worst = std::max(worst, std::abs(got - static_cast<int>(std::lround(expected[c]))));
+            }
+        }
+        // The slope of the curve, up to 5, amplifies the rounding to 8 bits.
+        EXPECT_LE(worst, 6) << std::hex << tint;
+    }
+}
+
 // On the side of a grass block soil keeps its color.
 TEST_F(TintImages, AlphaIsTheShareOfTheTintAndTilesHaveTheMeanColor) {
     const auto side = [&] {
