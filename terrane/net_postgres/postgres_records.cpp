@@ -256,6 +256,9 @@ void PostgresRecords::tellJoined(game::PlayerId player) {
     write.commands.push_back(joinedCommand(player, server_));
     write.note = JoinedNote{player};
     queue(std::move(write));
+    // What is known so far happened before.
+    const std::lock_guard lock(mutex_);
+    std::erase(news_.joined, player);
 }
 void PostgresRecords::tellLeft(game::PlayerId player) {
     QueuedWrite write;

@@ -88,6 +88,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     base::Result<void> connect();
     base::Result<void> listen();
     base::Result<void> lookUp();
+    bool joinsHere(game::PlayerId player) const;  // with mutex_ locked
     void keepNotices();
     base::Result<void> takeNotes(Heard& heard);
     base::Result<void> takeNote(const Note& note, bool& hasEdits);

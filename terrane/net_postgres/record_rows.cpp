@@ -52,6 +52,7 @@ constexpr Statement kJoined = {
     "INSERT INTO online (player, server) SELECT $1, number FROM servers WHERE number = $2 "
     "ON CONFLICT (player) DO UPDATE SET server = excluded.server"};
 constexpr Statement kElsewhere = {"SELECT player FROM online WHERE server <> $1"};
+constexpr Statement kServerOf = {"SELECT server FROM online WHERE player = $1"};
 constexpr Statement kLeft = {"DELETE FROM online WHERE player = $1 AND server = $2"};
 constexpr Statement kSetSaved = {"UPDATE history SET saved = least(newest, greatest(saved, $1))"};
 // New players take a number from the sequence; copied players may have a higher one.
@@ -139,6 +140,12 @@ base::Result<std::vector<game::PlayerId>> readElsewhere(Connection& connection, 
     const auto rows = connection.run(kElsewhere, Parameters().number(server));
     if (!rows) return tl::unexpected(rows.error());
     return playersOf(*rows);
+}
+
+base::Result<std::optional<std::int64_t>> readServerOf(Connection& connection, game::PlayerId player) {
+    const auto rows = connection.run(kServerOf, Parameters().number(std::int64_t{player}));
+    if (!rows) return tl::unexpected(rows.error());
+    return rows->count() == 1 ? std::optional(rows->number(0, 0)) : std::nullopt;
 }
 
 base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap& ids,

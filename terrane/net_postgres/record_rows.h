@@ -24,6 +24,9 @@ namespace terrane::net_postgres {
 // Players who are on other servers than this one.
 [[nodiscard]] base::Result<std::vector<game::PlayerId>> readElsewhere(store_postgres::Connection& connection,
                                                                       std::int64_t server);
+// The server that the player joined last; no value if the player is on none.
+[[nodiscard]] base::Result<std::optional<std::int64_t>> readServerOf(store_postgres::Connection& connection,
+                                                                     game::PlayerId player);
 // A page of the history, to bound the memory.
 struct EditPage {
     std::vector<net::LoggedEdit> edits;  // edits that match the filter

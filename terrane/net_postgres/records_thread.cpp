@@ -115,16 +115,18 @@ base::Result<void> PostgresRecords::lookUp() {
     news_.passwordHash = std::move(*hash);
     news_.allPlaces = std::move(*places);
     news_.places.clear();  // older than allPlaces
-    const auto joinsHere = [&](game::PlayerId player) {
-        const auto isJoin = [&](const QueuedWrite& write) {
-            const auto* joined = write.note ? std::get_if<JoinedNote>(&*write.note) : nullptr;
-            return joined && joined->player == player;
-        };
-        return std::ranges::any_of(batch_, isJoin) || std::ranges::any_of(queue_, isJoin);
-    };
     for (const game::PlayerId player : *elsewhere)
         if (!joinsHere(player)) news_.joined.push_back(player);
     return {};
+}
+
+// Whether the player joined here last, and this is not committed yet.
+bool PostgresRecords::joinsHere(game::PlayerId player) const {
+    const auto isJoin = [&](const QueuedWrite& write) {
+        const auto* joined = write.note ? std::get_if<JoinedNote>(&*write.note) : nullptr;
+        return joined && joined->player == player;
+    };
+    return std::ranges::any_of(batch_, isJoin) || std::ranges::any_of(queue_, isJoin);
 }
 
 base::Result<void> PostgresRecords::listen() {
@@ -174,8 +176,14 @@ base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
         const std::lock_guard lock(mutex_);
         news_.claims = std::move(*claims);
     }
+    if (const auto* joined = std::get_if<JoinedNote>(&note)) {
+        // The player may have joined here since.
+        const auto server = readServerOf(*connection_, joined->player);
+        if (!server) return tl::unexpected(server.error());
+        const std::lock_guard lock(mutex_);
+        if (*server != server_ && !joinsHere(joined->player)) news_.joined.push_back(joined->player);
+    }
     const std::lock_guard lock(mutex_);
-    if (const auto* joined = std::get_if<JoinedNote>(&note)) news_.joined.push_back(joined->player);
     if (const auto* left = std::get_if<LeftNote>(&note)) news_.left.push_back(left->player);
     if (const auto* time = std::get_if<TimeNote>(&note)) news_.timeDay = time->timeDay / kTimeSteps;
     if (const auto* place = std::get_if<PlaceNote>(&note)) news_.places.push_back(place->change);

@@ -204,6 +204,39 @@ TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
     servers_.stopAll();
 }
 
+// The first server's note arrives while the second one has not taken its news for a while.
+TEST_F(SharedServersTest, OfTwoServersTheOneJoinedLastKeepsThePlayer) {
+    const auto blocks = net::ownBlocks();
+    servers_.add();  // makes the world
+    const auto a = PostgresRecords::open(servers_.address(), *blocks, {"a", "", ""}).value();
+    const auto b = PostgresRecords::open(servers_.address(), *blocks, {"b", "", ""}).value();
+    const game::PlayerId player = 7;
+    const auto hearsLine = [](PostgresRecords& records, net::SharedNews& news) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        while (news.lines.empty() && std::chrono::steady_clock::now() < end) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            net::SharedNews next = records.takeNews();
+            news.joined.insert(news.joined.end(), next.joined.begin(), next.joined.end());
+            news.lines = std::move(next.lines);
+        }
+        return !news.lines.empty();
+    };
+    for (int round = 0; round < 20; ++round) {
+        a->tellJoined(player);
+        ASSERT_TRUE(a->flush());
+        if (round % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        b->tellJoined(player);
+        ASSERT_TRUE(b->flush());
+        a->say({"", "after a"});
+        b->say({"", "after b"});
+        net::SharedNews newsOfA, newsOfB;
+        ASSERT_TRUE(hearsLine(*a, newsOfA) && hearsLine(*b, newsOfB));
+        EXPECT_FALSE(newsOfA.joined.empty());
+        EXPECT_TRUE(newsOfB.joined.empty());
+    }
+    servers_.stopAll();
+}
+
 TEST_F(SharedServersTest, ANameIsGivenOnce) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest first(a, "Anna"), second(b, "ANNA");  // simultaneous: neither server knows of the other
