@@ -29,6 +29,20 @@ world::Placement placementAt(const world::RayHit& target, const world::Ray& ray,
     return {target.face, static_cast<float>(z - target.block.z), yaw};
 }
 
+bool isReplacedBy(const world::BlockType& there, world::BlockId block) {
+    return there.replaceable && there.id != block;
+}
+
+bool isFree(const world::BlockType& there, world::BlockId block) {
+    return there.id == world::kAir || there.shape == world::Shape::Liquid || isReplacedBy(there, block);
+}
+
+// The face to build `block` on: the one that is looked at, or the ground of a block that is to be replaced.
+world::RayHit buildTarget(const Session& session, world::BlockId block, const world::RayHit& aimed) {
+    if (!isReplacedBy(session.blocks().type(session.world().block(aimed.block)), block)) return aimed;
+    return {world::beside(aimed.block, world::kFaceNegZ), world::kFacePosZ, aimed.distance};
+}
+
 }  // namespace
 
 bool BlockInteraction::use(Session& session, PlayerId id) {
@@ -49,18 +63,19 @@ bool BlockInteraction::pick(const Session& session) {
     return true;
 }
 
-// Builds into air and liquids, not into plants; never a source of a liquid into another source of it.
+// Builds into air, liquids and replaceable blocks; never a source of a liquid into another source of it.
 std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id, const Player& player,
                                                   const world::Ray& ray) const {
     const world::BlockType& type = session.blocks().type(block());
-    const world::BlockPos pos = world::beside(target_->block, target_->face);
+    const world::RayHit target = buildTarget(session, block(), *target_);
+    const world::BlockPos pos = world::beside(target.block, target.face);
     const world::BlockId there = session.world().block(pos);
     const bool isSource = there == block() && world::isLiquidSource(session.world().blockState(pos));
-    const bool isLiquid = session.blocks().type(there).shape == world::Shape::Liquid;
-    if (block() == world::kAir || isSource || (there != world::kAir && !isLiquid)) return std::nullopt;
+    if (block() == world::kAir || isSource || !isFree(session.blocks().type(there), block()))
+        return std::nullopt;
     const std::uint16_t state = isFlowing(type)
                                     ? world::kLiquidUnsettled
-                                    : placedState(type, placementAt(*target_, ray, player.pose().yaw));
+                                    : placedState(type, placementAt(target, ray, player.pose().yaw));
     if (isInTheWay(type, state, pos, player.body())) return std::nullopt;
     return session.edit({id, pos, world::SetBlock{block(), state}, there});
 }

@@ -46,11 +46,11 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 26> kBlockKeys{
-    "name",       "shape",        "texture",     "textures", "alpha",    "animation",      "two_sided",
-    "wrap",       "sharp",        "inner_faces", "opacity",  "emission", "collides",       "selection",
-    "selectable", "needs_ground", "generated",   "growth",   "slots",    "surface_height", "wave_height",
-    "behaviors",  "tint",         "climbable",   "group",    "sound"};
+constexpr std::array<std::string_view, 27> kBlockKeys{
+    "name",       "shape",        "texture",     "textures",    "alpha",    "animation",      "two_sided",
+    "wrap",       "sharp",        "inner_faces", "opacity",     "emission", "collides",       "selection",
+    "selectable", "needs_ground", "generated",   "growth",      "slots",    "surface_height", "wave_height",
+    "behaviors",  "tint",         "climbable",   "replaceable", "group",    "sound"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
@@ -221,6 +221,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     block.type.selectable = table.boolean("selectable", true);
     block.type.generated = table.boolean("generated", true);
     block.type.climbable = table.boolean("climbable", false);
+    block.type.replaceable = table.boolean("replaceable", false);
     const toml::node* group = table.node("group");
     block.type.group = group ? table.nameOf(*group, "group") : "other";
     block.type.sound = readSound(table, block.type.shape);

@@ -98,6 +98,7 @@ struct BlockType {
     bool selectable = true;                  // false: rays pass (air, water)
     bool generated = true;                   // appears in generated terrain (else placed only)
     bool climbable = false;                  // characters in it climb
+    bool replaceable = false;                // a player's new block takes its place (grass)
     std::string group;                       // of the palette of blocks
     // Behaviors (block_behavior.h) in the order in which they are called.
     std::vector<std::shared_ptr<const BlockBehavior>> behaviors;

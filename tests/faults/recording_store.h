@@ -5,7 +5,7 @@
 #include <map>
 #include <memory>
 
-#include "terrane/stream/pipeline_types.h"
+#include "terrane/stream/chunk_table.h"
 #include "tests/faults/ledger.h"
 
 namespace terrane::store {

@@ -33,6 +33,39 @@ TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), contentBlock("sand"));
 }
 
+TEST_F(BlockInteractionTest, WhatIsBuiltTakesThePlaceOfGrass) {
+    const world::BlockPos meadow{5, 5, kGroundHeight};
+    session_.edit({kNoPlayer, meadow, world::SetBlock{contentBlock("tall_grass")}, {}});
+    takeInHand(interaction_.hotbar, contentBlock("lamp_white"));
+    act(interaction_.building);
+    EXPECT_EQ(session_.world().block(meadow), contentBlock("lamp_white"));
+    ASSERT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
+    EXPECT_EQ(session_.world().block(meadow), contentBlock("tall_grass"));
+}
+
+TEST_F(BlockInteractionTest, GrassBesideTheFaceIsReplaced) {
+    const world::BlockPos stone{5, 5, kGroundHeight}, grass{6, 5, kGroundHeight};
+    session_.edit({kNoPlayer, stone, world::SetBlock{contentBlock("stone")}, {}});
+    session_.edit({kNoPlayer, grass, world::SetBlock{contentBlock("grass_tuft")}, {}});
+    // Over the grass, at the stone's side.
+    player_.placeAt({.position = {8.5, 5.5, kGroundHeight + 0.9}, .yaw = 180, .pitch = 0}, Movement::Fast);
+    session_.setPlayer(kLocalPlayer, player_.pose());
+    takeInHand(interaction_.hotbar, contentBlock("glass"));
+    act(interaction_.building);
+    ASSERT_EQ(session_.world().block(grass), contentBlock("glass"));
+    EXPECT_EQ(session_.world().block({7, 5, kGroundHeight}), world::kAir);
+}
+
+TEST_F(BlockInteractionTest, FlowersAndGrassOfTheSameKindStay) {
+    for (const char* name : {"poppy", "tall_grass"}) {
+        const world::BlockPos meadow{5, 5, kGroundHeight};
+        session_.edit({kNoPlayer, meadow, world::SetBlock{contentBlock(name)}, {}});
+        takeInHand(interaction_.hotbar, contentBlock("tall_grass"));
+        act(interaction_.building);
+        EXPECT_EQ(session_.world().block(meadow), contentBlock(name));
+    }
+}
+
 TEST_F(BlockInteractionTest, WaterIsPlacedFlowsAndIsTaken) {
     const world::BlockId water = contentBlock("water");
     takeInHand(interaction_.hotbar, water);

@@ -35,7 +35,7 @@ constexpr std::string_view kAllKeys =
     "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
-    "behaviors, tint, climbable, group, sound";
+    "behaviors, tint, climbable, replaceable, group, sound";
 
 TEST(BlockParser, Sounds) {
     EXPECT_EQ(only(cubeWith("sound = \"wool\"")).type.sound, SoundMaterial::Wool);

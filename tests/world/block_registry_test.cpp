@@ -248,6 +248,8 @@ TEST(Content, WhatOnePlacesBehaves) {
     EXPECT_EQ(behaviorOf("oak_door"), "door");
     EXPECT_EQ(behaviorOf("oak_door_top"), "door");
     EXPECT_TRUE(content().find("ladder")->climbable);
+    EXPECT_TRUE(content().find("tall_grass")->replaceable);
+    EXPECT_FALSE(content().find("poppy")->replaceable);
 }
 
 TEST(Content, WheatGrowsAndChestsHold) {

@@ -79,15 +79,29 @@ class Comparison:
         with self.scratch() as folder:
             return measure(floors.Floors(self.program, pathlib.Path(folder), self.sizes.floors_radius))
 
-    def terrane_frames(self, number, blocks):
+    def prepare(self):
+        """Chooses the places on both sides and generates Luanti's land around them. The measurements need no more of it, so
+        this may run on a busy machine."""
+        search, _ = self.luanti_place(1)
+        for number in range(1, self.sizes.places + 1):
+            search.generate_around(self.luanti_place(number)[1], max(self.sizes.view_distances))
+        self.terrane_place(1)
+
+    def terrane_place(self, number):
         folder = self.folder("terrane")
-        place = self.place("terrane", number, lambda: terrane.choose_places(
+        return self.place("terrane", number, lambda: terrane.choose_places(
             self.program, folder, FRAMES_SEED, self.sizes.places, self.sizes.search_radius))
+
+    def luanti_place(self, number):
+        search = luanti_view.Search(self.folder("luanti"), FRAMES_SEED, self.sizes.search_mapchunks)
+        return search, self.place("luanti", number, lambda: search.choose(self.sizes.places))
+
+    def terrane_frames(self, number, blocks):
+        folder, place = self.folder("terrane"), self.terrane_place(number)
         return terrane.measure_frames(terrane.Frames(self.program, folder, FRAMES_SEED, place, self.sizes.frames), blocks)
 
     def luanti_frames(self, number, blocks):
-        search = luanti_view.Search(self.folder("luanti"), FRAMES_SEED, self.sizes.search_mapchunks)
-        place = self.place("luanti", number, lambda: search.choose(self.sizes.places))
+        search, place = self.luanti_place(number)
         return luanti_view.measure_frames(search, place, blocks, self.sizes.seconds, self.sizes.fill_seconds)
 
     def folder(self, name):

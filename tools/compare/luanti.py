@@ -56,6 +56,11 @@ def square(mapchunks):
     return begin, BOTTOM, begin, begin + mapchunks * MAPCHUNK - 1, TOP, begin + mapchunks * MAPCHUNK - 1
 
 
+def is_within(box, other):
+    return all(low >= outer for low, outer in zip(box[:3], other[:3])) and \
+        all(high <= outer for high, outer in zip(box[3:], other[3:]))
+
+
 def blocks_of(box):
     return (box[3] - box[0] + 1) * (box[4] - box[1] + 1) * (box[5] - box[2] + 1)
 

@@ -1,4 +1,5 @@
 """Frames of Luanti's client on a virtual screen, from one place."""
+import json
 import math
 import os
 import pathlib
@@ -54,11 +55,18 @@ class Search:
 
     def generate_around(self, place, blocks):
         """All that the camera can see within `blocks`, sky and underground too: the server does not go on to the next ring
-        while it finds blocks of the last one neither in memory nor on the disk."""
+        while it finds blocks of the last one neither in memory nor on the disk. Does nothing if it was done before."""
         x, z, y, _ = place
         radius = blocks + 2 * MAPBLOCK
         below, above = (radius * math.sin(math.radians(FIELD_OF_VIEW / 2 + pitch)) for pitch in (PITCH, -PITCH))
-        self.world.emerge("generate", [luanti.box_around(x, y, z, radius, below, above)], threads=os.cpu_count())
+        box = luanti.box_around(x, y, z, radius, below, above)
+        path = self.world.folder / "generated.jsonl"
+        done = [json.loads(line) for line in path.read_text(encoding="ascii").splitlines()] if path.exists() else []
+        if any(luanti.is_within(box, other) for other in done):
+            return
+        self.world.emerge("generate", [box], threads=os.cpu_count())
+        with open(path, "a", encoding="ascii") as file:
+            file.write(json.dumps(box) + "\n")
 
 
 class Client:

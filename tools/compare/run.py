@@ -2,6 +2,7 @@
 """Measures other programs and Terrane on this machine, in turn, and makes one table.
 
     tools/compare/run.py -o FOLDER [--program build/terrane] [--rounds 5] [--only luanti,floors] [--quick] [--install]
+                         [--prepare]
 
 Writes FOLDER/results.jsonl, a line after each measurement, and FOLDER/report.md. A stopped run continues if it is
 started again with the same folder; failed measurements are repeated. FOLDER/work has the worlds. Needs xvfb, and
@@ -37,6 +38,9 @@ def parse(arguments):
                         help="groups or jobs: luanti, floors, world, joining, frames_128, …")
     parser.add_argument("--quick", action="store_true",
                         help="one round of small sizes, to see that all works: its figures mean little")
+    parser.add_argument("--prepare", action="store_true",
+                        help="measure nothing: only choose the places and generate Luanti's land there, which may be done "
+                        "while the machine is busy")
     parser.add_argument("--install", action="store_true", help="install Luanti and Xvfb first, with apt-get")
     options = parser.parse_args(arguments)
     options.rounds = options.rounds or (1 if options.quick else 5)
@@ -97,7 +101,11 @@ def run(options):
     work = options.output / "work"
     work.mkdir(parents=True, exist_ok=True)
     clean(work)
-    jobs = chosen(Comparison(options.program.resolve(), work.resolve(), QUICK if options.quick else FULL).jobs(), options.only)
+    comparison = Comparison(options.program.resolve(), work.resolve(), QUICK if options.quick else FULL)
+    if options.prepare:
+        comparison.prepare()
+        return True
+    jobs = chosen(comparison.jobs(), options.only)
     path, complete = options.output / "results.jsonl", True
     done = begin(path, options).done
     for number in range(1, options.rounds + 1):
@@ -122,6 +130,8 @@ def main(arguments=None):
         if not options.program.is_file():
             raise CompareError(f"{options.program}: no such program; build Terrane, or name it with --program")
         complete = run(options)
+        if options.prepare:
+            return 0
         report.write_report(options.output, options.output)
     except (CompareError, BadInput, OSError, subprocess.CalledProcessError) as error:
         print(f"compare: {error}", file=sys.stderr)
