@@ -2,7 +2,7 @@
 of all textures and explains alpha."""
 import math
 
-from texture_tools import (ALL, CREAM, GRASS, NO_GLOW, SIZE, STEM, WOOD, Image, Patches, apart, bled,
+from texture_tools import (ALL, BLADE, CREAM, GRASS, NO_GLOW, SIZE, STEM, WOOD, Image, Patches, apart, bled,
                            cobbles, hash01, mix, ramp, scattered, settled, smooth, tone)
 
 BIRCH_BARK = ramp("8f8a80 b3aea2 c9c5b8 d8d5ca e4e2d9 efeee8")
@@ -335,7 +335,7 @@ def blades(rows: tuple, colors: list) -> Image:
 
 
 def tall_grass():
-    greens = [mix(a, b, 0.5) for a, b in zip(GRASS, ramp("4c7a33 668f40 83a651 a1bd68 bdd085 d8e3a8"))]
+    greens = [mix(a, b, 0.5) for a, b in zip(GRASS, BLADE)]
     return blades(((0, 7, 0), (1, 11, -1), (2, 9, 0), (3, 14, 2), (4, 8, 0), (5, 15, -1), (6, 10, 0), (7, 13, 2),
                    (8, 16, 0), (9, 9, 0), (10, 14, -2), (11, 11, 2), (12, 15, 1), (13, 8, 0), (14, 12, -1),
                    (15, 6, 0)), greens)
