@@ -89,6 +89,7 @@ GLFWwindow* openWindow() {
     if (!window) return nullptr;
     glfwMakeContextCurrent(window);
     glfwSetInputMode(window, GLFW_CURSOR, GLFW_CURSOR_DISABLED);
+    glfwSetInputMode(window, GLFW_STICKY_KEYS, GLFW_TRUE);  // a press counts, even one shorter than a frame
     glfwSetInputMode(window, GLFW_STICKY_MOUSE_BUTTONS, GLFW_TRUE);
     return window;
 }

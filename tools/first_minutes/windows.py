@@ -2,6 +2,7 @@
 import contextlib
 import os
 import pathlib
+import re
 import signal
 import sqlite3
 import subprocess
@@ -143,8 +144,8 @@ def player(page):
                 game.wait_for(lambda: setting(folder / "World.sqlite", "camera"), "no new world")
                 page.output = game.output()
             with page.step(3):
-                game.look_down()
                 game.press("m", "m", "m", "m", "h", "F1", "F1")
+                game.look_down()
             with page.step(4):
                 take_block(game, page.quoted("white lamp"))
                 game.hold(3)
@@ -155,6 +156,8 @@ def player(page):
             with page.step(6):
                 quit_window(game)
                 page.run("terrane check World")
+                if not re.search(r"[1-9]\d* of them edited", page.output):
+                    raise PageError(f"no lamp was placed: {page.output}")
         with page.step(6), window(page, display, "terrane") as game:
             game.press("Return")  # Continue World
             quit_window(game)
@@ -171,7 +174,7 @@ def game(page):
         page.write("CMakeLists.txt", page.code("cmake"))
         page.run('cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$HOME/.local"')
         page.run("cmake --build build")
-        with Display(SCREEN) as display, window(page, display, page.quoted("./build/small_game world.sqlite"), "ore|game|Game") as own:
+        with Display(SCREEN) as display, window(page, display, page.quoted("./build/small_game world.sqlite"), "Ore hills") as own:
             own.press("w", "space", "Escape")
             own.end()
 
