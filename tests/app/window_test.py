@@ -156,6 +156,18 @@ class Window(ProgramTest):
             self.assertTrue(self.succeed("check", save).endswith("\ngood\n"))
 
 
+    def test_time_passes_while_its_key_is_held(self):
+        save = self.folder / "terrane" / "flat-1.sqlite"
+        with Display() as display:
+            game = self.look_down(display, "--movement", "medium", "--time", "0.6")
+            display.xdotool("keydown", "p")
+            game.wait_for(lambda: float(self.setting(save, "time") or 0) > 0.7)  # a press alone: 0.61
+            display.xdotool("keyup", "p")
+            display.xdotool("keydown", "o")
+            game.wait_for(lambda: float(self.setting(save, "time")) < 0.6)
+            display.xdotool("keyup", "o")
+            self.assertEqual(game.close()[0], 0)
+
     def test_without_options_everything_is_saved(self):
         """The world, the position, the time and the block in the hand survive even a kill, in any working directory."""
         save = self.folder / "terrane" / "flat-1.sqlite"

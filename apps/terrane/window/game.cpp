@@ -64,6 +64,7 @@ void advance(GameState& game, double seconds) {
     if (game.untilThumbnail <= 0) writeThumbnailOf(game);
     if (!game.remote.play) session.clock.dayMinutes = game.settings.dayMinutes;
     handlePad(game, seconds);
+    passHeldTime(game, seconds);
     const double gameSeconds = isInMenu(game) ? 0 : seconds;
     game.player.move(session.world(), session.blocks(), moveKeysOf(game), gameSeconds);
     liftFromBelow(game);

@@ -11,6 +11,8 @@ namespace terrane::app {
 namespace {
 
 constexpr double kStickDegrees = 160;  // per second, with the stick fully tilted
+constexpr double kTimePause = 0.4;     // seconds that a key of time is held until it repeats
+constexpr double kHeldDays = 0.1;      // per second
 
 // The slot of the hotbar for a digit.
 std::optional<std::size_t> slotOf(Key key) {
@@ -107,6 +109,11 @@ void onButton(GameState& game, MouseButton button, bool isPress) {
     if (!game.imgui.takesMouse() && !isInDialog(game)) captureMouse(game, true);
 }
 
+bool isKeyDown(const GameState& game, Action action) {
+    const auto isDown = [&](Key key) { return game.parts.window.keyDown(key); };
+    return !game.imgui.takesKeys() && std::ranges::any_of(game.settings.keys.keysOf(action), isDown);
+}
+
 void turn(GameState& game, const InputEvent& event) {
     const double degrees = game.settings.mouseSensitivity;
     game.player.turn(event.x * degrees, (game.settings.invertY ? -event.y : event.y) * degrees);
@@ -164,16 +171,24 @@ void handlePad(GameState& game, double seconds) {
     if (pad.isPressed(&Gamepad::down)) act(game, Action::Earlier);
 }
 
+// A press alone is a step (act()).
+void passHeldTime(GameState& game, double seconds) {
+    const Gamepad& pad = game.input.pad.now();
+    const bool isLater = isKeyDown(game, Action::Later) || pad.up;
+    const bool isEarlier = isKeyDown(game, Action::Earlier) || pad.down;
+    const bool isHeld = isLater != isEarlier && !isInDialog(game) && !game.input.withControl;
+    game.input.timeHeldSeconds = isHeld ? game.input.timeHeldSeconds + seconds : 0;
+    if (game.input.timeHeldSeconds > kTimePause && !game.remote.play)
+        game.parts.session.clock.shift((isLater ? kHeldDays : -kHeldDays) * seconds);
+}
+
 game::MoveKeys moveKeysOf(const GameState& game) {
     const Window& window = game.parts.window;
     const bool isSelecting = game.building.isSelecting();
     if (isInDialog(game) || (isSelecting && window.keyDown(Key::Control))) return {};
     const Gamepad& pad = game.input.pad.now();
-    const bool isTyping = game.imgui.takesKeys(), walks = game.settings.movement == game::Movement::Gravity;
-    const auto isDown = [&](Action action) {
-        const auto isKeyDown = [&](Key key) { return window.keyDown(key); };
-        return !isTyping && std::ranges::any_of(game.settings.keys.keysOf(action), isKeyDown);
-    };
+    const bool walks = game.settings.movement == game::Movement::Gravity;
+    const auto isDown = [&](Action action) { return isKeyDown(game, action); };
     return {.forward = isDown(Action::Forward),
             .back = isDown(Action::Back),
             .left = isDown(Action::Left),

@@ -9,6 +9,8 @@ namespace terrane::app {
 void handleEvents(GameState& game);
 // Sticks turn the view; buttons do the same as keys and mouse buttons.
 void handlePad(GameState& game, double seconds);
+// While a key of time is held, a day passes in ten seconds.
+void passHeldTime(GameState& game, double seconds);
 // The state of the keys and the stick that move the player.
 game::MoveKeys moveKeysOf(const GameState& game);
 

@@ -31,6 +31,7 @@ struct GameInput {
     bool isCaptured = false;                      // the mouse turns the player, and the cursor is hidden
     bool withShift = false, withControl = false;  // of the handled event, else current
     PadReader pad;
+    double timeHeldSeconds = 0;  // a key of time is held
 };
 
 // The menu over the game, and its questions.
