@@ -139,6 +139,25 @@ TEST_F(ServerTest, PlayersSeeEachOtherAndTalk) {
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.world->players().empty(); }));
 }
 
+// A player may still be known from the server that she left a moment ago.
+TEST_F(ServerTest, TheListHasPlayersOfOtherServersOnce) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ServerState& state = server.state();
+    const KnownPlayer& bob = state.people.add(testIdentity("Bob").key.publicKey, "Bob", game::Role::Guest);
+    const game::PlayerId unknown = bob.id + 1;
+    for (const game::PlayerId id : {state.people.byName("Ann")->id, bob.id, unknown})
+        state.sharing.players[id].at.id = id;
+    ann.wire->say(AskPlayers{});
+    const auto messages = ann.wire->take();
+    const auto* list = findMessage<PlayerList>(messages);
+    ASSERT_TRUE(list);
+    ASSERT_EQ(list->players.size(), 2u);
+    EXPECT_EQ(list->players[0].name, "Ann");
+    EXPECT_EQ(list->players[1].name, "Bob");
+    EXPECT_EQ(list->players[1].role, game::Role::Guest);
+}
+
 TEST_F(ServerTest, AClaimIsForItsOwner) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"));
