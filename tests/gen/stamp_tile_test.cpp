@@ -201,6 +201,30 @@ TEST(Stamps, TooManyShapesAreRefused) {
               "generator \"test\": its shapes take 24829200 bytes, at most 15728640 are possible");
 }
 
+TEST(Stamps, ShapesHaveAtMostThisManyBlocks) {
+    std::string toml;
+    for (int k = 0; k < 300; ++k)
+        toml += fmt::format("[[block]]\nname = \"b{}\"\nshape = \"cube\"\ntexture = \"stone\"\n", k);
+    const auto blocks = world::BlockRegistry::parse(toml, "test").value();
+    const auto errorOf = [&](int count) {
+        GeneratorBuilder g("test", blocks);
+        const auto number = g.field<Int>("number");
+        VoxelShape shape = {"post", {}, {}};
+        for (int k = 0; k < count; ++k) {
+            shape.blocks.push_back({fmt::format("b{}", k), 1});
+            shape.voxels.push_back({static_cast<std::int8_t>(k % 16 - 8),
+                                    static_cast<std::int8_t>(k / 16 - 8), 0, static_cast<std::uint8_t>(k)});
+        }
+        g.shape(shape);
+        g.pass2D("feet", [&](Pass& p) { p.set(number, Int(0)); });
+        g.pass3D("stamps", [&](Pass& p) { p.setBlock(p.stamp(number, number)); });
+        const auto graph = g.finish();
+        return graph ? std::string() : graph.error().message;
+    };
+    EXPECT_EQ(errorOf(255), "");
+    EXPECT_EQ(errorOf(256), "generator \"test\": its shapes have 256 blocks, at most 255 are possible");
+}
+
 TEST(Stamps, MistakesInPassesAreNamed) {
     EXPECT_THAT(errorOf([](GeneratorBuilder& g) {
                     const auto number = g.field<Int>("number");

@@ -20,8 +20,8 @@ class PackLink : public testing::Test {
             context_.restart();
             // One message at a time; otherwise a login completes in a single call.
             context_.run_one_for(std::chrono::milliseconds(5));
-            if (!letsInAtOnce_) continue;
-            for (auto& [id, client] : server_.server.state().clients) send(client, Joined{});
+            if (!untimely_) continue;
+            for (auto& [id, client] : server_.server.state().clients) send(client, *untimely_);
             server_.sockets->flush();
         }
         stage_ = link.stage();
@@ -60,7 +60,8 @@ class PackLink : public testing::Test {
     SocketServer server_{context_, folder_.path(), 0, {}, content_};
     ClientLink::Stage stage_{};
     std::string reason_;
-    bool proved_ = false, letsInAtOnce_ = false;
+    bool proved_ = false;
+    std::optional<ServerMessage> untimely_;  // what the server sends besides, all the time
     std::map<std::string, Bytes> got_;
 };
 
@@ -73,11 +74,21 @@ TEST_F(PackLink, GetsWhatItLacksAndJoins) {
 
 // Listeners of Joined rely on the offer.
 TEST_F(PackLink, LeavesAServerThatLetsItInBeforeTheProof) {
-    letsInAtOnce_ = true;
+    untimely_ = Joined{};
     run(events());
     EXPECT_EQ(stage_, ClientLink::Stage::Ended);
     EXPECT_EQ(reason_, "the server let the player in before it offered its world");
     EXPECT_FALSE(proved_);
+}
+
+TEST_F(PackLink, LeavesAServerThatOffersItsWorldTwice) {
+    untimely_ = WorldOffer{};
+    auto withoutPacks = events();
+    withoutPacks.missingPacks = {};
+    withoutPacks.prove = [](const WorldOffer&) -> base::Result<SampleDigests> { return SampleDigests{}; };
+    run(std::move(withoutPacks));
+    EXPECT_EQ(stage_, ClientLink::Stage::Ended);
+    EXPECT_EQ(reason_, "the server offered its world twice");
 }
 
 TEST_F(PackLink, JoinsWithoutPacksThatItHas) {
