@@ -16,7 +16,7 @@ struct ServerSettings {
     int maxViewDistance = 32;                   // radius in chunks in which a player receives edits
     std::size_t maxPlayersOfAddress = 20;       // at a time, except from this machine
     double newPlayersPerHour = 100;             // per address, except from this machine
-    double maxSpeed = 120;                      // blocks per second; flying reaches 60, falling 78
+    double maxSpeed = 120;                      // blocks per second; flying reaches 60, falling 55
     int spawnRadius = 0;                        // blocks around the spawn where new players appear
     game::Role newcomers = game::Role::Player;  // Guest: may look and chat only
     double dayMinutes = 20;

@@ -65,7 +65,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
                      "Newcomers are guests: they look and talk, but change nothing");
     command
         .add_option("--statistics", options.statistics,
-                    "Write a line (JSON) each ten seconds: ticks, players, memory, network")
+                    "Write a line (JSON) each ten seconds: ticks, players, memory")
         ->type_name("FILE");
     addMapSiteOptions(command, options.map, true);
 }
