@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <optional>
 
 #include "terrane/world/character.h"
@@ -21,17 +22,18 @@ int highest(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x
     return -1;
 }
 
+// Whether a block is ground to stand on.
+using IsGround = std::function<bool(const world::BlockType&)>;
+
 // The height to stand at; none if it is wet, steep or under trees.
-std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockRegistry& blocks) {
+std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockRegistry& blocks,
+                                  const IsGround& isGround) {
     int least = world::kChunkHeight, most = -1;
-    const world::BlockType* grass = blocks.find("grass");
     for (int y = 3; y < 13; ++y) {
         for (int x = 3; x < 13; ++x) {
             const int z = highest(chunk, blocks, x, y);
             if (z < 0) return std::nullopt;
-            const world::BlockType& top = blocks.type(chunk.block(world::blockIndex(x, y, z)));
-            const bool isGround = grass ? top.id == grass->id : top.opaqueCube;
-            if (!isGround) return std::nullopt;
+            if (!isGround(blocks.type(chunk.block(world::blockIndex(x, y, z))))) return std::nullopt;
             least = std::min(least, z);
             most = std::max(most, z);
         }
@@ -63,19 +65,28 @@ world::Pose standingAt(world::ChunkPos pos, int ground, float yaw) {
         {pos.x * 16 + kMiddle + 0.5, pos.y * 16 + kMiddle + 0.5, ground + 1 + world::kEyeHeight}, yaw, -4};
 }
 
-}  // namespace
-
-world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks) {
+std::optional<world::Pose> findPleasant(const gen::Generator& generator, const world::BlockRegistry& blocks,
+                                        const IsGround& isGround) {
     for (int ring = 0; ring <= kRings; ++ring) {
         for (int y = -ring; y <= ring; ++y) {
             for (int x = -ring; x <= ring; ++x) {
                 if (std::max(std::abs(x), std::abs(y)) != ring) continue;
                 const world::ChunkPos pos{x * kSpacing, y * kSpacing};
-                const auto ground = pleasantHeight(generator.generate(pos), blocks);
+                const auto ground = pleasantHeight(generator.generate(pos), blocks, isGround);
                 if (ground) return standingAt(pos, *ground, viewFrom(generator, blocks, pos));
             }
         }
     }
+    return std::nullopt;
+}
+
+}  // namespace
+
+world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks) {
+    const auto isGrass = [](const world::BlockType& type) { return type.name == "grass"; };
+    const auto isFirm = [](const world::BlockType& type) { return type.opaqueCube; };
+    if (const auto meadow = findPleasant(generator, blocks, isGrass)) return *meadow;
+    if (const auto dry = findPleasant(generator, blocks, isFirm)) return *dry;
     const int ground = highest(generator.generate({}), blocks, kMiddle, kMiddle);
     return standingAt({}, std::min(std::max(ground, 0), world::kChunkHeight - 1), 0);
 }

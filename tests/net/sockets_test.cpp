@@ -94,6 +94,16 @@ TEST_F(SocketsTest, PlayersJoinOverTls) {
     expectNobodyElse(1);
 }
 
+TEST_F(SocketsTest, APortInUseIsRefused) {
+    start();
+    const std::uint16_t port = server_->sockets->port();
+    const auto second =
+        ServerSockets::open(context_, server_->server.state(), {"127.0.0.1", port}, folder_ / "second.pem");
+    ASSERT_FALSE(second);
+    EXPECT_EQ(second.error().message,
+              fmt::format("127.0.0.1 port {}: cannot listen: Address already in use", port));
+}
+
 TEST_F(SocketsTest, ALinkThatLeavesWhileItConnectsAsksForNoTrust) {
     start();
     LinkPlayer& ann = addPlayer("Ann");

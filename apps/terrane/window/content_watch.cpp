@@ -12,10 +12,11 @@ constexpr std::chrono::milliseconds kLookEvery{500};
 
 }  // namespace
 
-ContentWatch::ContentWatch(const std::vector<pack::Pack>& packs) {
+ContentWatch::ContentWatch(const std::vector<pack::Pack>& packs, fs::file_time_type readAt) {
     for (const pack::Pack& pack : packs)
         if (!pack.where.empty()) packs_.emplace_back(pack.where);
     reported_ = seen_ = look();
+    std::erase_if(reported_, [&](const auto& file) { return file.second >= readAt; });
 }
 
 ContentWatch::Files ContentWatch::look() const {

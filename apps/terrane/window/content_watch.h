@@ -12,7 +12,8 @@ namespace terrane::app {
 
 class ContentWatch {
   public:
-    explicit ContentWatch(const std::vector<pack::Pack>& packs);
+    // Files that were saved after `readAt`, when the packs began to be read, count as changed.
+    ContentWatch(const std::vector<pack::Pack>& packs, std::filesystem::file_time_type readAt);
 
     // Whether a file was added, removed or changed since the last call. Looks at most twice a second, and
     // reports a change once the files were stable for that long: editors write a file in several steps.

@@ -27,7 +27,7 @@ void drawLinesInWorld(const GameState& game, const Screen& screen, const render:
         const int viewDistance = parts.view.viewDistance();
         drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
                          view::fogDistance(viewDistance), shadowLightOf(parts));
-    } else if (const auto& target = game.interaction.target()) {
+    } else if (const auto& target = game.interaction.target(); target && !game.hud.isHidden) {
         drawTarget(screen, camera, *target,
                    {parts.session.world(), parts.session.blocks(), game.settings.highContrast});
     }
@@ -106,7 +106,7 @@ void drawInterface(GameState& game, double seconds) {
     drawLinesInWorld(game, screen, camera);
     drawRemote(game, screen, camera);
     drawBuilding(game, screen, camera);
-    if (game.input.isCaptured && !game.debug.isAbove) drawCrosshair(screen);
+    if (game.input.isCaptured && !game.debug.isAbove && !game.hud.isHidden) drawCrosshair(screen);
     drawHud(game, screen, camera, seconds);
     drawNotices(screen, game.notices, game.settings.keys, game.tr);
     game.wasComplete = game.wasComplete || progress.complete();

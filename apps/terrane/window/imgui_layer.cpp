@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "apps/terrane/window/font.h"
+#include "apps/terrane/window/pad_navigation.h"
 
 #include "apps/terrane/window/ui_style.h"
 
@@ -73,7 +74,10 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     ImGui_ImplGlfw_NewFrame();
     holdShortPresses();
     dropRepeatedText();
-    if (isInMenu) activateByEnter();
+    if (isInMenu) {
+        setPadNavigation(window_->gamepad(), ImGui::GetIO().NavInputs);
+        activateByEnter();
+    }
     followScale();
     ImGui::NewFrame();
 }

@@ -38,7 +38,7 @@ struct Gamepad {
     bool south = false, east = false, west = false, north = false;
     bool leftBumper = false, rightBumper = false;
     bool leftTrigger = false, rightTrigger = false;
-    bool up = false, down = false;
+    bool up = false, down = false, left = false, right = false;  // of the d-pad
     bool start = false;
 };
 

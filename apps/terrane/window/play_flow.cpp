@@ -178,6 +178,7 @@ base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
 }
 
 base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
+    contentReadAt_ = std::filesystem::file_time_type::clock::now();
     auto world = openWorld(options);
     if (!world) return tl::unexpected(world.error());
     const game::SessionParts& parts = world->parts;
@@ -248,7 +249,7 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     game.deviceName = screen.device.renderer;
     game.measuresPreset = std::exchange(measuresPreset_, false);
     game.thumbnail = thumbnailFor(options, game.dataFolder);
-    ContentWatch watch(*world.content().packs);
+    ContentWatch watch(*world.content().packs, contentReadAt_);
     if (options.watches && !remote) {
         game.contentChanged = [&] { return watch.hasChanged(std::chrono::steady_clock::now()); };
         game.checkContent = [&]() -> base::Result<void> {

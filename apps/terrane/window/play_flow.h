@@ -52,7 +52,8 @@ class PlayFlow {
     PlaySettings settings_;
     PlaySettings written_;  // as in the settings file
     bool measuresPreset_, goesToTitle_ = false, hasBegun_ = false, reloads_ = false;
-    std::string message_;  // shown by the title
+    std::filesystem::file_time_type contentReadAt_;  // begin of reading the packs
+    std::string message_;                            // shown by the title
 };
 
 }  // namespace terrane::app

@@ -289,6 +289,8 @@ std::optional<Gamepad> Window::gamepad() const {
                    state.axes[GLFW_GAMEPAD_AXIS_RIGHT_TRIGGER] > 0,
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_UP),
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_DOWN),
+                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_LEFT),
+                   isDown(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT),
                    isDown(GLFW_GAMEPAD_BUTTON_START)};
 }
 
