@@ -147,7 +147,7 @@ bool Walk::isUseful(ChunkPos tile, bool isKnown, bool isWhole) const {
     return !isWhole && (coarsest_ - tile.level) % kLevelsBetween == 0;
 }
 
-// The coarsest tiles come first, then the nearest.
+// The coarsest tiles come first, the others in bands of distance, each as wide as some tiles.
 void Walk::request(ChunkPos tile) {
     const std::int64_t distance = tileDistance(table_.view.center, tile);
     const std::int64_t urgency = distance - distance % (kBandTiles * widthOf(tile.level));

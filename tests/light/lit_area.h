@@ -114,7 +114,7 @@ inline world::BlockId randomBlock(Random& random) {
                                                 : anyBlock(static_cast<std::uint32_t>(random.below(1 << 20)));
 }
 
-// A third of the places lie at borders and corners of chunks, a few at the world's bottom and top.
+// More than half of the places lie at borders and corners of chunks, a few at the world's bottom and top.
 inline world::BlockPos randomPlace(Random& random, const TestArea& area) {
     const auto along = [&](int size) {
         const int any = random.below(size);

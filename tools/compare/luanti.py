@@ -20,7 +20,7 @@ GAME = "minetest"  # Minetest Game
 MOD = pathlib.Path(__file__).with_name("luanti_mod")
 
 MAPCHUNK = 80             # blocks
-BOTTOM, TOP = -112, 127   # three mapchunks in height: 240 blocks, of which 128 are under water level
+BOTTOM, TOP = -112, 127   # three mapchunks in height: 240 blocks, of which 114 are at or under the water level
 MAPCHUNK_BEGIN = -32      # mapchunks begin at -32 + 80 n
 
 SETTINGS = {"mg_name": "v7", "server_announce": "false", "enable_damage": "false", "creative_mode": "true", "time_speed": 0,
