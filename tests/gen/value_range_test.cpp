@@ -67,6 +67,15 @@ TEST(ValueRange, HoldsTheResultOfEveryOperation) {
     EXPECT_GT(certain, 5000) << "ranges that always say \"anything\" are of no use";
 }
 
+TEST(ValueRange, RootsOfWhatMayBeZeroAreKnown) {
+    const ValueRange fromZero[] = {floatRange(0, 16)}, below[] = {floatRange(-1, 16)};
+    const ValueRange root = resultRange(Op::SqrtF, Type::Float, fromZero);
+    EXPECT_NEAR(root.lowF, 0, 0.001);
+    EXPECT_NEAR(root.highF, 4, 0.001);
+    EXPECT_FALSE(root.mayBeNaN);
+    EXPECT_TRUE(resultRange(Op::SqrtF, Type::Float, below).mayBeNaN);
+}
+
 TEST(ValueRange, SumsThatMayWrapAreUnknown) {
     const ValueRange sum[] = {intRange(0, std::numeric_limits<std::int32_t>::max()), intRange(0, 1)};
     EXPECT_EQ(resultRange(Op::AddI, Type::Int, sum).low, std::numeric_limits<std::int32_t>::min());

@@ -78,6 +78,16 @@ TEST_F(WorldCopyTest, WhatChangesMeanwhileIsCopiedAgain) {
     expectCopied(kChunks, kChunks, Provenance::Edited);
 }
 
+TEST_F(WorldCopyTest, DamagedRowsAreLeftOutAndCounted) {
+    runSql(from_, "UPDATE chunks SET data = zeroblob(100) WHERE key IN (SELECT key FROM chunks LIMIT 3)");
+    const auto report = copy();
+    ASSERT_TRUE(report) << report.error().message;
+    EXPECT_EQ(report->rows, kChunks - 3);
+    EXPECT_EQ(report->copied, kChunks - 3);
+    EXPECT_EQ(report->damaged, 3u);
+    EXPECT_NE(report->firstDamage, "");
+}
+
 TEST_F(WorldCopyTest, AStoppedCopyGoesOn) {
     const auto stopped = copy([](std::uint64_t) { return false; });
     ASSERT_FALSE(stopped);
