@@ -41,8 +41,8 @@ def parse():
 def report(pages):
     lines = ["| page | step | seconds |", "|---|---|---|"]
     for page in pages:
-        lines += [f"| {page.name} | {step} | {seconds:.0f} |" for step, seconds in page.times]
-        minutes = sum(seconds for _, seconds in page.times) / 60
+        lines += [f"| {page.name} | {step} | {seconds:.0f} |" for step, seconds in page.times.items()]
+        minutes = sum(page.times.values()) / 60
         lines.append(f"| **{page.name}** | **all** | **{minutes:.1f} minutes** |")
     return "\n".join(lines) + "\n"
 

@@ -42,7 +42,7 @@ class Page:
     def __init__(self, name, source, home):
         self.name, self.source, self.home = name, source, home
         self.text = (source / "docs" / "start" / f"{name}.md").read_text(encoding="utf-8")
-        self.times = []  # (step, seconds)
+        self.times = {}  # seconds by step
         self.output = ""
         self.shell = Shell(source, home)
 
@@ -51,13 +51,14 @@ class Page:
 
     @contextlib.contextmanager
     def step(self, number, upto=None):
-        """Measures a step, named by its heading."""
+        """Measures a step, named by its heading; a step may have several parts."""
         headings = dict(re.findall(r"^## (\d+)\. (.*)$", self.text, re.MULTILINE))
         names = [f"{k}. {headings[str(k)]}" for k in range(number, (upto or number) + 1)]
-        print(f"{self.name}: {'; '.join(names)}", file=sys.stderr, flush=True)
+        name = "; ".join(names)
+        print(f"{self.name}: {name}", file=sys.stderr, flush=True)
         start = time.monotonic()
         yield
-        self.times.append(("; ".join(names), time.monotonic() - start))
+        self.times[name] = self.times.get(name, 0) + time.monotonic() - start
 
     def quoted(self, text):
         """The text, which must be in the page."""

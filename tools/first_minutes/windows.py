@@ -1,6 +1,5 @@
 """The pages with windows: on a virtual display, with keys and clicks."""
 import contextlib
-import os
 import pathlib
 import re
 import signal
