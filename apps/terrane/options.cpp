@@ -193,7 +193,8 @@ void addResourcePackOption(CLI::App& command, std::string& folder) {
 void addTraceOption(CLI::App& command, std::string& trace) {
     command.add_option("--trace", trace, "Write a trace for Perfetto or chrome://tracing (JSON)")
         ->check(newFile())
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->configurable(false);
 }
 
 void addReportOption(CLI::App& command, std::string& report) {

@@ -30,6 +30,7 @@ base::Result<void> applyOne(const fs::path& file, CLI::App& command, const toml:
     };
     CLI::Option* option = command.get_option_no_throw("--" + std::string(key.str()));
     if (!option) return wrong("there is no such setting");
+    if (!option->get_configurable()) return wrong("only on the command line");
     if (option->count() > 0) return {};
     const auto set = setFromToml(*option, node);
     return set ? set : wrong(set.error().message);

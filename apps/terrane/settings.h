@@ -23,7 +23,7 @@ using SettingValues = std::map<std::string, std::string>;  // option without das
 
 // Sets the options of `command` that the command line does not set. A preset on the command line overrides
 // the file's graphics options, named in `graphics`. Does nothing without a file. Errors name the file and the
-// line.
+// line. Options that are not configurable are errors: they have their effect before the file is read.
 base::Result<void> applySettings(const std::filesystem::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics);
 

@@ -106,6 +106,21 @@ TEST_F(Settings, FormerNamesAreRead) {
     EXPECT_FALSE(settings.render.distanceFog);
 }
 
+// They have their effect before the file is read.
+TEST_F(Settings, OptionsOfTheCommandLineAloneAreRefused) {
+    std::filesystem::create_directories(file_.parent_path());
+    write("view-distance = 5\ntrace = 'trace.json'\n");
+    CLI::App command;
+    int viewDistance = 0;
+    std::string trace;
+    command.add_option("--view-distance", viewDistance);
+    addTraceOption(command, trace);
+    const auto done = applySettings(file_, command, {});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().message, file_.string() + ":2: trace: only on the command line");
+    EXPECT_EQ(trace, "");
+}
+
 TEST_F(Settings, AnOptionOfSeveralValuesTakesAList) {
     std::filesystem::create_directories(file_.parent_path());
     CLI::App command;

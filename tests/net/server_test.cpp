@@ -139,6 +139,18 @@ TEST_F(ServerTest, PlayersSeeEachOtherAndTalk) {
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.world->players().empty(); }));
 }
 
+TEST_F(ServerTest, LandIsLoadedOnlyAroundThoseWhoBuild) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::ChunkPos beside = world::offsetBy(world::chunkOf(ann.pose.position), -1, -1);
+    const auto isLoaded = [&] { return server.state().session.world().maybeChunkAt(beside) != nullptr; };
+    for (int tick = 0; tick < 200; ++tick) step(server, {&ann});
+    EXPECT_FALSE(isLoaded());
+    ASSERT_EQ(ann.put(above(ann), "glass"), game::EditResult::Applied);
+    EXPECT_TRUE(stepUntil(server, {&ann}, isLoaded));
+}
+
 // A player may still be known from the server that she left a moment ago.
 TEST_F(ServerTest, TheListHasPlayersOfOtherServersOnce) {
     TestServer server(folder_.path());

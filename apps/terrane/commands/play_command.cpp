@@ -145,7 +145,8 @@ CommandEntry addPlay(CLI::App& app) {
     command
         ->add_option("--settings", options->settingsFile,
                      "File of settings that the panel writes; \"\": none")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->configurable(false);
     command->footer("Keys:\n" + keyHelpText() + kWhereSaved);
     command->get_option("--name")->needs("--connect");
     command->get_option("--accept-packs")->needs("--connect");

@@ -7,12 +7,13 @@ namespace terrane::app {
 void addServeOptions(CLI::App& command, ServeOptions& options) {
     addWorldOptions(command, options.world);
     addWorldOption(command, options.save, "World to serve; created if needed");
-    command.get_option("--world")->required();
+    command.get_option("--world")->required()->configurable(false);
     command
         .add_option("--settings", options.settingsFile,
                     "Settings file (TOML) with the names of these options (default: NAME.server.toml beside "
                     "the world, if it exists)")
-        ->type_name("FILE");
+        ->type_name("FILE")
+        ->configurable(false);
     command
         .add_option("--address", options.listen.address,
                     "Address to listen on; :: is all, 127.0.0.1 this machine")
