@@ -128,6 +128,8 @@ TEST(StructureFile, SaysWhatIsWrong) {
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 2)), HasSubstr("version 2"));
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 1), 1, 1u << 30)), HasSubstr("1073741824"));
     EXPECT_THAT(fileError(framed(content(0, 1, 1, 1))), HasSubstr("0 × 1 × 1"));
+    EXPECT_THAT(fileError(framed(content(1, 0, 1, 1))), HasSubstr("1 × 0 × 1"));
+    EXPECT_THAT(fileError(framed(content(1, 1, 0, 1))), HasSubstr("1 × 1 × 0"));
     EXPECT_THAT(fileError(framed(content(1, 1, 257, 1))), HasSubstr("257"));
     EXPECT_THAT(fileError(framed(content(65535, 65535, 1, 1))), HasSubstr("at most 500000"));
     EXPECT_THAT(fileError(framed(content(1, 1, 1, 2))), HasSubstr("2 entries"));
