@@ -4,6 +4,14 @@ import json
 import subprocess
 
 
+def is_kept(changes, block):
+    """Whether the block that a bot was told is kept is the last one, or was replaced after a window's player had changed it:
+    what she puts there (half of a door) may go with what a bot changes beside it."""
+    by_bots = [player.startswith("bot") for _, player in changes]
+    newest = next((k for k, (after, _) in enumerate(changes) if by_bots[k] and after == block), None)
+    return newest is not None and (newest == 0 or not all(by_bots[:newest]))
+
+
 class Bots:
     def __init__(self, program, folder, count, round_seconds):
         self.program, self.folder, self.count, self.round_seconds = program, folder / "bots", count, round_seconds

@@ -8,6 +8,7 @@ import subprocess
 import numpy
 
 from . import GENERATOR
+from .bots import is_kept
 
 # Chunks around a window's player, of its 6, whose edits the server sends completely.
 SURE_CHUNKS = 4
@@ -27,15 +28,13 @@ def history_problems(postgres):
 
 
 def read_history(program, url):
-    """Position to its last block, all (position, block, player) of its changes, and their number."""
-    last, made, count = {}, set(), 0
+    """Position to its changes (block, player), newest first, and the number of all changes."""
+    changes, count = {}, 0
     for line in output_of(program, "history", "--world", url, "--limit", 10**9, "--each-block").splitlines():
         if found := HISTORY_LINE.match(line):
             count += 1
-            pos = tuple(int(found[k]) for k in "xyz")
-            last.setdefault(pos, found["after"])
-            made.add((pos, found["after"], found["player"]))
-    return last, made, count
+            changes.setdefault(tuple(int(found[k]) for k in "xyz"), []).append((found["after"], found["player"]))
+    return changes, count
 
 
 @dataclasses.dataclass
@@ -103,20 +102,18 @@ def compare_window(window, world, generated):
 def compare_worlds(program, postgres, folder, windows, bots):
     """Returns counts of compared blocks, and problems."""
     url, problems = postgres.url(), []
-    last, made, changes = read_history(program, url)
-    area = area_of(last)
+    history, count = read_history(program, url)
+    area = area_of(history)
     world = read_land(program, area, folder, "--world", url)
     generated = read_land(program, area, folder, "--generator", GENERATOR)
-    replayed = generated.with_blocks(last)
+    replayed = generated.with_blocks({pos: changes[0][0] for pos, changes in history.items()})
     output_of(program, "copy", url, folder / "copy.sqlite")
     copy = read_land(program, area, folder, "--world", folder / "copy.sqlite")
     digests = {"chunks": world.digest(), "history": replayed.digest(), "copy": copy.digest()}
     if len(set(digests.values())) != 1:
         differ = numpy.argwhere(replayed.ids != world.ids)
         problems.append(f"digests differ: {digests}; {len(differ)} blocks, first {differ[:5].tolist()}")
-    # Others may have changed it afterwards, also from beside it (the other half of a door), but the history has it.
-    by_bots = {(pos, name) for pos, name, player in made if player.startswith("bot")}
-    lost = [pos for pos, name in bots.kept.items() if (pos, name) not in by_bots]
+    lost = [pos for pos, name in bots.kept.items() if not is_kept(history.get(pos, []), name)]
     if lost:
         problems.append(f"{len(lost)} of {len(bots.kept)} blocks that bots were told are kept are lost: {lost[:5]}")
     around = {}
@@ -126,5 +123,5 @@ def compare_worlds(program, postgres, folder, windows, bots):
     checked = subprocess.run([program, "check", url], capture_output=True, text=True, check=False)
     if checked.returncode != 0:
         problems.append(checked.stdout)
-    return {"digests": digests, "area_chunks": (area[2] - area[0]) * (area[3] - area[1]), "changed_blocks": changes,
+    return {"digests": digests, "area_chunks": (area[2] - area[0]) * (area[3] - area[1]), "changed_blocks": count,
             "kept_by_bots": len(bots.kept), "lost": len(lost), "edited_blocks_around_windows": around}, problems
