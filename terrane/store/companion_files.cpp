@@ -14,12 +14,6 @@ namespace {
 using base::ErrorCode;
 namespace fs = std::filesystem;
 
-fs::path companion(const fs::path& path, const char* ending) {
-    fs::path beside = path;
-    beside += ending;
-    return beside;
-}
-
 bool hasContent(const fs::path& path) {
     std::error_code ignored;  // an inaccessible file counts as missing
     const auto size = fs::file_size(path, ignored);
@@ -47,6 +41,17 @@ bool namesAnother(const fs::path& journal) {
 
 }  // namespace
 
+bool isPresent(const fs::path& path) {
+    std::error_code ignored;  // an inaccessible file counts as missing
+    return fs::exists(fs::symlink_status(path, ignored));
+}
+
+fs::path beside(const fs::path& save, const char* ending) {
+    fs::path path = save;
+    path += ending;
+    return path;
+}
+
 base::Result<fs::path> ownPath(const fs::path& path) {
     std::error_code error;
     const fs::path own = fs::weakly_canonical(path, error);
@@ -60,26 +65,31 @@ base::Result<fs::path> ownPath(const fs::path& path) {
 }
 
 bool hasLog(const fs::path& path) {
-    return hasContent(companion(path, "-wal"));
+    return hasContent(beside(path, "-wal"));
 }
 
 bool hasJournal(const fs::path& path) {
     // SQLite ignores a journal that begins with 0 and leaves it there.
-    return std::ifstream(companion(path, "-journal"), std::ios::binary).get() > 0;
+    return std::ifstream(beside(path, "-journal"), std::ios::binary).get() > 0;
 }
 
-bool hasLostLog(const fs::path& path) {
+std::string lostLog(const fs::path& path) {
     std::error_code ignored;
-    if (fs::exists(companion(path, "-wal"), ignored)) return false;
-    std::ifstream lock(companion(path, "-lock"));
+    if (fs::exists(beside(path, "-wal"), ignored)) return {};
+    std::ifstream lock(beside(path, "-lock"));
     std::string number, word;
-    return (lock >> std::setw(16) >> number >> std::setw(16) >> word) && word == kLogWord;
+    lock >> std::setw(16) >> number >> std::setw(16) >> word;
+    if (!lock || word != kLogWord) return {};
+    return fmt::format(
+        "{}-wal: missing, although a program that wrote to it was killed: the last saved changes "
+        "are lost",
+        path.string());
 }
 
 base::Result<void> checkCompanions(const fs::path& path) {
     for (const char* ending : {"-wal", "-shm", "-journal", "-lock"})
-        if (auto ordinary = checkOrdinary(companion(path, ending)); !ordinary) return ordinary;
-    const fs::path journal = companion(path, "-journal");
+        if (auto ordinary = checkOrdinary(beside(path, ending)); !ordinary) return ordinary;
+    const fs::path journal = beside(path, "-journal");
     if (!namesAnother(journal)) return {};
     return base::fail(ErrorCode::Damaged, "{}: names another file, which would be deleted", journal.string());
 }

@@ -3,10 +3,16 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "terrane/base/result.h"
 
 namespace terrane::store {
+
+// Also true for a broken link.
+bool isPresent(const std::filesystem::path& path);
+// NAME.sqlite-wal for NAME.sqlite and "-wal".
+std::filesystem::path beside(const std::filesystem::path& save, const char* ending);
 
 // The save's path without symbolic links, so that all programs use the same lock and log; for a missing file,
 // its folder is resolved. Fails if hard links give the save several names.
@@ -18,8 +24,9 @@ bool hasLog(const std::filesystem::path& path);
 // Whether a journal to undo an interrupted transaction exists. Only creating a save leaves one.
 bool hasJournal(const std::filesystem::path& path);
 
-// Whether a writing program was killed, leaving its lock and log, and the log is now missing.
-bool hasLostLog(const std::filesystem::path& path);
+// Why changes are lost if a writing program was killed, leaving its lock and log, and the log is now missing,
+// one line; empty: no log is lost. Taking the lock to write removes the note of it.
+std::string lostLog(const std::filesystem::path& path);
 
 // Fails if one of them is a link or not a regular file, or if the journal names another file, which SQLite
 // would delete.

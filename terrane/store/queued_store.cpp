@@ -12,7 +12,8 @@ world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
     if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
     LoadedChunk loaded = decodeRow(row, ids_, budget_);
     if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
-    if (!row && row.error().code != base::ErrorCode::Damaged) result_ = tl::unexpected(row.error());
+    if (result_ && !row && row.error().code != base::ErrorCode::Damaged)
+        result_ = tl::unexpected(row.error());
     return std::move(loaded.chunk);
 }
 

@@ -33,7 +33,6 @@ base::Result<void> checkPages(Database& database, CheckReport& report) {
 std::string problemOf(const Statement& row, const SaveFile& file) {
     if (!world::isInWorld(posOf(row.number(0))))
         return fmt::format("the key {} is not a position", row.number(0));
-    if (std::string problem = rowProblem(row, 2, 1); !problem.empty()) return problem;
     const std::uint64_t seed = seedOf(posOf(row.number(0)), row.number(1), file.format);
     const auto chunk = decodeChunk(row.blob(2), file.ids, seed);
     return chunk ? "" : chunk.error().message;
@@ -56,6 +55,7 @@ base::Result<void> forEachRowInOrder(Database& database, std::string_view sql, V
 
 base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
     const auto check = [&](const Statement& row) -> base::Result<void> {
+        std::string problem = rowProblem(row, 2, 1);  // reading the values would change their types
         ++report.chunks;
         const bool isTile = row.number(0) >= kFirstTileKey;
         if (isTile) ++report.tiles;
@@ -64,7 +64,7 @@ base::Result<void> checkChunks(SaveFile& file, CheckReport& report) {
         if (report.chunkBytes > report.fileBytes)
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: chunks share pages",
                               file.database.path());
-        std::string problem = problemOf(row, file);
+        if (problem.empty()) problem = problemOf(row, file);
         if (!problem.empty()) addDamage(report, posOf(row.number(0)), std::move(problem));
         return {};
     };
@@ -109,11 +109,7 @@ std::uint64_t sizeOf(std::filesystem::path path, const char* ending) {
 
 void checkLog(const std::string& path, CheckReport& report) {
     report.fileProblems = logProblems(path);
-    if (hasLostLog(path))
-        report.fileProblems.push_back(
-            fmt::format("{}-wal: missing, although a program that wrote to it was killed: the last saved "
-                        "changes are lost",
-                        path));
+    if (std::string lost = lostLog(path); !lost.empty()) report.fileProblems.push_back(std::move(lost));
 }
 
 }  // namespace

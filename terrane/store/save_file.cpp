@@ -1,8 +1,5 @@
 #include "terrane/store/save_file.h"
 
-#include <fcntl.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -26,7 +23,7 @@ constexpr std::string_view kMagic = "SQLite format 3\0"sv;  // the first bytes o
 using base::ErrorCode;
 namespace fs = std::filesystem;
 
-bool isPresent(const fs::path& path) {
+bool targetExists(const fs::path& path) {
     std::error_code ignored;  // an inaccessible file counts as missing
     return fs::exists(path, ignored);
 }
@@ -72,7 +69,7 @@ base::Result<bool> checkFile(const fs::path& path) {
 }
 
 tl::unexpected<base::Error> notASave(const fs::path& path) {
-    if (isPresent(path)) return base::fail(ErrorCode::Incompatible, "{}: empty, not a save", path.string());
+    if (targetExists(path)) return base::fail(ErrorCode::Incompatible, "{}: empty, not a save", path.string());
     return base::fail(ErrorCode::NotFound, "{}: there is no such file", path.string());
 }
 
@@ -81,7 +78,7 @@ fs::path backupPath(const fs::path& path, const std::string& word) {
     for (int number = 1;; ++number) {
         fs::path backup = path.parent_path() / fmt::format("{}.{}-{}{}", path.stem().string(), word, number,
                                                            path.extension().string());
-        if (!isPresent(backup)) return backup;
+        if (!targetExists(backup)) return backup;
     }
 }
 
@@ -264,17 +261,6 @@ base::Result<SaveFile> openReadable(const fs::path& name) {
 
 }  // namespace
 
-bool isWritable(const fs::path& path) {
-    const auto can = [](const fs::path& p) {
-        return ::faccessat(AT_FDCWD, p.c_str(), W_OK, AT_EACCESS) == 0;
-    };
-    if (isPresent(path) && !can(path)) return false;
-    // Check the nearest existing parent folder.
-    fs::path folder = fs::absolute(path).parent_path();
-    while (!isPresent(folder) && folder.has_relative_path()) folder = folder.parent_path();
-    return can(folder);
-}
-
 base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegistry& registry,
                                    const SaveAccess& access) {
     const auto own = ownPath(name);
@@ -287,8 +273,10 @@ base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegis
     }
     if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
     if (auto made = makeFolder(path); !made) return tl::unexpected(made.error());
+    const std::string lost = lostLog(path);
     auto lock = FileLock::acquire(path, FileLock::Kind::Exclusive);
     if (!lock) return tl::unexpected(lock.error());
+    if (!lost.empty()) base::logWarning("{}", lost);
     auto database = Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite);
     if (!database) return tl::unexpected(database.error());
 

@@ -43,7 +43,4 @@ struct SaveFile {
 // Reads only the metadata. Errors as openToRead().
 [[nodiscard]] base::Result<Metadata> readSavedMetadata(const std::filesystem::path& path);
 
-// Whether the save, or a new one, can be written there: checks the file, its folder and their file system.
-bool isWritable(const std::filesystem::path& path);
-
 }  // namespace terrane::store

@@ -117,14 +117,14 @@ base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkP
     for (const auto& [name, value] : batch.metadata)
         if (auto done = metadata_.put(name, value); !done) return done;
     for (const world::ChunkPos pos : unread)
-        if (auto done = putAside(pos, "could not be read when it was replaced"); !done) return done;
+        if (auto done = quarantineRow(pos, "could not be read when it was replaced"); !done) return done;
     for (const auto& [pos, chunk] : batch.chunks)
         if (auto done = writeChunk(pos, chunk); !done) return done;
     return {};
 }
 
 base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingChunk& chunk) {
-    if (auto done = putAsideIfDamaged(pos); !done) return done;
+    if (auto done = quarantineIfDamaged(pos); !done) return done;
     const bool isEdited = chunk.provenance == Provenance::Edited;
     const auto bytes = encodeChunk(*chunk.chunk, file_.ids, checksumSeed(pos, isEdited));
     if (!bytes) {
@@ -153,7 +153,7 @@ base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
     return {};
 }
 
-base::Result<void> SqliteWriter::putAside(world::ChunkPos pos, std::string_view reason) {
+base::Result<void> SqliteWriter::quarantineRow(world::ChunkPos pos, std::string_view reason) {
     use_.quarantineAll.bind(1, keyOf(pos));
     use_.quarantineAll.bind(2, reason);
     auto done = use_.quarantineAll.run();
@@ -166,7 +166,7 @@ base::Result<void> SqliteWriter::putAside(world::ChunkPos pos, std::string_view 
 }
 
 // Checks a row before it is overwritten: a damaged one is quarantined even if nobody tried to load it.
-base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
+base::Result<void> SqliteWriter::quarantineIfDamaged(world::ChunkPos pos) {
     use_.selectChunk.bind(1, keyOf(pos));
     const auto row = use_.selectChunk.step();
     std::optional<DamagedRow> damaged;
@@ -178,7 +178,7 @@ base::Result<void> SqliteWriter::putAsideIfDamaged(world::ChunkPos pos) {
         if (!problem.empty()) damaged = DamagedRow{pos, hashOfRow(data), problem};
     }
     use_.selectChunk.reset();
-    if (!row && row.error().code == base::ErrorCode::Damaged) return putAside(pos, row.error().message);
+    if (!row && row.error().code == base::ErrorCode::Damaged) return quarantineRow(pos, row.error().message);
     if (!row) return tl::unexpected(row.error());
     if (!damaged) return {};
     base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", file_.database.path(),
@@ -194,7 +194,7 @@ base::Result<void> SqliteWriter::quarantine(const DamagedRow& row) {
     use_.selectChunk.reset();
     if (!isThere) return tl::unexpected(isThere.error());
     if (!isSame) return {};
-    if (auto done = putAside(row.pos, row.reason); !done) return done;
+    if (auto done = quarantineRow(row.pos, row.reason); !done) return done;
     return deleteRow(row.pos);
 }
 

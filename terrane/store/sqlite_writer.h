@@ -42,8 +42,8 @@ class SqliteWriter {
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
     base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
-    base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
-    base::Result<void> putAsideIfDamaged(world::ChunkPos pos);
+    base::Result<void> quarantineRow(world::ChunkPos pos, std::string_view reason);
+    base::Result<void> quarantineIfDamaged(world::ChunkPos pos);
     base::Result<void> quarantine(const DamagedRow& row);
     base::Result<void> deleteRow(world::ChunkPos pos);
 

@@ -1,13 +1,13 @@
 #include "terrane/store/world_list.h"
 
 #include <algorithm>
-#include <optional>
 #include <system_error>
 
+#include "terrane/base/log.h"
 #include "terrane/store/companion_files.h"
-#include "terrane/store/file_lock.h"
 #include "terrane/store/save_file.h"
 #include "terrane/store/save_path.h"
+#include "terrane/store/world_files.h"
 #include "terrane/store/world_location.h"
 
 namespace terrane::store {
@@ -18,17 +18,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSaveEnding = ".sqlite";
 constexpr std::size_t kMaxListed = 1000;
-
-bool isPresent(const fs::path& path) {
-    std::error_code ignored;  // an inaccessible file counts as missing
-    return fs::exists(fs::symlink_status(path, ignored));
-}
-
-fs::path beside(const fs::path& save, const char* ending) {
-    fs::path path = save;
-    path += ending;
-    return path;
-}
 
 fs::file_time_type lastWritten(const fs::path& save) {
     fs::file_time_type last = fs::file_time_type::min();
@@ -69,7 +58,8 @@ base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
     fs::path path = worldFile(folder, name);
     std::error_code ignored;
     const fs::file_status status = fs::symlink_status(path, ignored);
-    if (!fs::exists(status)) return base::fail(ErrorCode::NotFound, "there is no world \"{}\"", name);
+    if (!fs::exists(status) || belongsToAWorld(path))
+        return base::fail(ErrorCode::NotFound, "there is no world \"{}\"", name);
     if (!fs::is_regular_file(status))
         return base::fail(ErrorCode::Incompatible, "{}: a link, or not a regular file; it is not opened",
                           path.string());
@@ -77,32 +67,8 @@ base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
 }
 
 base::Result<fs::path> newFile(const fs::path& folder, std::string_view name) {
-    if (auto good = checkWorldName(name); !good) return tl::unexpected(good.error());
-    fs::path path = worldFile(folder, name);
-    if (isPresent(path)) return base::fail(ErrorCode::BadInput, "there is a world \"{}\" already", name);
-    for (const char* ending : {"-wal", "-journal"})  // SQLite would use them for the new file
-        if (isPresent(beside(path, ending)))
-            return base::fail(ErrorCode::BadInput, "{}: left by another world, delete it first",
-                              beside(path, ending).string());
-    return path;
-}
-
-base::Result<void> move(const fs::path& from, const fs::path& to) {
-    std::error_code error;
-    fs::rename(from, to, error);
-    if (!error) return {};
-    return base::fail(ErrorCode::Io, "{}: cannot be renamed: {}", from.string(), error.message());
-}
-
-// Checkpoints the log into the file, so that the file is complete.
-base::Result<void> endLog(const fs::path& path) {
-    if (auto checked = checkCompanions(path); !checked) return checked;
-    if (!hasLog(path) && !hasJournal(path)) return {};
-    auto database = Database::open(path, OpenMode::ReadWrite);
-    if (!database) return tl::unexpected(database.error());
-    if (auto done = database->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !done) return done;
-    if (!hasLog(path)) return {};
-    return base::fail(ErrorCode::Busy, "{}: its log is in use", path.string());
+    if (auto good = checkNewWorld(folder, name); !good) return tl::unexpected(good.error());
+    return worldFile(folder, name);
 }
 
 void moveThumbnail(const fs::path& from, const fs::path& to) {
@@ -118,7 +84,15 @@ base::Result<void> checkWorldName(std::string_view name) {
         return base::fail(ErrorCode::BadInput,
                           "{:?}: the name of a world ends with neither \".sqlite\" nor a space nor a dot",
                           name);
+    if (name.ends_with(".server") || name.ends_with(".map"))
+        return base::fail(ErrorCode::BadInput,
+                          "{:?}: the name of a world ends with neither \".server\" nor \".map\"", name);
     return {};
+}
+
+base::Result<void> checkNewWorld(const fs::path& folder, std::string_view name) {
+    if (auto good = checkWorldName(name); !good) return good;
+    return checkFree(worldFile(folder, name));
 }
 
 fs::path worldFile(const fs::path& folder, std::string_view name) {
@@ -137,7 +111,7 @@ std::string freeWorldName(const fs::path& folder, std::string_view name) {
     const std::string stem(name.substr(0, bytes));
     for (int number = 1;; ++number) {
         std::string unused = number == 1 ? stem : fmt::format("{} {}", stem, number);
-        if (!isPresent(worldFile(folder, unused))) return unused;
+        if (checkFree(worldFile(folder, unused))) return unused;
     }
 }
 
@@ -148,7 +122,7 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
     for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListed; at.increment(error)) {
         const fs::path& path = at->path();
         std::error_code ignored;
-        if (path.extension() != kSaveEnding || at->is_directory(ignored)) continue;
+        if (path.extension() != kSaveEnding || belongsToAWorld(path) || at->is_directory(ignored)) continue;
         if (checkSaveName(path.stem().string())) worlds.push_back(entryOf(path, blocks));
     }
     std::ranges::sort(worlds, [](const WorldEntry& a, const WorldEntry& b) {
@@ -163,12 +137,16 @@ base::Result<void> renameWorld(const fs::path& folder, std::string_view name, st
     if (name == newName) return {};
     const auto to = newFile(folder, newName);
     if (!to) return tl::unexpected(to.error());
-    const auto lock = FileLock::acquire(*from, FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
+    const auto moves = movesOf(*from, *to);
+    if (!moves) return tl::unexpected(moves.error());
+    if (const std::string lost = lostLog(*from); !lost.empty()) base::logWarning("{}", lost);
+    const auto locks = lockAll(databasesOf(*from));
+    if (!locks) return tl::unexpected(locks.error());
     const auto newLock = FileLock::acquire(*to, FileLock::Kind::Exclusive);
     if (!newLock) return tl::unexpected(newLock.error());
-    if (auto ended = endLog(*from); !ended) return ended;
-    if (auto moved = move(*from, *to); !moved) return moved;
+    for (const fs::path& database : databasesOf(*from))
+        if (auto ended = endLog(database); !ended) return ended;
+    if (auto moved = moveAll(*moves); !moved) return moved;
     moveThumbnail(*from, *to);
     return {};
 }
@@ -176,21 +154,18 @@ base::Result<void> renameWorld(const fs::path& folder, std::string_view name, st
 base::Result<void> deleteWorld(const fs::path& folder, std::string_view name) {
     const auto path = ownFile(folder, name);
     if (!path) return tl::unexpected(path.error());
-    const auto lock = FileLock::acquire(*path, FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
-    // The save itself goes last: a log without its save would be applied to the next save of that name.
-    for (const fs::path& file : {beside(*path, "-wal"), beside(*path, "-shm"), beside(*path, "-journal"),
-                                 thumbnailOf(*path), *path}) {
-        std::error_code error;
-        fs::remove(file, error);
-        if (error)
-            return base::fail(ErrorCode::Io, "{}: cannot be deleted: {}", file.string(), error.message());
-    }
+    std::vector<fs::path> databases = databasesOf(*path);
+    const auto locks = lockAll(databases);
+    if (!locks) return tl::unexpected(locks.error());
+    if (auto removed = removeFile(thumbnailOf(*path)); !removed) return removed;
+    // The world itself goes last.
+    for (; !databases.empty(); databases.pop_back())
+        if (auto removed = removeDatabase(databases.back()); !removed) return removed;
     return {};
 }
 
-base::Result<void> copyWorld(const fs::path& folder, const WorldCopy& copy,
-                             const world::BlockRegistry& blocks, const CopyProgress& progress) {
+base::Result<void> copySave(const fs::path& folder, const SaveCopy& copy, const world::BlockRegistry& blocks,
+                            const CopyProgress& progress) {
     if (auto good = checkSaveName(copy.name); !good) return good;
     const fs::path from = worldFile(folder, copy.name);
     const auto to = newFile(folder, copy.newName);

@@ -31,8 +31,11 @@ struct WorldEntry {
 std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const world::BlockRegistry& blocks);
 
 // Fails for a name that a new world cannot have: one that checkSaveName() rejects, or that ends with
-// ".sqlite", a space or a dot.
+// ".sqlite", ".server", ".map", a space or a dot.
 [[nodiscard]] base::Result<void> checkWorldName(std::string_view name);
+
+// Also fails if there is such a world, or a file that one left and the new one would take over.
+[[nodiscard]] base::Result<void> checkNewWorld(const std::filesystem::path& folder, std::string_view name);
 
 std::filesystem::path worldFile(const std::filesystem::path& folder, std::string_view name);
 // The world's thumbnail beside the save; may not exist.
@@ -41,17 +44,19 @@ std::filesystem::path thumbnailOf(const std::filesystem::path& save);
 // The first unused name of the form "World", "World 2", …; shortened if too long.
 std::string freeWorldName(const std::filesystem::path& folder, std::string_view name);
 
-// These also rename, delete or copy the thumbnail. Errors: BadInput for an invalid or used name, NotFound,
-// Busy if another program has the world, Incompatible for a link.
+// These also rename, delete or copy the thumbnail. A server's files and the map's cache are renamed with the
+// world, or nothing is; a server's key and settings stay when the world is deleted. Errors: BadInput for an
+// invalid or used name, NotFound, Busy if another program has the world, Incompatible for a link to rename or
+// delete.
 [[nodiscard]] base::Result<void> renameWorld(const std::filesystem::path& folder, std::string_view name,
                                              std::string_view newName);
 [[nodiscard]] base::Result<void> deleteWorld(const std::filesystem::path& folder, std::string_view name);
 
-struct WorldCopy {
+struct SaveCopy {
     std::string name, newName;
 };
 // Copies the saved state, also while the world is played. A failed copy is removed.
-[[nodiscard]] base::Result<void> copyWorld(const std::filesystem::path& folder, const WorldCopy& copy,
-                                           const world::BlockRegistry& blocks, const CopyProgress& progress);
+[[nodiscard]] base::Result<void> copySave(const std::filesystem::path& folder, const SaveCopy& copy,
+                                          const world::BlockRegistry& blocks, const CopyProgress& progress);
 
 }  // namespace terrane::store

@@ -3,9 +3,8 @@
 #include <libpq-fe.h>
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstring>
+#include <cstdlib>
 #include <utility>
 
 namespace terrane::store_postgres {

@@ -27,7 +27,7 @@ class ChunkQueries {
 
 // Reads through one connection, inside its transaction.
 [[nodiscard]] store::StoredRow readRow(Connection& connection, world::ChunkPos pos);
-// The existing rows, unordered, all in memory at once.
+// The existing rows, unordered, all in memory at once. Data of more than 256 KiB is left out, as a problem.
 [[nodiscard]] base::Result<std::vector<store::KeyedRow>> readRows(Connection& connection,
                                                                   std::span<const std::int64_t> keys);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Connection& connection);

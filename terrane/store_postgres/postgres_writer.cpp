@@ -17,6 +17,7 @@ namespace {
 
 using store::ChunkRow;
 using store::Provenance;
+using store::StoredChunk;
 using store::StoredRow;
 using store::WaitingChunks;
 using world::ChunkPos;
@@ -36,7 +37,7 @@ constexpr Statement kReplaceChunks = {
     "INSERT INTO chunks (key, origin, data) SELECT * FROM unnest($1::bigint[], $2::smallint[], $3::bytea[]) "
     "ON CONFLICT (key) DO UPDATE SET origin = excluded.origin, data = excluded.data"};
 constexpr Statement kDeleteChunks = {"DELETE FROM chunks WHERE key = ANY ($1)"};
-constexpr Statement kPutAside = {
+constexpr Statement kQuarantine = {
     "WITH gone AS (DELETE FROM chunks WHERE key = $1 RETURNING key, data) "
     "INSERT INTO quarantine (key, reason, data) SELECT key, $2, data FROM gone"};
 constexpr Statement kDeleteTiles = {"DELETE FROM chunks WHERE key >= $1"};
@@ -98,7 +99,7 @@ base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, con
     // A newer row of another server stays, even if it could not be read before.
     for (const ChunkPos pos : unread)
         if (chunks->contains(pos))
-            if (auto done = putAside(pos, "could not be read when it was replaced"); !done)
+            if (auto done = quarantineRow(pos, "could not be read when it was replaced"); !done)
                 return tl::unexpected(done.error());
     if (auto done = writeChunks(*chunks); !done) return tl::unexpected(done.error());
     if (auto done = writeDerived(derived->rows); !done) return tl::unexpected(done.error());
@@ -181,7 +182,7 @@ base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch&
 base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
     std::vector<std::int64_t> keys, versions;
     for (const auto& [pos, chunk] : chunks) keys.push_back(store::keyOf(pos));
-    if (auto done = putAsideDamaged(keys); !done) return done;
+    if (auto done = quarantineDamaged(keys); !done) return done;
     keys.clear();
     std::vector<std::int16_t> origins;
     std::vector<store::Bytes> data;
@@ -229,10 +230,10 @@ base::Result<void> PostgresWriter::writeDerived(std::span<const ChunkRow> rows) 
     return connection_.change(kDeleteChunks, Parameters().numbers(deleted));
 }
 
-base::Result<void> PostgresWriter::putAside(ChunkPos pos, std::string_view reason) {
+base::Result<void> PostgresWriter::quarantineRow(ChunkPos pos, std::string_view reason) {
     isComplete_ = false;
     const std::string_view text = isText(reason) ? reason : "damaged";
-    return connection_.change(kPutAside, Parameters().number(store::keyOf(pos)).text(text));
+    return connection_.change(kQuarantine, Parameters().number(store::keyOf(pos)).text(text));
 }
 
 base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
@@ -240,24 +241,41 @@ base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
     const StoredRow there = readRow(connection_, row.pos);
     if (!there) return tl::unexpected(there.error());
     if (!*there || store::hashOfRow((*there)->data) != row.hash) return {};
-    return putAside(row.pos, row.reason);
+    return quarantineRow(row.pos, row.reason);
 }
 
+namespace {
+
+std::string problemOf(const StoredChunk& row) {
+    if (!row.problem.empty()) return row.problem;
+    const auto good = store::verifyChunk(row.data, row.seed);
+    return good ? std::string() : good.error().message;
+}
+
+// Why a row from readRows() is no valid chunk; empty: it is. readRows() leaves out long data, so such a row
+// is read again.
+base::Result<std::string> problemOf(Connection& connection, ChunkPos pos, const StoredChunk& row) {
+    if (row.problem.empty()) return problemOf(row);
+    const StoredRow whole = readRow(connection, pos);
+    if (!whole) return tl::unexpected(whole.error());
+    return *whole ? problemOf(**whole) : std::string();
+}
+
+}  // namespace
+
 // Checks rows before they are overwritten: damaged ones are quarantined even if nobody tried to load them.
-base::Result<void> PostgresWriter::putAsideDamaged(std::span<const std::int64_t> keys) {
+base::Result<void> PostgresWriter::quarantineDamaged(std::span<const std::int64_t> keys) {
     for (; !keys.empty(); keys = keys.subspan(std::min(kKeysAtOnce, keys.size()))) {
         const auto rows = readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size())));
         if (!rows) return tl::unexpected(rows.error());
         for (const store::KeyedRow& row : *rows) {
-            std::string problem = row.row.problem;
-            if (problem.empty())
-                if (auto good = store::verifyChunk(row.row.data, row.row.seed); !good)
-                    problem = good.error().message;
-            if (problem.empty()) continue;
             const ChunkPos pos = store::posOf(row.key);
+            const auto problem = problemOf(connection_, pos, row.row);
+            if (!problem) return tl::unexpected(problem.error());
+            if (problem->empty()) continue;
             base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", connection_.shown(),
-                             store::nameOf(pos), problem);
-            if (auto done = putAside(pos, problem); !done) return done;
+                             store::nameOf(pos), *problem);
+            if (auto done = quarantineRow(pos, *problem); !done) return done;
         }
     }
     return {};

@@ -36,8 +36,8 @@ class PostgresWriter {
     base::Result<void> deriveRows(const store::DerivedRows& rows, std::string_view rules,
                                   store::EntityBudget& budget);
     base::Result<void> quarantine(const store::DamagedRow& row);
-    base::Result<void> putAside(world::ChunkPos pos, std::string_view reason);
-    base::Result<void> putAsideDamaged(std::span<const std::int64_t> keys);
+    base::Result<void> quarantineRow(world::ChunkPos pos, std::string_view reason);
+    base::Result<void> quarantineDamaged(std::span<const std::int64_t> keys);
     base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
     base::Result<store::WaitingChunks> newestChunks(const store::SaveBatch& batch);
     base::Result<void> writeChunks(const store::WaitingChunks& chunks);

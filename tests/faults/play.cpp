@@ -168,7 +168,7 @@ void Play::verify() {
     auto store = open();
     ASSERT_TRUE(store) << "the save cannot be opened any more";
     expectLoads(*store);
-    ASSERT_TRUE(store->flush()) << "damaged rows are put aside";
+    ASSERT_TRUE(store->flush()) << "damaged rows are quarantined";
     expectTiles(*store, kSumRules);
     for (const world::ChunkPos pos : ledger_.positions()) {
         const int content = contentOf(store->load(pos));

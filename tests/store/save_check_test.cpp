@@ -158,6 +158,11 @@ TEST_F(LogCheckTest, AMissingLogIsNoticed) {
     }
     std::filesystem::create_symlink(path_, folder_ / "link.sqlite");
     EXPECT_TRUE(checkSave(folder_ / "link.sqlite", registry_)->isDamaged()) << "by another name";
+    // A program that writes says so, since afterwards nobody can know.
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(SqliteStore::open(path_, registry_, {}, kNever));
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), HasSubstr("a.sqlite-wal: missing"));
+    EXPECT_FALSE(check().isDamaged());
 }
 
 // A power failure can leave such a log, too.

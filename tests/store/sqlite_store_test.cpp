@@ -74,7 +74,7 @@ TEST_F(SqliteStoreTest, AnotherBuildsBlocks) {
     EXPECT_EQ(registry_.type(chunk->block(100)).name, "missing") << "the lamp";
 }
 
-TEST_F(SqliteStoreTest, DamagedRowIsPutAside) {
+TEST_F(SqliteStoreTest, DamagedRowIsQuarantined) {
     {
         const auto store = open();
         store->save({0, 0}, numberedChunk(1), Provenance::Edited);
@@ -114,7 +114,7 @@ TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsNotSavedOver) {
 }
 
 // If a player edits the chunk, the unreadable row is quarantined first, once.
-TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
+TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsQuarantinedBeforeItIsReplaced) {
     FaultyDisk disk;
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
     const Bytes before = chunkData();
@@ -137,7 +137,7 @@ TEST_F(SqliteStoreTest, WhatCouldNotBeReadIsPutAsideBeforeItIsReplaced) {
 }
 
 // Saving without loading does not overwrite data that could still be recovered.
-TEST_F(SqliteStoreTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
+TEST_F(SqliteStoreTest, DamagedRowIsQuarantinedAlsoWhenNobodyLooked) {
     { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
     runSql(path_, "UPDATE chunks SET data = x'0102'");
     { open()->save({0, 0}, numberedChunk(2), Provenance::Edited); }
@@ -145,7 +145,7 @@ TEST_F(SqliteStoreTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
     EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(2));
 }
 
-TEST_F(SqliteStoreTest, ARowWithoutBytesIsPutAsideAndReplaced) {
+TEST_F(SqliteStoreTest, ARowWithoutBytesIsQuarantinedAndReplaced) {
     {
         const auto store = open();
         for (int x = 0; x < 2; ++x) store->save({x, 0}, numberedChunk(1), Provenance::Edited);

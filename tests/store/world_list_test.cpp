@@ -55,7 +55,7 @@ class WorldList : public testing::Test {
     }
     base::Result<void> copy(const std::string& name, const std::string& newName,
                             const CopyProgress& progress = {}) {
-        return copyWorld(folder_, {name, newName}, blocks_, progress);
+        return copySave(folder_, {name, newName}, blocks_, progress);
     }
 
     base::TempFolder temporary_;
@@ -205,8 +205,7 @@ TEST_F(WorldList, LinksAreLeftAlone) {
 
 TEST_F(WorldList, ACopyIsAWorldOfItsOwn) {
     make("home");
-    double last = 0;
-    ASSERT_TRUE(copy("home", "copy", [&](double share) { return last = share, true; }));
+    ASSERT_TRUE(copy("home", "copy", [](double) { return true; }));
     EXPECT_EQ(entry("copy").identity, kIdentity);
     EXPECT_EQ(readAll(folder_ / "copy.png"), "picture of home");
     { open("copy")->save({5, 5}, numberedChunk(3), {}); }
@@ -235,6 +234,47 @@ TEST_F(WorldList, DeletesAWorldAndWhatIsBesideIt) {
     EXPECT_EQ(codeOf(deleteWorld(folder_, "home")), ErrorCode::NotFound);
     writeAll(folder_ / "bad.sqlite", "no save");
     EXPECT_TRUE(deleteWorld(folder_, "bad"));
+}
+
+TEST_F(WorldList, WhatAServerKeepsIsNoWorldAndGoesWithTheWorld) {
+    make("home");
+    const auto write = [&](const std::string& name) {
+        runSql(folder_ / (name + ".server.sqlite"), "CREATE TABLE people(name TEXT)");
+        runSql(folder_ / (name + ".map.sqlite"), "CREATE TABLE surfaces(data BLOB)");
+        writeAll(folder_ / (name + ".server.pem"), "key");
+        writeAll(folder_ / (name + ".server.toml"), "port = 1");
+    };
+    write("home");
+    EXPECT_THAT(names(), ElementsAre("home"));
+    EXPECT_EQ(codeOf(deleteWorld(folder_, "home.server")), ErrorCode::NotFound);
+
+    ASSERT_TRUE(renameWorld(folder_, "home", "town"));
+    EXPECT_THAT(files(), ElementsAre("town.map.sqlite", "town.png", "town.server.pem", "town.server.sqlite",
+                                     "town.server.toml", "town.sqlite"));
+    ASSERT_TRUE(deleteWorld(folder_, "town"));
+    EXPECT_THAT(files(), ElementsAre("town.server.pem", "town.server.toml"));
+
+    make("other");
+    write("town");
+    EXPECT_EQ(codeOf(renameWorld(folder_, "other", "town")), ErrorCode::BadInput) << "of another world";
+    EXPECT_EQ(codeOf(checkNewWorld(folder_, "town")), ErrorCode::BadInput);
+    EXPECT_EQ(freeWorldName(folder_, "town"), "town 2");
+    EXPECT_EQ(codeOf(copy("other", "third.server")), ErrorCode::BadInput);
+    // Without their world they are listed, and can be deleted.
+    EXPECT_THAT(names(), ElementsAre("other", "town.map", "town.server"));
+    for (const char* name : {"town.map", "town.server"}) EXPECT_TRUE(deleteWorld(folder_, name));
+    EXPECT_TRUE(renameWorld(folder_, "other", "town")) << "nothing is in the way";
+    EXPECT_THAT(names(), ElementsAre("town"));
+}
+
+TEST_F(WorldList, AServerThatRunsKeepsItsFiles) {
+    make("home");
+    runSql(folder_ / "home.server.sqlite", "CREATE TABLE people(name TEXT)");
+    const auto lock = FileLock::acquire(folder_ / "home.server.sqlite", FileLock::Kind::Exclusive);
+    ASSERT_TRUE(lock);
+    EXPECT_EQ(codeOf(renameWorld(folder_, "home", "town")), ErrorCode::Busy);
+    EXPECT_EQ(codeOf(deleteWorld(folder_, "home")), ErrorCode::Busy);
+    EXPECT_TRUE(fs::exists(folder_ / "home.sqlite") && fs::exists(folder_ / "home.server.sqlite"));
 }
 
 TEST_F(WorldList, ProposesAFreeName) {

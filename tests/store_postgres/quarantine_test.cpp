@@ -1,4 +1,6 @@
 // Invalid rows are quarantined with their data.
+#include <random>
+
 #include "tests/store_postgres/world_fixture.h"
 
 #include "terrane/store/chunk_key.h"
@@ -48,7 +50,7 @@ constexpr Damage kDamages[] = {
 };
 
 // Chunks x,0 are damaged, each in a different way.
-TEST_F(QuarantineTest, DamagedRowIsPutAside) {
+TEST_F(QuarantineTest, DamagedRowIsQuarantined) {
     constexpr int kCount = static_cast<int>(std::size(kDamages));
     makeWorld(kCount + 1);
     sql("ALTER TABLE chunks ALTER data SET STORAGE EXTENDED");  // compresses long values
@@ -82,7 +84,7 @@ TEST_F(QuarantineTest, DamagedRowIsPutAside) {
 }
 
 // Saving without loading does not overwrite data that could still be recovered.
-TEST_F(QuarantineTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
+TEST_F(QuarantineTest, DamagedRowIsQuarantinedAlsoWhenNobodyLooked) {
     for (const Provenance provenance : {Provenance::Generated, Provenance::Edited}) {
         save({0, 0}, 1);
         sql("UPDATE chunks SET data = '\\x0102'");
@@ -91,6 +93,25 @@ TEST_F(QuarantineTest, DamagedRowIsPutAsideAlsoWhenNobodyLooked) {
         EXPECT_EQ(countIn("quarantine WHERE data = '\\x0102'"), "1");
         sql("DELETE FROM quarantine");
     }
+}
+
+// Many signs: the row is longer than those that are read together.
+TEST_F(QuarantineTest, ALongRowIsNotDamaged) {
+    auto chunk = std::make_shared<world::Chunk>(*store::numberedChunk(1));
+    std::mt19937 random(1);
+    for (int n = 0; n < 3000; ++n) {
+        chunk->setBlockEntityData(world::blockIndex(n % 16, n / 16 % 16, n / 256),
+                                  store::randomBytes(random, 200));
+    }
+    for (const int number : {1, 2}) {
+        const auto store = open();
+        chunk->setBlockState(world::blockIndex(1, 1, 20), static_cast<std::uint16_t>(number));
+        store->save({0, 0}, std::make_shared<world::Chunk>(*chunk), Provenance::Edited);
+        ASSERT_TRUE(store->flush());
+    }
+    EXPECT_GT(std::stoi(query("SELECT octet_length(data) FROM chunks" + whereIs({0, 0}))), 262144);
+    EXPECT_EQ(countIn("quarantine"), "0");
+    EXPECT_TRUE(*open()->load({0, 0}).chunk == *chunk);
 }
 
 // Such a row is damaged. It must not remain after an edit was reported as saved.

@@ -1,7 +1,6 @@
 #include "apps/terrane/window/new_world_form.h"
 
 #include <string_view>
-#include <system_error>
 
 #include "terrane/store/world_list.h"
 
@@ -33,14 +32,10 @@ base::Result<WrittenSeed> seedOf(const NewWorldForm& form) {
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {
     const std::string name(trimmed(form.name));
     if (name.empty()) return base::fail(base::ErrorCode::BadInput, "a world needs a name");
-    if (auto good = store::checkWorldName(name); !good) return tl::unexpected(good.error());
+    if (auto good = store::checkNewWorld(folder, name); !good) return tl::unexpected(good.error());
     auto seed = seedOf(form);
     if (!seed) return base::fail(base::ErrorCode::BadInput, "seed: {}", seed.error().message);
-    const std::filesystem::path file = store::worldFile(folder, name);
-    std::error_code ignored;
-    if (std::filesystem::exists(std::filesystem::symlink_status(file, ignored)))
-        return base::fail(base::ErrorCode::BadInput, "there is a world \"{}\" already", name);
-    return ChosenWorld{file, std::move(*seed), form.generator};
+    return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator};
 }
 
 }  // namespace terrane::app

@@ -108,8 +108,8 @@ void WorldShelf::startCopy(const std::string& newName) {
         return !isCancelled_;
     };
     copying_ =
-        std::async(std::launch::async, [this, progress, copy = store::WorldCopy{chosen()->name, newName}] {
-            return store::copyWorld(folder_, copy, *blocks_, progress);
+        std::async(std::launch::async, [this, progress, copy = store::SaveCopy{chosen()->name, newName}] {
+            return store::copySave(folder_, copy, *blocks_, progress);
         });
 }
 
