@@ -20,6 +20,17 @@ struct CloseFile {
 };
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
+// Returns 0 or errno.
+int writeAll(int descriptor, std::string_view bytes) {
+    while (!bytes.empty()) {
+        const ssize_t count = ::write(descriptor, bytes.data(), bytes.size());
+        if (count < 0 && errno == EINTR) continue;
+        if (count < 0) return errno;
+        bytes.remove_prefix(static_cast<std::size_t>(count));
+    }
+    return ::fsync(descriptor) == 0 ? 0 : errno;
+}
+
 }  // namespace
 
 Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxBytes) {
@@ -56,6 +67,15 @@ Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes
     if (!file) return tl::unexpected(file.error());
     if (auto written = file->write(0, bytes); !written) return written;
     return file->finish();
+}
+
+Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+    int error = descriptor < 0 ? errno : writeAll(descriptor, bytes);
+    if (descriptor >= 0 && ::close(descriptor) != 0 && error == 0) error = errno;
+    if (error == 0) return {};
+    if (descriptor >= 0) ::unlink(path.c_str());
+    return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(error));
 }
 
 }  // namespace terrane::base

@@ -21,4 +21,8 @@ constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 // Writes a file in one piece, as OutputFile does (output_file.h).
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
+// Creates a file that only its owner may read, for keys. Fails if it exists; leaves no partial file. The
+// bytes are on the disk when it returns.
+[[nodiscard]] Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes);
+
 }  // namespace terrane::base

@@ -7,7 +7,6 @@
 #include <boost/asio/ssl/stream.hpp>
 #include <boost/asio/write.hpp>
 #include <charconv>
-#include <optional>
 #include <utility>
 
 #include "terrane/net/frames.h"

@@ -1,8 +1,10 @@
 #include "terrane/net/client_world.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
+#include "terrane/net/view_range.h"
 #include "terrane/store/structure_file.h"
 
 namespace terrane::net {
@@ -43,6 +45,7 @@ void ClientWorld::onMessage(const ServerMessage& message) {
         correction_ = poseOf(corrected->pose);
     } else if (const auto* complete = std::get_if<ViewComplete>(&message)) {
         isViewComplete_ = toldView_ && complete->center == toldView_->center;
+        mayDropUnconfirmed_ = isViewComplete_;
     } else if (const auto* changed = std::get_if<RoleChanged>(&message)) {
         session_.permissions.roles[game::kLocalPlayer] = changed->role;
     } else if (const auto* list = std::get_if<PlayerList>(&message)) {
@@ -60,7 +63,8 @@ void ClientWorld::onCut() {
 
 void ClientWorld::take(const Joined& joined) {
     onCut();
-    joined_ = joined;
+    maxViewDistance_ = joined.maxViewDistance;
+    for (const world::ChunkPos pos : store_.positions()) unconfirmed_.insert(pos);
     isConnected_ = true;
     players_.clear();
     playerPoses_.clear();
@@ -71,11 +75,10 @@ void ClientWorld::take(const Joined& joined) {
 }
 
 void ClientWorld::take(const ChunkEdits& edits) {
+    if (edits.isFirst) unconfirmed_.erase(edits.chunk);
+    if (edits.isFirst && edits.chunk.level > 0) return setTile(edits.chunk, edits.blocks);
     if (edits.chunk.level > 0) {
-        if (edits.isFirst)
-            store_.setDifference(edits.chunk, edits.blocks);
-        else
-            store_.addDifference(edits.chunk, edits.blocks);
+        store_.addDifference(edits.chunk, edits.blocks);
         session_.tiles().tileListener()(std::span(&edits.chunk, 1));
         return;
     }
@@ -84,7 +87,47 @@ void ClientWorld::take(const ChunkEdits& edits) {
     showChunk(edits.chunk, edits.blocks);
 }
 
+void ClientWorld::setTile(world::ChunkPos pos, const ChunkDifference& blocks) {
+    store_.setDifference(pos, blocks);
+    session_.tiles().tileListener()(std::span(&pos, 1));
+}
+
+// A ViewComplete names only the center: of several views told before it, it may be about the smallest.
+void ClientWorld::noteToldView(const View& view) {
+    View least = view;
+    if (toldView_ && !isViewComplete_) {
+        least.viewDistance = std::min(least.viewDistance, completeView_.viewDistance);
+        least.horizon = std::min(least.horizon, completeView_.horizon);
+    }
+    completeView_ = least;
+    toldView_ = view;
+    isViewComplete_ = mayDropUnconfirmed_ = false;
+}
+
+// The server has told of all edited chunks and tiles in the complete view: the others are as they were
+// generated. A few in each frame, since chunks are generated for it.
+void ClientWorld::dropUnconfirmed() {
+    constexpr std::size_t kDropsAFrame = 16;
+    const View view = servedView(completeView_, maxViewDistance_);
+    std::size_t dropped = 0;
+    for (auto at = unconfirmed_.begin(); at != unconfirmed_.end() && dropped < kDropsAFrame;) {
+        const world::ChunkPos pos = *at;
+        const bool isSeen = pos.level <= topLevelOf(view) && isInView(view, pos);
+        at = isSeen ? unconfirmed_.erase(at) : std::next(at);
+        if (!isSeen) continue;
+        ++dropped;
+        if (pos.level > 0)
+            setTile(pos, {});
+        else
+            showChunk(pos, replaceDifference(pos, {}));
+    }
+    mayDropUnconfirmed_ = dropped == kDropsAFrame;
+}
+
 void ClientWorld::take(const BlocksChanged& changed) {
+    // The server tells of a chunk's first change since it was generated without ChunkEdits.
+    if (unconfirmed_.erase(changed.chunk) > 0)
+        return showChunk(changed.chunk, replaceDifference(changed.chunk, changed.blocks));
     store_.addDifference(changed.chunk, changed.blocks);
     showChunk(changed.chunk, changed.blocks);
 }
@@ -163,10 +206,12 @@ void ClientWorld::sendBuild(const game::BuildChange& change) {
 }
 
 void ClientWorld::sendTakeBack(game::HistoryWay way) {
-    if (!isConnected_) return decided_.push_back(game::TakenBack{game::TakenBack::Outcome::NotLoaded, 0, 0});
+    if (!isConnected_)
+        return decided_.push_back(DecidedTakeBack{way, {game::TakenBack::Outcome::NotLoaded, 0, 0}});
     const CommandNumber number = ++lastCommand_;
-    waiting_.push_back({number, WaitingDecision::Kind::TakeBack});
-    send_(TakeBack{number, way == game::HistoryWay::Redo});
+    const bool isRedo = way == game::HistoryWay::Redo;
+    waiting_.push_back({number, isRedo ? WaitingDecision::Kind::Redo : WaitingDecision::Kind::Undo});
+    send_(TakeBack{number, isRedo});
 }
 
 void ClientWorld::say(const std::string& text) {
@@ -177,18 +222,21 @@ void ClientWorld::take(const Done& done) {
     show(prediction_.settle(done.number));
     while (!waiting_.empty() && waiting_.front().number < done.number) waiting_.pop_front();
     if (waiting_.empty() || waiting_.front().number != done.number) return;
-    const WaitingDecision::Kind kind = waiting_.front().kind;
+    using Kind = WaitingDecision::Kind;
+    const Kind kind = waiting_.front().kind;
     waiting_.pop_front();
     using Build = game::BuildOutcome::Result;
     using Taken = game::TakenBack::Outcome;
-    if (kind == WaitingDecision::Kind::Build && done.result <= static_cast<std::uint8_t>(Build::NotAllowed))
+    if (kind == Kind::Build && done.result <= static_cast<std::uint8_t>(Build::NotAllowed))
         decided_.push_back(game::BuildOutcome{static_cast<Build>(done.result), done.changed, done.kept});
-    if (kind == WaitingDecision::Kind::TakeBack &&
+    if ((kind == Kind::Undo || kind == Kind::Redo) &&
         done.result <= static_cast<std::uint8_t>(Taken::NotAllowed))
-        decided_.push_back(game::TakenBack{static_cast<Taken>(done.result), done.changed, done.kept});
+        decided_.push_back(
+            DecidedTakeBack{kind == Kind::Redo ? game::HistoryWay::Redo : game::HistoryWay::Undo,
+                            {static_cast<Taken>(done.result), done.changed, done.kept}});
     const auto result = static_cast<game::EditResult>(done.result);
     const bool isRefused = result != game::EditResult::Applied && result != game::EditResult::Unchanged;
-    if (kind == WaitingDecision::Kind::Edit && isRefused &&
+    if (kind == Kind::Edit && isRefused &&
         done.result <= static_cast<std::uint8_t>(game::EditResult::Claimed))
         decided_.push_back(result);
 }
@@ -213,6 +261,7 @@ void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
                          std::chrono::steady_clock::time_point now) {
     showLateChunks();
     if (!isConnected_) return;
+    if (mayDropUnconfirmed_) dropUnconfirmed();
     session_.setPlayer(game::kLocalPlayer, pose);
     if (now >= nextMove_) {
         const WirePose wire = wirePose(pose);
@@ -229,8 +278,7 @@ void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
     // Move goes before View: the server accepts a view only near the player.
     if (toldPose_ != wirePose(pose)) send_(Move{*(toldPose_ = wirePose(pose))});
     send_(view);
-    toldView_ = view;
-    isViewComplete_ = false;
+    noteToldView(view);
 }
 
 std::vector<ChatLine> ClientWorld::takeChat() {

@@ -10,6 +10,8 @@
 #include <optional>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
+#include <variant>
 #include <vector>
 
 #include "terrane/game/session.h"
@@ -34,8 +36,13 @@ struct ChatLine {
     std::string text;
 };
 
+struct DecidedTakeBack {
+    game::HistoryWay way = game::HistoryWay::Undo;
+    game::TakenBack result;
+};
+
 // The server's decision on a command that was not predicted, or that it refused.
-using Decided = std::variant<game::EditResult, game::BuildOutcome, game::TakenBack>;
+using Decided = std::variant<game::EditResult, game::BuildOutcome, DecidedTakeBack>;
 
 class ClientWorld {
   public:
@@ -48,7 +55,7 @@ class ClientWorld {
     ClientWorld& operator=(const ClientWorld&) = delete;
 
     // Handles Joined and all messages after it. A second Joined, after a lost connection, resets the view:
-    // everything is sent again.
+    // all edits in it are sent again, and those that the server has lost disappear once the view is complete.
     void onMessage(const ServerMessage& message);
     // The connection was lost: reverts commands that the server did not decide on.
     void onCut();
@@ -74,7 +81,7 @@ class ClientWorld {
   private:
     struct WaitingDecision {
         CommandNumber number = 0;
-        enum class Kind : std::uint8_t { Edit, Build, TakeBack } kind = Kind::Edit;
+        enum class Kind : std::uint8_t { Edit, Build, Undo, Redo } kind = Kind::Edit;
     };
     void sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed);
     void sendBuild(const game::BuildChange& change);
@@ -88,6 +95,9 @@ class ClientWorld {
 
     void show(std::span<const world::PlacedBlock> blocks);
     void showChunk(world::ChunkPos pos, const ChunkDifference& blocks);
+    void setTile(world::ChunkPos pos, const ChunkDifference& blocks);
+    void noteToldView(const View& view);
+    void dropUnconfirmed();
     ChunkDifference replaceDifference(world::ChunkPos pos, const ChunkDifference& difference);
     void showLateChunks();
     bool isLoading(world::ChunkPos pos) const;
@@ -96,7 +106,11 @@ class ClientWorld {
     RemoteStore& store_;
     Send send_;
     Prediction prediction_;
-    std::optional<Joined> joined_;
+    int maxViewDistance_ = 0;  // of the server
+    // Chunks and tiles with edits from before the connection was lost, of which the server has not told
+    // since.
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> unconfirmed_;
+    bool mayDropUnconfirmed_ = false;  // since the view was complete
     CommandNumber lastCommand_ = 0;
     std::deque<WaitingDecision> waiting_;
     // Changes that arrived for chunks while they were being loaded.
@@ -105,6 +119,7 @@ class ClientWorld {
 
     std::optional<WirePose> toldPose_;
     std::optional<View> toldView_;
+    View completeView_;  // what a ViewComplete that comes next is certainly about
     std::chrono::steady_clock::time_point nextMove_{};
 
     std::map<std::uint16_t, SeenPlayer> players_;  // by slot

@@ -1,10 +1,8 @@
 #include "terrane/net/edit_log.h"
 
 #include <algorithm>
-#include <cassert>
 #include <chrono>
 #include <map>
-#include <string>
 #include <unordered_map>
 #include <utility>
 

@@ -1,14 +1,9 @@
 #include "terrane/net/keys.h"
 
-#include <fcntl.h>
 #include <sodium.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cerrno>
 #include <cstdlib>
 #include <system_error>
-#include <vector>
 
 #include "terrane/base/files.h"
 
@@ -42,15 +37,9 @@ base::Result<PlayerKey> writeKey(const std::filesystem::path& file) {
     std::array<char, 65> text{};
     sodium_bin2hex(text.data(), text.size(), raw(key.seed), key.seed.size());
     text[64] = '\n';
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    const bool isWritten =
-        descriptor >= 0 && ::write(descriptor, text.data(), 65) == 65 && ::fsync(descriptor) == 0;
-    const int error = errno;
-    if (descriptor >= 0) ::close(descriptor);
-    if (isWritten) return key;
-    if (descriptor >= 0) ::unlink(file.c_str());  // do not leave a partial key
-    return base::fail(base::ErrorCode::Io, "{}: the player's key cannot be written: {}", file.string(),
-                      base::systemReason(error));
+    if (auto written = base::writePrivateFile(file, {text.data(), text.size()}); !written)
+        return tl::unexpected(written.error());
+    return key;
 }
 
 }  // namespace

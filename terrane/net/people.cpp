@@ -2,8 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <charconv>
-#include <cstring>
 #include <utility>
 #include <vector>
 

@@ -1,8 +1,6 @@
 #include "terrane/net/records_copy.h"
 
 #include <algorithm>
-#include <utility>
-#include <vector>
 
 #include "terrane/net/shared_world.h"
 
@@ -16,7 +14,9 @@ base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_
     std::size_t waiting = 0;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         to.append({edit});
-        return ++waiting % kEditsAtOnce == 0 ? to.flush() : base::Result<void>();
+        if (++waiting % kEditsAtOnce != 0) return {};
+        if (SharedWorld* shared = to.shared()) (void)shared->takeNews();  // else it would keep all edits
+        return to.flush();
     };
     const EditFilter rest{.afterNumber = after};
     if (auto copied = from.forEachEdit(rest, EditOrder::OldestFirst, take); !copied) return copied;

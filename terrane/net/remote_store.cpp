@@ -35,6 +35,14 @@ std::size_t RemoteStore::blockCount() const {
     return count;
 }
 
+std::vector<world::ChunkPos> RemoteStore::positions() const {
+    const std::lock_guard lock(mutex_);
+    std::vector<world::ChunkPos> all;
+    all.reserve(differences_.size());
+    for (const auto& [pos, difference] : differences_) all.push_back(pos);
+    return all;
+}
+
 store::LoadedChunk RemoteStore::load(world::ChunkPos pos) {
     const ChunkDifference known = difference(pos);
     if (known.empty()) return {};

@@ -25,7 +25,8 @@ class RemoteStore : public store::ChunkStore {
     void addDifference(world::ChunkPos pos, std::span<const ChangedBlock> newer);
     // Empty if nothing is known or nothing differs.
     ChunkDifference difference(world::ChunkPos pos) const;
-    std::size_t blockCount() const;  // in all differences
+    std::size_t blockCount() const;                  // in all differences
+    std::vector<world::ChunkPos> positions() const;  // of all differences, unordered
 
     store::LoadedChunk load(world::ChunkPos pos) override;
     bool contains(world::ChunkPos pos) override;

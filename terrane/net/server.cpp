@@ -1,7 +1,6 @@
 #include "terrane/net/server.h"
 
 #include <algorithm>
-#include <cstring>
 #include <utility>
 
 #include "terrane/base/log.h"

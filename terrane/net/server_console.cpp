@@ -2,13 +2,13 @@
 
 #include <charconv>
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <span>
 
 #include "terrane/net/keys.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_history.h"
 #include "terrane/net/server_places.h"
+#include "terrane/net/wire_pose.h"
 
 namespace terrane::net {
 namespace {
@@ -17,7 +17,7 @@ using Words = std::span<const std::string>;
 
 struct ConsoleCommand {
     std::string_view name, arguments, help;
-    std::size_t least, most;  // number of arguments
+    std::size_t minArguments, maxArguments;
     std::string (*run)(ServerState&, Words);
 };
 
@@ -186,11 +186,11 @@ std::string mark(ServerState& server, Words words) {
     for (int k = 0; k < 3; ++k) {
         const auto number = numberFrom<double>(words[static_cast<std::size_t>(k)]);
         if (!number) return "a place is three numbers and a name: X Y Z NAME; in the chat a name alone";
+        // Also of z, since messages hold no more.
+        if (!(std::abs(*number) <= kMaxPosePosition / kPoseSteps)) return "this place is not in the world";
         pose.position[k] = *number;
     }
-    if (!std::isfinite(glm::dot(pose.position, pose.position)) ||
-        !world::isInWorld(world::chunkOf(pose.position)))
-        return "this place is not in the world";
+    if (!world::isInWorld(world::chunkOf(pose.position))) return "this place is not in the world";
     return markPlace(server, joined(words.subspan(3)), pose, true);
 }
 
@@ -285,7 +285,7 @@ std::string runConsoleLine(ServerState& server, std::string_view line) {
     for (const ConsoleCommand& command : kCommands) {
         if (command.name != words[0]) continue;
         const std::size_t count = words.size() - 1;
-        if (count < command.least || count > command.most)
+        if (count < command.minArguments || count > command.maxArguments)
             return fmt::format("expected: {} {}", command.name, command.arguments);
         return command.run(server, Words(words).subspan(1));
     }

@@ -104,7 +104,8 @@ void ServerSockets::Impl::accept() {
     isAccepting = true;
     acceptor.async_accept([this, self = shared_from_this()](const SocketError& error, Tcp::socket socket) {
         isAccepting = false;
-        if (error) return;  // e.g. out of file descriptors: the next tick tries again
+        if (!acceptor.is_open()) return;  // stopListening() came between
+        if (error) return;                // e.g. out of file descriptors: the next tick tries again
         addConnection(std::move(socket));
         accept();
     });

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "terrane/net/server_clients.h"
-#include "terrane/stream/tile_table.h"
+#include "terrane/net/view_range.h"
 
 namespace terrane::net {
 namespace {
@@ -20,20 +20,6 @@ constexpr std::uint64_t kTicksPerTileChange = 200;
 
 ChunkPos above(ChunkPos chunk, int level) {
     return {chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
-}
-
-// Whether the client needs a chunk or tile. `more`: margin in chunks or tiles.
-bool isInView(const View& view, ChunkPos pos, int more = 0) {
-    const std::int64_t away = world::chunkDistance(pos, above(view.center, pos.level));
-    // One chunk more than is visible, since meshes depend on their neighbors.
-    if (pos.level == 0) return away <= view.viewDistance + 1 + more;
-    const std::int64_t horizon = (view.horizon >> pos.level) + 1;
-    return away >= kNearestTile - more && away <= std::min<std::int64_t>(kFarthestTile, horizon) + more;
-}
-
-int topLevelOf(const View& view) {
-    if (view.horizon == 0) return 0;
-    return stream::coarsestLevel({.horizon = view.horizon, .detail = stream::kMinDetail});
 }
 
 // Squared distance from the center of the view, in chunks of level 0.
@@ -53,10 +39,7 @@ void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& d
 
 // Sets the client's view and collects the edited chunks and tiles to send.
 void setClientView(ServerState& server, ServerClient& client, const View& view) {
-    client.view = view;
-    client.view->viewDistance =
-        static_cast<std::uint8_t>(std::min<int>(view.viewDistance, server.settings.maxViewDistance));
-    client.view->horizon = static_cast<std::uint16_t>(std::min<int>(view.horizon, stream::kMaxHorizon));
+    client.view = servedView(view, server.settings.maxViewDistance);
     std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
     client.toTell.clear();
     for (int level = 0; level <= topLevelOf(*client.view); ++level) {

@@ -6,10 +6,6 @@
 
 namespace terrane::net {
 
-// A tile is sent if its distance is in this range, in widths of the tile (Chebyshev): nearer tiles are never
-// drawn (docs/levels.md), and at the finest detail no tile is farther away.
-constexpr int kNearestTile = 3, kFarthestTile = 33;
-
 // Sends blocks that changed since the last tick to the clients that have their chunks in view. Call in each
 // tick.
 void tellChangedBlocks(ServerState& server);

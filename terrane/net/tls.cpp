@@ -1,16 +1,14 @@
 #include "terrane/net/tls.h"
 
-#include <fcntl.h>
 #include <fmt/ranges.h>
 #include <openssl/evp.h>
 #include <openssl/pem.h>
 #include <openssl/x509.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstdio>
 #include <memory>
 #include <system_error>
+
+#include "terrane/base/files.h"
 
 namespace terrane::net {
 namespace {
@@ -23,6 +21,7 @@ struct Free {
 };
 using Key = std::unique_ptr<EVP_PKEY, Free<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, Free<X509_free>>;
+using Bio = std::unique_ptr<BIO, Free<BIO_free>>;
 
 constexpr long kYears = 100;  // expiry is not checked: clients remember the key
 
@@ -46,19 +45,14 @@ base::Result<void> makeKeyFile(const std::filesystem::path& file) {
     const Key key(EVP_PKEY_Q_keygen(nullptr, nullptr, "EC", "P-256"));
     const Certificate certificate = key ? certificateFor(key.get()) : nullptr;
     if (!certificate) return base::fail("{}: no key can be made", file.string());
-    const int descriptor = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    std::FILE* out = descriptor >= 0 ? ::fdopen(descriptor, "w") : nullptr;
-    const bool isWritten = out &&
-                           PEM_write_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr) &&
-                           PEM_write_X509(out, certificate.get());
-    int error = isWritten ? 0 : errno != 0 ? errno : EIO;
-    if (!out && descriptor >= 0) ::close(descriptor);
-    // Closing writes what is still in the buffer.
-    if (out && std::fclose(out) != 0 && error == 0) error = errno;
-    if (error == 0) return {};
-    if (descriptor >= 0) ::unlink(file.c_str());  // do not leave a partial key
-    return base::fail(base::ErrorCode::Io, "{}: the server's key cannot be written: {}", file.string(),
-                      base::systemReason(error));
+    const Bio text(BIO_new(BIO_s_mem()));
+    const bool isMade =
+        text && PEM_write_bio_PrivateKey(text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) &&
+        PEM_write_bio_X509(text.get(), certificate.get());
+    if (!isMade) return base::fail("{}: no key can be made", file.string());
+    char* bytes = nullptr;
+    const long count = BIO_get_mem_data(text.get(), &bytes);
+    return base::writePrivateFile(file, {bytes, static_cast<std::size_t>(count)});
 }
 
 std::string keyOf(X509* certificate) {

@@ -8,8 +8,6 @@
 #include <utility>
 
 #include "terrane/base/digest.h"
-#include "terrane/game/pose_text.h"
-#include "terrane/net/record_values.h"
 #include "terrane/net_postgres/record_rows.h"
 #include "terrane/store/chunk_key.h"
 

@@ -5,7 +5,6 @@
 #include "terrane/game/places.h"
 #include "terrane/net/message_types.h"
 #include "terrane/net/wire.h"
-#include "terrane/store/chunk_key.h"
 
 namespace terrane::net_postgres {
 namespace {

@@ -34,7 +34,8 @@ class PlayerListTest : public ::testing::Test {
     }
     template <class Condition>
     bool waitFor(Condition condition) {
-        for (int k = 0; k < 2000; ++k) {
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (std::chrono::steady_clock::now() < end) {
             (void)list_.now();
             if (condition()) return true;
             server_.tick();
@@ -48,7 +49,7 @@ class PlayerListTest : public ::testing::Test {
     }
 
     base::TempFolder folder_;
-    net::TestServer server_{folder_.path()};
+    net::TestServer server_{folder_.path(), net::patientSettings()};
     net::TestWire ann_{server_};
     PlayerList list_{server_.state(), ShownPlayers::Surface};
 };

@@ -57,7 +57,10 @@ class RandomPlayer {
     void update(int step) {
         step_ = step;
         if (wire_) {
-            for (ServerMessage& message : wire_->take()) toClient_.add(std::move(message), due());
+            for (ServerMessage& message : wire_->take()) {
+                if (const auto* ping = std::get_if<Ping>(&message)) wire_->say(Pong{ping->time});
+                toClient_.add(std::move(message), due());
+            }
             toClient_.deliver(step, [&](const ServerMessage& message) {
                 ASSERT_FALSE(std::holds_alternative<Refused>(message)) << std::get<Refused>(message).reason;
                 world_->onMessage(message);

@@ -235,7 +235,7 @@ TEST_F(HostileBuilding, GuestsAndClaims) {
 }
 
 TEST_F(HostileBuilding, AnEditAfterAStallIsToldAsItIs) {
-    start();
+    start(patientSettings());
     const world::BlockPos pos = nearSpawn();
     loadAround(pos);
     const auto bob = joined("Bob");
@@ -248,7 +248,7 @@ TEST_F(HostileBuilding, AnEditAfterAStallIsToldAsItIs) {
         server_->tick();
         const auto messages = ann_->take();
         if (const auto* found = findMessage<BlocksChanged>(messages)) changed = *found;
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));  // the chunk is loaded again
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));  // the chunk is loaded again
     }
     ASSERT_TRUE(changed);
     EXPECT_EQ(changed->blocks.at(0).value.id, contentBlock("glass"));

@@ -17,14 +17,14 @@ inline Refusal refusalOf(TestWire& wire) {
     return refused ? refused->why : Refusal::Count;
 }
 
-// A signed Login for a wire that has sent nothing yet.
+// The server's answer to the Hello of a wire that has sent nothing yet.
 inline Greeting greetingOf(TestWire& wire, const ClientIdentity& identity) {
     wire.say(helloOf(identity));
     return std::get<Greeting>(wire.take().at(0));
 }
+// A signed Login for such a wire.
 inline Login greetedLogin(TestWire& wire, const ClientIdentity& identity) {
-    wire.say(helloOf(identity));
-    return loginOf(identity, std::get<Greeting>(wire.take().at(0)), wire.channel);
+    return loginOf(identity, greetingOf(wire, identity), wire.channel);
 }
 
 class HostileTest : public testing::Test {

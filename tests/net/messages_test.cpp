@@ -6,6 +6,7 @@
 
 #include "terrane/net/client_message.h"
 #include "terrane/net/server_message.h"
+#include "tests/net/bytes_of.h"
 
 namespace terrane::net {
 namespace {
@@ -115,20 +116,15 @@ TEST(Messages, StepsHaveBounds) {
 
 // Encoded by hand according to docs/protocol.md.
 TEST(Messages, HaveTheBytesOfTheProtocol) {
-    const auto bytes = [](std::initializer_list<int> values) {
-        Bytes all;
-        for (const int value : values) all.push_back(static_cast<std::byte>(value));
-        return all;
-    };
     EXPECT_EQ(encode(ClientMessage(Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}})),
-              bytes({5, 7, 1, 4, 3, 0, 5, 2, 1, 4}));
+              bytesOf({5, 7, 1, 4, 3, 0, 5, 2, 1, 4}));
     EXPECT_EQ(
         encode(ServerMessage(BlocksChanged{{1, 2}, {{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}}})),
-        bytes({5, 0, 2, 4, 2, 3, 1, 2, 0, 2, 0x0B, 0, 0, 0xFA, 0x0D, 1, 0}));
+        bytesOf({5, 0, 2, 4, 2, 3, 1, 2, 0, 2, 0x0B, 0, 0, 0xFA, 0x0D, 1, 0}));
     EXPECT_EQ(encode(ServerMessage(Poses{{{1, 2, -3, 4, 5, -6, true}}})),
-              bytes({10, 1, 1, 3, 4, 5, 8, 5, 0xFA}));
+              bytesOf({10, 1, 1, 3, 4, 5, 8, 5, 0xFA}));
     EXPECT_EQ(encode(ServerMessage(Clock{0.5, 0})),
-              bytes({12, 0, 0, 0, 0, 0, 0, 0xE0, 0x3F, 0, 0, 0, 0, 0, 0, 0, 0}));
+              bytesOf({12, 0, 0, 0, 0, 0, 0, 0xE0, 0x3F, 0, 0, 0, 0, 0, 0, 0, 0}));
 }
 
 TEST(Messages, TheUsualOnesAreSmall) {

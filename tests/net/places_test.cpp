@@ -73,8 +73,8 @@ TEST_F(MarkedPlaces, AreListedAndRemoved) {
 }
 
 TEST_F(MarkedPlaces, OddPlacesAreRefused) {
-    for (const char* line :
-         {"mark 1 2 x A", "mark nan 2 3 A", "mark 1e300 2 3 A", "mark 1 1e12 3 A", "mark inf 0 0 A"})
+    for (const char* line : {"mark 1 2 x A", "mark nan 2 3 A", "mark 1e300 2 3 A", "mark 1 1e12 3 A",
+                             "mark inf 0 0 A", "mark 1e150 0 0 A", "mark 0 0 1e12 A"})
         EXPECT_FALSE(run(line).ends_with("is marked")) << line;
     EXPECT_TRUE(places().empty());
     for (std::size_t k = 0; k < game::kMaxPlaces; ++k) (void)run(fmt::format("mark 0 0 70 {}", k));

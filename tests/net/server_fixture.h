@@ -38,6 +38,13 @@ inline game::SessionParts serverParts(const std::filesystem::path& world) {
     return {std::move(blocks), std::move(generators), std::move(store), 2};
 }
 
+// For tests whose players may say nothing: ticks take milliseconds, so 20 seconds of the server are short.
+inline ServerSettings patientSettings() {
+    ServerSettings settings;
+    settings.silentAfter = std::chrono::hours(1);
+    return settings;
+}
+
 // A server on a world in a folder.
 struct TestServer {
     explicit TestServer(const std::filesystem::path& folder, const ServerSettings& settings = {},

@@ -70,7 +70,15 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     EXPECT_EQ(ann.block(high), world::kAir);
     decided = ann.world->takeDecided();
     ASSERT_EQ(decided.size(), 1u);
-    EXPECT_EQ(std::get<game::TakenBack>(decided[0]).blocks, 64u);
+    const auto& undone = std::get<DecidedTakeBack>(decided[0]);
+    EXPECT_EQ(undone.way, game::HistoryWay::Undo);
+    EXPECT_EQ(undone.result.blocks, 64u);
+    EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Redo).outcome,
+              game::TakenBack::Outcome::Sent);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    decided = ann.world->takeDecided();
+    ASSERT_EQ(decided.size(), 1u);
+    EXPECT_EQ(std::get<DecidedTakeBack>(decided[0]).way, game::HistoryWay::Redo);
 }
 
 // Two concurrent rollbacks of the same edits: the history stays readable.
@@ -265,6 +273,11 @@ TEST_F(ServerTest, AFarTownIsSeen) {
     const world::ChunkPos tile{world::chunkOf(low).x >> 2, world::chunkOf(low).y >> 2, 2};
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return !bob.store->difference(tile).empty(); }));
     EXPECT_EQ(*bob.store->load(tile).chunk, *server.state().session.store().load(tile).chunk);
+    // The tile of level 4 is too near to be drawn.
+    const world::ChunkPos tooNear{tile.x >> 2, tile.y >> 2, 4};
+    EXPECT_EQ(server.state().edited.within(tooNear, 0), std::vector{tooNear});
+    ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.world->isViewComplete(); }));
+    EXPECT_TRUE(bob.store->difference(tooNear).empty());
 }
 
 TEST_F(ServerTest, AFarTownThatIsBuiltMeanwhileIsSeen) {

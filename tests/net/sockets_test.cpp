@@ -6,8 +6,8 @@
 #include <boost/asio/read.hpp>
 #include <boost/asio/write.hpp>
 #include <cstdlib>
-#include <fstream>
 
+#include "terrane/base/process_statistics.h"
 #include "terrane/net/server.h"
 #include "terrane/net/server_console.h"
 #include "terrane/net/tls.h"
@@ -54,14 +54,6 @@ std::optional<Refused> refusedOf(const Bytes& stream) {
         if (auto message = decodeServerMessage(*frame).value(); std::holds_alternative<Refused>(message))
             return std::get<Refused>(message);
     return std::nullopt;
-}
-
-// Resident memory of this process.
-std::size_t residentBytes() {
-    std::ifstream file("/proc/self/statm");
-    std::size_t pages = 0;
-    file >> pages >> pages;
-    return pages * 4096;
 }
 
 class SocketsTest : public SocketTest {
@@ -230,7 +222,7 @@ TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
     // The header of a TLS record of 500 bytes: the server waits for the rest.
     const std::array<char, 5> begun{0x16, 0x03, 0x01, 0x01, static_cast<char>(0xf4)};
     for (const bool begins : {false, true}) {
-        const std::size_t before = residentBytes();
+        const std::size_t before = base::residentBytes();
         std::vector<Tcp::socket> sockets;
         std::size_t most = 0;
         for (std::size_t k = 0; k < count; ++k) {
@@ -245,9 +237,9 @@ TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
         most = std::max(most, server_->sockets->connectionCount());
         EXPECT_LE(most, kMaxPendingConnections + 1);
         EXPECT_GE(most, std::min(count, kMaxPendingConnections / 2));
+        const std::size_t now = base::residentBytes();
         fmt::print("{} connections that {}: {} are kept, {} KiB\n", count,
-                   begins ? "begin TLS" : "say nothing", most,
-                   (residentBytes() - std::min(before, residentBytes())) / 1024);
+                   begins ? "begin TLS" : "say nothing", most, (now - std::min(before, now)) / 1024);
         LinkPlayer& bob = addPlayer(begins ? "Bob" : "Cid");
         EXPECT_TRUE(runUntil([&] { return bob.isJoined(); })) << bob.link.reason();
         bob.link.leave();

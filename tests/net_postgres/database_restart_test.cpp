@@ -18,10 +18,8 @@ TEST(DatabaseRestart, EditsWaitAndAreKeptOnce) {
         const int k = static_cast<int>(numbers.size());
         numbers.push_back(anna.set(anna.near(k % 3 - 1, k / 3 % 3 - 1, 1 + k / 9), k % 2 ? "stone" : "dirt"));
         for (int n = 0; n < 3; ++n) servers.tick();
-        bert.stayAwake();
     };
     const auto isDecided = [&] {
-        anna.stayAwake();
         return std::ranges::all_of(numbers, [&](auto number) { return anna.resultOf(number).has_value(); });
     };
     for (int k = 0; k < 5; ++k) build();

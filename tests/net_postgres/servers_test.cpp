@@ -1,5 +1,4 @@
 // Several servers of one world: edits, players, chat, time.
-#include <functional>
 #include <random>
 
 #include "terrane/game/places.h"
@@ -289,17 +288,10 @@ TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     (void)net::runConsoleLine(a.state(), "mark 5 -6 70 The mill");
     const auto places = [&] { return game::savedPlaces(b.state().session.store()); };
     // Other servers are told once they are saved.
-    const auto tickUntil = [&](const std::function<bool()>& isSo) {
-        return servers_.tickUntil([&] {
-            anna.stayAwake();
-            bert.stayAwake();
-            return isSo();
-        });
-    };
-    ASSERT_TRUE(tickUntil([&] { return places().size() == 1; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return places().size() == 1; }));
     EXPECT_EQ(places().at(0).name, "The mill");
     (void)net::runConsoleLine(b.state(), "unmark The mill");
-    EXPECT_TRUE(tickUntil([&] { return game::savedPlaces(a.state().session.store()).empty(); }));
+    EXPECT_TRUE(servers_.tickUntil([&] { return game::savedPlaces(a.state().session.store()).empty(); }));
     (void)net::runConsoleLine(a.state(), "ban Bert noise");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
@@ -322,8 +314,6 @@ TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
                      net::mayGrow(b.state(), world::chunkOf(source)));
         for (int k = 0; k < 60; ++k) {
             servers_.tick();
-            anna.stayAwake();
-            bert.stayAwake();
             (void)b.state().session.pipeline().maybeLoadChunkAt(world::chunkOf(source));
         }
         return std::exchange(before, postgres_.query(flown)) == postgres_.query(flown) && before > "1";

@@ -40,7 +40,8 @@ class SharedServers {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
         while (records->takePlayerNumber() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
-        servers_.push_back(std::make_unique<TestServer>(std::move(parts), std::move(records)));
+        servers_.push_back(
+            std::make_unique<TestServer>(std::move(parts), std::move(records), net::patientSettings()));
         return *servers_.back();
     }
     // Ends the server as if killed: nothing is saved.
@@ -100,7 +101,6 @@ struct Guest {
         wire.say(net::Edit{++last, pos, world::SetBlock{to, 0}, expected});
         return last;
     }
-    void stayAwake() { wire.say(net::Move{pose}); }
     // Stores received messages.
     void hear() {
         for (net::ServerMessage& message : wire.take()) heard.push_back(std::move(message));

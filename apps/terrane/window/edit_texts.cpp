@@ -12,8 +12,9 @@ std::string refusalText(game::EditResult result, const Texts& tr) {
     return {};
 }
 
-std::string takenBackText(const game::TakenBack& done, bool isUndo, const Texts& tr) {
+std::string takenBackText(const game::TakenBack& done, game::HistoryWay way, const Texts& tr) {
     using Outcome = game::TakenBack::Outcome;
+    const bool isUndo = way == game::HistoryWay::Undo;
     if (done.outcome == Outcome::Sent) return {};
     if (done.outcome == Outcome::NoStep) return isUndo ? tr("nothing to undo") : tr("nothing to redo");
     if (done.outcome == Outcome::NotLoaded) return tr("too far away: the place of that edit is not loaded");

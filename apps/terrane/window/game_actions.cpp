@@ -161,7 +161,7 @@ void breakAndBuild(GameState& game, double seconds) {
 
 void takeBack(GameState& game, game::HistoryWay way) {
     const auto done = game.parts.session.takeBack(game::kLocalPlayer, way);
-    std::string text = takenBackText(done, way == game::HistoryWay::Undo, game.tr);
+    std::string text = takenBackText(done, way, game.tr);
     if (!text.empty()) game.notices.say(std::move(text));
 }
 

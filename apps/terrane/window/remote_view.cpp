@@ -17,7 +17,8 @@ std::string textOf(const net::Decided& decided, const Texts& tr) {
     if (const auto* result = std::get_if<game::EditResult>(&decided)) return refusalText(*result, tr);
     if (const auto* outcome = std::get_if<game::BuildOutcome>(&decided))
         return outcomeText("changed", *outcome);
-    return takenBackText(std::get<game::TakenBack>(decided), true, tr);
+    const auto& taken = std::get<net::DecidedTakeBack>(decided);
+    return takenBackText(taken.result, taken.way, tr);
 }
 
 void tellStage(Stage stage, Notices& notices, const Texts& tr) {
