@@ -22,7 +22,7 @@ struct OffscreenOptions {
     GraphicsOptions graphics;
     Backend backend = Backend::Cpu;
     store::WorldAccess access = store::WorldAccess::ReadOnly;
-    double meshMilliseconds = view::WorldView::kNoHurry;  // GPU time for meshing per frame
+    double meshMilliseconds = view::WorldView::kNoLimit;  // GPU time for meshing per frame
 };
 
 // The parts refer to each other by address: constructed in place, destroyed in reverse order. Used on the

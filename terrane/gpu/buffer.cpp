@@ -47,10 +47,6 @@ void Buffer::bindStorage(GLuint index) const {
     bindRange(GL_SHADER_STORAGE_BUFFER, index, 0, sizeBytes_);
 }
 
-void Buffer::bindUniform(GLuint index) const {
-    bindRange(GL_UNIFORM_BUFFER, index, 0, sizeBytes_);
-}
-
 void Buffer::bindUniform(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const {
     bindRange(GL_UNIFORM_BUFFER, index, offsetBytes, sizeBytes);
 }

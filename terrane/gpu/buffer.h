@@ -33,7 +33,6 @@ class Buffer {
     void download(std::size_t offsetBytes, std::span<std::byte> out) const;
 
     void bindStorage(GLuint index) const;
-    void bindUniform(GLuint index) const;
     void bindUniform(GLuint index, std::size_t offsetBytes, std::size_t sizeBytes) const;
 
   private:

@@ -31,7 +31,6 @@ MappedRing::MappedRing(std::size_t frameSliceBytes, std::string_view label)
     buffer_ = Buffer(allBytes, kMapFlags, label);
     mapped_ = static_cast<std::byte*>(
         glMapNamedBufferRange(buffer_.id(), 0, static_cast<GLsizeiptr>(allBytes), kMapFlags));
-    assert(mapped_ != nullptr && "a buffer with persistent storage can be mapped");
 }
 
 void MappedRing::beginFrame() {

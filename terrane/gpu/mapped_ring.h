@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstring>
 #include <optional>
@@ -26,7 +27,7 @@ class MappedRing {
 
     MappedRing() = default;
     // frameSliceBytes: what one frame may take, rounded up to the alignment that bindings need. The ring
-    // takes three times that.
+    // takes three times that. Check isMapped() before use.
     MappedRing(std::size_t frameSliceBytes, std::string_view label);
 
     // Waits only if the GPU still reads what was written kFrameSlices frames ago.
@@ -44,7 +45,16 @@ class MappedRing {
     }
 
     void bindUniform(GLuint index, const Allocation& allocation) const;
+    // Writes a uniform block and binds it. The frame slice must have room for it.
+    template <class T>
+    void writeUniform(GLuint index, const T& block) {
+        const std::optional<Allocation> allocation = write(std::span(&block, 1));
+        assert(allocation && "the ring has room for the uniforms of a frame");
+        bindUniform(index, *allocation);
+    }
 
+    // False if the driver has no memory for it.
+    [[nodiscard]] bool isMapped() const { return mapped_ != nullptr; }
     [[nodiscard]] const Buffer& buffer() const { return buffer_; }
     [[nodiscard]] GLuint id() const { return buffer_.id(); }
     [[nodiscard]] std::size_t frameSliceBytes() const { return frameSliceBytes_; }

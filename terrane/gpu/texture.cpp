@@ -72,7 +72,7 @@ std::size_t texelBytes(GLenum format) {
             return 8;
         case GL_RGBA32F:
             return 16;
-        default:  // GL_RGBA8, GL_SRGB8_ALPHA8, GL_R32F, GL_R32UI, GL_DEPTH_COMPONENT32F
+        default:  // GL_RGBA8, GL_SRGB8_ALPHA8, GL_RG16, GL_R32F, GL_R32UI, GL_DEPTH_COMPONENT32F
             return 4;
     }
 }

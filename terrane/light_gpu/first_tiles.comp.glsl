@@ -11,10 +11,10 @@ void main() {
     lists[2u * tileCount() + tile] = 0u;
     uint summary = tiles[tile];
     if ((summary & kTileIsOpaque) != 0u) return;
-    bool isWorthALook = (summary & kTileIsUniform) == 0u;
-    for (uint side = 0u; side < 6u && !isWorthALook; ++side) {
-        uint beside = cellBeside(tile, side);
-        isWorthALook = beside != kNoCell && couldRaise(tiles[beside] & 0xFFFFu, summary & 0xFFFFu);
+    bool mayChange = (summary & kTileIsUniform) == 0u;
+    for (uint side = 0u; side < 6u && !mayChange; ++side) {
+        uint beside = tileBeside(tile, side);
+        mayChange = beside != kNoTile && couldRaise(tiles[beside] & 0xFFFFu, summary & 0xFFFFu);
     }
-    if (isWorthALook) addToList(0u, tile);
+    if (mayChange) addToList(0u, tile);
 }

@@ -19,7 +19,7 @@ uint tileIndex(uint chunk, uvec3 place) {
 }
 
 // Corner of a light tile in its chunk, in blocks.
-uvec3 cellCorner(uint tile) {
+uvec3 tileCorner(uint tile) {
     return kLightTileSize * uvec3(tile & 1u, tile >> 1 & 1u, tile >> 2 & (kLightTilesHigh - 1u));
 }
 

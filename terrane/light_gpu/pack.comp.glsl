@@ -45,7 +45,7 @@ void packBrick(uint local) {
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, cellsLeft = rounds[kSolverRounds].groupsX;
-    if (local == 0u && gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u) result[0] = cellsLeft;
-    if (cellsLeft == 0u) packBrick(local);
+    uint local = gl_LocalInvocationIndex, tilesLeft = rounds[kSolverRounds].groupsX;
+    if (local == 0u && gl_WorkGroupID.x == 0u && gl_WorkGroupID.y == 0u) result[0] = tilesLeft;
+    if (tilesLeft == 0u) packBrick(local);
 }

@@ -12,7 +12,7 @@ layout(location = 1) uniform uint thisRound;  // counted over all submissions
 // The tile with a halo of one word: x fastest, 6 × 10 × 10 words.
 const uint kHaloRow = 6u, kHaloLayer = 60u, kHaloWords = 600u;
 shared uint tileWithHalo[kHaloWords];
-shared uint cellsBeside[6];  // by side
+shared uint tilesBeside[6];  // by side
 shared uint changed[3];  // by iteration, in turn
 shared uint raisedSides;
 
@@ -23,15 +23,15 @@ uint wordAround(uint tile, uint place) {
     uint from = tile;
     if (axes != ivec3(0)) {
         uint side = uint(2 * axes.y + 4 * axes.z) + (away.x + away.y + away.z > 0 ? 1u : 0u);
-        from = cellsBeside[side];
-        if (from == kNoCell) return 0u;
+        from = tilesBeside[side];
+        if (from == kNoTile) return 0u;
     }
     return levels[wordIndex(from, uvec3(word & ivec3(3, 7, 7)))];
 }
 
 uint lossHere(uint tile, uvec3 word) {
     uint chunk = tile / kLightTilesPerChunk;
-    uvec3 block = cellCorner(tile) + uvec3(2u * word.x, word.yz);
+    uvec3 block = tileCorner(tile) + uvec3(2u * word.x, word.yz);
     uint low = lossOfOpacity(opacityOf(propertyAt(chunk, block)));
     uint high = lossOfOpacity(opacityOf(propertyAt(chunk, block + uvec3(1u, 0u, 0u))));
     return low * 0x0101u | high * 0x01010000u;
@@ -56,8 +56,8 @@ uint sidesRaised(uint now, uint at, uvec3 word) {
     return sides;
 }
 
-void putDown(uint tile) {
-    if (tile == kNoCell || (tiles[tile] & kTileIsOpaque) != 0u) return;
+void listTile(uint tile) {
+    if (tile == kNoTile || (tiles[tile] & kTileIsOpaque) != 0u) return;
     bool isThere = atomicExchange(lists[2u * tileCount() + tile], thisRound + 1u) == thisRound + 1u;
     if (!isThere) addToList(thisRound % kSolverRounds + 1u, tile);
 }
@@ -65,7 +65,7 @@ void putDown(uint tile) {
 void main() {
     uint local = gl_LocalInvocationIndex, tile = tileOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
     uvec3 word = uvec3(local & 3u, local >> 2 & 7u, local >> 5);
-    if (local < 6u) cellsBeside[local] = cellBeside(tile, local);
+    if (local < 6u) tilesBeside[local] = tileBeside(tile, local);
     if (local < 3u) changed[local] = 0u;
     if (local == 3u) raisedSides = 0u;
     barrier();
@@ -92,5 +92,5 @@ void main() {
         atomicOr(raisedSides, sidesRaised(now, at, word));
     }
     barrier();
-    if (local < 6u && (raisedSides >> local & 1u) != 0u) putDown(cellsBeside[local]);
+    if (local < 6u && (raisedSides >> local & 1u) != 0u) listTile(tilesBeside[local]);
 }

@@ -12,20 +12,20 @@ layout(std430, binding = kSolverNeighborsBinding) readonly buffer Neighbors {
     uvec4 neighbors[];  // by chunk: neighbors at −x, +x, −y, +y, or kNoChunk
 };
 
-const uint kNoCell = 0xFFFFFFFFu;
+const uint kNoTile = 0xFFFFFFFFu;
 
-// Light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoCell if unknown.
-uint cellBeside(uint tile, uint side) {
+// Light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoTile if unknown.
+uint tileBeside(uint tile, uint side) {
     bool isUp = (side & 1u) != 0u;
     if (side >= 4u) {
         uint z = tile >> 2 & (kLightTilesHigh - 1u);
-        if (z == (isUp ? kLightTilesHigh - 1u : 0u)) return kNoCell;
+        if (z == (isUp ? kLightTilesHigh - 1u : 0u)) return kNoTile;
         return isUp ? tile + 4u : tile - 4u;
     }
     uint axis = side >> 1, other = tile ^ 1u << axis;
     if (isUp == ((tile >> axis & 1u) == 0u)) return other;  // of the same chunk
     uint chunk = neighbors[tile / kLightTilesPerChunk][side];
-    return chunk == kNoChunk ? kNoCell : chunk * kLightTilesPerChunk + other % kLightTilesPerChunk;
+    return chunk == kNoChunk ? kNoTile : chunk * kLightTilesPerChunk + other % kLightTilesPerChunk;
 }
 
 uint tileOfList(uint list, uint entry) {

@@ -6,7 +6,9 @@
 #include <condition_variable>
 #include <mutex>
 #include <optional>
+#include <system_error>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "terrane/base/log.h"
@@ -21,8 +23,6 @@ namespace {
 
 // Idle time after which the context and its memory are freed.
 constexpr std::chrono::seconds kIdle{10};
-
-constexpr int kSmallShadowMap = 256;  // texels a side: programs do not depend on it
 
 // Drivers may have other programs for textures whose sides are powers of two.
 int smallSide(int pixels) {
@@ -42,6 +42,13 @@ world::Chunk sampleChunk(const world::BlockRegistry& blocks) {
     return chunk;
 }
 
+// Options that select the same programs, with a small shadow map.
+RenderOptions withTheSamePrograms(RenderOptions options) {
+    options.shadowSize = 256;
+    options.animation = options.distanceFog = true;
+    return options;
+}
+
 FrameInput sampleInput() {
     FrameInput input;
     input.camera = {{-6, 8, 70}, 0, -20};
@@ -52,12 +59,12 @@ FrameInput sampleInput() {
 }  // namespace
 
 struct BackgroundCompiler::State {
-    struct Wanted {
+    struct Request {
         glm::ivec2 size;  // of the small image
         RenderOptions options;
         WorldFeatures features;
 
-        bool operator==(const Wanted&) const = default;
+        bool operator==(const Request&) const = default;
     };
 
     State(const gpu::ShaderLoader& loader, const world::BlockRegistry& registry, TextureSource source)
@@ -65,21 +72,23 @@ struct BackgroundCompiler::State {
 
     const gpu::ShaderLoader& shaders;
     const world::BlockRegistry& blocks;
-    TextureSource textures;
 
     std::mutex mutex;  // guards the members below
+    TextureSource textures;
     std::condition_variable changed;
-    std::optional<Wanted> next, current;
-    std::vector<Wanted> ready;
-    bool isUseless = false;  // no context: everything counts as ready
+    std::optional<Request> next, current;
+    std::vector<Request> ready;
+    bool hasNewTextures = false;  // since the thread made its renderer
+    bool isUseless = false;       // no context: everything counts as ready
     bool isEnding = false;
     std::thread thread;
 
-    bool isReady(const Wanted& wanted) const {
-        return isUseless || std::ranges::find(ready, wanted) != ready.end();
+    bool isReady(const Request& request) const {
+        return isUseless || std::ranges::find(ready, request) != ready.end();
     }
     bool waitForNext();
-    std::optional<Wanted> takeNext();
+    TextureSource takeTextures();
+    std::optional<Request> takeNext();
     void run();
     base::Result<void> compileUntilIdle();
 };
@@ -91,11 +100,17 @@ bool BackgroundCompiler::State::waitForNext() {
     return !isEnding;
 }
 
-// None if nothing was requested for a while, or the thread is to end.
-std::optional<BackgroundCompiler::State::Wanted> BackgroundCompiler::State::takeNext() {
+TextureSource BackgroundCompiler::State::takeTextures() {
+    const std::lock_guard lock(mutex);
+    hasNewTextures = false;
+    return textures;
+}
+
+// None if nothing was requested for a while, or the thread is to end or needs another renderer.
+std::optional<BackgroundCompiler::State::Request> BackgroundCompiler::State::takeNext() {
     std::unique_lock lock(mutex);
     changed.wait_for(lock, kIdle, [&] { return next || isEnding; });
-    if (isEnding) return std::nullopt;
+    if (isEnding || hasNewTextures) return std::nullopt;
     current = std::exchange(next, std::nullopt);
     return current;
 }
@@ -103,19 +118,17 @@ std::optional<BackgroundCompiler::State::Wanted> BackgroundCompiler::State::take
 base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
     auto context = gpu::HeadlessContext::create({});
     if (!context) return tl::unexpected(context.error());
-    auto renderer = Renderer::create(shaders, blocks, textures, gpu::queryDevice());
+    auto renderer = Renderer::create(shaders, blocks, takeTextures(), gpu::queryDevice());
     if (!renderer) return tl::unexpected(renderer.error());
     renderer->setViewDistance(1);
     renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
     renderer->setLight({0, 0}, light::ChunkLight());
-    while (const std::optional<Wanted> wanted = takeNext()) {
+    while (const std::optional<Request> request = takeNext()) {
         TERRANE_ZONE("compile shaders");
-        RenderOptions options = wanted->options;
-        options.shadowSize = kSmallShadowMap;
         const auto configure = [&]() -> base::Result<void> {
-            if (auto used = renderer->useLand(wanted->features.hasLand); !used) return used;
-            if (auto used = renderer->useTint(wanted->features.hasTint); !used) return used;
-            return renderer->configure(wanted->size, options);
+            if (auto used = renderer->useLand(request->features.hasLand); !used) return used;
+            if (auto used = renderer->useTint(request->features.hasTint); !used) return used;
+            return renderer->configure(request->size, request->options);
         };
         if (configure()) {
             // All quads count as hidden before the first frame, so its late pass draws them; in the second
@@ -125,7 +138,7 @@ base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
         }
         // The renderer reports options that the driver does not support.
         const std::lock_guard lock(mutex);
-        ready.push_back(*wanted);
+        if (!hasNewTextures) ready.push_back(*request);
         current.reset();
     }
     return {};
@@ -156,15 +169,30 @@ BackgroundCompiler::~BackgroundCompiler() {
     state_->thread.join();
 }
 
+void BackgroundCompiler::setTextures(TextureSource textures) {
+    const std::lock_guard lock(state_->mutex);
+    state_->textures = std::move(textures);
+    state_->hasNewTextures = true;
+    state_->ready.clear();
+}
+
 bool BackgroundCompiler::isReady(glm::ivec2 size, const RenderOptions& options,
                                  const WorldFeatures& features) {
-    const State::Wanted wanted{{smallSide(size.x), smallSide(size.y)}, options, features};
+    const State::Request request{
+        {smallSide(size.x), smallSide(size.y)}, withTheSamePrograms(options), features};
     const std::lock_guard lock(state_->mutex);
-    if (state_->isReady(wanted)) return true;
-    if (state_->current == wanted) return false;
-    state_->next = wanted;
-    // A user who never changes an option needs no thread.
-    if (!state_->thread.joinable()) state_->thread = std::thread([state = state_.get()] { state->run(); });
+    if (state_->isReady(request)) return true;
+    if (state_->current == request) return false;
+    state_->next = request;
+    try {
+        // A user who never changes an option needs no thread.
+        if (!state_->thread.joinable())
+            state_->thread = std::thread([state = state_.get()] { state->run(); });
+    } catch (const std::system_error& error) {
+        base::logWarning("shaders are compiled when they are first needed: no thread can be started: {}",
+                         error.what());
+        return state_->isUseless = true;
+    }
     state_->changed.notify_one();
     return false;
 }

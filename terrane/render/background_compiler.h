@@ -29,6 +29,8 @@ class BackgroundCompiler {
     BackgroundCompiler(const BackgroundCompiler&) = delete;
     BackgroundCompiler& operator=(const BackgroundCompiler&) = delete;
 
+    // After the renderer has other textures: textures of several sizes need other shaders.
+    void setTextures(TextureSource textures);
     // Whether a renderer of such a world and this size (pixels) can take these options without compiling. If
     // not, they are compiled next, replacing other waiting ones: call again before each frame until it is
     // true.

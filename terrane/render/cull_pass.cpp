@@ -118,9 +118,7 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
         frame.firstCommand[number / 4][static_cast<int>(number % 4)] = list.first;
     }
     frame.arenaQuads = meshSections.arenaQuads();
-    const auto slice = ring.write(std::span<const shared::CullFrame>(&frame, 1));
-    assert(slice && "the ring holds a frame's uniforms");
-    ring.buffer().bindUniform(shared::kCullBinding, slice->offsetBytes, sizeof(frame));
+    ring.writeUniform(shared::kCullBinding, frame);
     if (input.hiZ) input.hiZ->bind();
     meshSections.bindRecords();
     meshSections.bindOrder();

@@ -1,6 +1,6 @@
 // Changes of colors with distance. Needs frame_uniforms.glsl and sky_color.glsl. UNDER_WATER: 1 if the camera is.
 
-#include "terrane/render/bundled_light.glsl"
+#include "terrane/render/caustics.glsl"
 #if UNDER_WATER == 1
 #include "terrane/render/underwater.glsl"
 

@@ -21,6 +21,10 @@ int shadowVariant(const RenderOptions& options) {
 
 }  // namespace
 
+bool readsLand(const RenderOptions& options) {
+    return castsShadows(options) && options.shadows == ShadowReach::Horizon;
+}
+
 base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                                               const gpu::DeviceInfo& device) {
     auto cull = CullPass::create(shaders, device);
@@ -48,7 +52,7 @@ base::Result<void> FramePasses::configure(const FrameTargets& targets, const Ren
     if (done) done = gbuffer.select(options.msaaAlphaTest ? samples : 1, options.sharpFiltering, features);
     if (done) done = holeFill.configure(targets, options.tJunctions == TJunctions::Filled);
     if (done) done = figures.select(castsShadows(options));
-    const bool knowsLand = shadows > 0 && features.hasLand && options.shadows == ShadowReach::Horizon;
+    const bool knowsLand = features.hasLand && readsLand(options);
     if (done) done = shading.select(options, samples, {shadows, knowsLand});
     if (done) done = transparency.configure(targets, options, {shadows, knowsLand}, features);
     if (done) done = debugView.select(defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", light}}));

@@ -18,6 +18,9 @@
 
 namespace terrane::render {
 
+// Whether a shader reads the land up to the horizon (land_map.h) with these options, if there is land.
+bool readsLand(const RenderOptions& options);
+
 struct FramePasses {
     // The loader outlives the passes.
     static base::Result<FramePasses> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);

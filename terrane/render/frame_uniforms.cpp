@@ -63,7 +63,7 @@ shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& option
     frame.timeSeconds = input.timeSeconds;
     frame.exposure = kExposure;
     frame.ambientFromBelow = kAmbientFromBelow;
-    frame.isUnderWater = static_cast<shared::uint>(input.waterAbove);
+    frame.waterAbove = static_cast<shared::uint>(input.waterAbove);
     frame.view = static_cast<shared::uint>(input.view);
     const world::ChunkPos chunk = cameraChunk(input.camera);
     frame.cameraChunk = {chunk.x, chunk.y};

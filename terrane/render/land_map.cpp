@@ -219,8 +219,10 @@ void LandMap::blendGround(int number) {
 }
 
 std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight& light, int limit) {
-    if (glm::distance(light.direction, light_.direction) > kLightStep ||
-        light.discRadius != light_.discRadius) {
+    const bool isOther = glm::distance(light.direction, light_.direction) > kLightStep ||
+                         light.discRadius != light_.discRadius;
+    // Light that moves faster than all levels are swept skips steps, so that the finest level gets its turn.
+    if (isOther && (limit >= used_ || !isSweeping())) {
         light_ = light;
         needsSweep_.fill(true);
     }
@@ -243,13 +245,11 @@ std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight&
     return changed;
 }
 
-bool LandMap::isUpToDate(world::ChunkPos camera) const {
-    for (int number = 0; number < used_; ++number) {
-        const bool canSweep = !level(number).heights.empty();
-        if (canSweep && needsSweep_[static_cast<std::size_t>(number)]) return false;
-        if (canTakeColumns(number, camera)) return false;
-    }
-    return true;
+// Whether the last light has not reached all levels.
+bool LandMap::isSweeping() const {
+    for (std::size_t n = 0; n < static_cast<std::size_t>(used_); ++n)
+        if (needsSweep_[n] && !levels_[n].heights.empty()) return true;
+    return false;
 }
 
 }  // namespace terrane::render

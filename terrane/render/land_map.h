@@ -63,8 +63,6 @@ class LandMap {
     // Computes up to `limit` levels that changed with the camera's place, new tiles or the light, and returns
     // them, the coarsest first.
     std::vector<LandChange> update(world::ChunkPos camera, const LandLight& light, int limit);
-    // Whether update() has nothing to compute; levels whose tiles are missing do not count.
-    bool isUpToDate(world::ChunkPos camera) const;
 
   private:
     static constexpr std::size_t kTexels = static_cast<std::size_t>(Clipmap::kTexels) * Clipmap::kTexels;
@@ -78,6 +76,7 @@ class LandMap {
     glm::ivec2 cornerAt(int level, world::ChunkPos camera) const;
     void takeColumns(int level, glm::ivec2 corner);
     void sweep(int level);
+    bool isSweeping() const;
     void blendEdges(int level);
     void blendGround(int level);
     const LandLevel* coarserThan(int level) const;

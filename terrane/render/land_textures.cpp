@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <span>
 
@@ -70,9 +69,7 @@ void LandTextures::update(const Camera& camera, const LandLight& light, int limi
 void LandTextures::bind(const Camera& camera, gpu::MappedRing& ring) const {
     if (!isUsed()) return;
     const shared::LandFrame frame = landFrame(map_, camera);
-    const auto slice = ring.write(std::span<const shared::LandFrame>(&frame, 1));
-    assert(slice && "the ring has room for the uniforms of a frame");
-    ring.bindUniform(shared::kLandBinding, *slice);
+    ring.writeUniform(shared::kLandBinding, frame);
     shadows_.bind(shared::kLandShadowUnit);
     sampler_.bind(shared::kLandShadowUnit);
     ground_.bind(shared::kLandGroundUnit);

@@ -6,6 +6,7 @@
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
 #include "terrane/shared/frame.h"
+#include "terrane/render/edge_expansion.glsl"
 
 layout(local_size_x = kQuadCullThreads) in;
 
@@ -39,7 +40,6 @@ layout(std430, binding = kQuadsBinding) buffer Quads {
 
 const uint kTestedRanges = 2u * kRangesOfTwoBuckets;  // of opaque and tested faces
 const float kRounding = 1.0 / 64.0;                   // pixels
-const float kLongestMiter = 64.0;                     // as in edge_expansion.glsl
 
 // Bounds of a quad on the screen, in pixels, and the depth of its nearest corner.
 struct Footprint {

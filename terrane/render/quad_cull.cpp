@@ -34,7 +34,7 @@ void QuadCull::run(const QuadStore& quads, const QuadResources& resources) const
     const std::vector<const gpu::Buffer*> arenas = quads.buffers().buffers;
     for (std::size_t arena = 0; arena < arenas.size(); ++arena) {
         arenas[arena]->bindStorage(shared::kQuadsBinding);
-        glUniform1ui(shared::kArenaLocation, static_cast<GLuint>(arena));
+        program_.set(shared::kArenaLocation, static_cast<GLuint>(arena));
         glDispatchComputeIndirect(0);
     }
     // The vertex shader reads the quads as texels; uploads and copies may follow.

@@ -39,12 +39,12 @@ void QuadList::run(const QuadStore& quads, shared::uint bit) {
     list_.upload(0, std::as_bytes(std::span(&count, 1)));
     list_.bindStorage(shared::kListedQuadsBinding);
     program_.use();
-    glUniform1ui(shared::kListedBitLocation, bit);
+    program_.set(shared::kListedBitLocation, bit);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     const std::vector<const gpu::Buffer*> arenas = quads.buffers().buffers;
     for (std::size_t arena = 0; arena < arenas.size(); ++arena) {
         arenas[arena]->bindStorage(shared::kQuadsBinding);
-        glUniform1ui(shared::kArenaLocation, static_cast<GLuint>(arena));
+        program_.set(shared::kArenaLocation, static_cast<GLuint>(arena));
         glDispatchCompute(kGroups, shared::kListedDrawLists, 1);
     }
     glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT);

@@ -53,6 +53,9 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.noise_ = SkyNoise::create();
     renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
+    if (!renderer.ring_.isMapped())
+        return base::fail(base::ErrorCode::OutOfResources,
+                          "the graphics driver has no memory for frame data");
     renderer.viewDistance_ = kLightViewDistance;
     renderer.quadSizes_ = quads;
     renderer.clearChunks();
@@ -155,13 +158,12 @@ void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
     frame.firstLightTile = {kTilesOfChunk * (chunk.x & mask), kTilesOfChunk * (chunk.y & mask)};
     frame.lightGridTiles = kTilesOfChunk * light_.gridChunks();
-    const auto slice = ring_.write(std::span<const shared::Frame>(&frame, 1));
-    assert(slice && "the ring is empty at the start of a frame");
-    ring_.bindUniform(shared::kFrameBinding, *slice);
+    ring_.writeUniform(shared::kFrameBinding, frame);
     tints_.bind(input.camera, ring_);
     sky_.bind(input.environment, view.cameraPosition.z, ring_);
-    land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius},
-                 std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1);
+    const int levels = std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1;
+    if (!readsLand()) return;
+    land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius}, levels);
     land_.bind(input.camera, ring_);
 }
 

@@ -75,6 +75,8 @@ class Renderer {
     // like useTint().
     base::Result<void> useLand(bool isUsed);
     bool hasLand() const { return land_.isUsed(); }
+    // Whether frames with the current options need the land's tiles.
+    bool readsLand() const { return land_.isUsed() && render::readsLand(options_); }
     // After useLand(true): sets the surface of a tile of the clipmap, and the view distance in blocks.
     void setLand(world::ChunkPos tile, const world::LandTile& land) { land_.map().set(tile, land); }
     void setLandReach(double blocks) { land_.map().setReach(blocks); }

@@ -20,8 +20,8 @@ ShaderVariants::ShaderVariants(const gpu::ShaderLoader& shaders, std::string ver
       label_(std::move(label)) {}
 
 base::Result<void> ShaderVariants::select(const gpu::ShaderDefines& defines) {
-    const auto found =
-        std::ranges::find(variants_, defines, [](const auto& variant) { return variant.first; });
+    const auto found = std::ranges::find(
+        variants_, defines, [](const auto& variant) -> const auto& { return variant.first; });
     if (found != variants_.end()) {
         selected_ = static_cast<std::size_t>(found - variants_.begin());
         return {};

@@ -3,6 +3,7 @@
 #include <cassert>
 #include <glm/matrix.hpp>
 
+#include "terrane/base/log.h"
 #include "terrane/gpu/debug.h"
 #include "terrane/render/growing_buffer.h"
 #include "terrane/shared/bindings.h"
@@ -82,6 +83,7 @@ base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling
     depths_ = {};
     shape_ = {};
     hasFigures_ = false;
+    canHaveFigures_ = true;
     figureShadows_.forget();
     clipmap_ = ShadowClipmap(shape.cascades);
     if (shape.cascades == 0) return {};
@@ -163,7 +165,11 @@ bool ShadowMap::addFigureLayer() {
     if (layers_.size() > figureLayer()) return true;
     auto depths = mapsOf(shape_.texels, clipmap_.layers() + 1);
     auto layers = layersOf(depths);
-    if (!layers) return false;
+    if (!layers) {
+        base::logWarning("players cast no shadows: {}", layers.error().message);
+        canHaveFigures_ = false;
+        return false;
+    }
     glCopyImageSubData(depths_.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depths.id(), GL_TEXTURE_2D_ARRAY, 0, 0,
                        0, 0, shape_.texels, shape_.texels, clipmap_.layers());
     depths_ = std::move(depths);
@@ -182,7 +188,7 @@ void ShadowMap::copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) 
 void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
                             gpu::MappedRing& ring) {
     hasFigures_ = false;
-    if (figures.records.empty() || !addFigureLayer()) return;
+    if (figures.records.empty() || !canHaveFigures_ || !addFigureLayer()) return;
     std::vector<glm::dvec3> feet;
     const glm::dvec3 corner = cornerOfChunk(figures.chunk);
     for (const shared::FigureRecord& record : figures.records)
@@ -197,9 +203,7 @@ void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, con
     pass.bind(figures.records, ring);
     for (const ShadowTiles& tiles : plan.draws) {
         const shared::ShadowDraw draw = uniformsOf(tiles);
-        const auto slice = ring.write(std::span<const shared::ShadowDraw>(&draw, 1));
-        assert(slice && "the ring has room for the rectangles of figures");
-        ring.bindUniform(shared::kShadowDrawBinding, *slice);
+        ring.writeUniform(shared::kShadowDrawBinding, draw);
         const gpu::Scissor scissor = bindTiles(tiles, figureLayer());
         pass.drawShadows(figures.records.size());
     }
@@ -211,9 +215,7 @@ void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& 
     if (isLit) frame = clipmap_.frame(camera, shape_.texels);
     if (isLit && hasFigures_) frame.layers[0] = static_cast<float>(figureLayer());
     frame.strength = isLit ? 1.0f : 0.0f;
-    const auto slice = ring.write(std::span<const shared::ShadowFrame>(&frame, 1));
-    assert(slice && "the ring has room for the uniforms of a frame");
-    ring.bindUniform(shared::kShadowBinding, *slice);
+    ring.writeUniform(shared::kShadowBinding, frame);
 }
 
 void ShadowMap::bind() const {

@@ -83,7 +83,8 @@ class ShadowMap {
     gpu::Texture2DArray depths_;
     std::vector<gpu::Framebuffer> layers_;
     FigureShadows figureShadows_;
-    bool hasFigures_ = false;  // the nearest map is read from figureLayer()
+    bool hasFigures_ = false;     // the nearest map is read from figureLayer()
+    bool canHaveFigures_ = true;  // until there is no memory for their layer
     gpu::Sampler compared_, plain_;
     gpu::Buffer uniforms_;
     std::size_t drawnTriangles_ = 0;

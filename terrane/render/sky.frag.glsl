@@ -57,7 +57,7 @@ void main() {
 #endif
     color = mix(color, max(color, sun.rgb), sun.a);
     color = mix(color, cloud.rgb, cloud.a * 0.92);
-    if (frame.isUnderWater != 0u) color = throughWindow(color, direction);
+    if (frame.waterAbove != 0u) color = throughWindow(color, direction);
 #if DIRECT == 1
     outColor = vec4(screenColor(color, ivec2(gl_FragCoord.xy)), 1.0);
 #else

@@ -18,7 +18,7 @@ vec3 skyColor(vec3 direction) {
 
 // Color of empty water: bluer and darker with the blocks of water above.
 vec3 murk() {
-    vec3 fromAbove = exp(-vec3(0.10, 0.055, 0.035) * float(max(int(frame.isUnderWater) - 1, 0)));
+    vec3 fromAbove = exp(-vec3(0.10, 0.055, 0.035) * float(max(int(frame.waterAbove) - 1, 0)));
     return vec3(0.02, 0.13, 0.19) * fromAbove * (frame.ambientColor.rgb + 0.6 * frame.lightColor.rgb) + 0.002;
 }
 

@@ -1,6 +1,5 @@
 #include "terrane/render/sky_texture.h"
 
-#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <glm/gtc/packing.hpp>
@@ -61,9 +60,7 @@ void SkyTexture::bind(const world::Environment& e, float altitudeZ, gpu::MappedR
         isMoon_ = e.isMoon;
     }
     const shared::AirFrame frame = airUniforms(e, altitudeZ);
-    const auto slice = ring.write(std::span<const shared::AirFrame>(&frame, 1));
-    assert(slice && "the ring has room for the uniforms of a frame");
-    ring.bindUniform(shared::kAirBinding, *slice);
+    ring.writeUniform(shared::kAirBinding, frame);
     texture_.bind(shared::kSkyTableUnit);
     sampler_.bind(shared::kSkyTableUnit);
     milkyWay_.bind();

@@ -33,9 +33,7 @@ void TintTextures::set(world::ChunkPos tile, const world::TintTile& colors) {
 void TintTextures::bind(const Camera& camera, gpu::MappedRing& ring) const {
     if (!isUsed()) return;
     const shared::TintFrame frame = tintFrame(clipmap_, camera);
-    const auto slice = ring.write(std::span<const shared::TintFrame>(&frame, 1));
-    assert(slice && "the ring has room for the uniforms of a frame");
-    ring.bindUniform(shared::kTintBinding, *slice);
+    ring.writeUniform(shared::kTintBinding, frame);
     textures_.bind(shared::kTintUnit);
     sampler_.bind(shared::kTintUnit);
 }

@@ -1,5 +1,5 @@
 // Water: waves in its normals, reflections of sky and shore, glitter toward the sun or moon, darker and bluer with
-// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, bundled_light.glsl. WATER_DETAIL: 1 adds reflections
+// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, caustics.glsl. WATER_DETAIL: 1 adds reflections
 // of the shore, foam and caustics.
 #include "terrane/render/water_waves.glsl"
 #if WATER_DETAIL == 1
@@ -82,14 +82,12 @@ Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 lev
     vec3 calmer = normalize(vec3(0.4 * waves.slope, 1.0));
     vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
     mirrored = mix(mirrored, shore.rgb, shore.a);
-    seen *= bundlesBehind(position, toPoint, view, blocks, shadow * light.a);
+    seen *= causticsBehind(position, toPoint, view, blocks, shadow * light.a);
     vec4 fine = fineNoise(position);
     float foam = isTop ? foamAt(position, toPoint, blocks, fine.r) : 0.0;
     body = mix(body, 0.85 * lit, foam);
     seen *= 1.0 - foam;
     mirror *= 1.0 - foam;
-#endif
-#if WATER_DETAIL == 1
     waves = withRipples(waves, fine, toPoint);
 #endif
     vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);

@@ -1,4 +1,4 @@
-// Shore effects: foam along the shore, and caustics on the ground below. Needs bundled_light.glsl, gbuffer_read.glsl
+// Shore effects: foam along the shore, and caustics on the ground below. Needs caustics.glsl, gbuffer_read.glsl
 // and water_waves.glsl.
 
 const float kShoreReach = 48.0;  // blocks from the camera: farther foam is thinner than a pixel
@@ -27,11 +27,11 @@ float foamAt(vec3 position, vec3 toPoint, float blocks, float noise) {
 }
 
 // Brightness of the ground behind relative to that without waves. `lit`: share of daylight that reaches the surface.
-float bundlesBehind(vec3 position, vec3 toPoint, vec3 view, float blocks, float lit) {
+float causticsBehind(vec3 position, vec3 toPoint, vec3 view, float blocks, float lit) {
     float below = min(blocks, 64.0) * abs(view.z), share = 1.0, away = length(toPoint);
     float strength = 1.8 * sunInWater() * lit * (1.0 - smoothstep(24.0, 60.0, away)) * exp(-0.2 * below) *
                      smoothstep(0.05, 0.6, below);
     vec3 ground = position + view * min(blocks, 64.0);
-    share += strength * (bundledLight(bundlePlace(ground, below)) - kMeanBundle);
+    share += strength * (caustics(causticsPlace(ground, below)) - kMeanCaustics);
     return max(share, 0.2);
 }

@@ -50,7 +50,7 @@ struct Frame {
     float lightRayShare;   // visible share of the light's rays, 0…1
     uint isMoon;           // 1 at night, when the light is the moon
 
-    uint isUnderWater;  // blocks of water over the camera, its own included; 0 in air
+    uint waterAbove;  // blocks of water over the camera, its own included; 0 in air
     uint unused0, unused1, unused2;
 };
 

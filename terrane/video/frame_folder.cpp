@@ -29,8 +29,9 @@ base::Result<std::unique_ptr<FrameSink>> openFrameFolder(const std::filesystem::
         return base::fail("{}: cannot be made: {}", folder.string(),
                           error ? error.message() : "it is not a folder");
     // Frames of an earlier video would mix with the new ones.
-    if (!std::filesystem::is_empty(folder, error) || error)
-        return base::fail("{}: the folder for frames is not empty", folder.string());
+    const bool isEmpty = std::filesystem::is_empty(folder, error);
+    if (error) return base::fail("{}: cannot be read: {}", folder.string(), error.message());
+    if (!isEmpty) return base::fail("{}: the folder for frames is not empty", folder.string());
     return std::make_unique<FrameFolder>(folder);
 }
 

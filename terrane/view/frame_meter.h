@@ -29,9 +29,9 @@ class FrameMeter {
     // The most frequent count of frames in a second, the higher if equal, as the thesis measures; 0 in the
     // first second.
     int mode() const {
-        const auto most = std::ranges::max_element(
-            seconds_, [](const auto& a, const auto& b) { return a.second <= b.second; });
-        return most == seconds_.end() ? 0 : most->first;
+        const auto most = std::max_element(seconds_.rbegin(), seconds_.rend(),
+                                           [](const auto& a, const auto& b) { return a.second < b.second; });
+        return most == seconds_.rend() ? 0 : most->first;
     }
 
   private:

@@ -47,6 +47,7 @@ void LandView::update(world::ChunkPos camera, double reach, std::size_t limit) {
     TERRANE_ZONE("take land");
     renderer_.setLandReach(reach);
     for (const auto& [pos, land] : maker_->takeFinished(limit)) renderer_.setLand(pos, land);
+    if (!renderer_.readsLand()) return;
     maker_->request(renderer_.landClipmap().missing(camera, reach, maker_->maxRequested()));
     if (limit == kAllTiles) renderer_.completeLand();
 }

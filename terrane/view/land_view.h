@@ -24,7 +24,7 @@ class LandView {
     LandView(const game::Session& session, render::Renderer& renderer);
 
     // Passes up to `limit` tiles to the renderer, and requests those that are missing for a view of `reach`
-    // blocks. With kAllTiles the next frame has the light of all of them.
+    // blocks, if its options need them. With kAllTiles the next frame has the light of all of them.
     void update(world::ChunkPos camera, double reach, std::size_t limit);
     // Requested tiles not passed on yet, as of the last update().
     std::size_t missing() const { return maker_ ? maker_->pending() : 0; }

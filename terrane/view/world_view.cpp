@@ -81,10 +81,10 @@ std::size_t WorldView::upload(double budgetSeconds) {
     while (!far_.upload(deadline) && shortenHorizon()) {
     }
     far_.applyChanges();
-    const bool isHurried = std::isinf(budgetSeconds);
+    const bool hasNoLimit = std::isinf(budgetSeconds);
     const double reach = double{world::kChunkSize} * sightDistance();
-    tints_.update(center_, reach, isHurried ? TintView::kAllTiles : TintView::kTilesAFrame);
-    land_.update(center_, reach, isHurried ? LandView::kAllTiles : LandView::kTilesAFrame);
+    tints_.update(center_, reach, hasNoLimit ? TintView::kAllTiles : TintView::kTilesAFrame);
+    land_.update(center_, reach, hasNoLimit ? LandView::kAllTiles : LandView::kTilesAFrame);
     noticeShortView();
     return count;
 }

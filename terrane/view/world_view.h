@@ -39,8 +39,8 @@ inline double missingShare(const stream::Progress& progress, std::size_t waiting
 
 class WorldView {
   public:
-    // Time for meshing on the GPU in a frame; kNoHurry: no limit.
-    static constexpr double kFrameMilliseconds = 3, kNoHurry = 0;
+    // Time for meshing on the GPU in a frame; kNoLimit: no limit.
+    static constexpr double kFrameMilliseconds = 3, kNoLimit = 0;
 
     // Both outlive this.
     WorldView(game::Session& session, render::Renderer& renderer)

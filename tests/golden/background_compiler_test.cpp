@@ -1,10 +1,13 @@
 // Background compilation compiles shaders completely: later frames add nothing to the driver's cache.
 #include "terrane/render/background_compiler.h"
 
+#include <atomic>
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <thread>
+#include <utility>
 
 #include "tests/base/temp_folder.h"
 #include "tests/golden/effect_scenes.h"
@@ -32,19 +35,25 @@ class BackgroundCompilerTest : public GoldenTest {
 
     // Waits until the driver's thread has written all files.
     static std::size_t filesInCache() {
-        std::size_t before = 0, now = 0;
-        do {
-            before = now;
-            std::this_thread::sleep_for(300ms);
-            now = 0;
+        std::size_t count = 0;
+        for (int stable = 0; stable < 3; ++stable) {
+            std::this_thread::sleep_for(200ms);
+            std::size_t now = 0;
             for (const auto& entry : std::filesystem::recursive_directory_iterator(cache().path()))
                 now += entry.is_regular_file();
-        } while (now != before);
-        return now;
+            if (std::exchange(count, now) != now) stable = -1;
+        }
+        return count;
     }
 
-    static void waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
-        while (!compiler.isReady(kImageSize, options, kWorld)) std::this_thread::sleep_for(5ms);
+    // False on timeout.
+    static bool waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
+        const auto end = std::chrono::steady_clock::now() + 120s;
+        while (!compiler.isReady(kImageSize, options, kWorld)) {
+            if (std::chrono::steady_clock::now() > end) return false;
+            std::this_thread::sleep_for(5ms);
+        }
+        return true;
     }
 
     static void configure(render::Renderer& renderer, const RenderOptions& options) {
@@ -58,7 +67,7 @@ class BackgroundCompilerTest : public GoldenTest {
 TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     // Mesa treats a program that it compiled differently from one read from its cache. Read the renderer's
     // programs from the cache, as in all runs but the first.
-    waitFor(compiler_, render::plainOptions(kSamples));
+    ASSERT_TRUE(waitFor(compiler_, render::plainOptions(kSamples)));
     render::Renderer renderer = makeRenderer();
     ASSERT_TRUE(renderer.useLand(kWorld.hasLand) && renderer.useTint(kWorld.hasTint));
     world::World world = flatWorld(2);
@@ -79,7 +88,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     std::size_t inBackground = 0, byRenderer = 0;
     for (const RenderOptions& options : {all, others}) {
         const std::size_t before = filesInCache();
-        waitFor(compiler_, options);
+        ASSERT_TRUE(waitFor(compiler_, options));
         const std::size_t compiled = filesInCache();
         configure(renderer, options);
         draw(renderer, input);
@@ -98,10 +107,29 @@ TEST_F(BackgroundCompilerTest, TheLastWishIsMet) {
         options.transparencyLayers = layers;
         EXPECT_FALSE(compiler_.isReady(kImageSize, options, kWorld));
     }
-    waitFor(compiler_, options);
+    ASSERT_TRUE(waitFor(compiler_, options));
     EXPECT_TRUE(compiler_.isReady({1280, 720}, options, kWorld)) << "programs do not depend on the size";
+    RenderOptions same = options;
+    same.shadowSize *= 2;
+    same.animation = !same.animation;
+    same.distanceFog = !same.distanceFog;
+    EXPECT_TRUE(compiler_.isReady(kImageSize, same, kWorld)) << "nor on these options";
     options.transparencyLayers = 2;
     EXPECT_FALSE(compiler_.isReady(kImageSize, options, kWorld)) << "nobody waited for it";
+}
+
+// They may need other shaders.
+TEST_F(BackgroundCompilerTest, AfterOtherTexturesAllIsCompiledAgain) {
+    const RenderOptions options = render::findPreset("low", true)->options;
+    ASSERT_TRUE(waitFor(compiler_, options));
+    const auto asked = std::make_shared<std::atomic<int>>(0);
+    compiler_.setTextures([asked](std::string_view name) {
+        ++*asked;
+        return render::contentTexture(name);
+    });
+    EXPECT_FALSE(compiler_.isReady(kImageSize, options, kWorld));
+    ASSERT_TRUE(waitFor(compiler_, options));
+    EXPECT_GT(*asked, 0) << "with the new textures";
 }
 
 }  // namespace

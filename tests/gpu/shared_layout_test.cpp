@@ -79,7 +79,7 @@ std::vector<StructLayout> frameLayouts() {
               {"starTurn", offsetof(Frame, starTurn)},
               {"lightRayShare", offsetof(Frame, lightRayShare)},
               {"isMoon", offsetof(Frame, isMoon)},
-              {"isUnderWater", offsetof(Frame, isUnderWater)},
+              {"waterAbove", offsetof(Frame, waterAbove)},
               {"unused0", offsetof(Frame, unused0)},
               {"unused1", offsetof(Frame, unused1)},
               {"unused2", offsetof(Frame, unused2)}}},

@@ -244,7 +244,7 @@ TEST(LandMap, AFlightLeavesNothingBehind) {
         map.update(camera, lightAt(0.1 * step, 0.2), 1 + static_cast<int>(random() % 4));
     }
     fill(map, hills, camera);
-    while (!map.isUpToDate(camera)) map.update(camera, lightAt(2, 0.2), 1);
+    while (!map.update(camera, lightAt(2, 0.2), 1).empty()) continue;
     map.update(camera, lightAt(2, 0.2), kAll);
     LandMap fresh = mapWith(3000);
     fill(fresh, hills, camera);
@@ -261,6 +261,19 @@ TEST(LandMap, AFlightLeavesNothingBehind) {
             ASSERT_LT(glm::distance(flown.ground[k], made.ground[k]), 0.01f);
         }
     }
+}
+
+// A sun that moves faster than all levels are computed, one each frame.
+TEST(LandMap, AFastLightReachesTheFinestLevel) {
+    LandMap map = mapWith();
+    fill(map, ranges, {});
+    map.update({}, lightAt(0, 0.2), kAll);
+    const std::vector<LandEdge> first = map.level(0).edges;
+    for (int frame = 1; frame <= 20; ++frame) map.update({}, lightAt(0.1 * frame, 0.2), 1);
+    std::size_t changed = 0;
+    for (std::size_t k = 0; k < first.size(); ++k)
+        changed += std::abs(first[k].begin - map.level(0).edges[k].begin) > 1;
+    EXPECT_GT(changed, first.size() / 100);
 }
 
 // Neither a step of the camera nor one of the sun changes what is seen at once.

@@ -11,13 +11,11 @@ namespace {
 template <class BlockAt>
 mesh::ChunkMesh wallsAcross(std::initializer_list<int> xs, BlockAt blockAt) {
     world::Chunk chunk;
-    const world::Chunk air;
     for (const int x : xs)
         for (int y = 0; y < world::kChunkSize; ++y)
             for (int z = 90; z <= 110; ++z)
                 chunk.setBlock(world::blockIndex(x, y, z), contentBlock(blockAt(x, y, z)));
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk({&chunk, {&air, &air, &air, &air}, &contentBlocks(), {}}, scratch);
+    return mesh::meshAlone(chunk, contentBlocks());
 }
 
 double meanDifference(const base::Image& a, const base::Image& b) {

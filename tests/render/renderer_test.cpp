@@ -8,6 +8,7 @@
 #include <memory>
 #include <set>
 
+#include "terrane/mesh/chunk_mesher.h"
 #include "terrane/mesh/remesh.h"
 #include "terrane/shared/hash.h"
 #include "tests/render/renderer_fixture.h"
@@ -18,14 +19,8 @@ namespace {
 // One block, alone in the world's chunk 0, 0.
 mesh::ChunkMesh blockMesh(std::string_view name, int x, int y, int z) {
     world::Chunk chunk;
-    const world::Chunk air;
     chunk.setBlock(world::blockIndex(x, y, z), contentBlock(name));
-    mesh::MeshInput input;
-    input.center = &chunk;
-    input.neighbors = {&air, &air, &air, &air};
-    input.blocks = &contentBlocks();
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(input, scratch);
+    return mesh::meshAlone(chunk, contentBlocks());
 }
 
 const Camera kLevel{.position = {-4, 8, 100}, .yaw = 0};

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "terrane/mesh/chunk_mesher.h"
 #include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {
@@ -10,14 +11,8 @@ namespace {
 // A floor of one block at z = 100 over the whole chunk, of a level.
 mesh::ChunkMesh floorOf(std::string_view name) {
     world::Chunk chunk;
-    const world::Chunk air;
     for (int k = 0; k < 256; ++k) chunk.setBlock(world::blockIndex(k % 16, k / 16, 100), contentBlock(name));
-    mesh::MeshInput input;
-    input.center = &chunk;
-    input.neighbors = {&air, &air, &air, &air};
-    input.blocks = &contentBlocks();
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk(input, scratch);
+    return mesh::meshAlone(chunk, contentBlocks());
 }
 
 using Mean = std::array<double, 3>;

@@ -14,13 +14,11 @@ constexpr int kFloor = 92, kSurface = 100;  // blocks of stone and of the water'
 template <class BlockAt>
 mesh::ChunkMesh meshOf(BlockAt blockAt) {
     world::Chunk chunk;
-    const world::Chunk air;
     for (int x = 0; x < world::kChunkSize; ++x)
         for (int y = 0; y < world::kChunkSize; ++y)
             for (int z = kFloor; z <= kSurface + 20; ++z)
                 chunk.setBlock(world::blockIndex(x, y, z), contentBlock(blockAt(x, y, z)));
-    mesh::MeshScratch scratch;
-    return mesh::meshChunk({&chunk, {&air, &air, &air, &air}, &contentBlocks(), {}}, scratch);
+    return mesh::meshAlone(chunk, contentBlocks());
 }
 
 const char* lakeAt(int, int, int z) {

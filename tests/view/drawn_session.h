@@ -59,7 +59,7 @@ inline std::unique_ptr<DrawnSession> makeDrawnSession(DrawnSessionOptions option
     made->renderer.setViewDistance(options.viewDistance);
     made->view.emplace(*made->session, made->renderer);
     if (options.meshesOnGpu) {
-        EXPECT_TRUE(made->view->meshOnGpu(render::contentShaders(), WorldView::kNoHurry));
+        EXPECT_TRUE(made->view->meshOnGpu(render::contentShaders(), WorldView::kNoLimit));
     }
     return made;
 }

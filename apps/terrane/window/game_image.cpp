@@ -116,8 +116,10 @@ base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
 base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder) {
     auto textures = content::loadTextures(folder, parts.session.blocks(), parts.content.textures);
     if (!textures) return tl::unexpected(textures.error());
+    if (auto set = parts.preview.setTextures(*textures); !set) return set;
     if (auto set = parts.renderer.setTextures(parts.session.blocks(), *textures); !set) return set;
-    return parts.preview.setTextures(*textures);
+    parts.compiler.setTextures(*textures);
+    return {};
 }
 
 }  // namespace terrane::app

@@ -9,7 +9,7 @@ namespace terrane::app {
 // card cannot draw at all.
 base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds);
 
-// Replaces textures by those of a folder; empty: the built-in ones. An error changes nothing.
+// Replaces textures by those of a folder; empty: the built-in ones. After an error the world looks as before.
 base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder);
 
 }  // namespace terrane::app
