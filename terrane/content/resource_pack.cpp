@@ -41,7 +41,8 @@ base::Result<std::vector<TextureFile>> pngFilesIn(const fs::path& folder,
     std::error_code error, ignored;
     addPngFiles(files, folder, {}, error);
     for (const std::string& pack : packs)
-        if (fs::is_directory(folder / pack, ignored)) addPngFiles(files, folder / pack, pack + ":", error);
+        if (!error && fs::is_directory(folder / pack, ignored))
+            addPngFiles(files, folder / pack, pack + ":", error);
     if (error)
         return base::fail("{}: cannot be read as a resource pack: {}", folder.string(), error.message());
     std::ranges::sort(files, {}, &TextureFile::path);  // the order of a directory is unspecified

@@ -1,7 +1,6 @@
 #include "terrane/gen/drainage_curves.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "terrane/shared/det_math.h"
@@ -135,9 +134,9 @@ class CurveMaker {
         cellX_ = x;
         cellY_ = y;
         const std::size_t node = at(x, y);
-        const Control here = control(0, 0);
         const bool isEnd = network_.drains[node] == kNoDrain;
         if (!isEnd && !isRiver(node)) return;
+        const Control here = control(0, 0);
         lake_ = {here.x, here.y, lakeRadius(node), here.level};
         Control out = here;
         if (!isEnd) {

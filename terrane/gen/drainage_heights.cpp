@@ -11,7 +11,8 @@ namespace {
 
 constexpr int kTileCells = kTileSize / kCellSamples;
 
-// The square around the sample in which the node lies, of `width` blocks, within its middle three quarters.
+// The node's place along one axis, in 1/16 blocks from the cell's corner: a random place in the middle three
+// quarters of the sample's square, which is `width` blocks wide.
 std::int32_t placeAlong(int sample, int width, std::uint32_t hash) {
     const std::int32_t square = width * kPlaceUnits;
     return sample * square + square / 8 +

@@ -1,8 +1,7 @@
 #include "terrane/gen/drainage_maps.h"
 
 #include <algorithm>
-#include <array>
-#include <cassert>
+#include <bit>
 #include <list>
 #include <mutex>
 #include <optional>

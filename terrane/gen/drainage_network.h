@@ -29,7 +29,6 @@ constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 2;
 // A node's height with what breaks ties, so that no two neighbors are equal: 2^40 a block. Differences of
 // neighbors are 40 bits or so; 2^63 holds ±2^23 blocks.
 using HeightKey = std::int64_t;
-constexpr int kHeightKeyShift = 40;
 // NaN becomes the lowest height. Within ±8192 blocks.
 HeightKey heightKey(float height, std::uint32_t hash);
 float heightOf(HeightKey key);  // blocks, to within 1/65536

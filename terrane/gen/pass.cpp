@@ -81,8 +81,8 @@ void Pass::if_(Bool condition, const std::function<void()>& then, const std::fun
     ++branchDepth_;
     if (then) then();
     const std::vector<Slot> afterThen = slots_;
-    // Variables made inside a branch end with it; outputs made there exist in the other branch with their
-    // first value.
+    // Variables made in the first branch keep their slots, so that numbers of slots do not repeat; they are
+    // not joined.
     for (std::size_t k = 0; k < before.size(); ++k) slots_[k] = before[k];
     if (otherwise) otherwise();
     --branchDepth_;

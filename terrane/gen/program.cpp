@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <unordered_map>
 
 #include "terrane/gen/schedule.h"
 
@@ -94,20 +95,19 @@ class Compiler {
 
     // Uses the rows of `base`, and rows of its own for constants that `base` lacks.
     void placeLeavesAfter(const Program& base, std::vector<RowConstant>& constants) {
-        for (std::size_t row = 0; row < base.constants.size(); ++row) {
-            constants.push_back({{static_cast<std::uint16_t>(row), 0}, base.constants[row]});
-        }
+        std::unordered_map<Bits, Operand> rowOf;
+        for (std::size_t row = 0; row < base.constants.size(); ++row)
+            rowOf.try_emplace(base.constants[row], Operand{static_cast<std::uint16_t>(row), 0});
         for (NodeId id = 0; id < graph_.size(); ++id) {
             if (graph_.node(id).op != Op::Constant) continue;
             const Bits value = graph_.node(id).imm;
-            auto found = std::find_if(constants.begin(), constants.end(),
-                                      [&](const RowConstant& c) { return c.value == value; });
-            if (found == constants.end()) {
-                found = constants.insert(found, {rows_.allocate(false), value});
+            const auto [found, isNew] = rowOf.try_emplace(value);
+            if (isNew) {
+                found->second = rows_.allocate(false);
+                constants.push_back({found->second, value});
             }
-            setOperand(id, found->row);
+            setOperand(id, found->second);
         }
-        constants.erase(constants.begin(), constants.begin() + static_cast<long>(base.constants.size()));
         program_.x = base.x;
         program_.y = base.y;
         program_.z = base.z;

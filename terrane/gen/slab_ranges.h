@@ -53,13 +53,15 @@ class SlabRanges {
     // Analyzes `count` layers, the lowest at height z.
     void analyze(std::int32_t z, std::int32_t count);
 
-    // Results of the last analyzed slab: the choices that are equal in all voxels,
+    // Results of the last analyzed slab.
+
+    // The choices that are equal in all voxels.
     const Decisions& decisions() const { return decisions_; }
-    // the block of all voxels, if it is certain,
+    // The block of all voxels, if it is certain.
     std::optional<std::uint16_t> block() const;
-    // whether no voxel writes this field of the pass,
+    // Whether no voxel writes this field of the pass.
     bool writesNothing(std::size_t fieldOutput) const;
-    // and whether slabs of fewer layers would decide no more choices.
+    // Whether slabs of fewer layers would decide no more choices.
     bool isSettled() const { return isSettled_; }
 
     // Range of the blocks of the 3D pass before in layer z.

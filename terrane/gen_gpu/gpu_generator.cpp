@@ -30,6 +30,7 @@ using world::ChunkPos;
 constexpr std::size_t kBatchesInFlight = 3;
 constexpr int kLayersPerGroup =
     64;  // four work groups a chunk: the part that is free of z is computed four times
+constexpr std::size_t kMaxBufferBytes = std::size_t{256} << 20;
 constexpr std::size_t kChunkBytes = std::size_t{world::kBlocksPerChunk} * sizeof(std::uint16_t);
 
 gpu::Buffer wordBuffer(const std::vector<std::uint32_t>& seeds, std::string_view label) {
@@ -55,7 +56,7 @@ std::string shaderText(const gen::GeneratorGraph& generator, std::size_t pass) {
     return text + "\n" + gen::emitGlsl(generator, pass);
 }
 
-// The GPU keeps a column's layers together, the chunk keeps layers together.
+// The GPU stores blocks column by column, a chunk stores them layer by layer.
 std::shared_ptr<world::Chunk> chunkOf(const std::byte* words) {
     thread_local std::array<world::Section::Value, world::kBlocksPerChunk> blocks;
     constexpr std::size_t kColumns = shared::kBlocksPerLayer;
@@ -73,6 +74,33 @@ std::shared_ptr<world::Chunk> chunkOf(const std::byte* words) {
     return chunk;
 }
 
+// Number of the 3D passes before a pass.
+int blockNumber(const gen::GeneratorGraph& generator, std::size_t pass) {
+    return static_cast<int>(std::count_if(generator.passes.begin(),
+                                          generator.passes.begin() + static_cast<long>(pass),
+                                          [](const gen::PassGraph& p) { return p.is3D; }));
+}
+
+struct SlotBytes {
+    std::size_t fields, blocks;
+};
+
+SlotBytes slotBytes(const gen::GeneratorGraph& generator) {
+    const std::size_t fieldCount = std::max<std::size_t>(1, generator.fields.size());
+    const auto keptBlocks =
+        static_cast<std::size_t>(std::max(1, blockNumber(generator, generator.passes.size() - 1)));
+    return {fieldCount * shared::kBlocksPerLayer * sizeof(gen::Bits), keptBlocks * kChunkBytes};
+}
+
+// As many slots as a shader can address in both buffers, and as kMaxBufferBytes hold.
+std::size_t slotsFor(const gen::GeneratorGraph& generator) {
+    GLint64 blockBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+    const SlotBytes bytes = slotBytes(generator);
+    const std::size_t most = std::min(static_cast<std::size_t>(blockBytes), kMaxBufferBytes);
+    return std::min(kSlots, most / std::max(bytes.fields, bytes.blocks));
+}
+
 }  // namespace
 
 struct GpuGenerator::Impl {
@@ -82,12 +110,11 @@ struct GpuGenerator::Impl {
         gpu::Fence fence;
     };
 
-    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader, std::uint64_t seed)
-        : generator(g), shaders(loader), drainages(g.drainages, seed), slots(kSlots) {}
+    Impl(const gen::GeneratorGraph& g, const gpu::ShaderLoader& loader, std::uint64_t seed, std::size_t count)
+        : generator(g), shaders(loader), drainages(g.drainages, seed), slotCount(count), slots(count) {}
 
     base::Result<void> build(std::uint64_t seed);
     base::Result<gpu::Program> buildPass(std::size_t pass) const;
-    int blockNumber(std::size_t pass) const;  // of the 3D passes before it
     void runPass(std::size_t pass, const std::vector<ChunkPos>& chunks);
     void runPasses(const PassCounts& needed, const std::vector<ChunkPos>& requested);
     gpu::Buffer tileJobs(const std::vector<ChunkPos>& chunks) const;
@@ -102,14 +129,9 @@ struct GpuGenerator::Impl {
     std::array<gpu::ReadbackBuffer, kBatchesInFlight> readbacks;
     std::deque<InFlight> inFlight;
     std::size_t nextReadback = 0;
+    std::size_t slotCount;
     SlotCache slots;
 };
-
-int GpuGenerator::Impl::blockNumber(std::size_t pass) const {
-    return static_cast<int>(std::count_if(generator.passes.begin(),
-                                          generator.passes.begin() + static_cast<long>(pass),
-                                          [](const gen::PassGraph& p) { return p.is3D; }));
-}
 
 base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
     for (std::size_t pass = 0; pass < generator.passes.size(); ++pass)
@@ -126,11 +148,9 @@ base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
     noiseSeeds = wordBuffer(seeds.noises, "noise seeds");
     hashSeeds = wordBuffer(seeds.hashes, "hash seeds");
     if (generator.shapes) shapes = wordBuffer(gen::shapeWords(*generator.shapes), "generator shapes");
-    const std::size_t fieldCount = std::max<std::size_t>(1, generator.fields.size());
-    const auto keptBlocks = static_cast<std::size_t>(std::max(1, blockNumber(generator.passes.size() - 1)));
-    fields =
-        gpu::Buffer(kSlots * fieldCount * shared::kBlocksPerLayer * sizeof(gen::Bits), 0, "generator fields");
-    blocks = gpu::Buffer(kSlots * keptBlocks * kChunkBytes, 0, "generator blocks");
+    const SlotBytes bytes = slotBytes(generator);
+    fields = gpu::Buffer(slotCount * bytes.fields, 0, "generator fields");
+    blocks = gpu::Buffer(slotCount * bytes.blocks, 0, "generator blocks");
     result = gpu::Buffer(kMaxBatch * kChunkBytes, 0, "generator result");
     for (gpu::ReadbackBuffer& r : readbacks)
         r = gpu::ReadbackBuffer(kMaxBatch * kChunkBytes, "generator read-back");
@@ -138,11 +158,12 @@ base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
 }
 
 base::Result<gpu::Program> GpuGenerator::Impl::buildPass(std::size_t pass) const {
-    const int before = blockNumber(pass);
+    const int before = blockNumber(generator, pass);
     const bool isLast = pass + 1 == generator.passes.size();
     const gpu::ShaderDefines defines = {
         {"FIELD_COUNT", fmt::format("{}u", std::max<std::size_t>(1, generator.fields.size()))},
-        {"BLOCK_PASS_COUNT", fmt::format("{}u", std::max(1, blockNumber(generator.passes.size() - 1)))},
+        {"BLOCK_PASS_COUNT",
+         fmt::format("{}u", std::max(1, blockNumber(generator, generator.passes.size() - 1)))},
         {"SOURCE_BLOCKS", fmt::format("{}u", std::max(0, before - 1))},
         {"TARGET_BLOCKS", isLast ? "-1" : std::to_string(before)},
         {"LAYERS_PER_GROUP", std::to_string(kLayersPerGroup)}};
@@ -216,14 +237,14 @@ GpuGenerator::~GpuGenerator() = default;
 base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders,
                                                 const gen::GeneratorGraph& generator, std::uint64_t seed) {
     // submit() would take no chunk of it, and its caller would never end.
-    const std::size_t slotsOfOne = neededPasses(generator, {{0, 0}}).size();
-    if (slotsOfOne > kSlots) {
+    const std::size_t slotsOfOne = neededPasses(generator, {{0, 0}}).size(), slots = slotsFor(generator);
+    if (slotsOfOne > slots) {
         return base::fail(
             "generator \"{}\": a chunk needs results of {} chunks, the GPU has room for {}: let fewer passes "
             "read around each other",
-            generator.name, slotsOfOne, kSlots);
+            generator.name, slotsOfOne, slots);
     }
-    auto impl = std::make_unique<Impl>(generator, shaders, seed);
+    auto impl = std::make_unique<Impl>(generator, shaders, seed, slots);
     if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
     return GpuGenerator(std::move(impl));
 }
@@ -236,7 +257,7 @@ std::size_t GpuGenerator::submit(std::span<const ChunkPos> positions) {
                                     positions.begin() + std::min<long>(kMaxBatch, std::ssize(positions)));
     for (const ChunkPos pos : requested) gen::requireGenerated(pos, impl.generator.level);
     PassCounts needed = neededPasses(impl.generator, requested);
-    while (needed.size() > kSlots) {
+    while (needed.size() > impl.slotCount) {
         assert(requested.size() > 1 && "the slots hold what one chunk needs");
         requested.resize(requested.size() / 2);
         needed = neededPasses(impl.generator, requested);

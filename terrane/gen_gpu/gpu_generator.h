@@ -20,8 +20,9 @@ class GpuGenerator : public gen::BatchGenerator {
   public:
     // Memory on the GPU: a slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld, 15
     // fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8 MiB,
-    // once on the GPU and once for each of three batches on their way back. A generator whose single chunk
-    // needs more than kSlots is refused.
+    // once on the GPU and once for each of three batches on their way back. Generators with more 3D passes
+    // have fewer slots, so that no buffer is larger than 256 MiB or than a shader can address. A generator
+    // whose single chunk needs more slots is refused.
     [[nodiscard]] static base::Result<GpuGenerator> create(const gpu::ShaderLoader& shaders,
                                                            const gen::GeneratorGraph& generator,
                                                            std::uint64_t seed);

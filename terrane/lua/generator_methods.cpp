@@ -1,8 +1,5 @@
 // Methods of the generator: fields, passes, tint, shapes, trees, drainage maps.
-#include <algorithm>
-#include <limits>
 
-#include "terrane/base/nearest_name.h"
 #include "terrane/gen/generators/trees/trees.h"
 #include "terrane/lua/function_tables_internal.h"
 #include "terrane/lua/options_internal.h"

@@ -104,6 +104,14 @@ std::string unboundedWork(const gen::GeneratorGraph& graph) {
             "chunks need {} rings of neighbors, {} are allowed: passes with offsets read passes that have "
             "offsets themselves",
             rings, kMaxRings);
+    const std::ptrdiff_t kept =
+        std::count_if(graph.passes.begin(), graph.passes.begin() + gen::sharedPasses(graph),
+                      [](const gen::PassGraph& pass) { return pass.is3D; });
+    if (kept > kMaxKeptBlocks)
+        return fmt::format(
+            "the blocks of {} 3D passes are kept for neighbors, {} are allowed: read blocks with "
+            "offsets in earlier passes",
+            kept, kMaxKeptBlocks);
     return "";
 }
 

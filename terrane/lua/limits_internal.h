@@ -45,5 +45,7 @@ constexpr double kColumnsOfRegion = 369'664;
 constexpr double kRegionsOfChunk = 4;
 // Rings of chunks around one that are made before it: (2 · 6 + 1)² = 169 chunks.
 constexpr int kMaxRings = 6;
+// 3D passes whose blocks are kept for neighbors: 128 KiB each, for 256 chunks and more of each level.
+constexpr std::ptrdiff_t kMaxKeptBlocks = 2;
 
 }  // namespace terrane::lua

@@ -59,6 +59,7 @@ int indexPass(Call& c) {
         if (key == "x") return c.push(c.pass().x());
         if (key == "y") return c.push(c.pass().y());
         if (key == "z") return c.push(c.pass().z());
+        c.recording.readsStep = true;
         lua_pushinteger(c.L, c.pass().step());
         return 1;
     }
@@ -67,6 +68,7 @@ int indexPass(Call& c) {
 
 int indexGenerator(Call& c) {
     if (lua_type(c.L, 2) == LUA_TSTRING && c.text(2) == "step") {
+        c.recording.readsStep = true;
         lua_pushinteger(c.L, c.recording.builder.step());
         return 1;
     }

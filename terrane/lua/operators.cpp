@@ -1,5 +1,4 @@
 // Operators of expressions, and their comparisons, which Lua's own operators cannot be: those give booleans.
-#include <utility>
 
 #include "terrane/lua/function_tables_internal.h"
 
@@ -20,7 +19,9 @@ using gen::Int;
 template <class T, class Operation>
 int applyTo(Call& c, std::string_view sign, Operation operation) {
     if constexpr (std::is_invocable_v<Operation, T, T>) {
-        return c.push(operation(c.get<T>(1), c.get<T>(2)));
+        // In this order: each may name a block, and the version depends on the order of names.
+        const T a = c.get<T>(1), b = c.get<T>(2);
+        return c.push(operation(a, b));
     } else {
         noOperator(sign, kKindOf<T>);
     }

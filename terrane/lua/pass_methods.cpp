@@ -85,7 +85,8 @@ int blockInColumn(Call& c) {
 
 int blockAt(Call& c) {
     const gen::IVec2 at = offset(c, 1);
-    const bool isVector = c.count() == 2;
+    const Expression* first = c.expression(1);
+    const bool isVector = first != nullptr && first->kind == Kind::IVec2;
     return c.push(c.pass().blockAt(at, c.get<Int>(isVector ? 2 : 3)));
 }
 

@@ -67,6 +67,7 @@ struct Recording {
     std::size_t drainageCount = 0, voxelCount = 0;
     std::set<std::string, std::less<>> seedNames;
     bool hasTrees = false;
+    bool readsStep = false;  // so that levels may record different passes
     int printedLines = 0;
 
     // Whether a value of the pass with this number can be used now.

@@ -20,8 +20,12 @@ struct RecordRequest {
     bool prints;  // whether print() writes to the log
 };
 
-base::Result<gen::GeneratorGraph> record(const Script& script, BlockNames& names,
-                                         const RecordRequest& request) {
+struct Recorded {
+    gen::GeneratorGraph graph;
+    bool readsStep;
+};
+
+base::Result<Recorded> record(const Script& script, BlockNames& names, const RecordRequest& request) {
     if (script.text.size() > kMaxScriptBytes)
         return base::fail("{}: more than {} bytes", script.file, kMaxScriptBytes);
     gen::GeneratorBuilder builder(request.generator, request.blocks, request.level);
@@ -38,7 +42,7 @@ base::Result<gen::GeneratorGraph> record(const Script& script, BlockNames& names
     if (!graph) return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, graph.error().message);
     if (const std::string reason = unboundedWork(*graph); !reason.empty())
         return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, reason);
-    return graph;
+    return Recorded{*std::move(graph), recording.readsStep};
 }
 
 // Replacements for names that content files do not allow, such as "pack:block".
@@ -79,26 +83,30 @@ base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& na
 base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                const world::BlockRegistry& blocks, int level) {
     BlockNames blockNames(blocks, names.pack);
-    return record(script, blockNames, {names.generator, blocks, level, true});
+    auto recorded = record(script, blockNames, {names.generator, blocks, level, true});
+    if (!recorded) return tl::unexpected(recorded.error());
+    return std::move(recorded->graph);
 }
 
 base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
                                 const world::BlockRegistry& blocks) {
-    // Level 0 decides what other levels record, unless the script asks for the step.
-    const int lastLevel = script.text.find("step") == std::string::npos ? 0 : world::kMaxLevel;
+    // Level 0 decides what other levels record, unless the script reads the step.
+    int lastLevel = 0;
     BlockNames used(blocks, names.pack);
-    for (int level = 0; level <= lastLevel; ++level)
-        if (auto first = record(script, used, {names.generator, blocks, level, false}); !first)
-            return tl::unexpected(first.error());
+    for (int level = 0; level <= lastLevel; ++level) {
+        const auto first = record(script, used, {names.generator, blocks, level, false});
+        if (!first) return tl::unexpected(first.error());
+        if (first->readsStep) lastLevel = world::kMaxLevel;
+    }
     const BlockNames::Aliases aliases = aliasesOf(used.used());
     const auto registry = registryOf(used.used(), aliases);
     if (!registry) return tl::unexpected(registry.error());
     std::string text;
     for (int level = 0; level <= lastLevel; ++level) {
         BlockNames again(*registry, names.pack, aliases);
-        const auto graph = record(script, again, {names.generator, *registry, level, false});
-        if (!graph) return tl::unexpected(graph.error());
-        text += fmt::format("{:016x}", gen::graphHash(*graph));
+        const auto recorded = record(script, again, {names.generator, *registry, level, false});
+        if (!recorded) return tl::unexpected(recorded.error());
+        text += fmt::format("{:016x}", gen::graphHash(recorded->graph));
     }
     for (const std::string& name : used.used()) text += "\n" + name;
     const auto version = static_cast<int>(base::hash64(text) & 0x7FFFFFFFu);

@@ -30,7 +30,7 @@ struct ScriptNames {
 [[nodiscard]] base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                              const world::BlockRegistry& blocks, int level);
 
-// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels if it names the step) and of
+// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels if it reads the step) and of
 // the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
 // comments or layout. Saves keep it as the generator's version. print() of the script writes nothing.
 [[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,

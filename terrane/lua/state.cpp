@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstring>
-#include <exception>
 
 #include "terrane/base/printable.h"
 #include "terrane/lua/function_tables_internal.h"

@@ -1,6 +1,5 @@
 #include "terrane/pack/installed_packs.h"
 
-#include <algorithm>
 #include <utility>
 
 #include "terrane/base/log.h"

@@ -81,6 +81,20 @@ base::Result<PackInfo> readInfo(const toml::table& root, std::string_view file) 
     return info;
 }
 
+base::Result<void> checkSizes(const PackFiles& files, const std::string& where) {
+    std::size_t scripts = 0;
+    for (const auto& [path, data] : files) {
+        const bool isScript = path.ends_with(".lua");
+        const std::size_t most = isScript ? kMaxScriptBytes : kMaxTableBytes;
+        if (data.size() > most && !path.ends_with(".png"))
+            return base::fail(base::ErrorCode::BadInput, "{}/{}: more than {} KiB", where, path, most >> 10);
+        if (isScript && ++scripts > kMaxGenerators)
+            return base::fail(base::ErrorCode::BadInput, "{}: more than {} generators", where,
+                              kMaxGenerators);
+    }
+    return {};
+}
+
 }  // namespace
 
 bool isPackName(std::string_view text) {
@@ -101,6 +115,7 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
     const auto info = files.find(kInfoFile);
     if (info == files.end())
         return base::fail(base::ErrorCode::BadInput, "{}: not a content pack: there is no pack.toml", where);
+    if (auto checked = checkSizes(files, where); !checked) return tl::unexpected(checked.error());
     Pack pack{{}, {}, std::move(where)};
     const std::string file = pack.where + "/pack.toml";
     try {
@@ -111,17 +126,6 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
         return base::fail(base::ErrorCode::BadInput, "{}",
                           world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
                                                        error.description())));
-    }
-    std::size_t scripts = 0;
-    for (const auto& [path, data] : files) {
-        const bool isScript = path.ends_with(".lua");
-        const std::size_t most = isScript ? kMaxScriptBytes : kMaxTableBytes;
-        if (data.size() > most && !path.ends_with(".png"))
-            return base::fail(base::ErrorCode::BadInput, "{}/{}: more than {} KiB", pack.where, path,
-                              most >> 10);
-        if (isScript && ++scripts > kMaxGenerators)
-            return base::fail(base::ErrorCode::BadInput, "{}: more than {} generators", pack.where,
-                              kMaxGenerators);
     }
     pack.files = std::move(files);
     return pack;

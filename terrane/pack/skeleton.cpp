@@ -2,10 +2,8 @@
 
 #include <string>
 #include <system_error>
-#include <utility>
 
 #include "terrane/base/files.h"
-#include "terrane/base/image.h"
 #include "terrane/content/built_in.h"
 #include "terrane/pack/pack.h"
 

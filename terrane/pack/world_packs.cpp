@@ -1,6 +1,5 @@
 #include "terrane/pack/world_packs.h"
 
-#include <algorithm>
 #include <sstream>
 #include <utility>
 

@@ -14,11 +14,12 @@ namespace {
 
 // Sanitizers run without optimization.
 #ifdef NDEBUG
-constexpr int kSampleSide = 18;
+constexpr bool kIsOptimized = true;
 #else
-constexpr int kSampleSide = 6;
+constexpr bool kIsOptimized = false;
 #endif
 
+constexpr int kSampleSide = 18;
 constexpr int kSampleStep = 43;  // chunks
 
 struct Shares {
@@ -50,7 +51,6 @@ Shares sharesFrom(std::uint64_t seed, ChunkPos corner) {
 }
 
 void expectNaturalShares(const Shares& s) {
-#ifdef NDEBUG
     EXPECT_GT(s.sea, 0.25);
     EXPECT_LT(s.sea, 0.45);
     EXPECT_GT(s.desert, 0.03);
@@ -59,12 +59,10 @@ void expectNaturalShares(const Shares& s) {
     EXPECT_LT(s.mountains, 0.25);
     EXPECT_GT(s.forest, 0.10);
     EXPECT_LT(s.forest, 0.40);
-#else
-    EXPECT_LT(s.sea, 1.0);
-#endif
 }
 
 TEST(OverworldShares, AreNatural) {
+    if (!kIsOptimized) GTEST_SKIP() << "324 chunks take too long without optimization";
     for (const std::uint64_t seed : {1u, 2u, 3u}) {
         SCOPED_TRACE(seed);
         expectNaturalShares(sharesFrom(seed, {-400, -400}));
@@ -72,6 +70,7 @@ TEST(OverworldShares, AreNatural) {
 }
 
 TEST(OverworldShares, AreTheSameAtTheWorldsEnds) {
+    if (!kIsOptimized) GTEST_SKIP() << "324 chunks take too long without optimization";
     constexpr int kFromEnd = kSampleSide * kSampleStep;
     expectNaturalShares(sharesFrom(4, {world::kMinChunk, world::kMinChunk}));
     expectNaturalShares(sharesFrom(5, {world::kMaxChunk - kFromEnd, world::kMaxChunk - kFromEnd}));

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <stdexcept>
 #include <string>
-#include <utility>
 
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/generators/continents.h"

@@ -1,5 +1,4 @@
 // Oak, birch, willow, dead trees, bushes: crowns grown by space colonization (branching.h).
-#include <algorithm>
 
 #include "terrane/gen/generators/trees/branching.h"
 #include "terrane/gen/generators/trees/kinds_internal.h"

@@ -1,5 +1,4 @@
 // Shapes low on the ground: boulders, fallen logs, giant mushrooms.
-#include <algorithm>
 
 #include "terrane/gen/generators/trees/canvas.h"
 #include "terrane/gen/generators/trees/kinds_internal.h"
