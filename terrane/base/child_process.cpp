@@ -85,7 +85,7 @@ Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOpt
     while (::wait4(child, &status, 0, &usage) < 0 && errno == EINTR) {
     }
     end.seconds = std::chrono::duration<double>(Clock::now() - start).count();
-    end.processorSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
+    end.cpuSeconds = secondsOf(usage.ru_utime) + secondsOf(usage.ru_stime);
     end.exitCode = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
     end.crashes = isCrash(status) ? 1 : 0;
     return end;

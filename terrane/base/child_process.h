@@ -23,8 +23,8 @@ struct ChildEnd {
     int exitCode = 0;  // 128 + the signal that ended it
     int crashes = 0;  // runs that were ended by a fault of the program or of a driver (SIGSEGV, SIGABRT, …)
     bool tookTooLong = false;
-    std::string output;                        // its standard output
-    double seconds = 0, processorSeconds = 0;  // of the last run
+    std::string output;                  // its standard output
+    double seconds = 0, cpuSeconds = 0;  // of the last run
 };
 
 // Blocks until the child ends. The child is killed if the calling thread ends. The calling process must have

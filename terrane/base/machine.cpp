@@ -42,14 +42,14 @@ double memoryBytes() {
 }  // namespace
 
 Machine describeMachine() {
-    return {.processor = lineOf("/proc/cpuinfo", "model name"),
+    return {.cpuName = lineOf("/proc/cpuinfo", "model name"),
             .system = systemName(),
 #ifdef __clang__
             .compiler = fmt::format("clang {}", __clang_version__),
 #else
             .compiler = fmt::format("g++ {}", __VERSION__),
 #endif
-            .processors = std::thread::hardware_concurrency(),
+            .cpuCount = std::thread::hardware_concurrency(),
             .memoryBytes = memoryBytes(),
 #ifdef NDEBUG
             .hasAssertions = false};

@@ -7,8 +7,8 @@ namespace terrane::base {
 
 // Properties that do not change while the program runs.
 struct Machine {
-    std::string processor, system, compiler;
-    unsigned processors = 0;
+    std::string cpuName, system, compiler;
+    unsigned cpuCount = 0;
     double memoryBytes = 0;
     bool hasAssertions = false;  // of this build
 };

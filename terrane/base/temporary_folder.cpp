@@ -5,8 +5,6 @@
 #include <string>
 #include <system_error>
 
-#include "terrane/base/files.h"
-
 namespace terrane::base {
 
 Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& parent, std::string_view prefix) {

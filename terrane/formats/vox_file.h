@@ -14,7 +14,7 @@
 namespace terrane::formats {
 
 constexpr int kMaxVoxSide = 256;  // of one model; larger boxes are several of them
-constexpr std::size_t kMaxVoxBytes = std::size_t{512} << 20;
+constexpr std::size_t kMaxVolumeBytes = std::size_t{512} << 20;  // of a .vox file or a schematic
 
 struct VoxImage {
     glm::ivec3 size{0};

@@ -47,8 +47,11 @@ class VoxReader {
     std::string_view text() { return take(count()); }
 
     VoxDictionary dictionary() {
+        constexpr std::size_t kMaxEntries = 256;  // files have ten at most
         VoxDictionary entries;
-        for (std::size_t left = count(); left > 0 && !isBad_; --left) {
+        std::size_t left = count();
+        if (left > kMaxEntries) isBad_ = true;
+        for (; left > 0 && !isBad_; --left) {
             const std::string_view key = text();
             entries[key] = text();
         }

@@ -15,7 +15,7 @@ struct Ambience {
 };
 
 // Wind grows with height and with the share of open sky. Water is heard within kWaterReach blocks of its
-// surface, louder where it flows. Reads some 1,500 blocks: a few times a second is enough.
+// surface, louder where it flows. Reads up to 2,200 blocks: a few times a second is enough.
 constexpr int kWaterReach = 12;
 Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears);
 

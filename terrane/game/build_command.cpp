@@ -102,6 +102,11 @@ BuildOutcome::Result check(const world::World& world, const BuildChange& change)
     if (box.high.x < box.low.x || box.high.y < box.low.y || box.high.z < box.low.z) return Result::Empty;
     if (!world::isInHeight(box.low.z) || !world::isInHeight(box.high.z) || !isWhole(box, change))
         return Result::OutOfWorld;
+    // First each side: the product of larger ones overflows.
+    const auto isLong = [](std::int64_t low, std::int64_t high) {
+        return high - low >= world::kMaxStructureBlocks;
+    };
+    if (isLong(box.low.x, box.high.x) || isLong(box.low.y, box.high.y)) return Result::TooLarge;
     if (box.blockCount() > world::kMaxStructureBlocks) return Result::TooLarge;
     return isLoaded(world, box) ? Result::Done : Result::NotLoaded;
 }

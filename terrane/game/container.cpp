@@ -26,6 +26,7 @@ bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, cons
     assert(click.slot < items.size() && "a slot of the container");
     const int count = click.wholeStack ? world::kMaxStack : 1;
     world::ItemStack& stack = items[click.slot];
+    if (!click.takes && inHand == world::kAir) return false;
     if (!click.takes) return world::addToStack(stack, blocks.type(inHand).name, count) < count;
     const world::BlockType* kind = blocks.find(stack.item);
     if (stack.count == 0 || !kind) return false;

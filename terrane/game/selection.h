@@ -13,9 +13,6 @@ class Selection {
   public:
     void setFirst(world::BlockPos corner) { first_ = corner; }
     void setSecond(world::BlockPos corner) { second_ = corner; }
-    void clear() { first_ = second_ = std::nullopt; }
-    const std::optional<world::BlockPos>& first() const { return first_; }
-    const std::optional<world::BlockPos>& second() const { return second_; }
     // The box from corner to corner, or of the only corner; none without corners.
     std::optional<world::BlockBox> box() const;
 

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <numbers>
 #include <optional>
 
 #include "terrane/world/character.h"
@@ -48,7 +49,7 @@ float viewFrom(const gen::Generator& generator, const world::BlockRegistry& bloc
     float best = 0;
     int bestHeight = -1;
     for (int k = 0; k < kDirections; ++k) {
-        const double angle = 2 * 3.14159265358979 * k / kDirections;
+        const double angle = 2 * std::numbers::pi * k / kDirections;
         const world::ChunkPos at =
             world::offsetBy(pos, static_cast<int>(std::lround(kDistance * std::cos(angle))),
                             static_cast<int>(std::lround(kDistance * std::sin(angle))));

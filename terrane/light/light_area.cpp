@@ -1,7 +1,6 @@
 #include "terrane/light/light_area.h"
 
 #include <cassert>
-#include <optional>
 
 namespace terrane::light {
 namespace {

@@ -30,14 +30,14 @@ void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshS
     changed.meshSections |= meshSections;
 }
 
-void ChangeQueue::askForMesh(ChunkPos pos) {
+void ChangeQueue::requestMesh(ChunkPos pos) {
     ChunkChange& changed = change(pos);
     changed.mesh = nullptr;
     changed.meshSections = 0;
     changed.needsMesh = true;
 }
 
-bool ChangeQueue::asksForMesh(ChunkPos pos) const {
+bool ChangeQueue::isMeshRequested(ChunkPos pos) const {
     const auto found = changes_.find(pos);
     return found != changes_.end() && found->second.needsMesh;
 }

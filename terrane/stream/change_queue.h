@@ -18,8 +18,8 @@ class ChangeQueue {
     // Sets new quads of `meshSections`. Other sections of a waiting mesh stay.
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
     // Asks the taker of the change to make the mesh.
-    void askForMesh(world::ChunkPos pos);
-    bool asksForMesh(world::ChunkPos pos) const;
+    void requestMesh(world::ChunkPos pos);
+    bool isMeshRequested(world::ChunkPos pos) const;
     // The chunk is no longer on screen.
     void hide(world::ChunkPos pos);
     // Moves an edited chunk ahead of all that were not edited.

@@ -138,7 +138,7 @@ void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh
     if (mesh) {
         changes_.setMesh(pos, std::move(mesh), mesh::kAllMeshSections);
     } else {
-        changes_.askForMesh(pos);
+        changes_.requestMesh(pos);
     }
     dropLocalLightAround(pos);
 }
@@ -164,7 +164,9 @@ std::size_t ChunkPipeline::roomFor(std::size_t running) const {
 void ChunkPipeline::submitLoads() {
     const std::size_t loading = countOf(table_, ChunkStage::Loading) - toGenerate_.size();
     for (const ChunkPos pos : popLoadRequests(table_, roomFor(loading))) {
-        findRecord(table_, pos)->load = workers_.submitLoad(urgency(table_.view, pos), pos, parts_.source);
+        // Chunks beyond the view and its ring, such as all chunks of a server, are not lit.
+        findRecord(table_, pos)->load =
+            workers_.submitLoad(urgency(table_.view, pos), pos, parts_.source, isNeeded(table_.view, pos));
     }
 }
 
@@ -235,7 +237,7 @@ void ChunkPipeline::submitMeshes() {
         if (parts_.meshing == MeshPolicy::Workers) {
             workers_.submitMesh(urgency(table_.view, job.pos), job, around(job.pos), meshOptions_);
         } else if (finishMeshJob(table_, job)) {
-            changes_.askForMesh(job.pos);
+            changes_.requestMesh(job.pos);
         }
     }
 }
@@ -289,8 +291,8 @@ void ChunkPipeline::meshEdits() {
 // If the caller makes meshes, it makes those of whole chunks, and those that it was already asked for.
 void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
     if (parts_.meshing == MeshPolicy::Caller &&
-        (meshSections == mesh::kAllMeshSections || changes_.asksForMesh(pos))) {
-        return changes_.askForMesh(pos);
+        (meshSections == mesh::kAllMeshSections || changes_.isMeshRequested(pos))) {
+        return changes_.requestMesh(pos);
     }
     changes_.setMesh(pos, meshOf(around(pos).meshed, parts_.blocks, meshOptions_, meshSections),
                      meshSections);

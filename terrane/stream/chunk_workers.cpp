@@ -43,13 +43,14 @@ base::JobHandle ChunkWorkers::submit(base::JobPriority priority, Work work) {
     return parts_.jobs.submit(priority, guarded);
 }
 
-base::JobHandle ChunkWorkers::submitLoad(base::JobPriority priority, ChunkPos pos,
-                                         const ChunkSource& source) {
-    return submit(priority, [pos, source, lights = &parts_.lights](WorkerResults& results) {
+base::JobHandle ChunkWorkers::submitLoad(base::JobPriority priority, ChunkPos pos, const ChunkSource& source,
+                                         bool isToBeLit) {
+    return submit(priority, [pos, source, isToBeLit, lights = &parts_.lights](WorkerResults& results) {
         auto chunk = results.timed(kLoad, [&] { return loadStored(source, pos); });
         if (!chunk) chunk = results.timed(kGenerate, [&] { return generateChunk(source, pos); });
         LocalLightPtr local;
-        if (chunk) local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
+        if (chunk && isToBeLit)
+            local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
         return WorkerResults::Load{pos, std::move(chunk), std::move(local)};
     });
 }

@@ -18,9 +18,10 @@ class ChunkWorkers {
     explicit ChunkWorkers(const PipelineParts& parts);
     ~ChunkWorkers();  // waits for all running jobs; its waiting ones do nothing
 
-    // Loads or generates a chunk and computes its local light. Without a generator, the result is null if the
-    // store has no chunk.
-    base::JobHandle submitLoad(base::JobPriority priority, world::ChunkPos pos, const ChunkSource& source);
+    // Loads or generates a chunk, and computes its local light if it is to be lit. Without a generator, the
+    // result is null if the store has no chunk.
+    base::JobHandle submitLoad(base::JobPriority priority, world::ChunkPos pos, const ChunkSource& source,
+                               bool isToBeLit);
     // Computes the local light of a chunk that a batch generator made.
     void submitLocalLight(base::JobPriority priority, world::ChunkPos pos,
                           std::shared_ptr<world::Chunk> chunk);

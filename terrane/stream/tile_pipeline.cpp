@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <exception>
 #include <mutex>
+#include <unordered_set>
 #include <utility>
 
 #include "terrane/base/profile.h"
@@ -42,8 +43,9 @@ struct TilePipeline::Results {
     };
     std::mutex mutex;
     std::condition_variable changed;
-    std::vector<Made> made;            // under the mutex
-    std::vector<ChunkPos> outdated;    // under the mutex
+    std::vector<Made> made;  // under the mutex
+    // Under the mutex. A set: a server without a view never takes them, however often its tiles change.
+    std::unordered_set<ChunkPos, world::ChunkPosHash> outdated;
     std::exception_ptr failure;        // the first, under the mutex
     std::atomic<bool> isOver = false;  // jobs that begin now do nothing
 
@@ -134,7 +136,7 @@ void TilePipeline::submit(ChunkPos tile) {
 TileListener TilePipeline::tileListener() const {
     return [results = results_](std::span<const ChunkPos> tiles) {
         const std::lock_guard lock(results->mutex);
-        results->outdated.insert(results->outdated.end(), tiles.begin(), tiles.end());
+        results->outdated.insert(tiles.begin(), tiles.end());
         results->changed.notify_one();
     };
 }

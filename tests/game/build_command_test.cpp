@@ -87,6 +87,7 @@ TEST_F(BuildTest, RefusesWhatItShould) {
     EXPECT_EQ(fill({{2, 2, -1}, low}, "stone").result, Result::OutOfWorld);
     EXPECT_EQ(fill({low, {5000, 2, 70}}, "stone").result, Result::NotLoaded);
     EXPECT_EQ(fill({{0, 0, 0}, {199, 199, 99}}, "stone").result, Result::TooLarge);
+    EXPECT_EQ(fill({{INT32_MIN, INT32_MIN, 0}, {INT32_MAX, INT32_MAX, 1}}, "stone").result, Result::TooLarge);
     EXPECT_EQ(fill({{5, 5, 140}, {6, 6, 141}}, "stone").result, Result::OutOfReach);
     EXPECT_EQ(session_.build({99, FillBox{kCube, contentBlock("stone"), 0, {}}}).result, Result::OutOfReach);
     EXPECT_EQ(place({}, low).result, Result::Empty);

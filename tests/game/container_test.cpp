@@ -34,7 +34,10 @@ TEST_F(ContainerTest, IsEmptyUntilSomethingIsPut) {
 
 TEST_F(ContainerTest, ClicksPutAndTake) {
     world::Inventory items(27);
-    world::BlockId hand = id("sand");
+    world::BlockId hand = world::kAir;
+    EXPECT_FALSE(clickSlot(items, blocks_, {.slot = 26}, hand)) << "an empty hand puts nothing";
+    EXPECT_EQ(items, world::Inventory(27));
+    hand = id("sand");
     EXPECT_TRUE(clickSlot(items, blocks_, {.slot = 26}, hand));
     EXPECT_TRUE(clickSlot(items, blocks_, {.slot = 26}, hand));
     EXPECT_EQ(items[26], (world::ItemStack{"sand", 2}));

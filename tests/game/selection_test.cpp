@@ -27,8 +27,6 @@ TEST(Selection, ABoxGoesFromCornerToCorner) {
     selection.setSecond({-3, 4, 8});
     EXPECT_EQ(selection.box()->low, (BlockPos{-3, -2, 8}));
     EXPECT_EQ(selection.box()->high, (BlockPos{5, 4, 9}));
-    selection.clear();
-    EXPECT_FALSE(selection.box());
 }
 
 TEST(Selection, NothingIsPastedThatWasNotCopied) {

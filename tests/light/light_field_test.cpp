@@ -73,7 +73,9 @@ TEST(LightField, MarksNothingOutside) {
     LightField field;
     field.brick(0, 0).isInside = true;
     field.markAround(LightField::indexOf(0, 0), 0);
-    for (const auto& [index, row] : takeAll(field)) EXPECT_EQ(index, LightField::indexOf(0, 0)) << row;
+    const Rows rows = takeAll(field);
+    EXPECT_FALSE(rows.empty());
+    for (const auto& [index, row] : rows) EXPECT_EQ(index, LightField::indexOf(0, 0)) << row;
     field.markAll(LightField::indexOf(1, 0));
     field.markLayer(LightField::indexOf(1, 0), 3);
     EXPECT_EQ(field.takeDirty(), -1);

@@ -1,8 +1,6 @@
 // Work of workers and batch generators, and requests of others than the view.
-#include <future>
-#include <utility>
-
 #include "terrane/store/memory_store.h"
+#include "tests/base/job_gates.h"
 #include "tests/stream/pipeline_fixture.h"
 
 namespace terrane::stream {
@@ -10,31 +8,9 @@ namespace {
 
 class PipelineJobsTest : public PipelineTest {};
 
-// A worker that is busy until open() is called.
-class BusyWorker {
-  public:
-    explicit BusyWorker(base::JobSystem& jobs) {
-        // The job shares what it uses, since it may end after this object.
-        const auto started = std::make_shared<std::promise<void>>();
-        jobs.submit(-1, [started, gate = gate_.get_future().share()](const base::CancelToken&) {
-            started->set_value();
-            gate.wait();
-        });
-        started->get_future().wait();
-    }
-    ~BusyWorker() { open(); }
-    void open() {
-        if (!std::exchange(isOpen_, true)) gate_.set_value();
-    }
-
-  private:
-    std::promise<void> gate_;
-    bool isOpen_ = false;
-};
-
 // After long frames workers get more jobs at once, so that they are busy until the next frame.
 TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
-    BusyWorker first(jobs_), second(jobs_);
+    base::Blocker first(jobs_), second(jobs_);
     setView({0, 0}, 10);
     update();
     EXPECT_EQ(pipeline_->queuedCount(), 2u * 8);
@@ -48,14 +24,14 @@ TEST_F(PipelineJobsTest, ALongFrameIsFilledWithWork) {
 
 // The view stays away and moves all the time: requests of others are still loaded.
 TEST_F(PipelineJobsTest, WhatOthersAskForIsNotGivenUp) {
-    BusyWorker first(jobs_), second(jobs_);
+    base::Blocker first(jobs_), second(jobs_);
     setView({0, 0}, 1);
     pipeline_->maybeLoadChunkAt({40, 40});
     update();
     setView({1, 0}, 1);
     update();
-    first.open();
-    second.open();
+    first.release();
+    second.release();
     settle();
     EXPECT_TRUE(world_.maybeChunkAt({40, 40}));
 }
@@ -76,9 +52,11 @@ TEST_F(PipelineJobsTest, WhatAWorkerThrowsIsThrownOn) {
 TEST_F(PipelineJobsTest, ChunksOthersAskForAreLoadedAndKept) {
     setView({0, 0}, 0);
     settle();
+    const std::size_t localLight = pipeline_->localLightBytes();
     EXPECT_EQ(pipeline_->maybeLoadChunkAt({40, 40}), nullptr);
     const world::ChunkPtr chunk = pipeline_->chunkAt({40, 40});
     ASSERT_TRUE(chunk);
+    EXPECT_EQ(pipeline_->localLightBytes(), localLight) << "chunks beyond the view are not lit";
     EXPECT_EQ(pipeline_->maybeLoadChunkAt({40, 40}), chunk);
     EXPECT_EQ(world_.maybeChunkAt({40, 40}), chunk);
 }
@@ -158,15 +136,15 @@ TEST_F(PipelineJobsTest, EditsOutdateBatches) {
 
 // A chunk whose job is cancelled while it waits must come when the view returns.
 TEST_F(PipelineJobsTest, ComesBackAfterItsJobWasCancelled) {
-    BusyWorker first(jobs_), second(jobs_);
+    base::Blocker first(jobs_), second(jobs_);
     setView({0, 0}, 1);
     update();
     setView({100, 0}, 1);
     update();
     setView({0, 0}, 1);
     update();
-    first.open();
-    second.open();
+    first.release();
+    second.release();
     settle();
     expectShowsTheView();
 }

@@ -5,10 +5,10 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <iterator>
 #include <set>
 #include <string>
+
+#include "tests/world/content_blocks.h"
 
 namespace terrane::world {
 namespace {
@@ -17,14 +17,6 @@ BlockRegistry parsed(std::string_view toml) {
     auto registry = BlockRegistry::parse(toml, "blocks.toml");
     EXPECT_TRUE(registry) << (registry ? "" : registry.error().message);
     return registry ? *registry : BlockRegistry();
-}
-
-const BlockRegistry& content() {
-    static const BlockRegistry registry = [] {
-        std::ifstream file(TERRANE_SOURCE_DIR "/assets/blocks.toml");
-        return parsed(std::string(std::istreambuf_iterator<char>(file), {}));
-    }();
-    return registry;
 }
 
 constexpr std::string_view kTwo =
@@ -207,11 +199,11 @@ constexpr Row kRows[] = {
 };
 
 TEST(Content, MatchesTheSpecification) {
-    ASSERT_GT(content().types().size(), std::size(kRows) + 2);
+    ASSERT_GT(contentBlocks().types().size(), std::size(kRows) + 2);
     BlockId id = 1;
     for (const Row& row : kRows) {
         SCOPED_TRACE(row.name);
-        const BlockType& type = content().type(id++);
+        const BlockType& type = contentBlocks().type(id++);
         EXPECT_EQ(type.name, row.name);
         EXPECT_EQ(type.shape, row.shape);
         EXPECT_EQ(type.opacity, row.opacity);
@@ -226,8 +218,8 @@ TEST(Content, MatchesTheSpecification) {
 
 TEST(Content, WhatOnePlacesComesLastAndIsNotGenerated) {
     std::size_t models = 0;
-    for (std::size_t id = std::size(kRows) + 1; id < content().types().size(); ++id) {
-        const BlockType& type = content().types()[id];
+    for (std::size_t id = std::size(kRows) + 1; id < contentBlocks().types().size(); ++id) {
+        const BlockType& type = contentBlocks().types()[id];
         SCOPED_TRACE(type.name);
         EXPECT_FALSE(type.generated);
         EXPECT_EQ(type.model != nullptr, type.shape == Shape::Model);
@@ -239,7 +231,9 @@ TEST(Content, WhatOnePlacesComesLastAndIsNotGenerated) {
 
 // Torches and ladders are removed with the wall at which they lean; doors have two halves.
 TEST(Content, WhatOnePlacesBehaves) {
-    const auto behaviorOf = [](std::string_view name) { return content().find(name)->behaviors.at(0)->name; };
+    const auto behaviorOf = [](std::string_view name) {
+        return contentBlocks().find(name)->behaviors.at(0)->name;
+    };
     EXPECT_EQ(behaviorOf("torch"), "stands_or_leans");
     EXPECT_EQ(behaviorOf("ladder"), "leans");
     EXPECT_EQ(behaviorOf("lantern"), "stands");
@@ -247,42 +241,42 @@ TEST(Content, WhatOnePlacesBehaves) {
     EXPECT_EQ(behaviorOf("oak_gate"), "opens");
     EXPECT_EQ(behaviorOf("oak_door"), "door");
     EXPECT_EQ(behaviorOf("oak_door_top"), "door");
-    EXPECT_TRUE(content().find("ladder")->climbable);
-    EXPECT_TRUE(content().find("tall_grass")->replaceable);
-    EXPECT_FALSE(content().find("poppy")->replaceable);
+    EXPECT_TRUE(contentBlocks().find("ladder")->climbable);
+    EXPECT_TRUE(contentBlocks().find("tall_grass")->replaceable);
+    EXPECT_FALSE(contentBlocks().find("poppy")->replaceable);
 }
 
 TEST(Content, WheatGrowsAndChestsHold) {
-    const BlockType& wheat = *content().find("wheat");
+    const BlockType& wheat = *contentBlocks().find("wheat");
     ASSERT_EQ(wheat.growth.size(), 3u);
     const auto textureOfStage = [&](std::size_t left) {
-        return content().textures()[content().materials()[wheat.growth[left - 1]].texture];
+        return contentBlocks().textures()[contentBlocks().materials()[wheat.growth[left - 1]].texture];
     };
     EXPECT_EQ(textureOfStage(1), "wheat_2");
     EXPECT_EQ(textureOfStage(3), "wheat_0");
-    const Material& youngest = content().materials()[wheat.growth[2]];
+    const Material& youngest = contentBlocks().materials()[wheat.growth[2]];
     EXPECT_EQ(youngest.alpha, AlphaMode::Test);
     EXPECT_EQ(youngest.animation, Animation::TopWaves);
     EXPECT_TRUE(youngest.twoSided);
-    EXPECT_EQ(content().find("chest")->slots, 27);
-    EXPECT_EQ(content().find("stone")->slots, 0);
+    EXPECT_EQ(contentBlocks().find("chest")->slots, 27);
+    EXPECT_EQ(contentBlocks().find("stone")->slots, 0);
 }
 
 TEST(Content, SelectionOfPlants) {
-    for (const BlockType& type : content().types()) {
+    for (const BlockType& type : contentBlocks().types()) {
         if (type.shape != Shape::Cross && type.shape != Shape::Hash) continue;
         EXPECT_EQ(type.selection.min, glm::vec3(0.3f, 0.3f, 0)) << type.name;
         EXPECT_EQ(type.selection.max, glm::vec3(0.7f, 0.7f, 0.5f)) << type.name;
     }
-    EXPECT_EQ(content().find("cactus")->collision[0].min, glm::vec3(0.0625f, 0.0625f, 0));
+    EXPECT_EQ(contentBlocks().find("cactus")->collision[0].min, glm::vec3(0.0625f, 0.0625f, 0));
 }
 
 Material materialOf(std::string_view name, Face face) {
-    return content().materials()[content().find(name)->material[face]];
+    return contentBlocks().materials()[contentBlocks().find(name)->material[face]];
 }
 
 std::string textureOf(std::string_view name, Face face) {
-    return content().textures()[materialOf(name, face).texture];
+    return contentBlocks().textures()[materialOf(name, face).texture];
 }
 
 TEST(Content, Textures) {
@@ -295,7 +289,7 @@ TEST(Content, Textures) {
     EXPECT_EQ(textureOf("oak_log", kFaceNegZ), "oak_log_top");
     EXPECT_EQ(textureOf("oak_log", kFaceNegY), "oak_log_side");
     EXPECT_EQ(textureOf("cactus", kFaceNegZ), "cactus_bottom");
-    EXPECT_EQ(content().textures().back(), "missing");
+    EXPECT_EQ(contentBlocks().textures().back(), "missing");
 }
 
 TEST(Content, Looks) {
@@ -322,10 +316,10 @@ TEST(Content, Looks) {
 
 // Leaves are closed and not animated; all else looks as it does nearby.
 TEST(Content, SeenFromAfar) {
-    const BlockRegistry far = content().seenFromAfar();
-    ASSERT_EQ(far.types().size(), content().types().size());
-    EXPECT_EQ(far.materials().size(), content().materials().size()) << "those of both are in one table";
-    for (const BlockType& near : content().types()) {
+    const BlockRegistry far = contentBlocks().seenFromAfar();
+    ASSERT_EQ(far.types().size(), contentBlocks().types().size());
+    EXPECT_EQ(far.materials().size(), contentBlocks().materials().size()) << "those of both are in one table";
+    for (const BlockType& near : contentBlocks().types()) {
         const BlockType& type = far.type(near.id);
         EXPECT_EQ(type.name, near.name);
         if (near.name.ends_with("_leaves") || near.name == "glass") continue;
@@ -338,7 +332,7 @@ TEST(Content, SeenFromAfar) {
     }
     const BlockType& leaves = *far.find("oak_leaves");
     EXPECT_TRUE(leaves.opaqueCube);
-    const Material& near = content().materials()[content().find("oak_leaves")->material[0]];
+    const Material& near = contentBlocks().materials()[contentBlocks().find("oak_leaves")->material[0]];
     const Material& material = far.materials()[leaves.material[0]];
     EXPECT_EQ(material.texture, near.texture);
     EXPECT_EQ(material.alpha, AlphaMode::Unused);
@@ -347,11 +341,12 @@ TEST(Content, SeenFromAfar) {
 }
 
 TEST(Content, MaterialsAreUnique) {
-    const auto materials = content().materials();
+    const auto materials = contentBlocks().materials();
     for (std::size_t a = 0; a < materials.size(); ++a)
         for (std::size_t b = a + 1; b < materials.size(); ++b) EXPECT_FALSE(materials[a] == materials[b]);
-    const std::set<std::string> textures(content().textures().begin(), content().textures().end());
-    EXPECT_EQ(textures.size(), content().textures().size());
+    const std::set<std::string> textures(contentBlocks().textures().begin(),
+                                         contentBlocks().textures().end());
+    EXPECT_EQ(textures.size(), contentBlocks().textures().size());
 }
 
 // Made by a program, without a file.

@@ -262,7 +262,7 @@ TEST(RayCast, EqualsLookingAtEveryBlock) {
                     const Box& box = registry().type(world.block(hit->block)).selection;
                     const Span span = insideBox(ray, corner, hit->block, box);
                     const bool graze = span.leave - std::max(span.enter, 0.0) < 1e-8;
-                    ASSERT_TRUE(graze || std::abs(hit->distance - expected->distance) < 1e-9);
+                    ASSERT_TRUE(graze || (expected && std::abs(hit->distance - expected->distance) < 1e-9));
                     ++ties;
                     continue;
                 }
