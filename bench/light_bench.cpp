@@ -183,21 +183,22 @@ void edit(benchmark::State& state, TestScene scene, world::BlockIndex index, wor
         window.chunks[k] = &scene.chunks[k];
         window.lights[k] = std::make_shared<ChunkLight>(lights[k]);
     }
-    int changed = 0;
     const auto change = [&](world::BlockId from, world::BlockId to) {
         scene.chunks[4].setBlock(index, to);
         const light::BlockChange one{index, from};
         const auto bricks = relight(window, {&one, 1}, table(), scratch);
-        changed = 0;
+        int changed = 0;
         for (const std::uint16_t bits : bricks) changed += std::popcount(bits);
+        return changed;
     };
+    int bricks = 0;
     for (auto _ : state) {
-        change(first, second);
+        bricks = change(first, second);
         state.PauseTiming();  // the way back is another benchmark
         change(second, first);
         state.ResumeTiming();
     }
-    state.counters["bricks"] = changed;
+    state.counters["bricks"] = bricks;
 }
 
 void lampRemoved(benchmark::State& state) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bench/bench_content.h"
+#include "terrane/base/median.h"
 #include "terrane/world/random_ticks.h"
 #include "tests/world/dam.h"
 
@@ -45,11 +46,6 @@ Flood flood(world::World& dam) {
     return result;
 }
 
-double medianOf(std::vector<double> values) {
-    std::ranges::sort(values);
-    return values[values.size() / 2];
-}
-
 void breakDam(benchmark::State& state) {
     std::vector<std::vector<double>> times;  // by tick
     std::size_t cells = 0, mostCells = 0;
@@ -67,11 +63,11 @@ void breakDam(benchmark::State& state) {
         state.ResumeTiming();
     }
     std::vector<double> medians;
-    for (const std::vector<double>& tick : times) medians.push_back(medianOf(tick));
+    for (const std::vector<double>& tick : times) medians.push_back(base::medianOf(tick));
     state.counters["ticks"] = static_cast<double>(times.size());
     state.counters["cells"] = static_cast<double>(cells);
     state.counters["most_cells"] = static_cast<double>(mostCells);
-    state.counters["median_ms"] = medianOf(medians);
+    state.counters["median_ms"] = base::medianOf(medians);
     state.counters["max_ms"] = *std::ranges::max_element(medians);
 }
 

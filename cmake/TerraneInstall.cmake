@@ -67,7 +67,8 @@ endif()
 set(made ${CMAKE_BINARY_DIR}/package)
 set(share ${CMAKE_INSTALL_DATADIR})
 add_custom_command(OUTPUT ${made}/terrane.1.gz ${made}/terrane ${made}/_terrane ${made}/terrane.fish
-  COMMAND terrane man | gzip -9n > ${made}/terrane.1.gz
+  COMMAND terrane man > ${made}/terrane.1
+  COMMAND gzip -9nf ${made}/terrane.1
   COMMAND terrane completion bash > ${made}/terrane
   COMMAND terrane completion zsh > ${made}/_terrane
   COMMAND terrane completion fish > ${made}/terrane.fish

@@ -169,7 +169,8 @@ base::Result<int> build(const std::string& path, BlockPos middle) {
     request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
     auto opened = store::openWorld(store::worldLocation(path), *blocks, request);
     if (!opened) return tl::unexpected(opened.error());
-    auto generators = gen::makeLevelGenerators(kGenerator, *blocks, kSeed);
+    const store::WorldIdentity& world = (*opened)->identity();
+    auto generators = gen::makeLevelGenerators(world.generator, *blocks, world.seed);
     if (!generators) return tl::unexpected(generators.error());
     game::Session session({std::move(blocks), std::move(*generators), std::move(*opened), 2});
     loadAround(session, {middle.x >> 4, middle.y >> 4});

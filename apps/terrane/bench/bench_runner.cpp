@@ -82,7 +82,7 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     json result = json::parse(end->output, nullptr, false);
     if (!result.is_object()) return base::fail("printed no JSON object");
     result["run"] = {
-        {"seconds", end->seconds}, {"processor_seconds", end->processorSeconds}, {"load_average", load}};
+        {"seconds", end->seconds}, {"processor_seconds", end->cpuSeconds}, {"load_average", load}};
     if (end->crashes > 0) result["run"]["crashes"] = end->crashes;
     return result;
 }

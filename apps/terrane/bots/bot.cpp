@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <utility>
 
 #include "terrane/world/character.h"
@@ -138,7 +139,7 @@ void Bot::walk(double seconds) {
     const world::BlockPos below = world::blockOf({next, 0});
     const int ground = world_.land.groundHeight(below.x, below.y);
     pose_.position = {next, ground + 1 + world::kEyeHeight};
-    pose_.yaw = static_cast<float>(std::atan2(way.y, way.x) * 180 / 3.14159265358979);
+    pose_.yaw = static_cast<float>(std::atan2(way.y, way.x) * 180 / std::numbers::pi);
 }
 
 // Places a block near the feet, or removes one that this bot placed.

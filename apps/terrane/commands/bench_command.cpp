@@ -74,8 +74,8 @@ base::Result<json> aboutRun(const BenchSettings& settings, const json& info, con
     base::Digest digest;
     digest.update(*bytes);
     const base::Machine machine = base::describeMachine();
-    json about = {{"processor", machine.processor},
-                  {"processors", machine.processors},
+    json about = {{"processor", machine.cpuName},
+                  {"processors", machine.cpuCount},
                   {"memory", fmt::format("{:.0f} GB", machine.memoryBytes / 1e9)},
                   {"system", machine.system},
                   {"compiler", machine.compiler},

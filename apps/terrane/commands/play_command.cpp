@@ -41,8 +41,7 @@ bool namesWorld(const CLI::App& command) {
     return std::ranges::any_of(kNames, [&](std::string_view name) { return isGiven(command, name); });
 }
 
-// True if the command line or the settings choose graphics: no preset is then measured. Without a settings
-// file none is measured either, since the result could not be kept.
+// True if the command line or the settings choose graphics: no preset is then measured.
 bool namesGraphics(const CLI::App& command) {
     return isGiven(command, "preset") || isGiven(command, "view-distance") ||
            std::ranges::any_of(render::graphicsTable(),
@@ -134,7 +133,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->add_option("--known-edits", options->knownEdits, "")->group("");
     command->add_option("--bookmark", options->bookmark, "Start at this bookmark, counted from 1")
         ->check(numberFrom(1, 1e6))
-        ->type_name("X");
+        ->type_name("NUMBER");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
     command->add_option("--collect-perf-data", options->perfData, "Write statistics of each frame (CSV)")

@@ -176,8 +176,9 @@ CommandEntry addWork(CLI::App& app) {
     command->add_flag("--add-only", options->addsOnly, "Add to the queue and end");
     command->add_flag("--wait", options->waits, "Wait for more work when the queue is empty");
     command->add_flag("--status", options->status, "Print the progress and all workers");
-    command->add_flag("--pause", options->pause, "Stop workers from taking squares until --continue");
-    command->add_flag("--continue", options->goOn, "Continue after --pause");
+    CLI::Option* pause =
+        command->add_flag("--pause", options->pause, "Stop workers from taking squares until --continue");
+    command->add_flag("--continue", options->goOn, "Continue after --pause")->excludes(pause);
     command->add_flag("--cancel", options->cancel, "Remove all squares that are not done from the queue");
     command->add_flag("--json", options->json, "Print the result, or the status, as JSON");
     addBackendOption(*command, options->backend, "Device that generates");

@@ -6,10 +6,6 @@
 
 namespace terrane::app {
 
-base::Result<pack::Content> loadImportContent(const ImportOptions& options) {
-    return loadContent(options.world, options.save);
-}
-
 base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content) {
     if (options.save.world.empty())
         return base::fail(base::ErrorCode::BadInput, "import needs --world NAME|FILE|URL");

@@ -19,8 +19,7 @@ struct ImportWorld {
     std::unique_ptr<store::ChunkStore> store;
 };
 
-// Called first, so that errors of a mapping are found before a world is created.
-[[nodiscard]] base::Result<pack::Content> loadImportContent(const ImportOptions& options);
+// `content`: loaded by the caller first, so that errors of a mapping are found before a world is created.
 // Opens the world, creating it if needed; sets seed and generator in `options` to its own. Distant tiles
 // follow the imported chunks.
 [[nodiscard]] base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content);

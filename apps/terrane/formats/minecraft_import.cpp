@@ -8,6 +8,7 @@
 #include "apps/terrane/formats/import_world.h"
 #include "apps/terrane/formats/minecraft_world.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/progress_bar.h"
@@ -75,11 +76,10 @@ class MinecraftImporter {
     base::Result<void> importRegion(const RegionSource& region, const base::StopSignals& signals,
                                     const std::function<void(std::size_t)>& progress) {
         std::vector<int> wanted;
-        base::Result<std::string> bytes;
         for (int number = 0; number < formats::kRegionChunks; ++number)
             if (isInArea(region, number)) wanted.push_back(number);
         if (wanted.empty()) return {};
-        bytes = base::readFile(region.path, formats::kMaxRegionBytes);
+        const auto bytes = base::readFile(region.path, formats::kMaxRegionBytes);
         if (!bytes) {
             noteDamage(report_, bytes.error().message);
             return {};
@@ -172,7 +172,7 @@ base::Result<void> importMinecraft(ImportOptions& options) {
     if (!regions) return tl::unexpected(regions.error());
     const auto ids = formats::builtInLegacyIds();
     if (!ids) return tl::unexpected(ids.error());
-    auto content = loadImportContent(options);
+    auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     const auto mapping = formats::loadMapping(*content->blocks, options.mapping);
     if (!mapping) return tl::unexpected(mapping.error());

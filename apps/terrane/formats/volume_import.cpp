@@ -7,6 +7,7 @@
 #include "apps/terrane/formats/import_report.h"
 #include "apps/terrane/formats/import_world.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/world_content.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
@@ -109,7 +110,7 @@ base::Result<formats::BlockVolume> readSource(const ImportOptions& options, cons
                                               VolumeReader reader, formats::ImportCounts& counts) {
     const auto mapping = formats::loadMapping(*content.blocks, options.mapping);
     if (!mapping) return tl::unexpected(mapping.error());
-    const auto bytes = base::readFile(options.source, formats::kMaxVoxBytes);
+    const auto bytes = base::readFile(options.source, formats::kMaxVolumeBytes);
     if (!bytes) return tl::unexpected(bytes.error());
     auto volume = reader(*bytes, content, *mapping, counts);
     if (!volume) return base::fail(volume.error().code, "{}: {}", options.source, volume.error().message);
@@ -119,7 +120,7 @@ base::Result<formats::BlockVolume> readSource(const ImportOptions& options, cons
 base::Result<void> importStructure(const ImportOptions& options, VolumeReader reader, ImportReport& report) {
     if (!options.save.world.empty() || !options.at.empty())
         return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
-    const auto content = loadImportContent(options);
+    const auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     const auto volume = readSource(options, *content, reader, report.counts);
     if (!volume) return tl::unexpected(volume.error());
@@ -137,7 +138,7 @@ base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
         const auto corner = cornerOf(options.at);
         if (!corner) return tl::unexpected(corner.error());
         // Read before a world is created.
-        auto content = loadImportContent(options);
+        auto content = loadContent(options.world, options.save);
         if (!content) return tl::unexpected(content.error());
         const auto volume = readSource(options, *content, reader, report.counts);
         if (!volume) return tl::unexpected(volume.error());

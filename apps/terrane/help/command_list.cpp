@@ -37,7 +37,8 @@ CommandList commandList(const CLI::App& app, const char* defaultCommand) {
     CommandList list{{}, defaultCommand ? defaultCommand : ""};
     for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
         CommandListEntry entry{command->get_name(), command->get_description(), {}};
-        for (const CLI::Option* option : command->get_options()) entry.flags.push_back(flagOf(*option));
+        for (const CLI::Option* option : command->get_options())
+            if (!option->get_group().empty()) entry.flags.push_back(flagOf(*option));
         list.commands.push_back(std::move(entry));
     }
     return list;

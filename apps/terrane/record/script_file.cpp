@@ -14,7 +14,6 @@
 namespace terrane::app {
 namespace {
 
-using Names = std::vector<std::string>;
 using world::ContentTable;
 
 constexpr double kMaxSeconds = 24 * 3600;           // of a shot

@@ -1,6 +1,7 @@
 #include "apps/terrane/window/game_input.h"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 
 #include "apps/terrane/window/game_actions.h"
@@ -119,6 +120,15 @@ void turn(GameState& game, const InputEvent& event) {
     game.player.turn(event.x * degrees, (game.settings.invertY ? -event.y : event.y) * degrees);
 }
 
+// Touchpads and smooth wheels turn by parts of a step, or sideways.
+void turnWheel(GameState& game, double y) {
+    double& wheel = game.input.wheel;
+    wheel = wheel * y < 0 ? y : wheel + y;
+    const double steps = std::trunc(wheel);
+    wheel -= steps;
+    game::stepSlot(game.interaction.hotbar, static_cast<int>(-steps));
+}
+
 }  // namespace
 
 void handleEvents(GameState& game) {
@@ -133,15 +143,12 @@ void handleEvents(GameState& game) {
             case Type::KeyPress:
                 onKey(game, event.key);
                 break;
-            case Type::KeyRelease:
-                break;
             case Type::ButtonPress:
             case Type::ButtonRelease:
                 onButton(game, event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (input.isCaptured || game.container)
-                    game::stepSlot(game.interaction.hotbar, event.y > 0 ? -1 : 1);
+                if (input.isCaptured || game.container) turnWheel(game, event.y);
                 break;
             case Type::CursorMove:
                 if (wasCaptured && input.isCaptured) turn(game, event);

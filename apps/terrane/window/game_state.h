@@ -32,6 +32,7 @@ struct GameInput {
     bool withShift = false, withControl = false;  // of the handled event, else current
     PadReader pad;
     double timeHeldSeconds = 0;  // a key of time is held
+    double wheel = 0;            // turned by less than a step, away from the player
 };
 
 // The menu over the game, and its questions.

@@ -6,13 +6,14 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/vec2.hpp>
+#include <numbers>
 
 #include "apps/terrane/window/imgui_layer.h"
 
 namespace terrane::app {
 namespace {
 
-constexpr double kPi = 3.14159265358979;
+constexpr double kPi = std::numbers::pi;
 constexpr double kStride = 2.4;     // blocks per two steps
 constexpr double kEverySecond = 8;  // rate of change of the sway, per second
 constexpr glm::vec3 kSkin{214, 160, 122}, kSleeve{58, 98, 138};

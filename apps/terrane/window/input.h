@@ -21,10 +21,10 @@ enum class Key : std::uint8_t {
 enum class MouseButton : std::uint8_t { Left, Right, Middle };
 
 struct InputEvent {
-    enum class Type : std::uint8_t { KeyPress, KeyRelease, ButtonPress, ButtonRelease, Wheel, CursorMove };
+    enum class Type : std::uint8_t { KeyPress, ButtonPress, ButtonRelease, Wheel, CursorMove };
 
     Type type = Type::KeyPress;
-    Key key = Key::A;                        // of the key events
+    Key key = Key::A;                        // of KeyPress
     MouseButton button = MouseButton::Left;  // of the button events
     double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
     double y = 0.0;  // the same, wheel away from the player, cursor down

@@ -80,7 +80,7 @@ std::filesystem::path thumbnailFor(const PlayOptions& options, const std::filesy
 void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given) {
     const auto movement = saved.movement ? movementNamed(*saved.movement) : std::nullopt;
     if (saved.movement && !movement)
-        base::logInfo("the save's way to move is unknown: {:?}", *saved.movement);
+        base::logInfo("unknown movement mode in the save: {:?}", *saved.movement);
     if (movement && !given.movement) settings.movement = *movement;
     if (saved.resourcePack && !given.resourcePack) settings.resourcePack = *saved.resourcePack;
 }

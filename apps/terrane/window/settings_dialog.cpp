@@ -41,7 +41,7 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
             drawWorldPage(settings, input.day, input.tr);
             break;
         default:
-            drawAccessibilityPage(settings, input.tr);
+            drawGeneralPage(settings, input.tr);
     }
     ImGui::PopItemWidth();
     ImGui::EndChild();

@@ -1,4 +1,4 @@
-// The settings dialog of the title screen and the pause menu: graphics, controls, world, accessibility.
+// The settings dialog of the title screen and the pause menu: graphics, controls, world, general.
 // Developers have a panel of their own (panel.h). Immediate mode: draws and changes.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace terrane::app {
 
-enum class SettingsPage : std::uint8_t { Graphics, Controls, World, Accessibility, kCount };
+enum class SettingsPage : std::uint8_t { Graphics, Controls, World, General, kCount };
 
 class SettingsDialog {
   public:
@@ -46,6 +46,6 @@ class SettingsDialog {
 // The pages that need only the settings.
 void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer, const Texts& tr);
 void drawWorldPage(PlaySettings& settings, game::DayClock* day, const Texts& tr);
-void drawAccessibilityPage(PlaySettings& settings, const Texts& tr);
+void drawGeneralPage(PlaySettings& settings, const Texts& tr);
 
 }  // namespace terrane::app

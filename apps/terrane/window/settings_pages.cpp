@@ -168,7 +168,7 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
     ImGui::EndCombo();
 }
 
-static void drawGeneral(PlaySettings& s, const Texts& tr) {
+static void drawLanguageAndSound(PlaySettings& s, const Texts& tr) {
     // Each language in its own name, so that everyone finds theirs.
     const std::array<std::pair<const char*, const char*>, 4> languages = {
         {{"auto", tr("System language")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
@@ -185,14 +185,14 @@ static void drawGeneral(PlaySettings& s, const Texts& tr) {
         s.soundVolume = percent / 100;
 }
 
-void drawAccessibilityPage(PlaySettings& s, const Texts& tr) {
+void drawGeneralPage(PlaySettings& s, const Texts& tr) {
     constexpr std::array<std::pair<const char*, float>, 6> kSizes = {{{"75 %", 0.75f},
                                                                       {"100 %", 1.0f},
                                                                       {"125 %", 1.25f},
                                                                       {"150 %", 1.5f},
                                                                       {"175 %", 1.75f},
                                                                       {"200 %", 2.0f}}};
-    drawGeneral(s, tr);
+    drawLanguageAndSound(s, tr);
     heading(tr("Accessibility"));
     char shown[16];
     std::snprintf(shown, sizeof shown, "%.0f %%", double{s.textSize} * 100);

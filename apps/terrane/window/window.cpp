@@ -126,9 +126,8 @@ void Window::State::installCallbacks() {
 void Window::State::onKey(GLFWwindow* window, int code, int, int action, int modifiers) {
     if (action == GLFW_PRESS) of(window).isAnyKeyPressed = true;
     const std::optional<Key> key = keyOfCode(code);
-    if (!key || action == GLFW_REPEAT) return;
-    const auto type = action == GLFW_PRESS ? InputEvent::Type::KeyPress : InputEvent::Type::KeyRelease;
-    of(window).events.push_back({.type = type,
+    if (!key || action != GLFW_PRESS) return;
+    of(window).events.push_back({.type = InputEvent::Type::KeyPress,
                                  .key = *key,
                                  .withShift = (modifiers & GLFW_MOD_SHIFT) != 0,
                                  .withControl = (modifiers & GLFW_MOD_CONTROL) != 0});

@@ -70,9 +70,10 @@ class Worker {
         if (status->isPaused && !std::exchange(saidPaused_, true))
             base::logInfo("the work is paused: `terrane work URL --continue` lets it go on");
         if (!status->isPaused) saidPaused_ = false;
-        const auto told = parts_.pool.run<void>([&](Connection& connection) {
-            return tellAlive(connection, number_, std::exchange(untold_, 0));
-        });
+        // The pool may run it again.
+        const std::int64_t chunks = std::exchange(untold_, 0);
+        const auto told = parts_.pool.run<void>(
+            [&](Connection& connection) { return tellAlive(connection, number_, chunks); });
         if (!told) return tl::unexpected(told.error());
         std::this_thread::sleep_for(kLookEvery);
         return false;
