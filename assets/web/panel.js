@@ -35,7 +35,16 @@
     }
   });
 
+  // Sets a property of the element to the names; true if they are other names than before. Players move every
+  // second: a row that is replaced meanwhile loses the focus and the click.
+  function hasOtherNames(element, names) {
+    const before = element.dataset.names;
+    element.dataset.names = JSON.stringify(names);
+    return element.dataset.names !== before;
+  }
+
   function list(section, entries, nothing) {
+    if (!hasOtherNames(section, [...entries.keys()])) return;
     const rows = [...entries.values()].map(marker => {
       const row = document.createElement('li'), button = document.createElement('button');
       button.type = 'button';
@@ -55,9 +64,11 @@
   map.on('live', () => {
     list(byId('playing'), live.players, text('nobody'));
     list(byId('named'), live.places, text('noPlaces'));
-    byId('names').replaceChildren(...[...live.players.values(), ...live.places.values()].map(({place}) => {
+    const names = [...live.players.values(), ...live.places.values()].map(({place}) => place.name);
+    if (!hasOtherNames(byId('names'), names)) return;
+    byId('names').replaceChildren(...names.map(name => {
       const choice = document.createElement('option');
-      choice.value = place.name;
+      choice.value = name;
       return choice;
     }));
   });
