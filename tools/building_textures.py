@@ -63,8 +63,8 @@ def door(has_window: bool) -> Image:
         if x in (0, 15) or (y == 0 and has_window) or (y == 15 and not has_window):
             return tone(WOOD, 0.15 + 0.1 * hash01(711, x, y))
         if has_window and 3 <= x <= 12 and 3 <= y <= 10:
-            isBar = x in (3, 7, 8, 12) or y in (3, 10) or y == 6
-            return tone(WOOD, 0.1) if isBar else mix((150, 190, 205), (200, 226, 232), hash01(712, x, y))
+            is_bar = x in (3, 7, 8, 12) or y in (3, 10) or y == 6
+            return tone(WOOD, 0.1) if is_bar else mix((150, 190, 205), (200, 226, 232), hash01(712, x, y))
         if x % 5 == 0:
             return tone(WOOD, 0.05)
         return tone(WOOD, 0.45 + 0.4 * (smooth(713 + x // 5, x, y, 16, 3) - 0.5))
@@ -185,8 +185,8 @@ def glass() -> Image:
 
 def colored_glass(color: tuple) -> Image:
     def shade(x, y):
-        isFrame = x in (0, 15) or y in (0, 15)
-        return (*scaled(color, 1.0 if isFrame else 1.1), 210 if isFrame else 120)
+        is_frame = x in (0, 15) or y in (0, 15)
+        return (*scaled(color, 1.0 if is_frame else 1.1), 210 if is_frame else 120)
     return Image(shade)
 
 
@@ -215,8 +215,8 @@ def lantern(is_top: bool) -> Image:
     """Warm panes between iron bars; the lantern is the six texels in the middle."""
     def shade(x, y):
         height = SIZE - 1 - y
-        isBar = x in (5, 10) or (y in (5, 10) if is_top else height in (0, 7, 8, 9))
-        if isBar or is_top and (x < 5 or x > 10):
+        is_bar = x in (5, 10) or (y in (5, 10) if is_top else height in (0, 7, 8, 9))
+        if is_bar or is_top and (x < 5 or x > 10):
             return (*scaled((70, 66, 66), 0.9 + 0.2 * hash01(831, x, y)), 0)
         warm = mix((255, 176, 80), (255, 232, 160), 1 - min(1, abs(x - 7.5) / 3))
         return (*warm, 255)

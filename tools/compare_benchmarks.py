@@ -18,8 +18,8 @@ TO_NANOSECONDS = {"ns": 1.0, "us": 1e3, "ms": 1e6, "s": 1e9}
 DEFAULT_THRESHOLD = 15.0  # per cent; the same code varies by that much between runs on a shared machine
 # Members of a measurement of `terrane bench` that are times in milliseconds: less is better.
 TIMES = ("milliseconds", "passes", "tasks", "flight")
-# Members of these that are not times of the program: counts, and the duration of the flight.
-NO_TIMES = ("count", "frames", "by_second", "seconds_of_flight", "chunks_missing_on_landing",
+# Members of these that are not times of the program: settings, counts, and the duration of the flight.
+NO_TIMES = ("count", "view_distance", "frames", "by_second", "seconds_of_flight", "chunks_missing_on_landing",
             "frames_over_twice_the_median", "of_these_by_loading")
 
 

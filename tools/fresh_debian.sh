@@ -2,13 +2,13 @@
 # Runs a command on a fresh Debian 12, in a folder of its own, with a clean clone of what is committed here in
 # /root/terrane. Nothing but Debian's essential packages and apt is there.
 #
-#   tools/fresh_debian.sh ROOT COMMAND…    ROOT: the folder of the system; it is made where it is missing, and stays
+#   tools/fresh_debian.sh ROOT COMMAND…    ROOT: the folder of the system, created if missing and kept
 #
 #   tools/fresh_debian.sh /tmp/fresh ./run test
 #   tools/fresh_debian.sh /tmp/fresh tools/packages.sh
 #
-# Needs root, and: apt install mmdebstrap git. apt and npm have this machine's sources and trust whom it trusts. Exit
-# code: the command's.
+# Needs root, and: apt install mmdebstrap git. apt and npm use this machine's sources and certificates. Exit code: the
+# command's.
 set -euo pipefail
 
 readonly PROJECT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# Feeds all that reads files from outside with bytes that libFuzzer thinks up, under the address and
+# Feeds everything that reads bytes from outside with inputs made by libFuzzer, under the address and
 # undefined-behavior sanitizers: saves, chunks, structures, block types, languages, path files, settings, bookmarks,
 # textures, sounds, scripts of generators, content packs, files of other programs, messages of the network, what
-# connections do to a server, targets of browsers, caches of maps. What it finds interesting stays in
-# build-fuzz/corpus for the next time, which begins with what tests/fuzz/corpus keeps.
+# connections do to a server, targets of browsers, caches of maps. Inputs that reach new code are kept in
+# build-fuzz/corpus; each run starts from them and from tests/fuzz/corpus.
 #
-#   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each unless told otherwise, two at a time; NAME as in
-#                                      tests/fuzz/NAME_fuzz.cpp, all of them where none is named. Exits with an
-#                                      error when one finds a fault
+#   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each by default, two at a time; NAME as in
+#                                      tests/fuzz/NAME_fuzz.cpp, all of them by default. Exits with an error if
+#                                      one finds a fault
 #   build-fuzz/fuzz_NAME FILE          runs one input again
 #   FUZZ_BUILD=build-asan tools/fuzz.sh …   fuzzers that are built there: -DTERRANE_FUZZ=ON. Where the library is not
 #                                      compiled for libFuzzer, it sees the fuzzers' own branches only
@@ -52,10 +52,8 @@ fuzz() {
     [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
     [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")
     # Inputs found by earlier runs, reduced to those that add coverage (libFuzzer's -merge=1).
-    if [[ ! -d $corpus ]]; then
-        mkdir -p "$corpus"
-        [[ ! -f tests/fuzz/corpus/$name.tar.gz ]] || tar -xf "tests/fuzz/corpus/$name.tar.gz" -C "$corpus"
-    fi
+    mkdir -p "$corpus"
+    [[ ! -f tests/fuzz/corpus/$name.tar.gz ]] || tar -xf "tests/fuzz/corpus/$name.tar.gz" -C "$corpus"
     # A thread keeps up to 64 MiB for a chunk with that size in its header, and zstd as much; an image takes 256 MiB.
     if ! "$BUILD_FOLDER/fuzz_$name" -max_total_time="$SECONDS_TO_RUN" -max_len="$max_length" -timeout=10 \
         -rss_limit_mb=1536 -artifact_prefix="$BUILD_FOLDER/$name-" -print_final_stats=1 "${options[@]}" \

@@ -12,6 +12,7 @@ import sys
 import tempfile
 import time
 
+import child_processes
 import virtual_display
 
 SIZE = (1280, 720)
@@ -24,11 +25,13 @@ def main():
     program, rounds = sys.argv[1], int(sys.argv[2]) if len(sys.argv) > 2 else 10
     with tempfile.TemporaryDirectory() as folder, virtual_display.Display(SIZE) as display:
         environment = {**os.environ, "DISPLAY": display.name, "XDG_CONFIG_HOME": folder, "XDG_DATA_HOME": folder}
-        process = subprocess.Popen(
+        process = child_processes.start(
             [os.path.abspath(program), "play", "--no-save", "--seed", "1", "--preset", "low", "--view-distance", "8", "--horizon",
              "0", "--size", f"{SIZE[0]}x{SIZE[1]}", "--collect-perf-data", "perf.csv", "--sound-volume", "0"],
             cwd=folder, env=environment, stderr=subprocess.DEVNULL)
         while not (window := display.xdotool("search", "--onlyvisible", "--name", "^Terrane$")):
+            if process.poll() is not None:
+                sys.exit(f"hud_cost: the program ended with {process.returncode}")
             time.sleep(0.2)
         display.xdotool("windowmove", window, 0, 0, "windowfocus", window)
         start = time.monotonic()

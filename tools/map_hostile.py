@@ -3,8 +3,8 @@
 
 Bots walk and build. In turn there is no attack and all attacks: 1,000 clients that send one byte of a header per second,
 or never read a large answer; clients that send giant headers, garbage, bodies and paths out of the folder, as fast as
-they can. Prints a line for each phase: ticks, delay until another player gets an edit, memory, connections. Exit code 1
-if a limit is exceeded."""
+they can. Prints a line for each phase: ticks, memory, opened connections, answers; at the end the delay until another
+player gets an edit, over all phases. Exit code 1 if a limit is exceeded."""
 import argparse
 import json
 import pathlib
@@ -17,10 +17,10 @@ import sys
 import tempfile
 import threading
 import time
-import urllib.request
 
+import child_processes
 from server_tools import Server, bots_command
-from web_clients import quantile
+from web_clients import quantile, read_metrics
 
 GIANT = b"GET / HTTP/1.1\r\nX: " + b"a" * (1 << 20)
 ODD = (b"GET /../../etc/passwd HTTP/1.1\r\n\r\n", b"GET /%2e%2e/%2e%2e/etc/passwd HTTP/1.1\r\n\r\n",
@@ -33,7 +33,7 @@ class Attack:
     """Threads that attack until stop()."""
 
     def __init__(self, port, slow, seed):
-        self.port, self.isOver, self.opened, self.answers = port, threading.Event(), 0, {}
+        self.port, self.is_over, self.opened, self.answers = port, threading.Event(), 0, {}
         self.random = random.Random(seed)
         self.threads = [threading.Thread(target=self.be_slow, args=(slow,)),
                         threading.Thread(target=self.send_giants), threading.Thread(target=self.send_odd)]
@@ -41,7 +41,7 @@ class Attack:
             thread.start()
 
     def stop(self):
-        self.isOver.set()
+        self.is_over.set()
         for thread in self.threads:
             thread.join()
 
@@ -52,8 +52,8 @@ class Attack:
     def be_slow(self, count):
         """Opens slow connections; reconnects those that the server closes."""
         clients = []
-        while not self.isOver.wait(1):
-            while len(clients) < count and not self.isOver.is_set():
+        while not self.is_over.wait(1):
+            while len(clients) < count and not self.is_over.is_set():
                 try:
                     client = self.connect()
                 except OSError:
@@ -71,11 +71,11 @@ class Attack:
             client.close()
 
     def send_giants(self):
-        while not self.isOver.wait(0.01):
+        while not self.is_over.wait(0.01):
             self.send(GIANT)
 
     def send_odd(self):
-        while not self.isOver.wait(0.005):
+        while not self.is_over.wait(0.005):
             self.send(self.random.choice(ODD) if self.random.random() < 0.7 else self.random.randbytes(2000))
 
     def send(self, data):
@@ -89,24 +89,11 @@ class Attack:
         self.answers[status] = self.answers.get(status, 0) + 1
 
 
-def metrics(port):
-    with urllib.request.urlopen(f"http://127.0.0.1:{port}/metrics", timeout=30) as answer:
-        lines = answer.read().decode().splitlines()
-    return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if not line.startswith("#"))}
-
-
 def measure(server, web, seconds, attack):
     """Ticks in the server's statistics during the phase, and the peak of memory."""
     attacker = Attack(web, attack, 3) if attack else None
     before = len(server.statistics.read_text().splitlines())
-    connections = delays = 0
-    end = time.monotonic() + seconds
-    while time.monotonic() < end:
-        time.sleep(0.5)
-        begun = time.perf_counter()
-        if not attacker:
-            connections = max(connections, metrics(web)["terrane_web_connections"])
-        delays = max(delays, time.perf_counter() - begun)
+    time.sleep(seconds)
     lines = [json.loads(line) for line in server.statistics.read_text().splitlines()[before + 1:]]
     if attacker:
         attacker.stop()
@@ -131,11 +118,13 @@ def main():
         program = options.program.resolve()
         server = Server(program, folder, 0, "--http", "0")
         while not (found := re.search(r"http://[\d.]+:(\d+)/", server.output())):
+            if server.process.poll() is not None:
+                sys.exit(f"map_hostile: the server ended: {server.output()}")
             time.sleep(0.05)
         web = int(found[1])
         duration = options.seconds * 2 * options.rounds + 10
-        bots = subprocess.Popen(bots_command(program, server.port, "--count", str(options.bots), "--seconds", str(duration)),
-                                stdout=subprocess.PIPE)
+        bots = child_processes.start(
+            bots_command(program, server.port, "--count", str(options.bots), "--seconds", str(duration)), stdout=subprocess.PIPE)
         time.sleep(5)
         rows = []
         for _ in range(options.rounds):
@@ -143,7 +132,7 @@ def main():
                 rows.append(measure(server, web, options.seconds, attack))
                 print(json.dumps(rows[-1]), flush=True)
         time.sleep(1)
-        after = metrics(web)
+        after = read_metrics(("127.0.0.1", web))
         seen = json.loads(bots.communicate()[0])
         code = server.stop()
     print(f"another player hears of an edit after {seen['seen_ms_median']:.0f} ms, {seen['seen_ms_p99']:.0f} ms at the 99th "

@@ -9,13 +9,12 @@ disk: bytes of the file that caches surfaces, after all tiles of a radius were r
 import argparse
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
 import time
-import urllib.request
 
-from web_clients import ask_all, quantile
+import child_processes
+from web_clients import ask_all, quantile, read_metrics
 
 WARM_CLIENTS = 64
 
@@ -26,8 +25,8 @@ class Map:
     def __init__(self, program, folder, *arguments):
         self.log = open(folder / "map.log", "w+", encoding="utf-8")
         environment = {"XDG_DATA_HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "PATH": "/usr/bin:/bin"}
-        self.process = subprocess.Popen([program, "map", "--http", "0", "--seed", "7", *arguments], stdout=self.log,
-                                        stderr=self.log, env=environment)
+        self.process = child_processes.start([program, "map", "--http", "0", "--seed", "7", *arguments], stdout=self.log,
+                                             stderr=self.log, env=environment)
         while not (found := re.search(r"http://([\d.]+):(\d+)/", pathlib.Path(self.log.name).read_text())):
             if self.process.poll() is not None:
                 raise RuntimeError(pathlib.Path(self.log.name).read_text())
@@ -35,9 +34,7 @@ class Map:
         self.address = (found[1], int(found[2]))
 
     def metrics(self):
-        with urllib.request.urlopen(f"http://{self.address[0]}:{self.address[1]}/metrics") as answer:
-            lines = answer.read().decode().splitlines()
-        return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if not line.startswith("#"))}
+        return read_metrics(self.address)
 
     def stop(self):
         self.process.terminate()
@@ -102,11 +99,11 @@ def measure_disk(program, radius):
                 check(ask_all(shown.address, paths, 8))
                 painted += len(paths)
                 print(f"zoom {zoom}: {painted} tiles after {time.perf_counter() - begun:.0f} s", file=sys.stderr, flush=True)
-            rows = shown.metrics()["terrane_map_disk_bytes"]
+            kept = shown.metrics()["terrane_map_disk_bytes"]
         finally:
             shown.stop()
         file = sum(path.stat().st_size for path in pathlib.Path(folder).rglob("*.map.sqlite*"))
-    return painted, rows, file
+    return painted, kept, file
 
 
 def main():

@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 PRESETS = ("low", "medium", "high", "ultra", "thesis")
-# In drawing order.
+# As `terrane render --json` names them.
 PASSES = ("cull", "shadow map", "surfaces", "depth pyramid", "cull again", "surfaces again", "fill holes", "sky",
           "ambient occlusion", "shade", "peel", "shade layers", "god rays", "depth of field", "final")
 

@@ -10,7 +10,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 readonly EVERY=${1:-1} FOLDER=${2:-build}
-# Tests of what the two drivers once did differently: they run always.
+# Tests of what OpenGL leaves to the driver: they run always.
 readonly ALWAYS='^(gpu\.PipelineStateTest|render\.EdgeExpansion\.Without|golden\.Effects\.OfLayers)'
 # With the gallery's plain cubes, one sample and the usual options lavapipe of Mesa 22.3 overruns an array on its own stack
 # (__stack_chk_fail in libvulkan_lvp.so); the first driver runs these.

@@ -16,6 +16,8 @@ import sys
 import tempfile
 import time
 
+import child_processes
+from acknowledged_blocks import lost_blocks, read_kept
 from server_tools import Server, bots_command
 
 BACK_SECONDS = 60  # in which all bots must have joined
@@ -37,40 +39,15 @@ def wait_for_all(server, bots, count):
     return time.monotonic() - start
 
 
-class Volume:
-    """Block ids of an area, from terrane dump."""
-
-    def __init__(self, program, world, chunks, file):
-        low = [min(chunk[axis] for chunk in chunks) for axis in (0, 1)]
-        high = [max(chunk[axis] for chunk in chunks) + 1 for axis in (0, 1)]
-        subprocess.run([program, "dump", "--world", world, f"--area={low[0]},{low[1]},{high[0]},{high[1]}", "-o", file],
-                       check=True, stdout=subprocess.DEVNULL)
-        self.low = [16 * side for side in low]
-        self.depth = 16 * (high[1] - low[1])
-        data = file.read_bytes()
-        self.values = memoryview(data)[10 + int.from_bytes(data[8:10], "little"):].cast("H")
-
-    def at(self, x, y, z):
-        return self.values[((x - self.low[0]) * self.depth + y - self.low[1]) * 256 + z]
-
-
 def check_blocks(program, world, acknowledged, folder):
-    """Returns the number of checked blocks. A removed block may be replaced by water or sand, but by no other."""
-    lines = [line.split() for line in acknowledged.read_text().splitlines()]
-    blocks = [(int(x), int(y), int(z), name) for x, y, z, name in lines if name != "?"]
-    if not blocks:
+    """Returns the number of checked blocks."""
+    kept = read_kept(acknowledged)
+    if not kept:
         sys.exit("server_kill_test: no block was built: the test shows nothing")
-    names = {block["id"]: block["name"] for block in json.loads(
-        subprocess.run([program, "blocks", "--json"], check=True, stdout=subprocess.PIPE).stdout)}
-    volume = Volume(program, world, {(x >> 4, y >> 4) for x, y, _, _ in blocks}, folder / "blocks.npy")
-    lost = []
-    for x, y, z, name in blocks:
-        there = names[volume.at(x, y, z)]
-        if (there == "stone") != (name == "stone"):
-            lost.append(f"{x} {y} {z}: {name} became {there}")
+    lost = lost_blocks(program, world, kept, folder)
     if lost:
-        sys.exit(f"server_kill_test: {len(lost)} of {len(blocks)} blocks are lost, such as {lost[0]}")
-    return len(blocks)
+        sys.exit(f"server_kill_test: {len(lost)} of {len(kept)} blocks are lost, such as {lost[0]}")
+    return len(kept)
 
 
 def main():
@@ -85,7 +62,7 @@ def main():
         server = Server(program, folder, 0, "--spawn-radius", "60")
         port, acknowledged, report = server.port, folder / "acknowledged.txt", folder / "bots.json"
         with open(report, "w", encoding="utf-8") as out:
-            bots = subprocess.Popen(bots_command(
+            bots = child_processes.start(bots_command(
                 program, port, "--count", str(count), "--seconds", "100000", "--behaviour", "build", "--edits-per-second",
                 "2", "--keys", folder, "--acknowledged", acknowledged), stdout=out, stderr=subprocess.DEVNULL)
         wait_for_all(server, bots, count)

@@ -5,6 +5,8 @@ import signal
 import subprocess
 import time
 
+import child_processes
+
 
 class Server:
     """A server on a free port. `folder` keeps its world, log and statistics; `url`: the world is in a database."""
@@ -13,7 +15,7 @@ class Server:
         self.world, self.statistics = folder / "world.sqlite", folder / "statistics.jsonl"
         self.log = open(folder / "log.txt", "a+", encoding="utf-8")
         self.begin = self.log.seek(0, os.SEEK_END)
-        self.process = subprocess.Popen(
+        self.process = child_processes.start(
             [program, "serve", "--world", url or self.world, "--address", "127.0.0.1", "--port", str(port), "--max-players",
              "4096", "--statistics", self.statistics, *arguments],
             stdin=subprocess.DEVNULL, stdout=self.log, stderr=self.log,

@@ -4,8 +4,8 @@
     tools/shared_world_test.py PROGRAM [BOTS [SECONDS [SERVERS [BUILDERS]]]]      300, 60, 3, 0.1
 
 Before the kill, edits are timed from one server's bot to another server's (seen_ms_p99); after it the bots of the killed
-server must be on the others within 5 s. At the end all is stopped; then each acknowledged block must be in the world,
-the history must have no gap and match the chunks, and far tiles must match the chunks.
+server must be on the others within 5 s. At the end all is stopped; then each acknowledged block must be in the world
+(removed ones: water or sand may be there), the history must have no gap and match the chunks, and far tiles must match the chunks.
 """
 import json
 import pathlib
@@ -15,6 +15,8 @@ import sys
 import tempfile
 import time
 
+import child_processes
+from acknowledged_blocks import lost_blocks, read_kept
 from scratch_postgres import ScratchPostgres
 from server_tools import Server
 
@@ -23,7 +25,7 @@ GENERATOR = "overworld"
 
 def start_bots(program, servers, count, seconds, builders, name, folder):
     places = [word for server in servers for word in ("--connect", f"127.0.0.1:{server.port}")]
-    return subprocess.Popen(
+    return child_processes.start(
         [program, "bots", *places, "--count", str(count), "--seconds", str(seconds), "--builders", str(builders), "--name",
          name, "--acknowledged", str(folder / f"{name}.txt")], stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True)
 
@@ -40,33 +42,6 @@ def seconds_until_back(postgres, count, gone):
             return time.monotonic() - start
         time.sleep(0.05)
     return float("inf")
-
-
-def kept_blocks(folder, name):
-    """Position to acknowledged block; "?" if it is undecided."""
-    lines = [line.split() for line in (folder / f"{name}.txt").read_text().splitlines()]
-    return {(int(x), int(y), int(z)): block for x, y, z, block in lines}
-
-
-def blocks_of_world(program, url, positions, folder):
-    """Dumps the area around all positions from the saved chunks."""
-    chunks = [(x >> 4, y >> 4) for x, y, _ in positions]
-    x0, y0 = min(x for x, _ in chunks), min(y for _, y in chunks)
-    x1, y1 = max(x for x, _ in chunks) + 1, max(y for _, y in chunks) + 1
-    file = folder / "blocks.npy"
-    subprocess.run([program, "dump", "--what", "blocks", "--world", url, "--area", f"{x0},{y0},{x1},{y1}", "-o", str(file)],
-                   check=True, capture_output=True)
-    names = json.loads(subprocess.run([program, "blocks", "--json"], check=True, capture_output=True, text=True).stdout)
-    by_id = {block["id"]: block["name"] for block in names}
-    depth = (y1 - y0) * 16
-    with open(file, "rb") as f:
-        header = f.read(10)
-        start = 10 + int.from_bytes(header[8:10], "little")
-        answer = {}
-        for x, y, z in positions:
-            f.seek(start + 2 * (((x - x0 * 16) * depth + (y - y0 * 16)) * 256 + z))
-            answer[x, y, z] = by_id[int.from_bytes(f.read(2), "little")]
-    return answer
 
 
 def tiles_digest(postgres):
@@ -116,10 +91,8 @@ def main():
                 problems.append("a server ended badly")
         left = postgres.query("SELECT newest, saved, (SELECT count(*) FROM terrane.edits), "
                               "(SELECT count(*) FROM terrane.servers) FROM terrane.history").split("|")
-        told = {**kept_blocks(folder, "quiet"), **kept_blocks(folder, "bot")}
-        kept = {pos: block for pos, block in told.items() if block != "?"}
-        world = blocks_of_world(program, postgres.url(), list(kept), folder)
-        lost = [pos for pos, name in kept.items() if world[pos] != name]
+        kept = read_kept(folder / "quiet.txt", folder / "bot.txt")
+        lost = lost_blocks(program, postgres.url(), kept, folder)
         checked = subprocess.run([program, "check", postgres.url()], capture_output=True, text=True)
         tiles = tiles_digest(postgres)
         if derive_tiles_again(program, postgres, folder) != 0 or tiles_digest(postgres) != tiles:

@@ -17,7 +17,6 @@ Exit code 1 if something is wrong. Needs PostgreSQL, Xvfb, xdotool, NumPy (Debia
 import argparse
 import json
 import pathlib
-import random
 import sys
 import time
 
@@ -109,7 +108,6 @@ def main():
     if not options.program.is_file():
         sys.exit(f"soak: {options.program}: no such program")
     options.folder.mkdir(parents=True)
-    random.seed(options.seed)
     with ScratchPostgres(durable=True) as postgres:
         soak = Soak(options, postgres)
         start = time.time()

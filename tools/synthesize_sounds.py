@@ -4,7 +4,7 @@
 Usage: synthesize_sounds.py OUT_DIR   writes every sound into OUT_DIR
        synthesize_sounds.py --list    prints the file names and writes nothing
 
-A file is NAME_N.wav: NAME is asked for by the program, N is one of its variants. Materials have NAME MATERIAL_step,
+A file is NAME_N.wav: the program plays sounds by NAME, N is one of its variants. Materials have NAME MATERIAL_step,
 MATERIAL_place and MATERIAL_break; water_loop and wind_loop repeat without a seam. This script and the sounds are CC0.
 """
 import math

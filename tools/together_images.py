@@ -37,7 +37,7 @@ class Player:
         self.game.press("F6")
 
     def build(self, columns):
-        self.game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.5)  # captures the mouse
+        self.game.tap(1, SIZE[0] // 2, SIZE[1] // 2, self.game.pause)  # captures the mouse
         for slot, turn, height in columns:
             self.game.press(str(slot))
             self.display.xdotool("mousemove_relative", "--", *turn)

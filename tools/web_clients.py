@@ -3,6 +3,7 @@ answer. A request is a path; answers have a Content-Length."""
 import selectors
 import socket
 import time
+import urllib.request
 
 
 class Client:
@@ -71,3 +72,10 @@ def ask_all(address, paths, clients):
 def quantile(values, share):
     values = sorted(values)
     return values[min(int(share * len(values)), len(values) - 1)]
+
+
+def read_metrics(address):
+    """The values of /metrics by name."""
+    with urllib.request.urlopen(f"http://{address[0]}:{address[1]}/metrics", timeout=30) as answer:
+        lines = answer.read().decode().splitlines()
+    return {name: float(value) for name, value in (line.rsplit(" ", 1) for line in lines if not line.startswith("#"))}

@@ -13,13 +13,14 @@ import subprocess
 import sys
 import time
 
+import child_processes
 from scratch_postgres import ScratchPostgres
 
 
 def start_worker(program, url, radius, generator):
-    return subprocess.Popen([program, "work", url, "--radius", str(radius), "--threads", "1", "--backend", "cpu",
-                             "--generator", generator],
-                            stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    return child_processes.start(
+        [program, "work", url, "--radius", str(radius), "--threads", "1", "--backend", "cpu", "--generator", generator],
+        stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
 
 def status(program, url):
@@ -29,7 +30,7 @@ def status(program, url):
 
 def disturb(program, server, workers, radius, generator, kills):
     """Kills a random worker each second; returns the number of kills during work."""
-    killed = 0
+    killed, choice = 0, random.Random(1)
     for n in range(kills):
         time.sleep(1)
         if n in (kills // 3, 2 * kills // 3):
@@ -41,7 +42,7 @@ def disturb(program, server, workers, radius, generator, kills):
         if n == 2 * kills // 3:
             server.kill()
             server.start()
-        k = random.randrange(len(workers))
+        k = choice.randrange(len(workers))
         if workers[k].poll() is None:
             killed += 1
         elif workers[k].returncode != 0:

@@ -116,6 +116,7 @@ class Dump(ProgramTest):
             while not self.writes(child.pid):
                 self.assertIsNone(child.poll())
                 self.assertLess(time.monotonic(), deadline, "it opens no file")
+                time.sleep(0.01)
             child.send_signal(signal.SIGTERM)
             said = child.stderr.read()
         self.assertEqual(child.wait(support.HANG_SECONDS), 2, said)

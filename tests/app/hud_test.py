@@ -88,7 +88,7 @@ class Hud(building_test.BuildingScript):
             def is_bordered():
                 shot = display.screenshot(game.window)
                 return any(min(shot.color(shot.width - 11 - x, 40)) > 250 for x in range(4))
-            self.assertTrue(is_bordered())
+            game.wait_for(is_bordered)
             game.wait_for(lambda: not is_bordered())
             self.close(game)
 

@@ -171,6 +171,7 @@ class Copy(Postgres):
                 f"SELECT CASE WHEN to_regclass('{self.table}') IS NULL THEN 'f' ELSE (xpath('/row/c/text()', "
                 f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END"):
             time.sleep(0.002)
+        self.assertIsNone(copy.poll(), "the copy ended before it could be killed")
         copy.send_signal(signal.SIGKILL)
         copy.wait()
         mark = _server.query(f"SELECT value FROM {self.schema}.settings WHERE name = 'copy'")

@@ -113,7 +113,7 @@ class Video(RecordTest):
                 [support.program(), "record", "--path", self.path(HEAD + shot(3000)), "-o", video, *SMALL],
                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=support.environment())
             end = time.monotonic() + support.HANG_SECONDS
-            while not list(self.folder.glob("a.mp4.part*")) and time.monotonic() < end:
+            while not list(self.folder.glob("a.mp4.part*")) and process.poll() is None and time.monotonic() < end:
                 time.sleep(0.02)
             process.send_signal(number)
             _, errors = process.communicate(timeout=support.HANG_SECONDS)
@@ -133,7 +133,7 @@ class Video(RecordTest):
             stderr=subprocess.PIPE, text=True,
             env=support.environment() | {"PATH": f"{self.folder}:{os.environ['PATH']}"})
         end = time.monotonic() + support.HANG_SECONDS
-        while not finishing.exists() and time.monotonic() < end:
+        while not finishing.exists() and process.poll() is None and time.monotonic() < end:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=support.HANG_SECONDS)

@@ -55,7 +55,7 @@ class Sound(ProgramTest):
             game = self.play(display, "--sound-volume", "1")
             if "this build has no sounds" in game.output():
                 self.skipTest("this build has no sounds")
-            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
+            game.take_mouse()
             time.sleep(1)
             before = file.stat().st_size
             wind = self.loudest(file, before // 2)

@@ -65,7 +65,7 @@ class Together(ProgramTest):
             bob = self.join(second, "Bob", "3.5 8.5 84 0 -26")  # looks at the same block
             ann.wait_for_ground(is_green)
             bob.wait_for_ground(is_green)
-            ann.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
+            ann.take_mouse()
             ann.press("2")  # cobble
             keep(second, bob, "before")
             first.xdotool("click", 3)

@@ -49,7 +49,7 @@ class Watch(ProgramTest):
         with window_support.Display() as display:
             game = self.play(display, world, SIZE)
             game.wait_for_ground(is_green)
-            game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # captures the mouse
+            game.take_mouse()
             display.xdotool("click", 1)
             game.wait_for_ground(is_brown)
             self.script.write_text("p:oops(")

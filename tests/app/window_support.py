@@ -78,6 +78,8 @@ def is_grey(red, green, blue):
 class Game:
     """The running program and its window."""
 
+    pause = 0.4  # seconds, two frames, as pause_after() measured last
+
     def __init__(self, display, folder, arguments, data=None):
         """Runs in `folder`, and keeps worlds and settings there or in `data`."""
         self.display = display
@@ -157,9 +159,9 @@ class Game:
         before, start = self.display.screenshot(self.window).pixels, time.monotonic()
         self.press(key)
         self.wait_for(lambda: self.display.screenshot(self.window).pixels != before)
-        pause = max(0.4, 2 * (time.monotonic() - start))
-        time.sleep(pause)
-        return pause
+        self.pause = max(0.4, 2 * (time.monotonic() - start))
+        time.sleep(self.pause)
+        return self.pause
 
     def press_alone(self, key, pause=0.5):
         """Presses and releases a key within one frame, with time for some frames before the next key."""
@@ -181,6 +183,10 @@ class Game:
         time.sleep(pause)
         self.display.xdotool("click", button)
         time.sleep(pause)
+
+    def take_mouse(self):
+        """Clicks, so that the mouse turns the player."""
+        self.tap(1, SIZE[0] // 2, SIZE[1] // 2, self.pause)
 
     def close(self, open_things=0):
         """Quits. Returns the exit code, the number of frames and the last position of the camera."""

@@ -77,7 +77,7 @@ class Window(ProgramTest):
         game = self.play(display, "--bookmark", "1", *arguments, *FLAT)
         game.pause_after("F1")  # no help in the image
         game.wait_for_ground(is_green)
-        game.tap(1, SIZE[0] // 2, SIZE[1] // 2, 0.3)  # takes the mouse
+        game.take_mouse()
         return game
 
     def test_the_gpu_makes_meshes_while_one_flies_and_builds(self):
@@ -460,9 +460,10 @@ class Window(ProgramTest):
                 for key in ("BackSpace", "BackSpace", *name, "Return"):
                     game.press_alone(key, pause)
                 time.sleep(2 * pause)
-            # The ground at the window's lower left, next to the hand.
-            red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
-            self.assertGreater(red, 2 * max(blue, green))
+            def is_red():  # the ground at the window's lower left, next to the hand
+                red, green, blue = display.screenshot(game.window).color(150, size[1] - 4)
+                return red > 2 * max(blue, green)
+            game.wait_for(is_red)
             self.close(game, open_things=1)
         self.assertEqual(self.setting(self.folder / "terrane" / "flat-1.sqlite", "resource_pack"),
                          os.path.realpath(pack))

@@ -24,7 +24,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     static const store::BlockIdMap ids = makeIds();
     if (size == 0) return 0;
     const auto chunk = store::decodeChunk(fuzz::chunkData(data[0], {data + 1, size - 1}), ids);
-    if (!chunk) return 0;
+    if (!chunk) {
+        fuzz::requireReason(chunk.error());
+        return 0;
+    }
     const auto again = store::encodeChunk(*chunk, ids);
     fuzz::require(again.has_value());
     const auto back = store::decodeChunk(*again, ids);

@@ -44,7 +44,13 @@ net::ServerHost openHost() {
         store::WorldIdentity{1, "flat", gen::versionOf(gen::builtInGenerators(), "flat")});
     game::SessionParts parts{std::move(blocks), std::move(generators), std::move(store), 1};
     auto records = net::SqliteRecords::open(fuzz::fuzzFolder() / "w.server.sqlite", *parts.blocks).value();
-    return net::openServerHost(std::move(parts), std::move(records), {}, "fuzz").value();
+    // Two packs; the server does not look into them.
+    net::ServerContent content;
+    for (const std::size_t size : {net::kMaxPackPart + 1, std::size_t{10}})
+        content.packs.push_back(
+            {{fmt::format("p{}", content.packs.size()), "", {}, static_cast<std::uint32_t>(size)},
+             std::make_shared<net::Bytes>(size)});
+    return net::openServerHost(std::move(parts), std::move(records), {}, "fuzz", content).value();
 }
 
 class FuzzServer {
@@ -117,7 +123,8 @@ class FuzzServer {
         if (!connection.greeting) return;
         say(connection,
             encode(net::ClientMessage(loginOf(identity, *connection.greeting, connection.channel))));
-        say(connection, encode(net::ClientMessage(net::Proof{server().digests})));
+        // Without the proof, it may ask for packs.
+        if (who < 0xC0) say(connection, encode(net::ClientMessage(net::Proof{server().digests})));
     }
     void say(Connection& connection, const net::Bytes& bytes) {
         if (connection.id == 0) return;
@@ -205,7 +212,8 @@ class FuzzServer {
     net::Bytes message(FuzzInput& in) { return encode(messageOf(in)); }
     net::ClientMessage messageOf(FuzzInput& in) {
         const net::CommandNumber number = ++lastCommand_;
-        switch (in.byte() % 12) {
+        const std::uint8_t kind = in.byte();
+        switch (kind % 12) {
             case 0:
                 return net::Edit{number, pos(in), change(in), {}};
             case 1:
@@ -230,7 +238,9 @@ class FuzzServer {
             case 9:
                 return net::Pong{static_cast<std::uint32_t>(in.number(4))};
             case 10:
-                return net::AskPlayers{};
+                if (kind < 128) return net::AskPlayers{};
+                return net::AskPack{static_cast<std::uint8_t>(in.byte() % 4),
+                                    static_cast<std::uint32_t>(in.byte() % 3 * net::kMaxPackPart)};
             default:
                 return net::Leave{};
         }

@@ -50,7 +50,7 @@ def test_a_save_keeps_edits(tmp_path, program):
         # A second writer.
         fails("busy", terrane.open, file)
     assert digest == program("generate", "--area", "0,0,4,4", "--world", file, "--digest")
-    assert "good" in program("check", file) or "16 chunks" in program("check", file)
+    assert program("check", file).strip().endswith("good")
     fails("incompatible", terrane.open, file, seed=10)
     fails("incompatible", terrane.open, file, generator="overworld")
 

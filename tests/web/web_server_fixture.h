@@ -62,6 +62,12 @@ class WebServerTest : public testing::Test {
     bool isClosedSoon(Browser& one) {
         return runUntil([&] { return one.isClosed(); });
     }
+    bool isClosedByTicks(Browser& one) {
+        return runUntil([&] {
+            server_->tick();
+            return one.isClosed();
+        });
+    }
     std::size_t connectionCount() { return server_->statistics().connections; }
 
     boost::asio::io_context context_;

@@ -32,11 +32,7 @@ TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
         slow.get("/b");
         EXPECT_EQ(next(slow).body, "b");
         slow.send(part);
-        runShortly();
-        server.tick();  // notices it
-        runShortly();
-        server.tick();
-        EXPECT_TRUE(isClosedSoon(slow)) << part;
+        EXPECT_TRUE(isClosedByTicks(slow)) << part;
     }
     server.tick();
     EXPECT_FALSE(patient.isClosed());
@@ -45,13 +41,11 @@ TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
 TEST_F(WebServerTest, ClosesWhoIsIdle) {
     WebLimits limits;
     limits.idleFor = std::chrono::seconds(0);
-    WebServer& server = start(limits);
+    start(limits);
     Browser fresh = browser(), idle = browser();
     idle.get("/a");
     EXPECT_EQ(next(idle).body, "a");
-    runShortly();
-    server.tick();
-    EXPECT_TRUE(isClosedSoon(idle));
+    EXPECT_TRUE(isClosedByTicks(idle));
     EXPECT_FALSE(fresh.isClosed()) << "its first request may take longer";
     EXPECT_EQ(connectionCount(), 1u);
 }
@@ -62,13 +56,11 @@ TEST_F(WebServerTest, ClosesWhoDoesNotRead) {
     WebServer& server = start(limits);
     Browser lazy = browser("127.0.0.1", 4096);
     lazy.get("/large.bin");
-    runShortly();
-    ASSERT_EQ(connectionCount(), 1u);
-    EXPECT_EQ(large_.use_count(), 2);
+    ASSERT_TRUE(runUntil([&] { return large_.use_count() == 2; }));
+    EXPECT_EQ(connectionCount(), 1u);
     server.tick();
     EXPECT_EQ(connectionCount(), 0u);
-    runShortly();
-    EXPECT_EQ(large_.use_count(), 1) << "the answer is let go";
+    EXPECT_TRUE(runUntil([&] { return large_.use_count() == 1; })) << "the answer is let go";
 }
 
 TEST_F(WebServerTest, AnswersThatAreLookedForMayTakeLong) {

@@ -34,7 +34,12 @@ class Running:
             if self.process.poll() is not None:
                 raise PageError(f"{self.command} ended with {self.process.returncode}: {self.output()[-2000:]}")
             return condition()
-        return wait_for(is_there, f"{self.command}: {what}; output: {self.output()[-500:]}")
+        try:
+            return wait_for(is_there, f"{self.command}: {what}")
+        except PageError as error:
+            if self.process.poll() is not None:
+                raise
+            raise PageError(f"{error}; output: {self.output()[-500:]}") from error
 
     def wait_for_line(self, text):
         self.wait_for(lambda: text in self.output(), f"does not print {text}")

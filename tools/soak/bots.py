@@ -3,6 +3,8 @@ returning ones would start where they left, move ever farther away, and load eve
 import json
 import subprocess
 
+import child_processes
+
 
 def is_kept(changes, block):
     """Whether the block that a bot was told is kept is the last one, or was replaced after a window's player had changed it:
@@ -32,7 +34,7 @@ class Bots:
         self.output = open(self.folder / f"{self.rounds}.json", "w+")
         self.log = open(self.folder / "log.txt", "a")
         seconds = min(self.round_seconds, seconds_left - 30)
-        self.process = subprocess.Popen(
+        self.process = child_processes.start(
             [self.program, "bots", *places, "--count", str(self.count), "--seconds", str(seconds), "--builders", "0.2",
              "--edits-per-second", "0.3", "--joins-per-second", "5", "--name", f"bot{self.rounds}.",
              "--acknowledged", self.kept_file()],

@@ -7,6 +7,7 @@ import subprocess
 import threading
 import time
 
+import child_processes
 from virtual_display import Display
 
 SIZE = (320, 180)
@@ -28,7 +29,7 @@ class Window:
         self.display = Display((SIZE[0] + 40, SIZE[1] + 40)).__enter__()
         self.log = open(folder / "log.txt", "a+")
         environment = os.environ | {"DISPLAY": self.display.name, "XDG_DATA_HOME": str(folder), "LIBGL_ALWAYS_SOFTWARE": "1"}
-        self.process = subprocess.Popen(
+        self.process = child_processes.start(
             ["nice", "-n", str(NICE), program, "play", "--connect", f"127.0.0.1:{port}", "--name", name, "--preset", "low",
              "--shadows", "off", "--view-distance", "6", "--horizon", "128", "--settings", "", "--size",
              f"{SIZE[0]}x{SIZE[1]}", "--known-edits", self.edits_file],
