@@ -248,13 +248,13 @@ std::optional<std::vector<SurfaceColumn>> SurfaceCache::find(BlobPos pos) {
         const std::lock_guard lock(impl_->mutex);
         if (!impl_->rows.contains(key)) return std::nullopt;
         impl_->noteUse(key);
+        const store::ResetAfter reset(*impl_->select);
         impl_->select->bind(1, key);
         const auto row = impl_->select->step();
         if (row && *row) {
             const store::ByteView blob = impl_->select->blob(0);
             bytes.assign(blob.begin(), blob.end());
         }
-        impl_->select->reset();
     }
     auto columns = decodeSurfaces(bytes);
     if (columns) return std::move(*columns);

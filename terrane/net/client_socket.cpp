@@ -26,7 +26,7 @@ constexpr std::size_t kReadBytes = 16384;
 
 base::Result<ServerAddress> serverAddress(const std::string& text) {
     const auto wrong = [&] {
-        return base::fail(base::ErrorCode::BadInput, "{}: expected a server as HOST or HOST:PORT", text);
+        return base::fail(base::ErrorCode::BadInput, "\"{}\" is no server: expected HOST or HOST:PORT", text);
     };
     ServerAddress address;
     std::string_view port;

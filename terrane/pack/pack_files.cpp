@@ -64,8 +64,13 @@ base::Result<fs::path> findPack(std::string_view nameOrPath, std::span<const fs:
     if (nameOrPath.find('/') != std::string_view::npos || nameOrPath.ends_with(".zip") ||
         !isPackName(nameOrPath)) {
         if (fs::exists(given, ignored)) return given;
-        return base::fail(base::ErrorCode::NotFound, "{}: there is no such content pack", nameOrPath);
+        return base::fail(base::ErrorCode::NotFound, "there is no content pack \"{}\"", nameOrPath);
     }
+    if (folders.empty())
+        return base::fail(
+            base::ErrorCode::NotFound,
+            "there is no content pack \"{}\", as there is no folder of packs: set XDG_DATA_HOME or HOME",
+            nameOrPath);
     std::string looked;
     for (const fs::path& folder : folders) {
         for (const std::string& name : {std::string(nameOrPath), std::string(nameOrPath) + ".zip"})

@@ -58,16 +58,23 @@ StoredChunk storedChunk(const Statement& row, world::ChunkPos pos, std::int64_t 
             seedOf(pos, row.number(1), format)};
 }
 
+// `count`: SELECT count(*).
+base::Result<bool> hasRow(Statement& count, world::ChunkPos pos) {
+    const ResetAfter reset(count);
+    count.bind(1, keyOf(pos));
+    const auto row = count.step();
+    if (!row) return tl::unexpected(row.error());
+    return *row && count.number(0) > 0;
+}
+
 }  // namespace
 
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
+    const ResetAfter reset(select);
     select.bind(1, keyOf(pos));
     const auto row = select.step();
-    std::optional<StoredChunk> chunk;
-    if (row && *row) chunk = storedChunk(select, pos, format);
-    select.reset();
     if (!row) return tl::unexpected(row.error());
-    return chunk;
+    return *row ? std::optional(storedChunk(select, pos, format)) : std::nullopt;
 }
 
 base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) {
@@ -185,13 +192,8 @@ void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
 base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
     auto connection = takeConnection();
     if (!connection) return tl::unexpected(connection.error());
-    Statement& count = (*connection)->count;
-    count.bind(1, keyOf(pos));
-    const auto row = count.step();
-    const bool found = row && *row && count.number(0) > 0;
-    count.reset();
+    const auto found = hasRow((*connection)->count, pos);
     giveBack(std::move(*connection));
-    if (!row) return tl::unexpected(row.error());
     return found;
 }
 

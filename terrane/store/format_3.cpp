@@ -20,21 +20,20 @@ struct Row {
 // The first row at or after a key, with its new checksum. A row with a wrong checksum keeps it, so it is
 // damaged in format 3, too.
 base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
+    const ResetAfter reset(select);
     select.bind(1, from);
     const auto isThere = select.step();
-    std::optional<Row> row;
-    if (isThere && *isThere) {
-        row.emplace().key = select.number(0);
-        const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row->key));
-        const ByteView data = select.blob(2);
-        if (isWhole && verifyChunk(data, kFormerSeed)) {
-            row->data.assign(data.begin(), data.end());
-            sealChunk(row->data, checksumSeed(posOf(row->key), select.number(1) != 0));
-        }
-    }
-    select.reset();
     if (!isThere) return tl::unexpected(isThere.error());
-    return row;
+    if (!*isThere) return std::optional<Row>();
+    Row row;
+    row.key = select.number(0);
+    const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row.key));
+    const ByteView data = select.blob(2);
+    if (isWhole && verifyChunk(data, kFormerSeed)) {
+        row.data.assign(data.begin(), data.end());
+        sealChunk(row.data, checksumSeed(posOf(row.key), select.number(1) != 0));
+    }
+    return std::optional(std::move(row));
 }
 
 // Iterates by key, not by one statement over all rows, since rows change meanwhile.

@@ -75,13 +75,11 @@ base::Result<MetadataTable> MetadataTable::make(Database& database) {
 }
 
 base::Result<std::optional<std::string>> MetadataTable::valueOf(std::string_view name) {
+    const ResetAfter reset(select_);
     select_.bind(1, name);
     const auto row = select_.step();
-    std::optional<std::string> value;
-    if (row && *row) value = std::string(select_.text(0));
-    select_.reset();
     if (!row) return tl::unexpected(row.error());
-    return value;
+    return *row ? std::optional(std::string(select_.text(0))) : std::nullopt;
 }
 
 base::Result<std::uint64_t> MetadataTable::hashOf(std::string_view name) {

@@ -136,9 +136,9 @@ base::Result<bool> Statement::step() {
 }
 
 base::Result<void> Statement::run() {
+    const ResetAfter reset(*this);
     base::Result<bool> more = true;
     while (more && *more) more = step();
-    reset();
     if (!more) return tl::unexpected(more.error());
     return {};
 }

@@ -54,6 +54,18 @@ class Statement {
     const std::string* path_;  // the database's
 };
 
+// Resets a statement when it goes, also after an exception: one that is still reading cannot be bound again.
+class ResetAfter {
+  public:
+    explicit ResetAfter(Statement& statement) : statement_(statement) {}
+    ~ResetAfter() { statement_.reset(); }
+    ResetAfter(const ResetAfter&) = delete;
+    ResetAfter& operator=(const ResetAfter&) = delete;
+
+  private:
+    Statement& statement_;
+};
+
 enum class OpenMode {
     Create,     // created if missing
     ReadWrite,  // must exist

@@ -165,35 +165,47 @@ base::Result<void> SqliteWriter::quarantineRow(world::ChunkPos pos, std::string_
     return deleteRow(pos);
 }
 
+// The row of a chunk if it is damaged.
+base::Result<std::optional<DamagedRow>> SqliteWriter::readDamaged(world::ChunkPos pos) {
+    Statement& select = use_.selectChunk;
+    const ResetAfter reset(select);
+    select.bind(1, keyOf(pos));
+    const auto row = select.step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return std::optional<DamagedRow>();
+    std::string problem = rowProblem(select, 0, 1);
+    const ByteView data = select.blob(0);
+    const std::uint64_t seed = seedOf(pos, select.number(1), kFormatVersion);
+    if (auto good = verifyChunk(data, seed); problem.empty() && !good) problem = good.error().message;
+    return problem.empty() ? std::nullopt
+                           : std::optional(DamagedRow{pos, hashOfRow(data), std::move(problem)});
+}
+
 // Checks a row before it is overwritten: a damaged one is quarantined even if nobody tried to load it.
 base::Result<void> SqliteWriter::quarantineIfDamaged(world::ChunkPos pos) {
-    use_.selectChunk.bind(1, keyOf(pos));
-    const auto row = use_.selectChunk.step();
-    std::optional<DamagedRow> damaged;
-    if (row && *row) {
-        std::string problem = rowProblem(use_.selectChunk, 0, 1);
-        const ByteView data = use_.selectChunk.blob(0);
-        const std::uint64_t seed = seedOf(pos, use_.selectChunk.number(1), kFormatVersion);
-        if (auto good = verifyChunk(data, seed); problem.empty() && !good) problem = good.error().message;
-        if (!problem.empty()) damaged = DamagedRow{pos, hashOfRow(data), problem};
-    }
-    use_.selectChunk.reset();
-    if (!row && row.error().code == base::ErrorCode::Damaged) return quarantineRow(pos, row.error().message);
-    if (!row) return tl::unexpected(row.error());
-    if (!damaged) return {};
+    const auto damaged = readDamaged(pos);
+    if (!damaged && damaged.error().code == base::ErrorCode::Damaged)
+        return quarantineRow(pos, damaged.error().message);
+    if (!damaged) return tl::unexpected(damaged.error());
+    if (!*damaged) return {};
     base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", file_.database.path(),
-                     nameOf(pos), damaged->reason);
-    return quarantine(*damaged);
+                     nameOf(pos), (*damaged)->reason);
+    return quarantine(**damaged);
+}
+
+base::Result<bool> SqliteWriter::isSaved(const DamagedRow& row) {
+    const ResetAfter reset(use_.selectChunk);
+    use_.selectChunk.bind(1, keyOf(row.pos));
+    const auto isThere = use_.selectChunk.step();
+    if (!isThere) return tl::unexpected(isThere.error());
+    return *isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;
 }
 
 base::Result<void> SqliteWriter::quarantine(const DamagedRow& row) {
     isComplete_ = false;
-    use_.selectChunk.bind(1, keyOf(row.pos));
-    const auto isThere = use_.selectChunk.step();
-    const bool isSame = isThere && *isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;
-    use_.selectChunk.reset();
+    const auto isThere = isSaved(row);
     if (!isThere) return tl::unexpected(isThere.error());
-    if (!isSame) return {};
+    if (!*isThere) return {};
     if (auto done = quarantineRow(row.pos, row.reason); !done) return done;
     return deleteRow(row.pos);
 }

@@ -44,6 +44,8 @@ class SqliteWriter {
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
     base::Result<void> quarantineRow(world::ChunkPos pos, std::string_view reason);
     base::Result<void> quarantineIfDamaged(world::ChunkPos pos);
+    base::Result<std::optional<DamagedRow>> readDamaged(world::ChunkPos pos);
+    base::Result<bool> isSaved(const DamagedRow& row);  // as it was read
     base::Result<void> quarantine(const DamagedRow& row);
     base::Result<void> deleteRow(world::ChunkPos pos);
 

@@ -242,6 +242,9 @@ class BadInput(ProgramTest):
                 done = run(command, *others, option, "")
                 with self.subTest(f"{command} {option}"):
                     self.assertRefused(done, (command, option))
+                    # Other commands name what is missing; a path file is looked for before the rest.
+                    if command in enough and command != "record":
+                        self.assertIn(option[2:], done.stderr)
                 tried += 1
         self.assertGreater(tried, 60)
 
