@@ -25,7 +25,7 @@ def versions(program):
     """"–" if a program is not installed."""
     return {"Terrane": output_of(program, "--version") or "–", "Luanti": luanti_version() or "–",
             "Mesa": package_version("libgl1-mesa-dri") or "–", "zstd": zstd_version() or "–",
-            "SQLite": sqlite3.sqlite_version, "kernel": platform.release(), "Python": platform.python_version()}
+            "SQLite": sqlite3.sqlite_version, "kernel": platform.release().partition("-")[0], "Python": platform.python_version()}
 
 
 def cpu_name():
