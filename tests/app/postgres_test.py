@@ -167,10 +167,16 @@ class Copy(Postgres):
         self.succeed("generate", "--radius", "60", "--world", file, "--generator", "flat")
         copy = subprocess.Popen([support.program(), "copy", str(file), self.url], stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL)
-        while copy.poll() is None and "t" not in _server.query(
+        self.addCleanup(copy.kill)
+        has_begun = False
+        while copy.poll() is None and not has_begun:
+            # It stands still while the rows are counted, which takes longer than to copy all of them.
+            copy.send_signal(signal.SIGCONT)
+            time.sleep(0.005)
+            copy.send_signal(signal.SIGSTOP)
+            has_begun = "t" in _server.query(
                 f"SELECT CASE WHEN to_regclass('{self.table}') IS NULL THEN 'f' ELSE (xpath('/row/c/text()', "
-                f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END"):
-            time.sleep(0.002)
+                f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END")
         self.assertIsNone(copy.poll(), "the copy ended before it could be killed")
         copy.send_signal(signal.SIGKILL)
         copy.wait()
