@@ -69,7 +69,8 @@ base::Result<bool> checkFile(const fs::path& path) {
 }
 
 tl::unexpected<base::Error> notASave(const fs::path& path) {
-    if (targetExists(path)) return base::fail(ErrorCode::Incompatible, "{}: empty, not a save", path.string());
+    if (targetExists(path))
+        return base::fail(ErrorCode::Incompatible, "{}: empty, not a save", path.string());
     return base::fail(ErrorCode::NotFound, "{}: there is no such file", path.string());
 }
 

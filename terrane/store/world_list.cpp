@@ -179,7 +179,7 @@ base::Result<void> copySave(const fs::path& folder, const SaveCopy& copy, const 
     std::error_code ignored;
     fs::remove(part, ignored);
     if (auto copied = source->database.backUpTo(part, progress); !copied) return copied;
-    if (auto moved = move(part, *to); !moved) {
+    if (auto moved = moveAll({{part, *to}}); !moved) {
         fs::remove(part, ignored);
         return moved;
     }
