@@ -54,6 +54,7 @@ TEST(ScriptVersion, SeesWhatBlocksFollowFromAndNothingElse) {
     const int version = versionOf(kStone);
     EXPECT_GT(version, 0);
     EXPECT_EQ(version, versionOf(kStone));
+    EXPECT_EQ(version, versionOf("-- the next step\n" + std::string(kStone)));
     EXPECT_EQ(version, versionOf(R"(-- words
         local low <const> = 80
         g:pass3D("another name", function(p) p:setBlock(select(p.z:lt(low), "stone", "air")) end))"));

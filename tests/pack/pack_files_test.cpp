@@ -96,6 +96,13 @@ TEST_F(PackFilesTest, WhatIsNoPackIsSaid) {
     EXPECT_FALSE(readPack(folder_ / "nowhere"));
 }
 
+// Its nodes would take gigabytes.
+TEST_F(PackFilesTest, ATableThatIsTooLargeIsNotParsed) {
+    const auto pack = makePack({{"pack.toml", "a = [" + std::string(8 << 20, '[')}}, "p");
+    ASSERT_FALSE(pack);
+    EXPECT_EQ(pack.error().message, "p/pack.toml: more than 4096 KiB");
+}
+
 TEST_F(PackFilesTest, PacksAreFoundByNameOrPath) {
     writeFolder(folder_ / "isles", files_);
     writeZip(folder_ / "ores.zip", files_, "");
