@@ -78,7 +78,7 @@ int main(int argc, char** argv) {
         const bench::MeshWorld* world = &worlds.emplace_back(input.make());
         for (const auto& [backend, run] : {std::pair("cpu/", &onCpu), std::pair("gpu/", &onGpu)}) {
             benchmark::RegisterBenchmark((std::string(backend) + input.name).c_str(),
-                                         [world, run](benchmark::State& state) { run(state, *world); })
+                                         [world, run = run](benchmark::State& state) { run(state, *world); })
                 ->Unit(benchmark::kMillisecond)
                 ->UseRealTime()
                 ->MeasureProcessCPUTime();  // of the threads that stand for a GPU too

@@ -13,9 +13,9 @@ using world::kBlocksPerChunk;
 using world::kBlocksPerSection;
 
 // The part of a block's value that is encoded once per run; block entity data is encoded apart.
-using Kind = std::pair<world::BlockId, std::uint16_t>;  // id, block state
+using BlockKind = std::pair<world::BlockId, std::uint16_t>;  // id, block state
 
-Kind kindOf(const world::BlockValue& value) {
+BlockKind kindOf(const world::BlockValue& value) {
     return {value.id, value.state};
 }
 
@@ -52,15 +52,15 @@ bool travels(const ChangedBlock& block) {
     return block.value.data && block.value.data->size() <= kMaxBlockData;
 }
 
-struct Kinds {
-    std::vector<Kind> list;  // in order of first occurrence
-    std::map<Kind, std::uint32_t> numbers;
+struct BlockKinds {
+    std::vector<BlockKind> list;  // in order of first occurrence
+    std::map<BlockKind, std::uint32_t> numbers;
 };
 
-Kinds kindsOf(std::span<const ChangedBlock> blocks) {
-    Kinds kinds;
+BlockKinds kindsOf(std::span<const ChangedBlock> blocks) {
+    BlockKinds kinds;
     for (const ChangedBlock& block : blocks) {
-        const Kind kind = kindOf(block.value);
+        const BlockKind kind = kindOf(block.value);
         if (kinds.numbers.try_emplace(kind, static_cast<std::uint32_t>(kinds.list.size())).second)
             kinds.list.push_back(kind);
     }
@@ -76,17 +76,18 @@ void writeData(WireWriter& wire, std::span<const ChangedBlock> blocks) {
     }
 }
 
-void readKinds(WireReader& wire, std::vector<Kind>& kinds) {
-    wire.list(kinds, kMaxBlocksInPart, [&](Kind& kind) {
+void readKinds(WireReader& wire, std::vector<BlockKind>& kinds) {
+    wire.list(kinds, kMaxBlocksInPart, [&](BlockKind& kind) {
         wire.number(kind.first);
         wire.number(kind.second);
     });
-    std::vector<Kind> sorted = kinds;
+    std::vector<BlockKind> sorted = kinds;
     std::ranges::sort(sorted);
     wire.require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
 }
 
-void readRun(WireReader& wire, std::span<const Kind> kinds, std::uint32_t& next, ChunkDifference& blocks) {
+void readRun(WireReader& wire, std::span<const BlockKind> kinds, std::uint32_t& next,
+             ChunkDifference& blocks) {
     std::uint32_t head = 0, more = 0, kind = 0;
     wire.number(head);
     const bool isLong = head & 1;
@@ -184,8 +185,8 @@ std::vector<std::span<const ChangedBlock>> partsOf(std::span<const ChangedBlock>
 
 void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks) {
     assert(blocks.size() <= kMaxBlocksInPart && "a part of a difference");
-    const Kinds kinds = kindsOf(blocks);
-    wire.list(kinds.list, kMaxBlocksInPart, [&](const Kind& kind) {
+    const BlockKinds kinds = kindsOf(blocks);
+    wire.list(kinds.list, kMaxBlocksInPart, [&](const BlockKind& kind) {
         wire.number(kind.first);
         wire.number(kind.second);
     });
@@ -206,7 +207,7 @@ void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks) {
 
 void readBlocks(WireReader& wire, ChunkDifference& blocks) {
     blocks.clear();
-    std::vector<Kind> kinds;
+    std::vector<BlockKind> kinds;
     readKinds(wire, kinds);
     std::uint64_t runs = 0;
     wire.number(runs);
