@@ -1,6 +1,7 @@
 #include "terrane/base/job_system.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cassert>
 #include <condition_variable>
 #include <cstdlib>
@@ -46,7 +47,6 @@ struct Job {
     std::shared_ptr<JobQueue> queue;
     QueueKey key;
     JobWork work;  // guarded by queue->mutex while queued, then the worker's alone
-    CancelToken token;
     std::atomic<JobState> state{JobState::Queued};  // changes only under queue->mutex
     std::string error;                              // constant once the state is Failed
     std::atomic<bool> errorSeen{false};
@@ -128,7 +128,7 @@ std::shared_ptr<Job> takeJob(JobQueue& queue) {
 
 void runJob(Job& job) {
     JobQueue& queue = *job.queue;
-    std::optional<std::string> error = errorOf([&] { job.work(job.token); });
+    std::optional<std::string> error = errorOf([&] { job.work(); });
     job.work = nullptr;  // captures are released before the job counts as finished
     bool idle = false;
     {
@@ -140,7 +140,7 @@ void runJob(Job& job) {
             job.error = std::move(*error);
             job.state = JobState::Failed;
         } else {
-            job.state = job.token.isCancelled() ? JobState::Cancelled : JobState::Done;
+            job.state = JobState::Done;
         }
     }
     job.finished.notify_all();
@@ -186,15 +186,14 @@ JobState JobHandle::state() const {
     return job_->state.load(std::memory_order_acquire);
 }
 
-void JobHandle::cancel() const {
+bool JobHandle::cancel() const {
     assert(job_ && "an empty handle has nothing to cancel");
     JobQueue& queue = *job_->queue;
     JobWork released;  // outlives the lock: destroying captures may run anything, even another cancel
     bool idle = false;
     {
         const std::lock_guard lock(queue.mutex);
-        if (job_->state == JobState::Running) job_->token.cancel();
-        if (job_->state != JobState::Queued) return;
+        if (job_->state != JobState::Queued) return job_->state == JobState::Cancelled;
         queue.queued.erase(job_->key);
         released = std::exchange(job_->work, nullptr);
         job_->state = JobState::Cancelled;
@@ -202,6 +201,7 @@ void JobHandle::cancel() const {
     }
     job_->finished.notify_all();
     if (idle) queue.becameIdle.notify_all();
+    return true;
 }
 
 void JobHandle::wait() const {
@@ -321,8 +321,7 @@ Result<void> parallelFor(JobSystem& jobs, std::size_t count, const std::function
     // Helpers that cannot be submitted for lack of memory are left out.
     static_cast<void>(errorOf([&] {
         for (; helperCount < helpers.size(); ++helperCount)
-            helpers[helperCount] =
-                jobs.submit(kMostUrgent, [loop](const CancelToken&) { runIndices(*loop); });
+            helpers[helperCount] = jobs.submit(kMostUrgent, [loop] { runIndices(*loop); });
     }));
     runIndices(*loop);
     for (std::size_t k = 0; k < helperCount; ++k) helpers[k].cancel();  // those that did not start

@@ -5,7 +5,6 @@
 // parallelFor is safe everywhere.
 #pragma once
 
-#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -30,25 +29,11 @@ enum class JobState {
     Queued,
     Running,
     Done,
-    Cancelled,  // never started, or was asked to stop while it ran
+    Cancelled,  // never started
     Failed,     // threw; JobHandle::error has the message
 };
 
-// Asks running work to stop. Work checks it between steps and returns early; nothing is interrupted.
-class CancelToken {
-  public:
-    CancelToken() = default;
-    CancelToken(const CancelToken&) = delete;
-    CancelToken& operator=(const CancelToken&) = delete;
-
-    void cancel() { cancelled_.store(true, std::memory_order_relaxed); }
-    [[nodiscard]] bool isCancelled() const { return cancelled_.load(std::memory_order_relaxed); }
-
-  private:
-    std::atomic<bool> cancelled_{false};
-};
-
-using JobWork = std::function<void(const CancelToken&)>;
+using JobWork = std::function<void()>;
 
 // Refers to one submitted job. Copies refer to the same job; destroying all handles neither cancels the job
 // nor waits for it. A handle may outlive its system. A default-constructed handle refers to no job and tests
@@ -62,9 +47,9 @@ class JobHandle {
     // If this returns Done, everything that the job wrote is visible to the calling thread.
     [[nodiscard]] JobState state() const;
 
-    // A queued job never starts and has released its captures when this returns. A running one sees its token
-    // set and ends Cancelled (Failed if it throws). A finished one stays as it is.
-    void cancel() const;
+    // A queued job never starts and has released its captures when this returns; others stay as they are.
+    // Returns whether the job is Cancelled.
+    bool cancel() const;
 
     // Blocks until the job is Done, Cancelled or Failed. Must not be called on a worker of the same system.
     void wait() const;

@@ -68,7 +68,7 @@ class CpuBatchGenerator : public BatchGenerator {
         for (const ChunkPos pos : taken) requireGenerated(pos, level());
         auto batch = std::make_shared<CpuBatch>(taken);
         for (unsigned k = 0; helpers_ && k < helpers_->threadCount(); ++k)
-            helpers_->submit(0, [this, batch](const base::CancelToken&) { batch->work(generator_); });
+            helpers_->submit(0, [this, batch] { batch->work(generator_); });
         inFlight_.push_back(std::move(batch));
         return taken.size();
     }

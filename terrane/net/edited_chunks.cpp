@@ -73,7 +73,7 @@ void EditedChunks::submit(ChunkPos pos, Known& known) {
     known.job = ++jobCount_;
     const auto work = [pos, job = known.job,
                        snapshot = pos.level == 0 ? parts_.world.maybeChunkAt(pos) : nullptr, &parts = parts_,
-                       results = results_](const base::CancelToken&) {
+                       results = results_] {
         std::optional<ChunkDifference> difference =
             snapshot ? chunkDifference(parts.generators.generate(pos), *snapshot)
                      : savedDifference(parts, pos);

@@ -94,8 +94,9 @@ void startPasswordCheck(ServerState& server) {
     server.passwordQueue.pop_front();
     PasswordCheck check{next.client, {}};
     check.job = server.jobs.submit(
-        -1, [fits = check.fits, hash = server.passwordHash, password = std::move(next.password)](
-                const base::CancelToken&) { *fits = fitsPassword(hash, password); });
+        -1, [fits = check.fits, hash = server.passwordHash, password = std::move(next.password)] {
+            *fits = fitsPassword(hash, password);
+        });
     server.passwordCheck = check;
 }
 

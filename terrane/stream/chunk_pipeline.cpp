@@ -59,8 +59,7 @@ void ChunkPipeline::cancelLoads() {
     std::vector<ChunkPos> cancelled;
     for (auto& [pos, record] : table_.records) {
         if (!record.load || !mayCancelLoad(table_, pos)) continue;
-        record.load.cancel();
-        if (record.load.state() == base::JobState::Cancelled) cancelled.push_back(pos);
+        if (record.load.cancel()) cancelled.push_back(pos);
     }
     for (const ChunkPos pos : cancelled) abandonLoad(table_, pos);
 }

@@ -32,7 +32,7 @@ ChunkWorkers::~ChunkWorkers() {
 // saves and ends.
 template <class Work>
 base::JobHandle ChunkWorkers::submit(base::JobPriority priority, Work work) {
-    const auto guarded = [work = std::move(work), results = results_](const base::CancelToken&) {
+    const auto guarded = [work = std::move(work), results = results_] {
         if (results->isOver) return;
         try {
             results->add(work(*results));

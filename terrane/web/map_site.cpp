@@ -140,13 +140,12 @@ Cancel MapSite::Impl::answerTile(const map::MapTile& tile, const Reply& reply) {
 Cancel MapSite::Impl::answerBlock(const BlockAt& at, const Reply& reply) {
     const world::ChunkPos chunk = world::chunkOf({at.x, at.y, 0});
     auto edited = std::make_shared<std::vector<map::EditedChunk>>(tiles.editedAmong(std::span(&chunk, 1)));
-    const base::JobHandle job =
-        jobs.submit(0, [this, at, reply, edited, alive = isAlive](const base::CancelToken&) {
-            Answer found = blockAnswer(at, *edited);
-            boost::asio::post(context, [reply, found = std::move(found), alive] {
-                if (*alive) reply(found);
-            });
+    const base::JobHandle job = jobs.submit(0, [this, at, reply, edited, alive = isAlive] {
+        Answer found = blockAnswer(at, *edited);
+        boost::asio::post(context, [reply, found = std::move(found), alive] {
+            if (*alive) reply(found);
         });
+    });
     return [job] { job.cancel(); };
 }
 

@@ -68,7 +68,7 @@ void SeenChanges::look() {
     }
     // Before tiles, which should show the result.
     job_ = parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_,
-                                   &painter = parts_.painter, post = parts_.post](const base::CancelToken&) {
+                                   &painter = parts_.painter, post = parts_.post] {
         std::vector<ChunkPos> seen = seenAmong(painter, *changes, *digests);
         post([this, seen = std::move(seen), alive] {
             if (!*alive) return;

@@ -63,7 +63,7 @@ TileService::Ticket TileService::request(const MapTile& tile, Ready ready) {
 void TileService::start(const MapTile& tile, const RenderPtr& render) {
     const auto edited =
         std::make_shared<const std::vector<map::EditedChunk>>(editedAmong(map::MapPainter::chunksFor(tile)));
-    const auto work = [this, tile, render, edited, alive = isAlive_](const base::CancelToken&) {
+    const auto work = [this, tile, render, edited, alive = isAlive_] {
         const auto begin = std::chrono::steady_clock::now();
         auto png = std::make_shared<base::Result<std::string>>(paintTile(parts_.painter, tile, *edited));
         const double seconds =
@@ -104,9 +104,7 @@ void TileService::cancel(Ticket ticket) {
     const RenderPtr render = found->second;
     tickets_.erase(found);
     render->waiting.erase(ticket);
-    if (!render->waiting.empty() || render->job.state() != base::JobState::Queued) return;
-    render->job.cancel();
-    if (render->job.state() != base::JobState::Cancelled) return;  // a worker has started it
+    if (!render->waiting.empty() || !render->job.cancel()) return;
     ++statistics_.cancelled;
     std::erase_if(renders_, [&](const auto& entry) { return entry.second == render; });
 }

@@ -33,7 +33,7 @@ class Gate {
 class Blocker {
   public:
     explicit Blocker(JobSystem& jobs) {
-        handle_ = jobs.submit(0, [this](const CancelToken&) {
+        handle_ = jobs.submit(0, [this] {
             started_.open();
             released_.wait();
         });

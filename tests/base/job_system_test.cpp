@@ -23,7 +23,7 @@ using testing::HasSubstr;
 TEST(JobSystem, RunsWhatIsSubmitted) {
     JobSystem jobs(2);
     int value = 0;
-    const JobHandle handle = jobs.submit(0, [&](const CancelToken&) { value = 7; });
+    const JobHandle handle = jobs.submit(0, [&] { value = 7; });
     handle.wait();
     EXPECT_EQ(value, 7);
     EXPECT_EQ(handle.state(), JobState::Done);
@@ -36,7 +36,7 @@ TEST(JobSystem, RunsSmallestPriorityFirstAndTiesInOrder) {
     {
         Blocker blocker(jobs);
         const auto add = [&](JobPriority priority, const char* name) {
-            jobs.submit(priority, [&order, name](const CancelToken&) { order.push_back(name); });
+            jobs.submit(priority, [&order, name] { order.push_back(name); });
         };
         add(5, "five");
         add(1, "one a");
@@ -53,9 +53,9 @@ TEST(JobSystem, RunsSmallestPriorityFirstAndTiesInOrder) {
 TEST(JobSystem, WithoutThreadsTheCallerRunsTheJobs) {
     JobSystem jobs(0);
     std::vector<int> ran;
-    const JobHandle late = jobs.submit(2, [&](const CancelToken&) { ran.push_back(2); });
-    const JobHandle last = jobs.submit(3, [&](const CancelToken&) { ran.push_back(3); });
-    jobs.submit(1, [&](const CancelToken&) { ran.push_back(1); });
+    const JobHandle late = jobs.submit(2, [&] { ran.push_back(2); });
+    const JobHandle last = jobs.submit(3, [&] { ran.push_back(3); });
+    jobs.submit(1, [&] { ran.push_back(1); });
     EXPECT_EQ(jobs.threadCount(), 1u);
     EXPECT_TRUE(ran.empty());
     EXPECT_TRUE(jobs.runNext());
@@ -76,11 +76,12 @@ TEST(JobSystem, CancelledQueuedJobNeverStartsAndReleasesItsCapturesAtOnce) {
     Blocker blocker(jobs);
     auto captured = std::make_shared<int>(1);
     bool ran = false;
-    const JobHandle handle = jobs.submit(0, [captured, &ran](const CancelToken&) { ran = true; });
+    const JobHandle handle = jobs.submit(0, [captured, &ran] { ran = true; });
     EXPECT_EQ(handle.state(), JobState::Queued);
     EXPECT_EQ(captured.use_count(), 2);
-    handle.cancel();
+    EXPECT_TRUE(handle.cancel());
     EXPECT_EQ(handle.state(), JobState::Cancelled);
+    EXPECT_TRUE(handle.cancel());
     EXPECT_EQ(captured.use_count(), 1);
     EXPECT_EQ(jobs.queuedCount(), 0u);
     handle.wait();
@@ -98,40 +99,33 @@ TEST(JobSystem, CapturesMayCancelAnotherJobWhileTheyAreReleased) {
     };
     JobSystem jobs(1);
     Blocker blocker(jobs);
-    const JobHandle second = jobs.submit(1, [](const CancelToken&) {});
+    const JobHandle second = jobs.submit(1, [] {});
     auto canceller = std::make_shared<CancelsOther>();
     canceller->other = second;
-    const JobHandle first = jobs.submit(0, [held = std::move(canceller)](const CancelToken&) {});
+    const JobHandle first = jobs.submit(0, [held = std::move(canceller)] {});
     first.cancel();
     EXPECT_EQ(second.state(), JobState::Cancelled);
 }
 
-TEST(JobSystem, RunningJobSeesItsCancellation) {
+TEST(JobSystem, ARunningJobGoesOnWhenItIsCancelled) {
     JobSystem jobs(1);
     Gate started;
     Gate cancelled;
-    bool seenBefore = true;
-    bool seenAfter = false;
-    const JobHandle handle = jobs.submit(0, [&](const CancelToken& token) {
-        seenBefore = token.isCancelled();
+    const JobHandle handle = jobs.submit(0, [&] {
         started.open();
         cancelled.wait();
-        seenAfter = token.isCancelled();
     });
     started.wait();
-    EXPECT_EQ(handle.state(), JobState::Running);
-    handle.cancel();
+    EXPECT_FALSE(handle.cancel());
     EXPECT_EQ(handle.state(), JobState::Running);
     cancelled.open();
     handle.wait();
-    EXPECT_FALSE(seenBefore);
-    EXPECT_TRUE(seenAfter);
-    EXPECT_EQ(handle.state(), JobState::Cancelled);
+    EXPECT_EQ(handle.state(), JobState::Done);
 }
 
 TEST(JobSystem, CancellingAFinishedJobChangesNothing) {
     JobSystem jobs(1);
-    const JobHandle handle = jobs.submit(0, [](const CancelToken&) {});
+    const JobHandle handle = jobs.submit(0, [] {});
     handle.wait();
     handle.cancel();
     EXPECT_EQ(handle.state(), JobState::Done);
@@ -141,16 +135,15 @@ TEST(JobSystem, ReportsWhatAJobThrows) {
     testing::internal::CaptureStderr();
     {
         JobSystem jobs(1);
-        const JobHandle known =
-            jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("no such chunk"); });
-        const JobHandle unknown = jobs.submit(0, [](const CancelToken&) { throw 3; });
+        const JobHandle known = jobs.submit(0, [] { throw std::runtime_error("no such chunk"); });
+        const JobHandle unknown = jobs.submit(0, [] { throw 3; });
         known.wait();
         unknown.wait();
         EXPECT_EQ(known.state(), JobState::Failed);
         EXPECT_EQ(known.error(), "no such chunk");
         EXPECT_EQ(unknown.state(), JobState::Failed);
         EXPECT_THAT(unknown.error(), HasSubstr("not a std::exception"));
-        const JobHandle after = jobs.submit(0, [](const CancelToken&) {});
+        const JobHandle after = jobs.submit(0, [] {});
         after.wait();
         EXPECT_EQ(after.state(), JobState::Done) << "the worker survives";
     }
@@ -161,9 +154,9 @@ TEST(JobSystem, LogsAFailureNobodyAskedForOnce) {
     testing::internal::CaptureStderr();
     {
         JobSystem jobs(2);
-        const JobHandle kept = jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("kept"); });
+        const JobHandle kept = jobs.submit(0, [] { throw std::runtime_error("kept"); });
         const JobHandle copy = kept;
-        jobs.submit(0, [](const CancelToken&) { throw std::runtime_error("dropped"); });
+        jobs.submit(0, [] { throw std::runtime_error("dropped"); });
         jobs.waitIdle();
     }
     const std::string kept = "terrane: error: a job failed: kept\n";
@@ -174,7 +167,7 @@ TEST(JobSystem, LogsAFailureNobodyAskedForOnce) {
 TEST(JobSystem, ReleasesCapturesBeforeAJobCountsAsFinished) {
     JobSystem jobs(1);
     auto captured = std::make_shared<int>(1);
-    const JobHandle handle = jobs.submit(0, [captured](const CancelToken&) {});
+    const JobHandle handle = jobs.submit(0, [captured] {});
     handle.wait();
     EXPECT_EQ(captured.use_count(), 1);
 }
@@ -193,15 +186,13 @@ TEST(JobSystem, DestructionCancelsQueuedJobsAndFinishesRunningOnes) {
     bool queuedRan = false;
     {
         JobSystem jobs(1);
-        running = jobs.submit(0, [&](const CancelToken& token) {
+        running = jobs.submit(0, [&] {
             started.open();
             queuedReleased.wait();
-            late = jobs.submit(0, [](const CancelToken&) {});
-            EXPECT_FALSE(token.isCancelled());
+            late = jobs.submit(0, [] {});
         });
-        queued = jobs.submit(1, [&, opens = std::make_shared<OpensGate>(queuedReleased)](const CancelToken&) {
-            queuedRan = true;
-        });
+        queued =
+            jobs.submit(1, [&, opens = std::make_shared<OpensGate>(queuedReleased)] { queuedRan = true; });
         started.wait();
     }
     EXPECT_EQ(running.state(), JobState::Done);
@@ -217,7 +208,7 @@ TEST(JobSystem, HandlesOutliveTheSystem) {
     EXPECT_FALSE(handle);
     {
         JobSystem jobs(1);
-        handle = jobs.submit(0, [](const CancelToken&) {});
+        handle = jobs.submit(0, [] {});
         handle.wait();
     }
     EXPECT_TRUE(handle);
@@ -236,7 +227,7 @@ TEST(JobSystem, WaitIdleSeesTheLastQueuedJobCancelled) {
     std::vector<JobHandle> handles;
     {
         Blocker blocker(jobs);
-        for (int i = 0; i < 10; ++i) handles.push_back(jobs.submit(i, [](const CancelToken&) {}));
+        for (int i = 0; i < 10; ++i) handles.push_back(jobs.submit(i, [] {}));
         for (const JobHandle& handle : handles) handle.cancel();
     }
     jobs.waitIdle();
@@ -246,8 +237,8 @@ TEST(JobSystem, WaitIdleSeesTheLastQueuedJobCancelled) {
 TEST(JobSystem, JobsMaySubmitJobs) {
     JobSystem jobs(2);
     std::atomic<int> ranCount{0};
-    jobs.submit(0, [&](const CancelToken&) {
-        for (int i = 0; i < 5; ++i) jobs.submit(i, [&](const CancelToken&) { ++ranCount; });
+    jobs.submit(0, [&] {
+        for (int i = 0; i < 5; ++i) jobs.submit(i, [&] { ++ranCount; });
     });
     jobs.waitIdle();
     EXPECT_EQ(ranCount, 5);
@@ -262,7 +253,7 @@ TEST(JobSystem, ManyThreadsSubmitCancelAndWait) {
     const auto submitAll = [&](int seed) {
         std::vector<JobHandle> handles;
         for (int i = 0; i < kJobsPerThread; ++i) {
-            handles.push_back(jobs.submit((i * 7919 + seed) % 101, [&](const CancelToken&) { ++ranCount; }));
+            handles.push_back(jobs.submit((i * 7919 + seed) % 101, [&] { ++ranCount; }));
             if (i % 3 == 0) handles[static_cast<std::size_t>(i / 2)].cancel();
         }
         for (const JobHandle& handle : handles) {
@@ -275,16 +266,14 @@ TEST(JobSystem, ManyThreadsSubmitCancelAndWait) {
     for (int t = 0; t < kThreads; ++t) threads.emplace_back(submitAll, t);
     for (std::thread& thread : threads) thread.join();
     jobs.waitIdle();
-    // A job that was cancelled while it ran has counted itself too.
-    EXPECT_GE(ranCount + cancelledCount, kThreads * kJobsPerThread);
-    EXPECT_LE(ranCount, kThreads * kJobsPerThread);
+    EXPECT_EQ(ranCount + cancelledCount, kThreads * kJobsPerThread);
 }
 
 TEST(JobSystem, RunsTenThousandJobs) {
     constexpr std::size_t kJobs = 10000;
     JobSystem jobs(4);
     std::vector<int> ran(kJobs, 0);
-    for (std::size_t i = 0; i < kJobs; ++i) jobs.submit(0, [&ran, i](const CancelToken&) { ++ran[i]; });
+    for (std::size_t i = 0; i < kJobs; ++i) jobs.submit(0, [&ran, i] { ++ran[i]; });
     jobs.waitIdle();
     EXPECT_THAT(ran, testing::Each(1));
 }
@@ -294,8 +283,8 @@ TEST(JobSystemDeathTest, WaitingOnAWorkerEndsWithAReason) {
     const auto waitInside = [] {
         JobSystem jobs(1);
         JobHandle never;
-        jobs.submit(0, [&](const CancelToken&) {
-            never = jobs.submit(0, [](const CancelToken&) {});
+        jobs.submit(0, [&] {
+            never = jobs.submit(0, [] {});
             never.wait();
         });
         jobs.waitIdle();
@@ -303,7 +292,7 @@ TEST(JobSystemDeathTest, WaitingOnAWorkerEndsWithAReason) {
     EXPECT_DEATH(waitInside(), "wait was called on a worker");
     const auto idleInside = [] {
         JobSystem jobs(1);
-        jobs.submit(0, [&](const CancelToken&) { jobs.waitIdle(); });
+        jobs.submit(0, [&] { jobs.waitIdle(); });
         jobs.waitIdle();
     };
     EXPECT_DEATH(idleInside(), "waitIdle was called on a worker");
@@ -313,8 +302,7 @@ TEST(JobSystem, AWorkerMayWaitForAnotherSystem) {
     JobSystem outer(1);
     JobSystem inner(1);
     int value = 0;
-    outer.submit(0,
-                 [&](const CancelToken&) { inner.submit(0, [&](const CancelToken&) { value = 3; }).wait(); });
+    outer.submit(0, [&] { inner.submit(0, [&] { value = 3; }).wait(); });
     outer.waitIdle();
     EXPECT_EQ(value, 3);
 }
@@ -352,7 +340,7 @@ TEST(JobSystem, EndsWithoutMemory) {
     {
         std::optional<JobSystem> jobs(1);
         std::atomic<bool> isRunning = false;
-        jobs->submit(0, [&](const CancelToken&) {
+        jobs->submit(0, [&] {
             for (isRunning = true; !isReleased;) std::this_thread::yield();
         });
         while (!isRunning) std::this_thread::yield();
@@ -360,7 +348,7 @@ TEST(JobSystem, EndsWithoutMemory) {
             delete value;
             isReleased = true;
         });
-        queued = jobs->submit(0, [held = std::move(captured)](const CancelToken&) {});
+        queued = jobs->submit(0, [held = std::move(captured)] {});
         const FailingMemory memory(0);
         jobs.reset();
     }
@@ -371,7 +359,7 @@ TEST(JobSystem, EndsWithoutMemory) {
 TEST(JobSystem, AJobWithoutMemoryFails) {
     JobSystem jobs(1);
     for (long n = 0; n < 100; ++n) {
-        const JobHandle job = jobs.submit(0, [&](const CancelToken&) {
+        const JobHandle job = jobs.submit(0, [&] {
             const FailingMemory memory(n, LONG_MAX);
             throw std::runtime_error("a message that needs memory of its own");
         });

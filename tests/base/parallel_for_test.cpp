@@ -64,7 +64,7 @@ TEST(ParallelFor, ReportsTheLowestFailingIndexAfterRunningAll) {
 TEST(ParallelFor, WorksOnWorkersAndNested) {
     JobSystem jobs(2);
     std::atomic<int> callCount{0};
-    const JobHandle handle = jobs.submit(0, [&](const CancelToken&) {
+    const JobHandle handle = jobs.submit(0, [&] {
         const Result<void> outer = parallelFor(jobs, 8, [&](std::size_t) {
             const Result<void> inner = parallelFor(jobs, 8, [&](std::size_t) { ++callCount; });
             EXPECT_TRUE(inner);
