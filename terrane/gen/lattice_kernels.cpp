@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "terrane/gen/noise.h"
 #include "terrane/shared/hash.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -16,8 +17,7 @@
 namespace terrane::gen {
 namespace {
 
-// √2·(cos, sin) of (k + ½)·22.5°.
-constexpr float kG0 = 1.38703990f, kG1 = 1.17587554f, kG2 = 0.785694957f, kG3 = 0.275899380f;
+constexpr float kG0 = kQuadrant[0], kG1 = kQuadrant[1], kG2 = kQuadrant[2], kG3 = kQuadrant[3];
 alignas(64) constexpr float kGradient2X[16] = {kG0,  kG1,  kG2,  kG3,  -kG3, -kG2, -kG1, -kG0,
                                                -kG0, -kG1, -kG2, -kG3, kG3,  kG2,  kG1,  kG0};
 alignas(64) constexpr float kGradient2Y[16] = {kG3,  kG2,  kG1,  kG0,  kG0,  kG1,  kG2,  kG3,

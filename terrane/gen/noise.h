@@ -35,6 +35,10 @@
 
 namespace terrane::gen {
 
+// The gradients of the first quadrant in 2D: x = kQuadrant[k], y = kQuadrant[3 − k], which are √2·(cos, sin)
+// of (k + ½)·22.5°. The other quadrants are these, turned by right angles. gen_gpu/noise.glsl has their bits.
+constexpr float kQuadrant[4] = {1.38703990f, 1.17587554f, 0.785694957f, 0.275899380f};
+
 enum class NoiseKind : std::uint8_t {
     Perlin2D,
     Perlin3D,

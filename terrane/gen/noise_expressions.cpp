@@ -9,15 +9,15 @@ Int logicalShift(Int v, int bits) {
     return (v >> bits) & static_cast<std::int32_t>(~0u >> bits);
 }
 
-// √2·(cos, sin) of (k + ½)·22.5°, k the upper four bits: the first quadrant's four directions, then turned.
+// k, the direction, are the upper four bits: two of the gradient in the first quadrant, two of the quadrant.
 Vec2 gradient2(Int hash) {
-    constexpr float kG[] = {1.38703990f, 1.17587554f, 0.785694957f, 0.275899380f};
+    constexpr auto& g = kQuadrant;
     const Int k = logicalShift(hash, 28);
     const auto bit = [&](int n) { return (k & (1 << n)) != 0; };
     const auto pick = [&](float a, float b, float c, float d) {
         return select(bit(1), select(bit(0), Float(d), Float(c)), select(bit(0), Float(b), Float(a)));
     };
-    const Float x = pick(kG[0], kG[1], kG[2], kG[3]), y = pick(kG[3], kG[2], kG[1], kG[0]);
+    const Float x = pick(g[0], g[1], g[2], g[3]), y = pick(g[3], g[2], g[1], g[0]);
     const Float turnedX = select(bit(2), -y, x), turnedY = select(bit(2), x, y);
     return {select(bit(3), -turnedX, turnedX), select(bit(3), -turnedY, turnedY)};
 }

@@ -6,6 +6,7 @@
 #define TERRANE_GEN_SIMPLEX_KERNELS_INL_H
 #endif
 
+#include "terrane/gen/noise.h"
 #include "terrane/gen/tile_rows-inl.h"
 #include "terrane/shared/hash.h"
 
@@ -22,7 +23,7 @@ struct Gradients {
     VF x, y;
 };
 
-// √2·(cos, sin) of (k + ½)·22.5°, k the upper four bits: the first quadrant's four directions, then turned.
+// k, the direction, are the upper four bits: two of the gradient in the first quadrant, two of the quadrant.
 HWY_INLINE Gradients gradients(VU hash) {
     const auto bit = [&](int n) {
         return hn::RebindMask(df, hn::TestBit(hash, hn::Set(du, 1u << (28 + n))));
@@ -32,8 +33,8 @@ HWY_INLINE Gradients gradients(VU hash) {
         return hn::IfThenElse(isUpper, hn::IfThenElse(isOdd, hn::Set(df, d), hn::Set(df, c)),
                               hn::IfThenElse(isOdd, hn::Set(df, b), hn::Set(df, a)));
     };
-    constexpr float kG[] = {1.38703990f, 1.17587554f, 0.785694957f, 0.275899380f};
-    const VF gx = pick(kG[0], kG[1], kG[2], kG[3]), gy = pick(kG[3], kG[2], kG[1], kG[0]);
+    constexpr auto& g = kQuadrant;
+    const VF gx = pick(g[0], g[1], g[2], g[3]), gy = pick(g[3], g[2], g[1], g[0]);
     const auto isTurned = bit(2), isOpposite = bit(3);
     const VF turnedX = hn::IfThenElse(isTurned, hn::Neg(gy), gx), turnedY = hn::IfThenElse(isTurned, gx, gy);
     return {hn::IfThenElse(isOpposite, hn::Neg(turnedX), turnedX),

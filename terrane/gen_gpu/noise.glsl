@@ -32,14 +32,15 @@ float blend(float a, float b, float t) {
     return v;
 }
 
-// √2·(cos, sin) of (k + ½)·22.5°.
-const float kG[4] = float[4](1.38703990, 1.17587554, 0.785694957, 0.275899380);
+// kQuadrant of gen/noise.h as bits: compilers round decimal constants differently.
+const float kQuadrant[4] = float[4](uintBitsToFloat(0x3FB18A86u), uintBitsToFloat(0x3F968317u),
+                                    uintBitsToFloat(0x3F49234Eu), uintBitsToFloat(0x3E8D42AFu));
 
 vec2 gradient2(int x, int y, uint seed) {
     uint k = hash2(uint(x), uint(y), seed) >> 28;
     uint step = k & 3u;
     // Each quadrant is the one before turned by a right angle.
-    vec2 first = vec2(kG[step], kG[3u - step]);
+    vec2 first = vec2(kQuadrant[step], kQuadrant[3u - step]);
     uint quadrant = k >> 2;
     if (quadrant == 0u) return first;
     if (quadrant == 1u) return vec2(-first.y, first.x);

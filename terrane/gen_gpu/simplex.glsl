@@ -1,7 +1,9 @@
 // Simplex noise for one sample, with the operations of gen/simplex_tile.h in the same order as the CPU's tiles.
 
 const int kSimplexPeriod = 41, kSimplexShift = 15;
-const float kSimplexSkew = 15.0 / 41.0, kSimplexUnskew = 15.0 / 71.0, kSimplexScale = 70.3;
+// 15/41, 15/71 and 70.3 as bits: compilers round constant divisions and decimals differently.
+const float kSimplexSkew = uintBitsToFloat(0x3EBB512Cu), kSimplexUnskew = uintBitsToFloat(0x3E585689u),
+            kSimplexScale = uintBitsToFloat(0x428C999Au);
 
 float simplexCorner(int x, int y, uint seed, float offsetX, float offsetY) {
     vec2 g = gradient2(x, y, seed);
