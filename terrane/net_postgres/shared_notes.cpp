@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "terrane/base/hex.h"
 #include "terrane/game/places.h"
 #include "terrane/net/message_types.h"
 #include "terrane/net/wire.h"
@@ -37,19 +38,14 @@ void describe(Wire& wire, N& note) {
     }
 }
 
-int digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    return c >= 'a' && c <= 'f' ? c - 'a' + 10 : -1;
-}
-
 std::optional<net::Bytes> fromHex(std::string_view text) {
     if (text.size() % 2 != 0) return std::nullopt;
     net::Bytes bytes;
     bytes.reserve(text.size() / 2);
     for (std::size_t at = 0; at < text.size(); at += 2) {
-        const int high = digit(text[at]), low = digit(text[at + 1]);
-        if (high < 0 || low < 0) return std::nullopt;
-        bytes.push_back(static_cast<std::byte>(high * 16 + low));
+        const auto byte = base::hexByte(text[at], text[at + 1]);
+        if (!byte) return std::nullopt;
+        bytes.push_back(static_cast<std::byte>(*byte));
     }
     return bytes;
 }

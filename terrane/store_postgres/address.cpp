@@ -3,9 +3,9 @@
 #include <libpq-fe.h>
 
 #include <algorithm>
-#include <cctype>
 #include <memory>
 
+#include "terrane/base/hex.h"
 #include "terrane/base/printable.h"
 
 namespace terrane::store_postgres {
@@ -26,19 +26,13 @@ std::string valueOf(const Options& options, std::string_view keyword) {
     return "";
 }
 
-int hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    const int letter = std::tolower(static_cast<unsigned char>(c));
-    return letter >= 'a' && letter <= 'f' ? letter - 'a' + 10 : -1;
-}
-
 std::string withoutPercents(std::string_view text) {
     std::string plain;
     for (std::size_t at = 0; at < text.size(); ++at) {
-        const bool isCoded = text[at] == '%' && at + 2 < text.size() && hexDigit(text[at + 1]) >= 0 &&
-                             hexDigit(text[at + 2]) >= 0;
-        plain += isCoded ? static_cast<char>(hexDigit(text[at + 1]) * 16 + hexDigit(text[at + 2])) : text[at];
-        if (isCoded) at += 2;
+        const bool mayBeCoded = text[at] == '%' && at + 2 < text.size();
+        const auto byte = mayBeCoded ? base::hexByte(text[at + 1], text[at + 2]) : std::nullopt;
+        plain += byte ? static_cast<char>(*byte) : text[at];
+        if (byte) at += 2;
     }
     return plain;
 }

@@ -2,15 +2,10 @@
 
 #include <algorithm>
 
+#include "terrane/base/hex.h"
+
 namespace terrane::web {
 namespace {
-
-std::optional<int> hexDigit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    return std::nullopt;
-}
 
 std::optional<std::string> decoded(std::string_view text) {
     std::string out;
@@ -20,9 +15,9 @@ std::optional<std::string> decoded(std::string_view text) {
             continue;
         }
         if (k + 2 >= text.size()) return std::nullopt;
-        const auto high = hexDigit(text[k + 1]), low = hexDigit(text[k + 2]);
-        if (!high || !low) return std::nullopt;
-        out.push_back(static_cast<char>(*high * 16 + *low));
+        const auto byte = base::hexByte(text[k + 1], text[k + 2]);
+        if (!byte) return std::nullopt;
+        out.push_back(static_cast<char>(*byte));
         k += 2;
     }
     return out;
