@@ -48,7 +48,7 @@ base::Result<void> checkChunks(WorldConnection& world, store::CheckReport& repor
 
 base::Result<store::CheckReport> checkDatabase(const Address& address, const world::BlockRegistry& blocks) {
     store::CheckReport report;
-    auto world = openToRead(address, blocks);
+    auto world = openToRead(address, blocks, ReadAs::Snapshot);
     if (!world) {
         if (world.error().code != base::ErrorCode::Damaged) return tl::unexpected(world.error());
         report.fileProblems.push_back(world.error().message);
@@ -57,10 +57,6 @@ base::Result<store::CheckReport> checkDatabase(const Address& address, const wor
     report.format = world->contents.format;
     report.identity = world->contents.identity;
     report.unknownBlocks = world->contents.ids.unknown();
-    // One snapshot for all statements.
-    const auto begun =
-        world->connection.execute("BEGIN TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY");
-    if (!begun) return tl::unexpected(begun.error());
     if (auto checked = checkChunks(*world, report); !checked) return tl::unexpected(checked.error());
     const auto sizes = world->connection.run(kSizes);
     if (!sizes) return tl::unexpected(sizes.error());

@@ -19,6 +19,7 @@ using store::Regenerate;
 using store::SavedName;
 using store::WorldSharing;
 
+constexpr const char* kBeginSnapshot = "BEGIN TRANSACTION ISOLATION LEVEL REPEATABLE READ READ ONLY";
 constexpr Statement kCanWrite = {
     "SELECT has_table_privilege('chunks', 'INSERT') AND has_table_privilege('chunks', 'UPDATE') "
     "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
@@ -278,9 +279,12 @@ base::Result<WorldConnection> openToWrite(const Address& address, const world::B
     return opened;
 }
 
-base::Result<WorldConnection> openToRead(const Address& address, const world::BlockRegistry& blocks) {
+base::Result<WorldConnection> openToRead(const Address& address, const world::BlockRegistry& blocks,
+                                         ReadAs readAs) {
     auto connection = Connection::open(address);
     if (!connection) return tl::unexpected(connection.error());
+    if (readAs == ReadAs::Snapshot)
+        if (auto begun = connection->execute(kBeginSnapshot); !begun) return tl::unexpected(begun.error());
     const auto format = formatOf(*connection);
     if (!format) return tl::unexpected(format.error());
     if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);

@@ -40,9 +40,16 @@ struct WorldConnection {
                                                         const world::BlockRegistry& blocks,
                                                         const store::SaveAccess& access,
                                                         store::WorldSharing sharing);
+// What a reader sees of a world that others write.
+enum class ReadAs {
+    Statements,  // each statement sees what is committed when it begins
+    Snapshot,    // all see one moment, the block names included
+};
+
 // Opens for reading; changes nothing, takes no lock.
 [[nodiscard]] base::Result<WorldConnection> openToRead(const Address& address,
-                                                       const world::BlockRegistry& blocks);
+                                                       const world::BlockRegistry& blocks,
+                                                       ReadAs readAs = ReadAs::Statements);
 
 // Reads only the metadata. NotFound if there is no world.
 [[nodiscard]] base::Result<store::Metadata> readDatabaseMetadata(const Address& address);

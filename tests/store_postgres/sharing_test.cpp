@@ -1,6 +1,7 @@
 // Several programs with one world: which may open it together, and what requires exclusive access.
 #include <thread>
 
+#include "terrane/store_postgres/world_database.h"
 #include "tests/store_postgres/world_fixture.h"
 
 namespace terrane::store_postgres {
@@ -48,6 +49,21 @@ TEST_F(SharingTest, WhoMayOpenItBesideWhom) {
         EXPECT_TRUE(openReader(address_, registry_)) << "readers take no lock";
     }
     EXPECT_TRUE(tryOpen(kWorldMustBeThere, Alone)) << "all have left";
+}
+
+TEST_F(SharingTest, ASnapshotKnowsTheBlocksOfItsChunks) {
+    const auto store = open();
+    const auto chunksIn = [](WorldConnection& world) {
+        static constexpr Statement kCount = {"SELECT count(*) FROM chunks"};
+        return world.connection.run(kCount)->number(0, 0);
+    };
+    auto snapshot = openToRead(address_, registry_, ReadAs::Snapshot);
+    auto statements = openToRead(address_, registry_, ReadAs::Statements);
+    ASSERT_TRUE(snapshot && statements);
+    store->save({0, 0}, store::numberedChunk(1), Provenance::Edited);
+    ASSERT_TRUE(store->flush());
+    EXPECT_EQ(chunksIn(*snapshot), 0);
+    EXPECT_EQ(chunksIn(*statements), 1);
 }
 
 // A schema with the same name in another database, or another schema, is a different world.
