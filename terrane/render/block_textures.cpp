@@ -71,26 +71,27 @@ std::vector<base::Image> levelsInArray(std::vector<base::Image> mipmaps, int sid
 }
 
 base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& registry,
-                                              const TextureSource& source, int maxLayers) {
+                                              const TextureSource& source, const TextureLimits& limits) {
     const auto names = registry.textures();
     const int count = static_cast<int>(names.size());
-    const int most = std::min(static_cast<int>(shared::kMaxBlockTextures), maxLayers);
+    const int most = std::min(static_cast<int>(shared::kMaxBlockTextures), limits.layers);
     if (count > most) return base::fail("the blocks have {} textures: at most {} can be drawn", count, most);
     const auto images = readImages(names, source);
     if (!images) return tl::unexpected(images.error());
-    const int side = std::ranges::max(*images, {}, &base::Image::width).width;
+    const int largest = std::ranges::max(*images, {}, &base::Image::width).width;
+    const int side = std::min(largest, limits.side);
     BlockTextures textures;
     textures.array =
         gpu::Texture2DArray({{side, side}, count, gpu::fullLevels({side, side})}, GL_RGBA8, "block textures");
     for (std::size_t layer = 0; layer < images->size(); ++layer) {
-        const base::Image& image = (*images)[layer];
-        const auto levels =
-            levelsInArray(mipmaps(image, textureAlpha(registry, layer), textureWrap(registry, layer)), side);
+        auto mips = mipmaps((*images)[layer], textureAlpha(registry, layer), textureWrap(registry, layer));
+        std::erase_if(mips, [&](const base::Image& mip) { return mip.width > side; });
+        const auto times = static_cast<unsigned>(side / mips.front().width);
+        const auto levels = levelsInArray(std::move(mips), side);
         for (std::size_t level = 0; level < levels.size(); ++level) {
             textures.array.upload(static_cast<int>(level), static_cast<int>(layer), GL_RGBA, GL_UNSIGNED_BYTE,
                                   std::as_bytes(std::span(levels[level].rgba)));
         }
-        const auto times = static_cast<unsigned>(side / image.width);
         textures.doublings.push_back(static_cast<std::uint8_t>(std::countr_zero(times)));
     }
     return textures;

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -28,11 +29,17 @@ struct BlockTextures {
     std::vector<std::uint8_t> doublings;  // by layer: the array's side is the texture's × 2^n
 };
 
-// `maxLayers`: limit of the graphics driver. Colors stay sRGB bytes, as in the G-buffer: sampling does not
+struct TextureLimits {
+    int layers = 0;                              // of the graphics driver
+    int side = std::numeric_limits<int>::max();  // of the array, in pixels; larger textures lose their
+                                                 // largest levels
+};
+
+// Colors stay sRGB bytes, as in the G-buffer: sampling does not
 // decode them, and software renderers have a fast path for such formats. All images must be square with a
 // side that is a power of two; errors name the texture.
 base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& registry,
-                                              const TextureSource& source, int maxLayers);
+                                              const TextureSource& source, const TextureLimits& limits);
 
 // The levels of a texture in an array with this side: its mipmaps behind enlarged copies of the largest.
 std::vector<base::Image> levelsInArray(std::vector<base::Image> mipmaps, int side);

@@ -36,8 +36,9 @@ float aspectOf(glm::ivec2 size) {
 
 base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                         const TextureSource& textures, const gpu::DeviceInfo& device,
-                                        const QuadStoreSizes& quads) {
-    auto blockTextures = loadBlockTextures(blocks, textures, device.maxArrayLayers);
+                                        const QuadStoreSizes& quads, int maxTextureSide) {
+    const TextureLimits limits{device.maxArrayLayers, maxTextureSide};
+    auto blockTextures = loadBlockTextures(blocks, textures, limits);
     if (!blockTextures) return tl::unexpected(blockTextures.error());
     auto topColors = world::topColors(blocks, textures);
     if (!topColors) return tl::unexpected(topColors.error());
@@ -61,11 +62,12 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     renderer.clearChunks();
     renderer.shaders_ = &shaders;
     renderer.device_ = device;
+    renderer.textureLimits_ = limits;
     return renderer;
 }
 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
-    auto loaded = loadBlockTextures(blocks, textures, device_.maxArrayLayers);
+    auto loaded = loadBlockTextures(blocks, textures, textureLimits_);
     if (!loaded) return tl::unexpected(loaded.error());
     auto colors = world::topColors(blocks, textures);
     if (!colors) return tl::unexpected(colors.error());

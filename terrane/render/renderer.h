@@ -24,10 +24,12 @@ namespace terrane::render {
 
 class Renderer {
   public:
-    // The loader outlives the renderer.
+    // The loader outlives the renderer. `maxTextureSide`: of the textures that it keeps on the GPU, in
+    // pixels.
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                          const TextureSource& textures, const gpu::DeviceInfo& device,
-                                         const QuadStoreSizes& quads = {});
+                                         const QuadStoreSizes& quads = {},
+                                         int maxTextureSide = TextureLimits().side);
 
     // Replaces the textures, for the same blocks, from the next frame on. On failure the old ones stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
@@ -156,6 +158,7 @@ class Renderer {
 
     const gpu::ShaderLoader* shaders_ = nullptr;
     gpu::DeviceInfo device_;
+    TextureLimits textureLimits_;
     QuadStoreSizes quadSizes_;
     int viewDistance_ = 0;  // chunks
     std::size_t budgetBytes_ = SIZE_MAX, stagingBytes_ = 0, peakBytes_ = 0;

@@ -11,6 +11,7 @@ namespace terrane::view {
 namespace {
 
 constexpr std::uint32_t kQuads = 1024;  // one block has few
+constexpr int kTextureSide = 128;       // more pixels than a face has in the image
 constexpr int kZ = 100;                 // height of the block
 constexpr render::Camera kCamera{{5.3, 5.3, kZ + 2.6}, 45, -25, 24};
 
@@ -42,7 +43,8 @@ base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders
                                                 const world::BlockRegistry& blocks,
                                                 const render::TextureSource& textures,
                                                 const gpu::DeviceInfo& device) {
-    auto renderer = render::Renderer::create(shaders, blocks, textures, device, {.firstQuads = kQuads});
+    auto renderer =
+        render::Renderer::create(shaders, blocks, textures, device, {.firstQuads = kQuads}, kTextureSide);
     if (!renderer) return tl::unexpected(renderer.error());
     if (auto done = renderer->configure({kSize, kSize}, options()); !done)
         return tl::unexpected(done.error());

@@ -98,10 +98,10 @@ TEST(BlockTextures, MoreThanCanBeDrawnAreAnError) {
     }
     const world::BlockRegistry registry = textureRegistry(toml);
     ASSERT_EQ(registry.textures().size(), 4097u) << "those and the one of the missing block";
-    const auto byWord = loadBlockTextures(registry, textureNobodyReads, 1 << 20);
+    const auto byWord = loadBlockTextures(registry, textureNobodyReads, {.layers = 1 << 20});
     ASSERT_FALSE(byWord);
     EXPECT_EQ(byWord.error().message, "the blocks have 4097 textures: at most 4096 can be drawn");
-    const auto byDriver = loadBlockTextures(registry, textureNobodyReads, 2048);
+    const auto byDriver = loadBlockTextures(registry, textureNobodyReads, {.layers = 2048});
     ASSERT_FALSE(byDriver);
     EXPECT_EQ(byDriver.error().message, "the blocks have 4097 textures: at most 2048 can be drawn");
 }

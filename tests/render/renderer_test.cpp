@@ -276,10 +276,25 @@ TEST_F(RendererTest, TexturesOfOtherShapesAreAnError) {
         };
     };
     for (const auto& [width, height] : {std::pair(16, 8), {12, 12}, {0, 0}}) {
-        const auto made = loadBlockTextures(contentBlocks(), sized(width, height), 2048);
+        const auto made = loadBlockTextures(contentBlocks(), sized(width, height), {.layers = 2048});
         ASSERT_FALSE(made);
         EXPECT_NE(made.error().message.find("\"dirt\""), std::string::npos) << made.error().message;
     }
+}
+
+TEST_F(RendererTest, LimitedTexturesLoseTheirLargestLevels) {
+    const auto sized = [](std::string_view name) -> base::Result<base::Image> {
+        const int side = name == "dirt" ? 8 : 64;
+        return base::Image{side, side,
+                           std::vector<std::uint8_t>(static_cast<std::size_t>(4 * side * side), 200)};
+    };
+    const auto textures = loadBlockTextures(contentBlocks(), sized, {.layers = 2048, .side = 16});
+    ASSERT_TRUE(textures);
+    EXPECT_EQ(textures->array.shape().size, glm::ivec2(16));
+    EXPECT_EQ(textures->array.shape().levels, 5);
+    const auto names = contentBlocks().textures();
+    for (std::size_t layer = 0; layer < names.size(); ++layer)
+        EXPECT_EQ(textures->doublings[layer], names[layer] == "dirt" ? 1 : 0) << names[layer];
 }
 
 // After edits that replace the mesh sections they touch every frame is that of a renderer that got everything
