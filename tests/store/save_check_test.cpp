@@ -267,6 +267,15 @@ TEST_F(SaveCheckTest, NamesEveryDamagedChunk) {
     EXPECT_TRUE(report.fileProblems.empty());
 }
 
+TEST_F(SaveCheckTest, ListsAThousandDamagedChunksAndCountsTheRest) {
+    runSql(path_,
+           "WITH RECURSIVE numbers(n) AS (SELECT 1 UNION ALL SELECT n + 1 FROM numbers WHERE n < 1003) "
+           "INSERT INTO chunks SELECT -n, 0, x'00' FROM numbers");
+    const CheckReport report = check();
+    EXPECT_EQ(report.damaged.size(), 1000u);
+    EXPECT_EQ(report.unlisted, 3u);
+}
+
 TEST_F(SaveCheckTest, LooksAtAllLevels) {
     {
         const auto store = SqliteStore::open(path_, registry_, {});
