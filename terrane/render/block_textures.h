@@ -29,15 +29,15 @@ struct BlockTextures {
     std::vector<std::uint8_t> doublings;  // by layer: the array's side is the texture's × 2^n
 };
 
+// Of the array. A texture with a larger side loses its largest mipmaps.
 struct TextureLimits {
-    int layers = 0;                              // of the graphics driver
-    int side = std::numeric_limits<int>::max();  // of the array, in pixels; larger textures lose their
-                                                 // largest levels
+    int layers = 0;  // of the graphics driver
+    int side = std::numeric_limits<int>::max();
 };
 
-// Colors stay sRGB bytes, as in the G-buffer: sampling does not
-// decode them, and software renderers have a fast path for such formats. All images must be square with a
-// side that is a power of two; errors name the texture.
+// Colors stay sRGB bytes, as in the G-buffer: sampling does not decode them, and software renderers have a
+// fast path for such formats. All images must be square with a side that is a power of two; errors name the
+// texture.
 base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& registry,
                                               const TextureSource& source, const TextureLimits& limits);
 
