@@ -119,7 +119,7 @@ void TilePipeline::submit(ChunkPos tile) {
                                            ? kFirst
                                            : kAfterChunks + tileDistance(table_.view.center, tile);
     const std::uint64_t number = jobCount_++;
-    const auto work = [tile, number, method = method_, parts = parts_, results = results_](const auto&) {
+    const auto work = [tile, number, method = method_, parts = parts_, results = results_] {
         if (results->isOver) return;
         try {
             const auto start = std::chrono::steady_clock::now();

@@ -99,7 +99,7 @@ TEST_F(TilePipelineTest, TilesThatAreNoLongerRequestedAreNotMade) {
     base::JobSystem jobs(1);
     TilePipeline tiles({jobs, contentBlocks(), generators_});
     std::promise<void> released;
-    jobs.submit(-100, [wait = released.get_future().share()](const auto&) { wait.wait(); });
+    jobs.submit(-100, [wait = released.get_future().share()] { wait.wait(); });
     std::size_t given = 0;
     for (const int x : {0, 100000}) {
         tiles.setView({{x, 0}, 4, 64, 8});
