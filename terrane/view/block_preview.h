@@ -1,5 +1,5 @@
 // Lit images of single blocks, for the selected block and the slots of containers. Each is drawn once and
-// kept: 83 KB a block type, 16 MB for all, and 11 MB of block textures in a small size. Used on the thread of
+// kept: 83 KB a block type, 16 MB for all, and at most 11 MB of textures. Used on the thread of
 // the OpenGL context.
 #pragma once
 
