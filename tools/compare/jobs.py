@@ -123,15 +123,14 @@ class Comparison:
     def terrane_joining(self, _):
         with self.scratch() as folder:
             row = joining().terrane(self.program, pathlib.Path(folder))
-        return {"join_kb": row["kb"], "join_first_kb": row["kb"], "join_seconds": row["seconds"]}, row
+        return {"join_kb": row["kb"]}, row
 
     def luanti_joining(self, _):
         client, server, _ = (process.find_program(names, luanti.HINT + " xvfb")
                              for names in (luanti.CLIENTS, luanti.SERVERS, ("xvfb-run",)))
         with self.scratch() as folder:
-            first, second = joining().luanti(pathlib.Path(folder), client, server)
-        return ({"join_kb": second["kb"], "join_first_kb": first["kb"], "join_seconds": second["seconds"]},
-                {"first": first, "second": second})
+            row = joining().luanti(pathlib.Path(folder), client, server)
+        return {"join_kb": row["kb"]}, row
 
 
 def joining():

@@ -46,12 +46,8 @@ WORLD = (
 
 JOINING = (
     Measure("join_kb", "Traffic of joining, view of 256 blocks", "kB", LOWER, "Luanti",
-            "both ways with TLS; the client generates the land itself and receives edits",
-            "both ways over UDP, with the game's media already present"),
-    Measure("join_first_kb", "Traffic of joining for the first time", "kB", LOWER, "Luanti",
-            "the same: textures are part of the program", "with the game's media"),
-    Measure("join_seconds", "Time of joining", "s", LOWER, "Luanti", "until all edits in view are known",
-            "until no more data arrives, with the game's media already present"),
+            "a bot, until it knows all edits in view; both ways with TLS. A client generates the land itself",
+            "a client with a window and the game's media, until no more data arrives; both ways over UDP"),
 )
 
 FLOORS = (
