@@ -79,7 +79,7 @@ def effect_costs(s):
     return Table(
         "effect-costs", "Cost of each effect",
         f"Landscape, {s.size}, V={s.view_distance}: milliseconds of a frame with `--preset low` with the effect off "
-        "and on, all other options unchanged. Differences below about a tenth of the frame are noise; CPU time of all "
+        "and on, all other options unchanged. Differences below about a fifth of the frame are noise; CPU time of all "
         "cores is more stable when other programs run.",
         "view distance, size", ["effect", "off, ms", "on, ms", "difference, ms", "difference, CPU ms"], rows,
         [Plot("effect", "added milliseconds", [3, 4])])
