@@ -293,8 +293,11 @@ class Playing(BrowserTest):
         self.page.wait_until("return document.querySelector('.player span')?.innerText === 'Zoë0'", "the player")
         where = "const [p] = [...terrane.live.players.values()].map(marker => marker.place); return p && [p.x, p.y]"
         first = self.page.wait_until(where, "where it is")
+        self.page.js("window.row = document.querySelector('#playing button')")
         self.page.wait_until(f"const [p] = [...terrane.live.players.values()].map(marker => marker.place);"
                              f"return p && Math.hypot(p.x - {first[0]}, p.y - {first[1]}) > 3", "a step")
+        self.assertTrue(self.page.js("return window.row !== null && window.row === document.querySelector('#playing button')"),
+                        "a row that is replaced would lose a click")
         self.page.image("player")
         self.server.say("kick Zoë0")
         self.page.wait_until("return document.querySelector('.player') === null", "an empty map")

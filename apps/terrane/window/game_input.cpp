@@ -1,7 +1,6 @@
 #include "apps/terrane/window/game_input.h"
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
 #include "apps/terrane/window/game_actions.h"
@@ -120,15 +119,6 @@ void turn(GameState& game, const InputEvent& event) {
     game.player.turn(event.x * degrees, (game.settings.invertY ? -event.y : event.y) * degrees);
 }
 
-// Touchpads and smooth wheels turn by parts of a step, or sideways.
-void turnWheel(GameState& game, double y) {
-    double& wheel = game.input.wheel;
-    wheel = wheel * y < 0 ? y : wheel + y;
-    const double steps = std::trunc(wheel);
-    wheel -= steps;
-    game::stepSlot(game.interaction.hotbar, static_cast<int>(-steps));
-}
-
 }  // namespace
 
 void handleEvents(GameState& game) {
@@ -148,7 +138,8 @@ void handleEvents(GameState& game) {
                 onButton(game, event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (input.isCaptured || game.container) turnWheel(game, event.y);
+                if (input.isCaptured || game.container)
+                    game::stepSlot(game.interaction.hotbar, -input.wheel.turn(event.y));
                 break;
             case Type::CursorMove:
                 if (wasCaptured && input.isCaptured) turn(game, event);

@@ -18,6 +18,7 @@
 #include "apps/terrane/window/remote_view.h"
 #include "apps/terrane/window/settings_dialog.h"
 #include "apps/terrane/window/shader_watch.h"
+#include "apps/terrane/window/wheel.h"
 #include "terrane/base/timed_value.h"
 #include "terrane/game/block_interaction.h"
 #include "terrane/game/bookmarks.h"
@@ -32,7 +33,7 @@ struct GameInput {
     bool withShift = false, withControl = false;  // of the handled event, else current
     PadReader pad;
     double timeHeldSeconds = 0;  // a key of time is held
-    double wheel = 0;            // turned by less than a step, away from the player
+    Wheel wheel;
 };
 
 // The menu over the game, and its questions.
