@@ -7,8 +7,8 @@ namespace terrane::app {
 
 class Wheel {
   public:
-    // `y`: of an InputEvent of the wheel. Returns the whole steps since the last ones, away from the player; a
-    // turn in the other direction begins anew.
+    // `y`: of an InputEvent of the wheel. Returns the whole steps since the last ones, away from the player;
+    // a turn in the other direction begins anew.
     int turn(double y) {
         part_ = part_ * y < 0 ? y : part_ + y;
         const double steps = std::trunc(part_);
