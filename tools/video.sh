@@ -8,7 +8,7 @@ output=${1:-tour.mp4}
 [ $# -eq 0 ] || shift
 
 "$root/run" build
-cmake -S "$root" -B "$root/build" -DTERRANE_EXAMPLES=ON --log-level=WARNING
+cmake -S "$root" -B "$root/build" -G Ninja -DTERRANE_EXAMPLES=ON --log-level=WARNING
 cmake --build "$root/build" --target village
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT

@@ -81,7 +81,7 @@ def game(page):
         page.run("mkdir -p ~/small-game && cd ~/small-game")
         page.do(page.quoted("cp TERRANE/examples/small_game.cpp .").replace("TERRANE", str(page.source)))
         page.write("CMakeLists.txt", page.code("cmake"))
-        page.run('cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$HOME/.local"')
+        page.run('cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$HOME/.local"')
         page.run("cmake --build build")
         with Display(SCREEN) as display, window(page, display, page.quoted("./build/small_game world.sqlite"), "Ore hills") as own:
             own.press("w", "space", "Escape")

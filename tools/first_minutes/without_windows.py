@@ -12,7 +12,7 @@ def library(page):
     with page.step(3):
         page.write("first.cpp", page.code("cpp"))
     with page.step(4):
-        page.run('cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$HOME/.local"')
+        page.run('cmake -S . -B build -G Ninja -DCMAKE_BUILD_TYPE=Release -DCMAKE_PREFIX_PATH="$HOME/.local"')
         page.run("cmake --build build")
         page.run("./build/first")
         page.prints("ground at 8,8: z = 86", "above the lamp: red 13, daylight 15", "22 quads, 176 bytes")
