@@ -151,12 +151,22 @@ TEST_F(ServerTest, LandIsLoadedOnlyAroundThoseWhoBuild) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
-    const world::ChunkPos beside = world::offsetBy(world::chunkOf(ann.pose.position), -1, -1);
-    const auto isLoaded = [&] { return server.state().session.world().maybeChunkAt(beside) != nullptr; };
+    const auto isLoaded = [&] {
+        const world::ChunkPos beside = world::offsetBy(world::chunkOf(ann.pose.position), -1, -1);
+        return server.state().session.world().maybeChunkAt(beside) != nullptr;
+    };
     for (int tick = 0; tick < 200; ++tick) step(server, {&ann});
     EXPECT_FALSE(isLoaded());
     ASSERT_EQ(ann.put(above(ann), "glass"), game::EditResult::Applied);
     EXPECT_TRUE(stepUntil(server, {&ann}, isLoaded));
+    for (int tick = 0; tick < 410; ++tick) step(server, {&ann});  // twenty seconds and a bit
+    server.state().clients.at(ann.wire->id).role = game::Role::Operator;
+    ann.pose.position.x += 16 * 20;
+    for (int tick = 0; tick < 100; ++tick) {
+        step(server, {&ann});
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));  // a load takes some
+    }
+    EXPECT_FALSE(isLoaded()) << "she only walks now";
 }
 
 // A player may still be known from the server that she left a moment ago.
@@ -235,6 +245,25 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
     TestServer again(folder_.path());
+    again.state().session.pipeline().chunkAt(world::chunkOf(pos));
+    EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
+}
+
+TEST_F(ServerTest, ARollbackLoadsItsChunks) {
+    world::BlockPos pos;
+    {
+        TestServer server(folder_.path());
+        TestPlayer ann(server, testIdentity("Ann"));
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+        pos = above(ann);
+        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    TestServer again(folder_.path());
+    ASSERT_FALSE(again.state().session.world().maybeChunkAt(world::chunkOf(pos)));
+    EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
+    ASSERT_TRUE(stepUntil(again, {}, [&] { return again.state().rollbacks.empty(); }));
     again.state().session.pipeline().chunkAt(world::chunkOf(pos));
     EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
 }
