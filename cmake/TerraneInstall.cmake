@@ -137,6 +137,8 @@ set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrane)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA "${PROJECT_SOURCE_DIR}/packaging/python3-terrane/prerm")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 # An extension is for one version of Python.
 math(EXPR next_python "${TERRANE_PYTHON_MINOR} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${TERRANE_PYTHON_MINOR}), python3 (<< 3.${next_python}), python3-numpy")
