@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <map>
@@ -115,6 +116,23 @@ TEST(Scatter, LevelsAgree) {
     EXPECT_GT(far.size(), 120u);
     EXPECT_LT(far.size(), nearby.size());
     for (const auto& point : far) EXPECT_TRUE(nearby.contains(point));
+}
+
+// A column of 8×8 blocks meets up to 3×3 squares of 5×5, and need not hold one whole.
+TEST(Scatter, WideColumnsFindWhatIsInThem) {
+    const auto nearby = Points(0, 5, 1).around(8);
+    const std::vector<ColumnPoint> columns = Points(3, 5, 1).in({0, 0, 3});
+    int empty = 0;
+    for (int c = 0; c < 256; ++c) {
+        const int left = c % 16 * 8, bottom = c / 16 * 8;
+        const bool hasPoint = std::ranges::any_of(nearby, [&](const auto& point) {
+            return point.first >= left && point.first < left + 8 && point.second >= bottom &&
+                   point.second < bottom + 8;
+        });
+        EXPECT_EQ(columns[static_cast<std::size_t>(c)].isHere, hasPoint) << c;
+        empty += hasPoint ? 0 : 1;
+    }
+    EXPECT_GT(empty, 0);
 }
 
 TEST(Scatter, HashesDiffer) {
