@@ -14,6 +14,14 @@ class ServerTest : public testing::Test {
         const world::BlockPos eyes = world::blockOf(player.pose.position);
         return {eyes.x + dx, eyes.y, eyes.z + 2};
     }
+    // Ann joins and places a block at `pos`, which the server acknowledges.
+    void annBuilds(TestServer& server, world::BlockPos& pos) {
+        TestPlayer ann(server, testIdentity("Ann"));
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+        pos = above(ann);
+        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
+        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    }
     base::TempFolder folder_;
 };
 
@@ -109,11 +117,7 @@ TEST_F(ServerTest, WhatWasAcknowledgedIsThereAfterACrash) {
     world::BlockPos pos;
     {
         TestServer server(first);
-        TestPlayer ann(server, testIdentity("Ann"));
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
-        pos = above(ann);
-        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        ASSERT_NO_FATAL_FAILURE(annBuilds(server, pos));
         // The state after a crash: only the server's file has the edit.
         for (const auto& entry : std::filesystem::directory_iterator(first)) {
             const std::string name = entry.path().filename().string();
@@ -236,11 +240,7 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
     world::BlockPos pos;
     {
         TestServer server(folder_.path());
-        TestPlayer ann(server, testIdentity("Ann"));
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
-        pos = above(ann);
-        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        ASSERT_NO_FATAL_FAILURE(annBuilds(server, pos));
         EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
@@ -253,11 +253,7 @@ TEST_F(ServerTest, ARollbackLoadsItsChunks) {
     world::BlockPos pos;
     {
         TestServer server(folder_.path());
-        TestPlayer ann(server, testIdentity("Ann"));
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
-        pos = above(ann);
-        ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
-        ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        ASSERT_NO_FATAL_FAILURE(annBuilds(server, pos));
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
     TestServer again(folder_.path());
