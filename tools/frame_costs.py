@@ -4,8 +4,8 @@
     frame_costs.py PROGRAM [--rounds N] [--size WxH] [--scene NAME] [--quick]
 
 Every round runs all command lines once, in turn, so that a slow minute affects all of them; a figure is the median of the
-rounds, a ratio the median of the ratios within rounds, with the minimum and maximum. Run nothing else meanwhile: about
-half an hour on two cores without a graphics card. --quick: one round of small images, to see that it works."""
+rounds, a ratio the median of the ratios within rounds, with the minimum and maximum. Run nothing else meanwhile.
+--quick: one round of small images, to see that it works."""
 import argparse
 import json
 import pathlib
