@@ -24,9 +24,9 @@ class BenchRunnerTest : public testing::Test {
                                << " ] || kill -SEGV $$\necho '{\"frames\": 3}'\n";
         std::filesystem::permissions(program, std::filesystem::perms::owner_all);
         auto results = ResultFile::create(folder_ / "results.jsonl", {{"runs", 1}}).value();
-        BenchRunner runner(program, folder_.path(), 1, {}, results);
+        BenchRunner runner(program, folder_.path(), {}, results);
         testing::internal::CaptureStderr();
-        EXPECT_TRUE(runner.measure(kMeasured));
+        EXPECT_TRUE(runner.measure(kMeasured, 1));
         messages_ = testing::internal::GetCapturedStderr();
         const std::string text = *base::readFile(folder_ / "results.jsonl");
         return nlohmann::json::parse(text.substr(text.rfind('\n', text.size() - 2) + 1));

@@ -78,6 +78,12 @@ class Bench(ProgramTest):
             self.assertGreater(result["run"]["seconds"], 0)
         self.assertEqual([path.name for path in self.output.iterdir()], ["results.jsonl"])
 
+    def test_runs_are_made_in_rounds(self):
+        self.assertEqual(self.bench("--only", "disk", "--runs", "2").returncode, 0)
+        cells = self.cells()
+        self.assertEqual(len(cells), 8)
+        self.assertEqual(cells[:4], cells[4:])
+
     def test_the_report(self):
         self.needsReport()
         self.assertEqual(self.bench("--only", "disk").returncode, 0)

@@ -29,20 +29,18 @@ std::string lastLine(const fs::path& file) {
 
 }  // namespace
 
-BenchRunner::BenchRunner(fs::path program, fs::path work, int runs, Arguments drawOptions,
-                         ResultFile& results)
+BenchRunner::BenchRunner(fs::path program, fs::path work, Arguments drawOptions, ResultFile& results)
     : program_(std::move(program)),
       work_(std::move(work)),
-      runs_(runs),
       drawOptions_(std::move(drawOptions)),
       results_(results) {}
 
-base::Result<void> BenchRunner::measure(const Cell& cell) {
+base::Result<void> BenchRunner::measure(const Cell& cell, int runs) {
     const int there = results_.runsOf(cell);
-    if (there >= runs_) return {};
+    if (there >= runs) return {};
     if (auto ready = prepare(cell); !ready)
         return results_.addFailure(cell, "before it: " + ready.error().message);
-    for (int run = there; run < runs_; ++run) {
+    for (int run = there; run < runs; ++run) {
         const auto result = runOnce(cell.arguments);
         const auto kept =
             result ? results_.add(cell, *result) : results_.addFailure(cell, result.error().message);

@@ -12,12 +12,12 @@ class BenchRunner {
   public:
     // `program`: this program's file. `work`: an absolute folder for saves and images of the runs.
     // `drawOptions`: added to each run that draws, but not to its cell. The results outlive the runner.
-    BenchRunner(std::filesystem::path program, std::filesystem::path work, int runs, Arguments drawOptions,
+    BenchRunner(std::filesystem::path program, std::filesystem::path work, Arguments drawOptions,
                 ResultFile& results);
 
-    // Makes the missing runs of a cell. A failed run is recorded in the results; an error means that results
-    // cannot be written.
-    [[nodiscard]] base::Result<void> measure(const Cell& cell);
+    // Runs a cell until it has `runs` results, earlier ones included. Stops at a failed run, which is
+    // recorded in the results; an error means that results cannot be written.
+    [[nodiscard]] base::Result<void> measure(const Cell& cell, int runs);
 
   private:
     // The JSON that the run printed.
@@ -25,7 +25,6 @@ class BenchRunner {
     base::Result<void> prepare(const Cell& cell);
 
     std::filesystem::path program_, work_;
-    int runs_;
     Arguments drawOptions_;
     ResultFile& results_;
     std::set<std::string> prepared_;

@@ -116,14 +116,20 @@ void printPlan(const json& about, const std::vector<CellGroup>& groups) {
     }
 }
 
-base::Result<void> measureAll(const std::vector<Cell>& cells, BenchRunner& runner, ResultFile& results) {
-    base::ProgressBar bar("measuring", cells.size());
-    for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (auto done = runner.measure(cells[k]); !done) return done;
-        const std::string_view failure = results.failureOf(cells[k]);
-        if (!failure.empty()) base::logWarning("{}: {}", keyOf(cells[k]), failure);
-        bar.set(k + 1);
-    }
+// In rounds of one run of each cell, so that a slow minute does not affect all runs of a cell. A cell that
+// failed is not run again.
+base::Result<void> measureAll(const std::vector<Cell>& cells, int rounds, BenchRunner& runner,
+                              ResultFile& results) {
+    base::ProgressBar bar("measuring", cells.size() * static_cast<std::size_t>(rounds));
+    std::size_t done = 0;
+    for (int round = 1; round <= rounds; ++round)
+        for (const Cell& cell : cells) {
+            bar.set(++done);
+            if (!results.failureOf(cell).empty()) continue;
+            if (auto measured = runner.measure(cell, round); !measured) return measured;
+            if (const std::string_view failure = results.failureOf(cell); !failure.empty())
+                base::logWarning("{}: {}", keyOf(cell), failure);
+        }
     return {};
 }
 
@@ -163,8 +169,8 @@ base::Result<void> bench(BenchOptions& options) {
     Arguments drawOptions = {"--horizon", "0"};  // the thesis measured chunks only
     if (options.gpuMemory)
         drawOptions.insert(drawOptions.end(), {"--gpu-memory", std::to_string(*options.gpuMemory)});
-    BenchRunner runner(program, work->path(), settings.runs, drawOptions, *results);
-    if (auto done = measureAll(cells, runner, *results); !done) return done;
+    BenchRunner runner(program, work->path(), drawOptions, *results);
+    if (auto done = measureAll(cells, settings.runs, runner, *results); !done) return done;
     options.anyFailed = results->failureCount() > 0;
     base::logInfo("{} measurements, {} failed: {}", cells.size(), results->failureCount(), path.string());
     return {};
