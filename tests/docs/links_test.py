@@ -2,7 +2,7 @@
 """Checks the pages README.md, CHANGELOG.md and docs/**/*.md. Usage: links_test.py ROOT [PROGRAM]
 
 - Relative links and images name files that exist; "#heading" names a heading, by the anchors that GitHub makes.
-- Each page of docs/ can be reached by links from docs/index.md.
+- Each page of docs/ can be reached by links from docs/index.md, and is in the navigation of the site (mkdocs.yml).
 - Commands in code ("terrane map --radius 8") use subcommands and options of PROGRAM. CHANGELOG.md, which names former
   ones, is skipped; so are all commands without PROGRAM, or if it is built without graphics.
 """
@@ -18,6 +18,7 @@ import unittest
 
 HANG_SECONDS = 60
 START = "docs/index.md"
+SITE = "mkdocs.yml"
 # Code that is not a command of the program: an option that a tutorial adds, bytes that a client signs.
 EXCEPTIONS = {("docs/contributing.md", "terrane render has no option --sepia"),
               ("docs/protocol.md", "terrane has no subcommand login")}
@@ -29,6 +30,7 @@ REFERENCE = re.compile(r"^ {0,3}\[[^\]]+\]:\s*<?(\S+?)>?(?:\s|$)", re.MULTILINE)
 ATTRIBUTE = re.compile(r"<(?:img|a)\b[^>]*?\b(?:src|href)=[\"']([^\"']+)[\"']", re.IGNORECASE)
 HEADING = re.compile(r"^ {0,3}#{1,6}\s+(.*?)\s*#*\s*$", re.MULTILINE)
 ANCHOR = re.compile(r"<[^>]*\b(?:id|name)=[\"']([^\"']+)[\"']", re.IGNORECASE)
+NAVIGATION = re.compile(r"^ +- .*: (\S+\.md)$", re.MULTILINE)
 COMMAND = re.compile(r"^(?:\$ )?(?:[A-Z_]+=\S* )*(?:xvfb-run (?:-\S+ )*|sudo )?(?:[\w.~$/-]*/)?terrane(?: |$)(.*)$")
 OPTION = re.compile(r"(?<![\w-])--[a-z][a-z0-9-]*")
 
@@ -186,6 +188,12 @@ class Pages:
         return [f"{self.name(p)}: no links lead here from {START}"
                 for p in self.pages if p not in reached and p.parent != self.root]
 
+    def not_in_navigation(self):
+        docs = self.root / "docs"
+        shown = {docs / name for name in NAVIGATION.findall((self.root / SITE).read_text(encoding="utf-8"))}
+        return [f"{self.name(p)}: is not in the navigation of {SITE}"
+                for p in self.pages if docs in p.parents and p not in shown]
+
     def unknown_commands(self, program):
         for page in self.pages.values():
             if page.path.name == "CHANGELOG.md":
@@ -216,6 +224,9 @@ class Docs(unittest.TestCase):
 
     def test_all_pages_are_reached(self):
         self.expect_none(self.pages.unreachable())
+
+    def test_all_pages_are_in_the_navigation(self):
+        self.expect_none(self.pages.not_in_navigation())
 
     def test_commands_are_known(self):
         if not self.program:
@@ -277,6 +288,10 @@ class Faults(unittest.TestCase):
     def test_an_unreachable_page(self):
         self.write("docs/start/alone.md", "# Alone\n[start](../index.md)\n")
         self.assertEqual(Pages(self.root).unreachable(), ["docs/start/alone.md: no links lead here from docs/index.md"])
+
+    def test_a_page_that_is_not_in_the_navigation(self):
+        self.write("mkdocs.yml", "nav:\n  - Start: index.md\n")
+        self.assertEqual(Pages(self.root).not_in_navigation(), ["docs/other.md: is not in the navigation of mkdocs.yml"])
 
     def test_unknown_commands_and_options(self):
         good = "`terrane --radius 3`, `terrane map --help`, `terraneTool --x`, `cmake --build x`\n"
