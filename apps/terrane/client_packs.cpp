@@ -10,6 +10,7 @@
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/printable.h"
+#include "terrane/net/plain_text.h"
 #include "terrane/pack/installed_packs.h"
 #include "terrane/pack/pack_archive.h"
 #include "terrane/pack/pack_files.h"

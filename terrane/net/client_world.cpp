@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "terrane/net/plain_text.h"
 #include "terrane/net/view_range.h"
 #include "terrane/store/structure_file.h"
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/net/plain_text.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_view.h"
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "terrane/net/plain_text.h"
 #include "terrane/net/record_values.h"
-#include "terrane/net/wire.h"
 
 namespace terrane::net {
 

@@ -2,6 +2,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/net/frames.h"
+#include "terrane/net/plain_text.h"
 
 namespace terrane::net {
 namespace {

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "terrane/net/keys.h"
+#include "terrane/net/plain_text.h"
 #include "terrane/net/server_clients.h"
 #include "terrane/net/server_history.h"
 #include "terrane/net/server_places.h"

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "terrane/net/plain_text.h"
+
 namespace terrane::net {
 namespace {
 

@@ -1,22 +1,8 @@
 #include "terrane/net/wire.h"
 
-#include "terrane/base/printable.h"
+#include "terrane/net/plain_text.h"
 
 namespace terrane::net {
-
-bool isPlainText(std::string_view text) {
-    return base::printable(text) == text;
-}
-
-std::string plainText(std::string_view text, std::size_t maxBytes) {
-    std::string line = base::printable(text);
-    if (line.size() <= maxBytes) return line;
-    // Cut at a character boundary.
-    std::size_t end = maxBytes;
-    while (end > 0 && (static_cast<unsigned char>(line[end]) & 0xC0) == 0x80) --end;
-    line.resize(end);
-    return line;
-}
 
 void WireWriter::number(std::uint64_t value) {
     for (; value >= 0x80; value >>= 7) fixed(static_cast<std::uint8_t>(value | 0x80));

@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -32,11 +31,6 @@ constexpr std::uint64_t zigzag(std::int64_t value) {
 constexpr std::int64_t unzigzag(std::uint64_t value) {
     return static_cast<std::int64_t>(value >> 1 ^ (0 - (value & 1)));
 }
-
-// Whether the text is UTF-8 without characters that end or reorder lines (base/printable.h).
-bool isPlainText(std::string_view text);
-// Escapes any text so that isPlainText() holds, and cuts it to `maxBytes` at a character.
-std::string plainText(std::string_view text, std::size_t maxBytes);
 
 class WireWriter {
   public:
@@ -114,7 +108,7 @@ class WireReader {
         require(read < static_cast<std::uint8_t>(count));
         value = hasFailed() ? E{} : static_cast<E>(read);
     }
-    void text(std::string& value, std::size_t maxBytes);  // isPlainText()
+    void text(std::string& value, std::size_t maxBytes);  // isPlainText() (plain_text.h)
     void data(Bytes& value, std::size_t maxBytes);
     template <std::size_t N>
     void array(std::array<std::byte, N>& value) {
