@@ -123,8 +123,7 @@ HWY_INLINE void simplexOctave(const Simplex2DTile::Octave& o, const RowList& row
             return write(row, lane, simplexSum(cells, isRight, corners.own, middle, corners.opposite));
         }
         const VU one = hn::Set(du, 1u);
-        const VU right = hn::And(hn::BitCast(du, hn::VecFromMask(df, isRight)), one),
-                 up = hn::Sub(one, right);
+        const VU right = hn::IfThenElseZero(hn::RebindMask(du, isRight), one), up = hn::Sub(one, right);
         write(row, lane,
               simplexSum(cells, isRight, gradientsAt(cells.x, cells.y, seed),
                          gradientsAt(hn::Add(cells.x, right), hn::Add(cells.y, up), seed),
