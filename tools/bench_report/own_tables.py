@@ -46,7 +46,7 @@ def goals(s):
     ]
     return Table(
         "goals", "Goals on two cores without a graphics card",
-        "Landscape, overworld, all effects on. The goals are for V=32 (view distance in chunks) and a quiet machine. "
+        "Landscape, overworld, `--preset low` at 320x180. The goals are for V=32 (view distance in chunks) and a quiet machine. "
         "The last column is the thesis, with a graphics card.",
         "view distance, area, time of flight", ["quantity", "goal", "measured", "thesis"], rows)
 
@@ -80,7 +80,7 @@ def stages(s):
                  "non-uniform bricks: 5 to 6 per chunk, unpacked to a few bytes per block and searched"),
                 ("light, stage 2", loaded, task("light"), [light, light], 0,
                  "twelve borders to neighbors, changed rows, packing"),
-                ("mesh", loaded, task("mesh"), [blocks, quads], 0, "bit planes of sections, 16 ns per quad"),
+                ("mesh", loaded, task("mesh"), [blocks, quads], 0, "bit planes of sections, merging faces"),
                 ("upload", loaded, Value("/milliseconds/upload", 1000, per=CHUNKS_IN_VIEW),
                  [quads, quads, light_gpu, light_gpu], 0, "the driver's copies"))]
     rows.append(["memory copied by one thread, GB/s", value(MEMORY_COPY, Value("/bytes_per_second", 1e-9)), "–", ""])
@@ -104,7 +104,8 @@ def passes(s):
     return Table(
         "passes", "Passes of the frame",
         f"GPU milliseconds of each pass, {s.size}, V={s.view_distance}. The last column is nanoseconds per pixel of "
-        "the image (the software renderer draws 4 samples each). A pass that does not run has no time.",
+        "the image (the software renderer draws 4 samples each). A pass that does not run has no time; "
+        "shadow maps are kept while the sun and the camera stand still.",
         "view distance, size", ["pass", *(f"{scene}, ms" for scene in SCENES), "landscape, ns per pixel"], rows,
         [Plot("pass", "milliseconds", [1, 2, 3, 4])])
 
