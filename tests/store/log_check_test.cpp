@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <array>
+#include <cstdint>
 #include <fstream>
 
 #include "tests/base/temp_folder.h"
