@@ -5,7 +5,7 @@
 # connections do to a server, targets of browsers, caches of maps. Inputs that reach new code are kept in
 # build-fuzz/corpus; each run starts from them and from tests/fuzz/corpus.
 #
-#   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each by default, two at a time; NAME as in
+#   tools/fuzz.sh [SECONDS] [NAME…]    10 seconds each by default, two at a time; 0: only the kept inputs. NAME as in
 #                                      tests/fuzz/NAME_fuzz.cpp, all of them by default. Exits with an error if
 #                                      one finds a fault
 #   build-fuzz/fuzz_NAME FILE          runs one input again
@@ -48,14 +48,15 @@ fuzz() {
     local log="$BUILD_FOLDER/$name.log" corpus="$BUILD_FOLDER/corpus/$name"
     # Large enough for chunks of many sections.
     [[ $name == chunk_codec || $name == region ]] && max_length=20000
-    local folders=("$corpus") options=()
+    local folders=("$corpus") options=("-max_total_time=$SECONDS_TO_RUN")
+    [[ $SECONDS_TO_RUN != 0 ]] || options=(-runs=0)  # for libFuzzer, 0 seconds have no end
     [[ -d tests/fuzz/seeds/$name ]] && folders+=("tests/fuzz/seeds/$name")
     [[ -f tests/fuzz/$name.dict ]] && options+=("-dict=tests/fuzz/$name.dict")
     # Inputs found by earlier runs, reduced to those that add coverage (libFuzzer's -merge=1).
     mkdir -p "$corpus"
     [[ ! -f tests/fuzz/corpus/$name.tar.gz ]] || tar -xf "tests/fuzz/corpus/$name.tar.gz" -C "$corpus"
     # A thread keeps up to 64 MiB for a chunk with that size in its header, and zstd as much; an image takes 256 MiB.
-    if ! "$BUILD_FOLDER/fuzz_$name" -max_total_time="$SECONDS_TO_RUN" -max_len="$max_length" -timeout=10 \
+    if ! "$BUILD_FOLDER/fuzz_$name" -max_len="$max_length" -timeout=10 \
         -rss_limit_mb=1536 -artifact_prefix="$BUILD_FOLDER/$name-" -print_final_stats=1 "${options[@]}" \
         "${folders[@]}" >"$log" 2>&1; then
         grep -a -B 5 -A 25 -m 1 "ERROR: " "$log" || tail -n 20 "$log"

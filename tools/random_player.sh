@@ -4,6 +4,6 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-cmake --preset asan-window -DCMAKE_UNITY_BUILD=ON --log-level=WARNING
-cmake --build build-asan-window --target terrane
-exec python3 tools/random_player.py build-asan-window/terrane "${1:-15}" --seed "${2:-1}"
+cmake --preset asan -DCMAKE_UNITY_BUILD=ON --log-level=WARNING
+cmake --build build-asan --target terrane
+exec python3 tools/random_player.py build-asan/terrane "${1:-15}" --seed "${2:-1}"

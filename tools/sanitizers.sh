@@ -1,44 +1,37 @@
 #!/usr/bin/env bash
-# Builds the tests without graphics under Clang's sanitizers and runs them.
+# Builds the tests under Clang's sanitizers and runs them.
 #
-#   tools/sanitizers.sh [PART…]    all parts unless some are named
+#   tools/sanitizers.sh [PART…]    both parts unless one is named
 #
-#   blocks     address, undefined behavior: base, shared, world, content, sound, store, light, mesh, stream, faults
-#   land       the same: gen, lua, map, volume, formats, pack
-#   servers    the same: game, net, databases, web, and the program without graphics with its scripts
+#   address    address, undefined behavior: all modules, also those that draw (in software), and the scripts that use the
+#              program without a window; before them the fuzzers, on the inputs that tests/fuzz keeps
 #   threads    the thread sanitizer: base, store, stream, game, whose objects threads share
 #
-# Each part of the address sanitizer also runs the fuzzers of its modules for three seconds on the inputs that tests/fuzz
-# keeps and on new ones; tools/fuzz.sh 600 runs longer, in a build that guides them. Needs clang, libclang-rt-dev, lld.
+# TERRANE_DEPTH=all runs all cases, and each fuzzer for a minute on new inputs; tools/fuzz.sh 600 runs longer, in a build
+# that guides them. Needs clang, libclang-rt-dev, lld.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# Tests that take long under a sanitizer and run no code that other tests do not: the character of generated land,
-# searches of numbers, whole meshes and maps, shares of what is built, long random plays, database servers and scripts
-# about them.
-readonly LONG_BLOCKS=(
-    base.Utf8.ExactlyTheCodes faults.SimulationTest.NothingIsLost light.BatchLighter.DoesWhat
-    light.LightChunk.EqualsTheReferenceOfALarger light.RelightRandom.Caves light.RelightRandom.Layers
-    light.RelightRandom.ScatteredBlocks light.RelightRandom.Sea light.RelightRandom.Solid mesh.All/MixAndMethod
-    store.ChecksumTest.OneFlippedBit stream.Sites world.CollisionTest.NeverTunnels world.Downsample.WhatIsEqualStays
-    world.LiquidProperty world.RayCast.Equals world.ShapeSurface.CoversEachPart
+# Cases (patterns of GoogleTest) that take long under a sanitizer and run no code that others do not: the character of
+# generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel.
+readonly LONG_ADDRESS=(
+    'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'BatchLighter.DoesWhat*'
+    'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'CollisionTest.NeverTunnels*'
+    'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*'
+    'Examples.HaveTheirBlocks*' 'ExprMath*' 'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*'
+    'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*' 'MapPainter.AnEditChangesTheTiles*'
+    'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*' 'Places/Continents*' 'RayCast.Equals*'
+    'RelightRandom.Caves*' 'RelightRandom.Layers*' 'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*'
+    'RelightRandom.Solid*' 'Seeds/Convergence.EverybodyHasTheServersWorld/1*'
+    'Seeds/Convergence.EverybodyHasTheServersWorld/2*' 'ShapeSurface.CoversEachPart*' 'SimulationTest.NothingIsLost*'
+    'Sites*' 'TilesOfArea.Seen*' 'Utf8.ExactlyTheCodes*' 'Voronoi3D.EverySample*'
 )
-readonly LONG_LAND=(
-    gen.Areas/Overworld gen.Catalogue.AVersion gen.ContinentsLand.IsWhereWorldsBegin gen.ContinentsLevels gen.ExprMath
-    gen.Overworld gen.Places/Continents gen.Voronoi3D.EverySample lua.Examples.HaveTheirBlocks
-    lua.Generators/ScriptEqualsCpp map.AreaImageTest.EveryLevelHasOne map.GeneratedSurface.IsThatOfTheWholeChunk
-    map.MapPainter.AnEditChangesTheTiles map.MapPainter.FactsOfAColumn map.MapPainter.TilesFitTogether
-    map.TilesOfArea.Seen
-)
-readonly LONG_SERVERS=(
-    app.formats_test app.postgres_test net_postgres net.Seeds/Convergence.EverybodyHasTheServersWorld/1
-    net.Seeds/Convergence.EverybodyHasTheServersWorld/2 net.server_kill_test store_postgres.work_kill_test
-)
-# Also tests of objects that threads do not share.
+# Also cases of objects that threads do not share.
 readonly LONG_THREADS=(
-    store.ChunkCodec store.Checksum store.HostileSave store.LogCheck store.SwollenSave store.kill_test stream.Sites
-    stream.EditedTiles
+    'Checksum*' 'ChunkCodec*' 'EditedTiles*' 'HostileSave*' 'LogCheck*' 'Sites*' 'SwollenSave*'
 )
+# Scripts of CTest: windows, databases and kills have their own runs; pictures of the program are the same without a sanitizer.
+readonly SCRIPTS='^(app[.](browser|bench|formats|memory|postgres|python|record|render|together|window)_test|app[.]random_player|.*kill_test|net_postgres|store_postgres|package|tools|docs)'
 
 fail() {
     echo "sanitizers: $*" >&2
@@ -51,60 +44,55 @@ configure() {
         --log-level=WARNING "${@:2}"
 }
 
-# test_without FOLDER NAME… -- OPTION…: runs the tests that CTest's options select, without those whose names begin with
-# one of NAME. CTest ignores a pattern that it does not understand (one with more than nine groups, for example), so the
-# patterns have no groups, and each is tried.
+# "Suite.Case" of all cases of the programs in FOLDER.
+list_cases() {
+    local program
+    for program in "$1"/*_tests; do
+        "$program" --gtest_list_tests | awk '/^[^ ]/ { suite = $1; next } { print suite $1 }'
+    done
+}
+
+# test_without FOLDER PATTERN… -- OPTION…: runs the tests that CTest's options select, without the cases that match a pattern.
 test_without() {
-    local folder=$1 name pattern=''
+    local folder=$1 patterns=() pattern cases
     shift
     while [[ $1 != -- ]]; do
-        name="^${1//./[.]}"
-        ctest --test-dir "$folder" --show-only --tests-regex "$name" | grep -q 'Total Tests: [1-9]' || fail "no test is named $1…"
-        pattern+="${pattern:+|}$name"
+        patterns+=("$1")
         shift
     done
-    ctest --test-dir "$folder" --output-on-failure --no-tests=error --parallel 2 --exclude-regex "$pattern" "${@:2}"
+    if [[ ${TERRANE_DEPTH:-} == all ]]; then
+        patterns=()
+    else
+        cases=$(list_cases "$folder")
+        for pattern in "${patterns[@]}"; do
+            [[ $'\n'$cases == *$'\n'$pattern* ]] || fail "no case is named $pattern"
+        done
+    fi
+    local IFS=:
+    TERRANE_WITHOUT="${patterns[*]}" ctest --test-dir "$folder" --output-on-failure --no-tests=error --parallel 2 "${@:2}"
 }
 
-# address PATTERN TARGETS FUZZERS NAME…: builds and runs fuzzers and the tests whose names match, without those whose names
-# begin with NAME.
+# The driver's own memory is not ours to free: tests/leaks.supp.
 address() {
-    local pattern=$1 targets=($2) fuzzers=($3)
+    local seconds=0
+    [[ ${TERRANE_DEPTH:-} != all ]] || seconds=60
     configure asan -DTERRANE_FUZZ=ON
-    cmake --build build-asan --target "${targets[@]}" "${fuzzers[@]/#/fuzz_}"
-    FUZZ_BUILD=build-asan tools/fuzz.sh 3 "${fuzzers[@]}"
-    test_without build-asan "${@:4}" -- --label-regex unit --tests-regex "$pattern"
-}
-
-# Scripts that kill programs belong to the part that builds the program.
-blocks() {
-    address '^(base|shared|world|content|sound|store|light|mesh|stream|faults)[.]' \
-        'base_tests shared_tests world_tests content_tests sound_tests store_tests light_tests mesh_tests stream_tests faults_tests' \
-        'blocks bookmarks chunk_codec languages path_file save_pages save_rows settings structure_file textures waves' \
-        "${LONG_BLOCKS[@]}" store.kill_test
-}
-
-land() {
-    address '^(gen|lua|map|volume|formats|pack)[.]' 'gen_tests lua_tests map_tests volume_tests formats_tests pack_tests' \
-        'lua nbt pack region schem surface_codec vox' "${LONG_LAND[@]}"
-}
-
-servers() {
-    address '^(app|game|net|web|maps|store_postgres|net_postgres)($|[.])|^store[.]kill_test' \
-        'terrane save_loop game_tests net_tests web_tests maps_tests store_postgres_tests' \
-        'messages server_session target' "${LONG_SERVERS[@]}"
+    cmake --build build-asan
+    FUZZ_BUILD=build-asan tools/fuzz.sh $seconds
+    LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" \
+        test_without build-asan "${LONG_ADDRESS[@]}" -- --exclude-regex "$SCRIPTS"
 }
 
 threads() {
     configure tsan
     cmake --build build-tsan --target base_tests store_tests stream_tests game_tests
-    test_without build-tsan "${LONG_THREADS[@]}" -- --tests-regex '^(base|store|stream|game)[.]'
+    test_without build-tsan "${LONG_THREADS[@]}" -- --tests-regex '^(base|store|stream|game)[.]' --exclude-regex "$SCRIPTS"
 }
 
 parts=("$@")
-[[ $# -gt 0 ]] || parts=(blocks land servers threads)
+[[ $# -gt 0 ]] || parts=(address threads)
 for part in "${parts[@]}"; do
-    [[ $part =~ ^(blocks|land|servers|threads)$ ]] || fail "no part $part; there are blocks, land, servers, threads"
+    [[ $part =~ ^(address|threads)$ ]] || fail "no part $part; there are address, threads"
 done
 for part in "${parts[@]}"; do
     echo "sanitizers: $part"

@@ -20,7 +20,7 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using SocketError = boost::system::error_code;
 
-constexpr std::size_t kReadBytes = 16384;
+constexpr std::size_t kClientReadBytes = 16384;
 
 }  // namespace
 
@@ -77,7 +77,7 @@ struct ClientSocket::Impl : std::enable_shared_from_this<ClientSocket::Impl> {
     Tcp::resolver resolver;
     asio::ssl::stream<Tcp::socket> stream;
     FrameReader reader{kMaxServerMessage};
-    std::array<std::byte, kReadBytes> input;
+    std::array<std::byte, kClientReadBytes> input;
     Bytes waiting, sending;
     bool isOpen = false, isClosed = false;
 };

@@ -22,7 +22,7 @@ namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using SocketError = boost::system::error_code;
 
-constexpr std::size_t kReadBytes = 4096;
+constexpr std::size_t kServerReadBytes = 4096;
 // Time for a refused client to read the reason.
 constexpr std::chrono::seconds kClosingTime{2};
 
@@ -38,7 +38,7 @@ struct ServerConnection {
     Time openedAt;
     std::optional<asio::ssl::stream<Tcp::socket&>> stream;  // once the first bytes arrived
     FrameReader reader{kMaxClientMessage};
-    std::array<std::byte, kReadBytes> input;
+    std::array<std::byte, kServerReadBytes> input;
     Bytes sending;
     bool isOpened = false;  // onOpened() was called
     std::optional<Time> closingSince;

@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kSide = Clipmap::kTexels;
 // The sun moves this far in 0.3 s of a day of 20 minutes; 1/50 of its diameter.
-constexpr float kLightStep = 0.0018f;  // radians
+constexpr float kLandLightStep = 0.0018f;  // radians
 constexpr float kMinForm = 16;         // blocks: light levels and ambient occlusion shade smaller forms
 constexpr float kBlockError = 0.75f;   // blocks: heights are integers
 constexpr float kBlendBegins = 0.75f;  // share of half a side from which a level blends into the next one
@@ -219,7 +219,7 @@ void LandMap::blendGround(int number) {
 }
 
 std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight& light, int limit) {
-    const bool isOther = glm::distance(light.direction, light_.direction) > kLightStep ||
+    const bool isOther = glm::distance(light.direction, light_.direction) > kLandLightStep ||
                          light.discRadius != light_.discRadius;
     // Light that moves faster than all levels are swept skips steps, so that the finest level gets its turn.
     if (isOther && (limit >= used_ || !isSweeping())) {

@@ -17,7 +17,7 @@ namespace {
 constexpr int kShadowTiles = static_cast<int>(shared::kShadowTiles);
 constexpr int kHalfShadowTiles = kShadowTiles / 2;
 constexpr int kAnchorChunks = 64;
-constexpr double kLightStep = 1.0 / 128;  // radians, about
+constexpr double kShadowLightStep = 1.0 / 128;  // radians, about
 constexpr double kFirstTileBlocks = 14.5;
 // Reach of a cascade in tiles: the middle of the tiles is up to half a tile beside the camera.
 constexpr double kReachTiles = kHalfShadowTiles - 0.5;
@@ -33,7 +33,7 @@ constexpr std::array<std::uint64_t, shared::kShadowCascades> kPatience = {0, 8, 
 glm::dvec3 inSteps(glm::dvec3 direction) {
     const glm::dvec3 size = glm::abs(direction);
     const glm::dvec3 onCube = direction / std::max({size.x, size.y, size.z});
-    return glm::normalize(glm::round(onCube / kLightStep) * kLightStep);
+    return glm::normalize(glm::round(onCube / kShadowLightStep) * kShadowLightStep);
 }
 
 template <class F>

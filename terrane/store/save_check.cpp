@@ -16,7 +16,7 @@ namespace terrane::store {
 namespace {
 
 constexpr int kMaxFileProblems = 20;  // one broken page causes many
-constexpr std::size_t kMaxListed = 1000;
+constexpr std::size_t kMaxListedDamage = 1000;
 
 // Each line is a separate problem. Runs only after all rows were read without an error: damaged page trees,
 // such as a page that is its own ancestor, stop reading, but make integrity_check recurse without a limit.
@@ -115,7 +115,7 @@ void checkLog(const std::string& path, CheckReport& report) {
 }  // namespace
 
 void addDamage(CheckReport& report, world::ChunkPos pos, std::string problem) {
-    if (report.damaged.size() < kMaxListed) {
+    if (report.damaged.size() < kMaxListedDamage) {
         report.damaged.push_back({pos, std::move(problem)});
     } else {
         ++report.unlisted;

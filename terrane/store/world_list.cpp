@@ -17,7 +17,7 @@ using base::ErrorCode;
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSaveEnding = ".sqlite";
-constexpr std::size_t kMaxListed = 1000;
+constexpr std::size_t kMaxListedWorlds = 1000;
 
 fs::file_time_type lastWritten(const fs::path& save) {
     fs::file_time_type last = fs::file_time_type::min();
@@ -119,7 +119,7 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
     std::vector<WorldEntry> worlds;
     std::error_code error;
     fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListed; at.increment(error)) {
+    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListedWorlds; at.increment(error)) {
         const fs::path& path = at->path();
         std::error_code ignored;
         if (path.extension() != kSaveEnding || belongsToAWorld(path) || at->is_directory(ignored)) continue;

@@ -49,12 +49,12 @@ TEST_F(ContextTest, SamplesAreThoseOfColorsAndDepth) {
 }
 
 TEST_F(ContextTest, movesAndLeavesAnEmptyOne) {
-    HeadlessContext moved = std::move(context_);
-    EXPECT_FALSE(context_.valid());
+    HeadlessContext moved = std::move(context());
+    EXPECT_FALSE(context().valid());
     EXPECT_TRUE(moved.valid());
     EXPECT_FALSE(queryDevice().renderer.empty());
-    context_ = std::move(moved);
-    EXPECT_TRUE(context_.valid());
+    context() = std::move(moved);
+    EXPECT_TRUE(context().valid());
 }
 
 TEST_F(ContextTest, endingAnotherContextLeavesThisOne) {
@@ -63,7 +63,7 @@ TEST_F(ContextTest, endingAnotherContextLeavesThisOne) {
         ASSERT_TRUE(other) << other.error().message;
         EXPECT_EQ(other->debugLog(), nullptr);
     }
-    context_.makeCurrent();
+    context().makeCurrent();
     EXPECT_FALSE(queryDevice().renderer.empty());
 }
 

@@ -12,10 +12,10 @@ class DebugTest : public GlTest {};
 
 TEST_F(DebugTest, countsAnErrorOfTheDriver) {
     glEnable(GL_TEXTURE_1D_ARRAY);  // not a capability
-    EXPECT_EQ(context_.debugErrorCount(), 1);
+    EXPECT_EQ(context().debugErrorCount(), 1);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_INVALID_ENUM));
-    context_.debugLog()->clear();
-    EXPECT_EQ(context_.debugErrorCount(), 0);
+    context().debugLog()->clear();
+    EXPECT_EQ(context().debugErrorCount(), 0);
 }
 
 TEST_F(DebugTest, ignoresGroupsAndNotifications) {
@@ -26,7 +26,7 @@ TEST_F(DebugTest, ignoresGroupsAndNotifications) {
                          -1, text.c_str());
     glDebugMessageInsert(GL_DEBUG_SOURCE_APPLICATION, GL_DEBUG_TYPE_PERFORMANCE, 2, GL_DEBUG_SEVERITY_LOW, -1,
                          text.c_str());
-    EXPECT_EQ(context_.debugErrorCount(), 0);
+    EXPECT_EQ(context().debugErrorCount(), 0);
 }
 
 TEST_F(DebugTest, labelsObjectsAndCutsLongNames) {

@@ -1,17 +1,17 @@
-// The fixture of tests that need OpenGL: a debug context without a window for each test, which fails when the
-// driver reported an error, and is skipped where no context can be made.
+// The fixture of tests that need OpenGL. All tests of a process share one debug context without a window: creating it takes
+// longer than most tests. A test fails when the driver reported an error, and is skipped where no context can be made.
 #pragma once
 
 #include <gtest/gtest.h>
 
 #include <cstdio>
 #include <cstdlib>
-#include <optional>
 #include <string>
 #include <utility>
 
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/device_info.h"
+#include "terrane/gpu/program.h"
 
 namespace terrane::gpu {
 
@@ -27,21 +27,33 @@ inline void checkExpectedRenderer(const base::Result<HeadlessContext>& made) {
     std::_Exit(1);
 }
 
+// Created by the first test; never destroyed, since drivers may be gone when static objects are.
+inline base::Result<HeadlessContext>& sharedContext() {
+    static auto* context = [] {
+        auto made = HeadlessContext::create({.debug = true});
+        checkExpectedRenderer(made);
+        return new base::Result<HeadlessContext>(std::move(made));
+    }();
+    return *context;
+}
+
 class GlTest : public testing::Test {
   protected:
     void SetUp() override {
-        base::Result<HeadlessContext> made = HeadlessContext::create({.debug = true});
-        checkExpectedRenderer(made);
-        if (!made) GTEST_SKIP() << "1 test skipped, no OpenGL: " << made.error().message;
-        context_ = *std::move(made);
+        base::Result<HeadlessContext>& shared = sharedContext();
+        if (!shared) GTEST_SKIP() << "1 test skipped, no OpenGL: " << shared.error().message;
+        context().makeCurrent();
     }
 
     void TearDown() override {
-        if (!context_.valid()) return;
-        EXPECT_EQ(context_.debugErrorCount(), 0) << "the driver reported errors, see above";
+        if (!hasContext()) return;
+        EXPECT_EQ(context().debugErrorCount(), 0) << "the driver reported errors, see above";
+        context().debugLog()->clear();
+        Program::useNone();  // or the next test's state is checked against this test's program
     }
 
-    HeadlessContext context_;
+    static bool hasContext() { return sharedContext().has_value(); }
+    static HeadlessContext& context() { return *sharedContext(); }
 };
 
 }  // namespace terrane::gpu

@@ -18,7 +18,7 @@ class GpuBatchLighterTest : public gpu::GlTest {
   protected:
     void SetUp() override {
         GlTest::SetUp();
-        if (!context_.valid()) return;
+        if (!hasContext()) return;
         auto made = GpuBatchLighter::create(render::contentShaders(), light::contentTable());
         ASSERT_TRUE(made) << made.error().message;
         lighter_.emplace(std::move(*made));

@@ -21,7 +21,7 @@ class GpuLightSolverTest : public gpu::GlTest {
   protected:
     void SetUp() override {
         GlTest::SetUp();
-        if (!context_.valid()) return;
+        if (!hasContext()) return;
         auto made = GpuLightSolver::create(render::contentShaders(), light::contentTable());
         ASSERT_TRUE(made) << made.error().message;
         solver_.emplace(std::move(*made));

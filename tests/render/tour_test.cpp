@@ -83,7 +83,7 @@ TEST_F(Tour, AnyOptionsInAnyOrder) {
         if (frame % 7 == 0) made->removeChunk({1, 1});
         if (frame % 7 == 3) made->setChunk({1, 1}, meshes.at({1, 1}));
         made->draw(frameOf(frame));
-        ASSERT_EQ(context_.debugErrorCount(), 0) << "frame " << frame;
+        ASSERT_EQ(context().debugErrorCount(), 0) << "frame " << frame;
         if (frame % 125 > 0) continue;
         // Earlier frames leave no trace.
         made->setChunk({1, 1}, meshes.at({1, 1}));

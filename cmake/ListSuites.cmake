@@ -1,0 +1,28 @@
+# Writes the CTest tests of a GoogleTest program: see TerraneTests.cmake.
+execute_process(COMMAND ${PROGRAM} --gtest_list_tests OUTPUT_VARIABLE cases RESULT_VARIABLE code)
+if(NOT code EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} --gtest_list_tests: ${code}")
+endif()
+file(STRINGS ${COSTS} costs REGEX "^[^#]")
+foreach(line IN LISTS costs)
+  if(line MATCHES "^([^ ]+) +([0-9]+)")
+    set("cost_${CMAKE_MATCH_1}" ${CMAKE_MATCH_2})
+  endif()
+endforeach()
+
+set(script "")
+string(REPLACE "\n" ";" lines "${cases}")
+foreach(line IN LISTS lines)
+  if(NOT line MATCHES "^([^ #]+)[.]( |$)")  # a case, not a suite
+    continue()
+  endif()
+  set(suite ${CMAKE_MATCH_1})
+  set(name "${PREFIX}.${suite}")
+  string(APPEND script "add_test([=[${name}]=] \"${PROGRAM}\" [=[--gtest_filter=${suite}.*]=] --gtest_brief=1)\n"
+    "set_tests_properties([=[${name}]=] PROPERTIES LABELS ${LABEL} SKIP_RETURN_CODE 77")
+  if(DEFINED "cost_${name}")
+    string(APPEND script " COST ${cost_${name}}")
+  endif()
+  string(APPEND script ")\n")
+endforeach()
+file(WRITE ${LIST} "${script}")
