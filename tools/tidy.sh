@@ -9,7 +9,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 readonly BUILD_FOLDER=build-tidy
 
 cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ -DCMAKE_BUILD_TYPE=Debug \
-    -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
+    -DCMAKE_UNITY_BUILD=ON -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
 modules=("$@")
 [[ $# -gt 0 ]] || modules=('*')
 for module in "${modules[@]}"; do
