@@ -7,7 +7,8 @@ PAGE: player, library, game, server, pack, python (all, in this order). Every co
 quoted in its page. Windows open on a virtual display, and keys are pressed by xdotool. The home folder receives worlds
 and packs; it must be new (a folder of its own below /tmp).
 
-    tools/fresh_debian.sh /tmp/fresh bash -c 'apt-get update && apt-get install -y python3 && tools/first_minutes.py --install'
+    tools/fresh_debian.sh bookworm /tmp/fresh bash -c \
+        'apt-get update && apt-get install -y python3 && tools/first_minutes.py --install'
 
 --install: first install what the pages or this script need besides ./run: Debian's packages python3-numpy, python3-dev,
 pybind11-dev, libglfw3-dev, sqlite3, zip, xvfb, xdotool. Exit code 1 if a step does not do what its page says."""

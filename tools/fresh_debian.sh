@@ -1,33 +1,42 @@
 #!/usr/bin/env bash
-# Runs a command on a fresh Debian 12, in a folder of its own, with a clean clone of what is committed here in
+# Runs a command on a fresh Debian, in a folder of its own, with a clean clone of what is committed here in
 # /root/terrane. Nothing but Debian's essential packages and apt is there.
 #
-#   tools/fresh_debian.sh ROOT COMMAND…    ROOT: the folder of the system, created if missing and kept
+#   tools/fresh_debian.sh RELEASE ROOT COMMAND…
 #
-#   tools/fresh_debian.sh /tmp/fresh ./run test
-#   tools/fresh_debian.sh /tmp/fresh tools/packages.sh
+#   RELEASE: bookworm (12) or trixie (13)
+#   ROOT:    the folder of the system, created if missing and kept
+#
+#   tools/fresh_debian.sh bookworm /tmp/fresh ./run test
+#   tools/fresh_debian.sh trixie /tmp/fresh13 tools/packages.sh
 #
 # Needs root, and: apt install mmdebstrap git. apt and npm use this machine's sources and certificates. Exit code: the
-# command's.
+# command's; 2 for wrong arguments or a ROOT of another release.
 set -euo pipefail
 
 readonly PROJECT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-[[ $# -ge 2 ]] || { sed -n '2,/^set/s/^# \?//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
-readonly ROOT=$1
-shift
+[[ $# -ge 3 && $1 =~ ^(bookworm|trixie)$ ]] || { sed -n '2,/^set/s/^# \?//p' "${BASH_SOURCE[0]}" >&2; exit 2; }
+readonly RELEASE=$1 ROOT=$2
+shift 2
 
+codename() { sed -n 's/^VERSION_CODENAME=//p' "$1/etc/os-release"; }
+
+# This machine's sources, of the other release.
 make_root() {
-    local file sources=()
+    local file sources
+    sources=$(mktemp -d)
     for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.sources /etc/apt/sources.list.d/*.list; do
-        [[ ! -f $file ]] || sources+=("$file")
+        [[ ! -f $file ]] || sed "s/\b$(codename /)\b/$RELEASE/g" "$file" >"$sources/${file##*/}"
     done
-    mmdebstrap --quiet --variant=apt bookworm "$ROOT" "${sources[@]}"
+    mmdebstrap --quiet --variant=apt "$RELEASE" "$ROOT" "$sources"/*
+    rm -r "$sources"
     [[ ! -f /etc/npmrc ]] || cp /etc/npmrc "$ROOT/etc/"
     [[ ! -f ~/.npmrc ]] || cp ~/.npmrc "$ROOT/root/"
     git clone --quiet --no-hardlinks "$PROJECT" "$ROOT/root/terrane"
 }
 
 [[ -d $ROOT ]] || make_root
+[[ $(codename "$ROOT") == "$RELEASE" ]] || { echo "fresh_debian: $ROOT is not a Debian $RELEASE" >&2; exit 2; }
 cp /etc/resolv.conf "$ROOT/etc/"
 [[ ! -f /etc/ssl/certs/ca-certificates.crt ]] || cp /etc/ssl/certs/ca-certificates.crt "$ROOT/etc/trusted-here.crt"
 # Mounts and processes end with the command.

@@ -31,7 +31,7 @@ build_fuzzers() {
         exit 2
     fi
     cmake -S . -B "$BUILD_FOLDER" -G Ninja --log-level=WARNING -DCMAKE_CXX_COMPILER=clang++ \
-        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_WERROR=OFF -DTERRANE_FUZZ=ON \
+        -DCMAKE_BUILD_TYPE=Debug -DCMAKE_CXX_FLAGS=-O1 -DCMAKE_UNITY_BUILD=ON -DTERRANE_FUZZ=ON \
         -DTERRANE_SANITIZE=fuzzer-no-link,address,undefined -DTERRANE_GRAPHICS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF
     cmake --build "$BUILD_FOLDER" --target "${names[@]/#/fuzz_}"
 }

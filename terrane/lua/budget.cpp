@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <lua.hpp>
 
 #include "terrane/lua/budget_internal.h"
+#include "terrane/lua/lua_internal.h"
 
 namespace terrane::lua {
 namespace {

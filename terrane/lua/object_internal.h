@@ -2,10 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <lua.hpp>
 #include <string_view>
 
 #include "terrane/lua/expression_internal.h"
+#include "terrane/lua/lua_internal.h"
 
 namespace terrane::lua {
 

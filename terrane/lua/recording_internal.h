@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <lua.hpp>
 #include <map>
 #include <set>
 #include <string>
@@ -14,6 +13,7 @@
 #include "terrane/gen/builder.h"
 #include "terrane/lua/budget_internal.h"
 #include "terrane/lua/expression_internal.h"
+#include "terrane/lua/lua_internal.h"
 #include "terrane/lua/script.h"
 
 namespace terrane::lua {

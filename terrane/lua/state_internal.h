@@ -1,7 +1,6 @@
 // A Lua state with nothing in it but what scripts may use. One thread.
 #pragma once
 
-#include <lua.hpp>
 #include <memory>
 #include <string>
 #include <vector>

@@ -251,7 +251,11 @@ NearestShadowMap ShadowClipmap::nearest() const {
 shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const {
     shared::ShadowFrame frame{};
     const glm::dvec3 corner = cornerOfChunk(cameraChunk(camera));
-    for (int cascade = 0; cascade < cascades_; ++cascade) {
+    for (int cascade = 0; cascade < kMaxCascades; ++cascade) {
+        if (cascade >= cascades_) {
+            frame.reach[cascade] = 1e9f;  // no such cascade
+            continue;
+        }
         const Layer& layer = used(cascade);
         assert(layer.plane && "update() comes first");
         const double blocks = kTiles * shadowTileBlocks(cascade), texel = blocks / texels;
@@ -268,8 +272,6 @@ shared::ShadowFrame ShadowClipmap::frame(const Camera& camera, int texels) const
         frame.layers[cascade] = static_cast<float>(inUse_[static_cast<std::size_t>(cascade)]);
         frame.texels[cascade] = static_cast<float>(texel);
     }
-    for (int cascade = cascades_; cascade < static_cast<int>(kMaxCascades); ++cascade)
-        frame.reach[cascade] = 1e9f;  // no such cascade
     frame.texels[3] = kMostEdgeTexels;
     frame.mapTexels = static_cast<float>(texels);
     return frame;

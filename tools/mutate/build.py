@@ -14,7 +14,6 @@ SETTINGS = {
     "CMAKE_BUILD_TYPE": "Mutation",  # not a known type: only these flags
     "CMAKE_CXX_FLAGS_MUTATION": "-O1",
     "CMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE": "PRE_TEST",  # a crashing test program does not fail the build
-    "TERRANE_WERROR": "OFF",
     "TERRANE_BENCHMARKS": "OFF",
     "TERRANE_GRAPHICS": "OFF",
     "TERRANE_PYTHON": "OFF",

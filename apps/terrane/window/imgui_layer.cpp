@@ -106,11 +106,17 @@ void ImguiLayer::dropRepeatedText() {
     if (!acceptsText_) io.InputQueueCharacters.resize(0);
 }
 
+#if IMGUI_VERSION_NUM < 18700
+constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeyPadEnter;
+#else
+constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeypadEnter;
+#endif
+
 // Enter activates, as Space does. An Enter that ends text input activates nothing, however long it is held.
 void ImguiLayer::activateByEnter() {
     ImGuiIO& io = ImGui::GetIO();
     const bool isDown = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
-                        ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_KeyPadEnter));
+                        ImGui::IsKeyDown(ImGui::GetKeyIndex(kKeypadEnter));
     if (!isDown) enter_ = Enter::Up;
     if (isDown && enter_ == Enter::Up) enter_ = io.WantTextInput ? Enter::Types : Enter::Chooses;
     if (enter_ == Enter::Chooses) io.NavInputs[ImGuiNavInput_Activate] = 1;
