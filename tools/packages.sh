@@ -14,7 +14,7 @@ readonly OUT=${1:-out/packages}
 build_packages() {
     local folder=$1 names=$2 name made
     cmake -S . -B "$folder" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_UNITY_BUILD=ON \
-        -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF "${@:3}"
+        -DTERRANE_ASSERTIONS=OFF -DTERRANE_TESTS=OFF -DTERRANE_BENCHMARKS=OFF "${@:3}"
     cmake --build "$folder"
     rm -f "$folder"/*.deb
     (cd "$folder" && cpack -G DEB >cpack.log) || { cat "$folder/cpack.log" >&2; exit 1; }

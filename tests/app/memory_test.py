@@ -3,11 +3,10 @@
 Usage: memory_test.py PROGRAM
 
 Each command runs under limits of its address space (RLIMIT_AS), from the least that loads the program to the least that
-suffices. Six limits each; with TERRANE_MEMORY_STEP=KIB in the environment one per so many KiB. Commands that draw are
+suffices: three limits each, at full depth (TERRANE_DEPTH=all) one every 128 KiB. Commands that draw are
 not tested: Mesa's software renderer aborts the process without memory (LLVM: "Unable to allocate section memory!").
 Rarely the C library does so too, for thread-local variables; that is ignored."""
 import functools
-import os
 import re
 import resource
 import signal
@@ -19,7 +18,7 @@ from support import ProgramTest
 KIB, MIB = 1 << 10, 1 << 20
 HANG_SECONDS = 300  # a guard against hangs: commands take less than a second
 CANNOT_BE_LOADED = 127  # by the dynamic linker, before any code of the program
-COUNT = 6  # of limits
+COUNT, FULL_STEP = 3, 128 * KIB  # of limits; between limits at full depth
 INFORMATION = re.compile(r"terrane: (?!error: )")  # log lines except errors
 GLIBC_GAVE_UP = "Fatal glibc error: failed to register TLS destructor: out of memory"
 
@@ -57,7 +56,7 @@ class Memory(ProgramTest):
         loads = limit_to_load()
         works = first_limit(loads, 512 * MIB, 4 * MIB, lambda limit: run(limit).returncode == 0)
         end = works + (works - loads) // 2 + 4 * MIB
-        return range(loads, end, int(os.environ.get("TERRANE_MEMORY_STEP", 0)) * KIB or (end - loads) // COUNT)
+        return range(loads, end, FULL_STEP if support.tests_all() else (end - loads) // COUNT)
 
     def assertEndsWell(self, done, case):
         if done.returncode == -signal.SIGABRT and GLIBC_GAVE_UP in done.stderr:

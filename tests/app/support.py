@@ -34,6 +34,11 @@ def program():
     return _program
 
 
+def tests_all():
+    """Whether tests run at full depth: tests/support/depth.h."""
+    return os.environ.get("TERRANE_DEPTH") == "all"
+
+
 def environment(display=None, settings=None):
     """The environment of this process, with only the given display server, and with settings and worlds in terrane/ of a
     folder, or none."""

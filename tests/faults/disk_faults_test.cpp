@@ -1,10 +1,11 @@
 // Every disk operation fails once, or permanently; the program is killed or the power fails at every
-// operation that changes a file. TERRANE_ALL_FAULTS=1 tests all of them, otherwise every 29th.
+// operation that changes a file. TERRANE_DEPTH=all tests all of them, otherwise every 29th.
 #include <cstdio>
 #include <cstdlib>
 
 #include "terrane/base/log.h"
 #include "tests/faults/play.h"
+#include "tests/support/depth.h"
 
 namespace terrane::store {
 namespace {
@@ -19,7 +20,7 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
     DiskFaults() { base::setLogLevel(base::LogLevel::Silent); }
     ~DiskFaults() override { base::setLogLevel(base::LogLevel::Info); }
 
-    static long step() { return std::getenv("TERRANE_ALL_FAULTS") ? 1 : 29; }
+    static long step() { return atDepth(29, 1); }
 
     // One run with the faults of `arrange`. Returns false if nothing failed any more.
     bool play(FaultyDisk& disk, bool lasts, const std::function<void()>& arrange) {
@@ -96,7 +97,7 @@ TEST_P(DiskFaults, TheProgramIsKilled) {
     stopAll(DiskStop::Kill, 2);
 }
 TEST_P(DiskFaults, ThePowerGoes) {
-    stopAll(DiskStop::PowerLoss, std::getenv("TERRANE_ALL_FAULTS") ? 40 : 2);
+    stopAll(DiskStop::PowerLoss, atDepth(2, 40));
 }
 
 INSTANTIATE_TEST_SUITE_P(Starts, DiskFaults,

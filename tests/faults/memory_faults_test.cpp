@@ -1,4 +1,4 @@
-// Every allocation of C++ and SQLite fails once, or together with all later ones. TERRANE_ALL_FAULTS=1 tests
+// Every allocation of C++ and SQLite fails once, or together with all later ones. TERRANE_DEPTH=all tests
 // all of them, otherwise forty.
 #include <sqlite3.h>
 
@@ -7,6 +7,7 @@
 
 #include "tests/base/failing_memory.h"
 #include "tests/faults/play.h"
+#include "tests/support/depth.h"
 
 namespace terrane::store {
 namespace {
@@ -28,7 +29,7 @@ const bool isSqliteMemoryOurs = [] {
 
 class MemoryFaults : public testing::Test {
   protected:
-    static bool isComplete() { return std::getenv("TERRANE_ALL_FAULTS") != nullptr; }
+    static bool isComplete() { return testsAll(); }
 
     // Returns false if no allocation failed any more.
     bool play(const Start& start, long after, long count) {

@@ -6,6 +6,7 @@
 #include <cstdlib>
 
 #include "terrane/base/log.h"
+#include "tests/support/depth.h"
 
 namespace terrane::store {
 namespace {
@@ -38,7 +39,7 @@ void add(SimulationCounts& sum, const SimulationCounts& one) {
 TEST_F(SimulationTest, NothingIsLost) {
     const unsigned only = numberFrom("TERRANE_SEED", 0);
     const unsigned first = only > 0 ? only : numberFrom("TERRANE_FIRST_SEED", 1);
-    const unsigned count = only > 0 ? 1 : numberFrom("TERRANE_SEEDS", 24);
+    const unsigned count = only > 0 ? 1 : numberFrom("TERRANE_SEEDS", atDepth(8u, 1000u));
     SimulationCounts sum;
     for (unsigned seed = first; seed < first + count; ++seed) {
         Simulation simulation(seed);

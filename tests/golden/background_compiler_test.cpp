@@ -68,7 +68,7 @@ TEST_F(BackgroundCompilerTest, FramesThatFollowCompileNextToNothing) {
     // Mesa treats a program that it compiled differently from one read from its cache. Read the renderer's
     // programs from the cache, as in all runs but the first.
     ASSERT_TRUE(waitFor(compiler_, render::plainOptions(kSamples)));
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     ASSERT_TRUE(renderer.useLand(kWorld.hasLand) && renderer.useTint(kWorld.hasTint));
     world::World world = flatWorld(2);
     placeGallery(world);

@@ -15,12 +15,8 @@ class Effects : public GoldenTest {
     void SetUp() override {
         GoldenTest::SetUp();
         if (IsSkipped()) return;
-        renderer_.emplace(makeRenderer());
+        renderer_ = &emptyRenderer();
         samples_ = std::min(kSamples, gpu::queryDevice().maxSamples);
-    }
-    void TearDown() override {
-        renderer_.reset();
-        GoldenTest::TearDown();
     }
 
     // Plain options, changed by `change`.
@@ -40,7 +36,7 @@ class Effects : public GoldenTest {
         EXPECT_FALSE(isSame(on, off)) << name << " changes nothing";
     }
 
-    std::optional<render::Renderer> renderer_;
+    render::Renderer* renderer_ = nullptr;
     int samples_ = 1;
 };
 

@@ -36,13 +36,9 @@ class Figures : public GoldenTest {
     void SetUp() override {
         GoldenTest::SetUp();
         if (IsSkipped()) return;
-        renderer_.emplace(makeRenderer());
+        renderer_ = &emptyRenderer();
         renderer_->setViewDistance(3);
         showLit(*renderer_, yard(), 3);
-    }
-    void TearDown() override {
-        renderer_.reset();
-        GoldenTest::TearDown();
     }
 
     base::Image imageOf(const std::vector<world::Figure>& figures, float time = kDay) {
@@ -51,7 +47,7 @@ class Figures : public GoldenTest {
         return draw(*renderer_, input);
     }
 
-    std::optional<render::Renderer> renderer_;
+    render::Renderer* renderer_ = nullptr;
 };
 
 TEST_F(Figures, ByDay) {

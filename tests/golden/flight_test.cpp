@@ -29,7 +29,7 @@ class Flight : public GoldenTest {
     // pixels.
     void expectNothingMissed(RenderOptions visible, int frames, int maxPixels) {
         constexpr int kViewDistance = 10;
-        render::Renderer renderer = makeRenderer();
+        render::Renderer& renderer = emptyRenderer();
         loadOverworld(renderer, cameraOfFrame(0), kViewDistance);
         RenderOptions all = visible;
         all.occlusionCulling = false;
@@ -75,7 +75,7 @@ TEST_F(Flight, TheWorldIsTheSameFarAway) {
     RenderOptions options;
     options.msaaSamples = 1;
     const auto imageAt = [&](int chunkX, int chunkY) {
-        render::Renderer renderer = makeRenderer();
+        render::Renderer& renderer = emptyRenderer();
         configure(renderer, options);
         for (const auto& [pos, mesh] : meshes) renderer.setChunk({pos.x + chunkX, pos.y + chunkY}, mesh);
         render::Camera camera = kAbove;

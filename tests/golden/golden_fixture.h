@@ -1,11 +1,10 @@
 // Renders the golden images: the same scenes for the comparison and for the proof that it detects errors.
 #pragma once
 
-#include "terrane/render/renderer.h"
 #include "tests/golden/golden.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
-#include "tests/render/content.h"
+#include "tests/render/shared_renderer.h"
 
 namespace terrane::golden {
 
@@ -19,20 +18,35 @@ inline const render::Camera kShapes{{0, -9.4, 94.2}, 60.5, -40, 36};
 inline const render::Camera kBelow{{14.3, 12.2, 72.9}, 229.0, 39.5, 33};
 
 class GoldenTest : public gpu::GlTest {
-  protected:
-    render::Renderer makeRenderer(const render::TextureSource& textures = render::contentTexture,
-                                  const world::BlockRegistry& blocks = contentBlocks()) {
+  private:
+    static gpu::DeviceInfo device() {
         gpu::DeviceInfo device = gpu::queryDevice();
         device.software = true;  // no anisotropic filter, which differs by driver
         // Edges are expanded for the subpixel grid of the driver that made the images. Coarser grids (OpenGL
         // 4.5, table 23.55: 4 bits or more) expand them further; tests/render/edge_expansion_test.cpp covers
         // that.
         device.subpixelBits = 8;
-        auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device);
-        if (!made) throw std::runtime_error(made.error().message);
-        const auto configured =
-            made->configure(kImageSize, render::plainOptions(std::min(kSamples, device.maxSamples)));
+        return device;
+    }
+    static void configure(render::Renderer& renderer) {
+        const int samples = std::min(kSamples, gpu::queryDevice().maxSamples);
+        const auto configured = renderer.configure(kImageSize, render::plainOptions(samples));
         if (!configured) throw std::runtime_error(configured.error().message);
+    }
+
+  protected:
+    // The shared renderer, empty and configured.
+    static render::Renderer& emptyRenderer() {
+        render::Renderer& renderer = render::emptyRenderer(device());
+        configure(renderer);
+        return renderer;
+    }
+    // A renderer of other blocks or textures.
+    static render::Renderer makeRenderer(const render::TextureSource& textures,
+                                         const world::BlockRegistry& blocks = contentBlocks()) {
+        auto made = render::Renderer::create(render::contentShaders(), blocks, textures, device());
+        if (!made) throw std::runtime_error(made.error().message);
+        configure(*made);
         return *std::move(made);
     }
 

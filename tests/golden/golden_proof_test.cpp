@@ -121,7 +121,7 @@ bool hasDirection(const Meshes& meshes, int bucket, int direction) {
 // Faces that look away may be dropped: the draw list drops them too.
 TEST_F(GoldenProof, AMissingDirectionIsNoticedWhereItIsSeen) {
     const Meshes right = galleryOnGround();
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     const base::Image expected = drawGallery(renderer, right, kAbove);
     int noticed = 0;
     for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
@@ -172,7 +172,7 @@ void dropQuad(mesh::ChunkMesh& mesh, const QuadPlace& place) {
 
 TEST_F(GoldenProof, AnyMissingFaceIsNoticed) {
     const Meshes right = galleryInTheAir();
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     const base::Image expected = drawGallery(renderer, right, kBelow);
     const std::vector<QuadPlace> places = quadsSeenFromBelow(right.at({0, 0}));
     EXPECT_GE(places.size(), 3u * 11u);
@@ -256,7 +256,7 @@ TEST_F(GoldenProof, SwappedAxesAreNoticed) {
 
 // Frames from a little closer, an hour later, or a little brighter.
 TEST_F(GoldenProof, OtherFramesAreNoticed) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     const Meshes meshes = galleryOnGround();
     const base::Image right = drawGallery(renderer, meshes, kAbove);
     render::Camera closer = kAbove;

@@ -11,35 +11,35 @@ namespace {
 class Golden : public GoldenTest {};
 
 TEST_F(Golden, GalleryFromAbove) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(matchesGolden("gallery_above", drawGallery(renderer, galleryOnGround(), kAbove)));
 }
 
 TEST_F(Golden, GalleryOfTheLand) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOf(GalleryPart::Land), kLand)));
 }
 
 TEST_F(Golden, GalleryOfCubesToBuildWith) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(matchesGolden("gallery_cubes", drawGallery(renderer, galleryOf(GalleryPart::Cubes), kLand)));
 }
 
 TEST_F(Golden, GalleryOfShapes) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(
         matchesGolden("gallery_shapes", drawGallery(renderer, galleryOf(GalleryPart::Shapes), kShapes)));
 }
 
 TEST_F(Golden, GalleryFromBelow) {
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(matchesGolden("gallery_below", drawGallery(renderer, galleryInTheAir(), kBelow)));
 }
 
 TEST_F(Golden, PoolAtAFlatAngle) {
     world::World world = flatWorld(4);
     placePool(world);
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(
         matchesGolden("pool", drawGallery(renderer, meshWorld(world), {{-1.5, -4, 82.8}, 50, -9, 55})));
 }
@@ -52,7 +52,7 @@ TEST_F(Golden, Flow) {
     std::vector<world::BlockEdit> edits;
     world::breakDam(world, contentBlocks(), edits);
     for (int tick = 0; tick < 30; ++tick) world::flowLiquids(world, contentBlocks(), world::kDamArea, edits);
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     EXPECT_TRUE(matchesGolden("flow", drawGallery(renderer, meshWorld(world), {{31, 19, 59}, 153, -24, 55})));
 }
 
@@ -67,7 +67,7 @@ TEST_F(Golden, Landscape) {
     constexpr int kViewDistance = 10;
     const content::Scene* scene = content::findScene("landscape");
     ASSERT_TRUE(scene);
-    render::Renderer renderer = makeRenderer();
+    render::Renderer& renderer = emptyRenderer();
     const render::Camera camera = view::cameraOf(scene->pose);
     loadOverworld(renderer, camera, kViewDistance);
     render::FrameInput input{camera, world::environmentAt(scene->timeDay), 16.0f * kViewDistance, 0,
@@ -90,7 +90,7 @@ TEST_F(Golden, MergeMethodsDrawTheSameImage) {
     using mesh::MergeMethod;
     const auto imageOf = [&](std::string_view scene, const mesh::MeshOptions& options, render::View view) {
         const render::Camera camera = view::cameraOf(content::findScene(scene)->pose);
-        render::Renderer renderer = makeRenderer();
+        render::Renderer& renderer = emptyRenderer();
         loadOverworld(renderer, camera, kViewDistance, options);
         return draw(renderer, {camera, world::environmentAt(0.4f), 16.0f * kViewDistance, 0, view});
     };

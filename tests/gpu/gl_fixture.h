@@ -1,5 +1,6 @@
-// The fixture of tests that need OpenGL. All tests of a process share one debug context without a window: creating it takes
-// longer than most tests. A test fails when the driver reported an error, and is skipped where no context can be made.
+// The fixture of tests that need OpenGL. All tests of a process share one debug context without a window:
+// creating it takes longer than most tests. A test fails when the driver reported an error, and is skipped
+// where no context can be made.
 #pragma once
 
 #include <gtest/gtest.h>

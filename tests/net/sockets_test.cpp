@@ -13,6 +13,7 @@
 #include "terrane/net/tls.h"
 #include "tests/net/socket_fixture.h"
 #include "tests/net/test_proxy.h"
+#include "tests/support/depth.h"
 
 namespace terrane::net {
 namespace {
@@ -210,8 +211,7 @@ TEST_F(SocketsTest, WhoIsSentAwayStaysAway) {
 // ——— connections that do nothing
 
 TEST_F(SocketsTest, OpenConnectionsKeepNobodyOut) {
-    const char* given = std::getenv("TERRANE_OPEN_CONNECTIONS");
-    const std::size_t count = given ? std::strtoul(given, nullptr, 10) : 600;
+    const std::size_t count = atDepth(600, 10'000);
     rlimit files{};
     getrlimit(RLIMIT_NOFILE, &files);
     files.rlim_cur = files.rlim_max;

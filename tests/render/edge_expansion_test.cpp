@@ -156,11 +156,6 @@ vec4 expandEdges(vec4 corner, vec4 neighborU, vec4 neighborV, vec2 viewport, flo
 
 class EdgeExpansionOnCoarseGrid : public EdgeExpansion {
   protected:
-    void TearDown() override {
-        renderer_.reset();  // before its shaders
-        EdgeExpansion::TearDown();
-    }
-
     // `rounding`: floor or round, as the rasterizer moves corners. `toldBits`: its subpixel bits as reported.
     void makeRenderer(const std::string& rounding, int toldBits) {
         std::string shader = contentShaders().find(kExpansionShader).value();
@@ -174,12 +169,14 @@ class EdgeExpansionOnCoarseGrid : public EdgeExpansion {
         device.subpixelBits = toldBits;
         auto made = Renderer::create(shaders_, contentBlocks(), contentTexture, device);
         ASSERT_TRUE(made) << made.error().message;
-        renderer_ = std::move(*made);
+        own_ = std::move(*made);
+        renderer_ = &*own_;
         loadHollow();
     }
 
     const gpu::ScratchFolder folder_;
     const gpu::ShaderLoader shaders_ = gpu::builtInShaders(folder_.path());
+    std::optional<Renderer> own_;
 };
 
 TEST_F(EdgeExpansionOnCoarseGrid, NoViewShowsTheBackground) {

@@ -2,11 +2,9 @@
 #pragma once
 
 #include <array>
-#include <optional>
 
-#include "terrane/render/renderer.h"
 #include "tests/gpu/gl_fixture.h"
-#include "tests/render/content.h"
+#include "tests/render/shared_renderer.h"
 
 namespace terrane::render {
 
@@ -17,14 +15,8 @@ class RendererTest : public gpu::GlTest {
     void SetUp() override {
         GlTest::SetUp();
         if (IsSkipped()) return;
-        auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
-        ASSERT_TRUE(made) << made.error().message;
-        renderer_ = std::move(*made);
+        renderer_ = &emptyRenderer(gpu::queryDevice());
         resize(kImageSize, 1);
-    }
-    void TearDown() override {
-        renderer_.reset();
-        GlTest::TearDown();
     }
 
     void resize(glm::ivec2 size, int samples) {
@@ -45,7 +37,7 @@ class RendererTest : public gpu::GlTest {
         return {camera, world::environmentAt(0.5f), 256, 0, view};
     }
 
-    std::optional<Renderer> renderer_;
+    Renderer* renderer_ = nullptr;  // shared by all tests
 };
 
 using Color = std::array<int, 3>;

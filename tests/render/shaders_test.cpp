@@ -1,16 +1,19 @@
-// Every variant of every shader, through the reference compiler and through the driver. A shader that is new
-// is found by its name; one that has variants is listed here.
+// Variants of every shader, through the reference compiler and through the driver: all of them where
+// TERRANE_DEPTH=all, else so many that each pair of options occurs. A shader that is new is found by its
+// name; one that has variants is listed here.
 #include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <regex>
+#include <set>
 
 #include "terrane/gpu/program.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/gpu/scratch_folder.h"
 #include "tests/render/content.h"
+#include "tests/support/depth.h"
 
 namespace terrane::render {
 namespace {
@@ -129,12 +132,39 @@ bool isNeverSelected(const gpu::ShaderDefines& defines) {
     return isDirect && (isOverSky || has(defines, "QUADS", "0") || readsLight);
 }
 
+// The pairs of options that a variant has: names and values. An option is also a pair with itself.
+using Pair = std::array<std::string, 4>;
+std::vector<Pair> pairsOf(const gpu::ShaderDefines& defines) {
+    std::vector<Pair> pairs;
+    for (std::size_t a = 0; a < defines.size(); ++a)
+        for (std::size_t b = a; b < defines.size(); ++b)
+            pairs.push_back({defines[a].first, defines[a].second, defines[b].first, defines[b].second});
+    return pairs;
+}
+
+// The variant with most pairs that no chosen one has, again and again until all pairs of all variants occur.
+std::vector<gpu::ShaderDefines> coveringPairs(const std::vector<gpu::ShaderDefines>& variants) {
+    std::set<Pair> missing;
+    for (const gpu::ShaderDefines& variant : variants)
+        for (Pair& pair : pairsOf(variant)) missing.insert(std::move(pair));
+    std::vector<gpu::ShaderDefines> chosen;
+    while (!missing.empty()) {
+        const auto news = [&](const gpu::ShaderDefines& variant) {
+            return std::ranges::count_if(pairsOf(variant),
+                                         [&](const Pair& p) { return missing.contains(p); });
+        };
+        chosen.push_back(*std::ranges::max_element(variants, {}, news));
+        for (const Pair& pair : pairsOf(chosen.back())) missing.erase(pair);
+    }
+    return chosen;
+}
+
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
     for (const auto& [name, values] : variantValues()) {
         if (!path.ends_with("/" + name + ".glsl")) continue;
         std::vector<gpu::ShaderDefines> variants = combined(values);
         std::erase_if(variants, isNeverSelected);
-        return variants;
+        return testsAll() ? variants : coveringPairs(variants);
     }
     return kPlain;
 }
@@ -237,6 +267,19 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
         EXPECT_EQ(complaints(folder_, *stage, texts), "") << file.path;
     }
     EXPECT_GE(checked, 150);
+}
+
+TEST(ShaderPairs, AllOccurInFewVariants) {
+    const auto all =
+        combined({{"A", {"0", "1"}}, {"B", {"0", "1", "2"}}, {"C", {"0", "1"}}, {"D", {"0", "1"}}});
+    const auto chosen = coveringPairs(all);
+    EXPECT_LE(chosen.size(), 9u);  // of 24
+    std::set<Pair> wanted, found;
+    for (const auto& variant : all)
+        for (const Pair& pair : pairsOf(variant)) wanted.insert(pair);
+    for (const auto& variant : chosen)
+        for (const Pair& pair : pairsOf(variant)) found.insert(pair);
+    EXPECT_EQ(found, wanted);
 }
 
 TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {

@@ -10,6 +10,7 @@
 #include "terrane/store/sqlite_reader.h"
 #include "terrane/store/sqlite_store.h"
 #include "tests/store/store_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::store {
 namespace {
@@ -126,12 +127,11 @@ TEST_F(ChecksumTest, WritingDoesNotHideDamage) {
     EXPECT_TRUE(SqliteReader::open(path_, registry_));
 }
 
-// All bits with TERRANE_FLIPS=1 (minutes), otherwise every 211th, which covers all bit positions.
+// All bits at full depth (minutes); at the gate's, steps that cover all bit positions.
 TEST_F(ChecksumTest, OneFlippedBitIsNoticedOrHarmless) {
     ASSERT_TRUE(isWhole());
     const std::string whole = readAll(path_);
-    const char* wanted = std::getenv("TERRANE_FLIPS");
-    const std::size_t step = wanted ? std::strtoul(wanted, nullptr, 10) : 211;
+    const std::size_t step = atDepth(1009, 1);
     int flips = 0, noticed = 0, silent = 0;
     for (std::size_t bit = 0; bit < whole.size() * 8; bit += step) {
         std::string bytes = whole;

@@ -1,5 +1,5 @@
-// How deep tests go. `./run test` is the gate: every kind of check, with few seeds, views and variants. `./run test all` sets
-// TERRANE_DEPTH=all: many of each.
+// How deep tests go. `./run test` is the gate: every kind of check, with few seeds, views and variants.
+// `./run test all` sets TERRANE_DEPTH=all: many of each.
 #pragma once
 
 #include <cstdlib>

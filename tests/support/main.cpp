@@ -1,5 +1,6 @@
-// The entry point of all test programs. Beside GoogleTest's options it reads TERRANE_WITHOUT from the environment: patterns of
-// cases that do not run, separated by colons as in --gtest_filter. Exit code 77 if every case was skipped.
+// The entry point of all test programs. Beside GoogleTest's options it reads TERRANE_WITHOUT from the
+// environment: patterns of cases that do not run, separated by colons as in --gtest_filter. Exit code 77 if
+// every case was skipped.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,8 +13,8 @@ constexpr int kAllSkipped = 77;  // SKIP_RETURN_CODE in tests/CMakeLists.txt
 
 // GoogleTest: what follows the minus sign is left out.
 void leaveOut(const std::string& patterns) {
-    std::string& filter = GTEST_FLAG(filter);
-    filter += (filter.find('-') == std::string::npos ? "-" : ":") + patterns;
+    const std::string filter = GTEST_FLAG_GET(filter);
+    GTEST_FLAG_SET(filter, filter + (filter.find('-') == std::string::npos ? "-" : ":") + patterns);
 }
 
 }  // namespace

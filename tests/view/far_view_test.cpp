@@ -6,6 +6,7 @@
 #include <random>
 
 #include "terrane/view/camera_pose.h"
+#include "tests/support/depth.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {
@@ -30,11 +31,8 @@ class FarViewTest : public gpu::GlTest {
         return {camera, world::environmentAt(0.5f), 2 * fogDistance(kFar), 0, view};
     }
 
-    // Cameras a place: TERRANE_CAMERAS, for long runs, or 60.
-    static int cameraCount() {
-        const char* value = std::getenv("TERRANE_CAMERAS");
-        return value ? std::atoi(value) : 60;
-    }
+    // A place.
+    static int cameraCount() { return atDepth(12, 200); }
 
     // In the camera's chunk.
     static int highestBlock(const DrawnSession& player, const render::Camera& camera) {

@@ -34,7 +34,7 @@ std::optional<glm::vec2> projected(const Screen& screen, const render::Camera& c
     return ScreenProjection({screen.width, screen.height}, camera).at(point);
 }
 
-ImVec2 at(const glm::vec2& point) {
+ImVec2 imVec(const glm::vec2& point) {
     return {point.x, point.y};
 }
 
@@ -79,10 +79,10 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;
         if (face == target.face)
-            draw.AddQuadFilled(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]),
+            draw.AddQuadFilled(imVec(*c[0]), imVec(*c[1]), imVec(*c[2]), imVec(*c[3]),
                                isHighContrast ? IM_COL32(230, 159, 0, 110) : IM_COL32(255, 255, 255, 28));
         const auto outline = [&](ImU32 color, float width) {
-            draw.AddQuad(at(*c[0]), at(*c[1]), at(*c[2]), at(*c[3]), color, width * uiScale());
+            draw.AddQuad(imVec(*c[0]), imVec(*c[1]), imVec(*c[2]), imVec(*c[3]), color, width * uiScale());
         };
         outline(IM_COL32(0, 0, 0, isHighContrast ? 255 : 190), isHighContrast ? 5.0f : 1.5f);
         if (isHighContrast) outline(IM_COL32_WHITE, 2);
@@ -102,7 +102,7 @@ void drawDebugTopView(const Screen& screen, const render::Camera& above, const r
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto line = [&](glm::dvec3 a, glm::dvec3 b, ImU32 color) {
         const auto from = projected(screen, above, a), to = projected(screen, above, b);
-        if (from && to) draw.AddLine(at(*from), at(*to), color, 2 * uiScale());
+        if (from && to) draw.AddLine(imVec(*from), imVec(*to), color, 2 * uiScale());
     };
     const glm::dvec3 ahead(render::lookDirection(camera)), right(render::rightDirection(camera));
     const glm::dvec3 up = glm::cross(right, ahead);

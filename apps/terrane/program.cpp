@@ -1,0 +1,119 @@
+#include "apps/terrane/program.h"
+
+#include <execinfo.h>
+
+#include <cstdio>
+#include <exception>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/terrane/commands/commands.h"
+#include "apps/terrane/former_names.h"
+#include "apps/terrane/help/argument_errors.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/exception_text.h"
+#include "terrane/base/log.h"
+#include "terrane/base/profile.h"
+
+namespace terrane::app {
+namespace {
+
+constexpr int kBadInput = 2;
+
+// Exceptions, such as those of a system without memory or threads left, are reported like other failures.
+base::Result<void> run(const CommandEntry& command) {
+    try {
+        return command.run();
+    } catch (const std::exception& error) {
+        // A text longer than the buffer already fails while it is printed.
+        if (std::ferror(stdout) != 0) return base::fail("standard output cannot be written");
+        return base::fail("{}: {}", command.parser->get_name(), base::textOf(error));
+    }
+}
+
+base::Result<void> runTraced(const CommandEntry& command, const std::string& trace) {
+    if (trace.empty()) return run(command);
+    base::startTrace();
+    const base::Result<void> result = run(command);
+    base::stopTrace();
+    const base::Result<void> written = base::writeTrace(trace);
+    return result ? written : result;
+}
+
+// The exit code of the program: a run whose results could not be written has failed.
+int withOutputWritten(int exitCode) {
+    std::cout.flush();
+    if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    base::logError("standard output cannot be written");
+    return kBadInput;
+}
+
+// glibc loads the library that unwinds threads at its first use, and aborts if there is no memory left for
+// it.
+void loadUnwinder() {
+    void* frame = nullptr;
+    backtrace(&frame, 1);
+}
+
+// Inserts the default command if none is named.
+std::vector<std::string> argumentsOf(int argc, char** argv) {
+    std::vector<std::string> named = withCurrentNames({argv, static_cast<std::size_t>(argc)});
+    const std::string_view first = argc > 1 ? argv[1] : "";
+    const bool asksForHelp = first == "--help" || first == "-h" || first == "--version";
+    if ((argc < 2 || first.starts_with('-')) && !asksForHelp && defaultCommand())
+        named.insert(named.begin() + 1, defaultCommand());
+    return named;
+}
+
+// Returns an exit code if parsing ends the program: after help or an error.
+std::optional<int> parseArguments(CLI::App& parser, const std::vector<std::string>& named) {
+    if (named.size() > 1 && !named[1].starts_with('-')) {
+        if (const auto unknown = unknownCommand(parser, named[1])) {
+            base::logError("{}", *unknown);
+            return kBadInput;
+        }
+    }
+    std::vector<const char*> arguments;
+    for (const std::string& argument : named) arguments.push_back(argument.c_str());
+    try {
+        parser.parse(static_cast<int>(arguments.size()), arguments.data());
+    } catch (const CLI::Success& help) {
+        return withOutputWritten(parser.exit(help));
+    } catch (const CLI::ParseError& error) {
+        base::logError("{}", app::describe(parser, error));
+        return kBadInput;
+    }
+    return std::nullopt;
+}
+
+}  // namespace
+
+int runProgram(int argc, char** argv) try {
+    loadUnwinder();
+    base::setThreadName("main");
+    const bool plays = defaultCommand() != nullptr;
+    CLI::App parser(plays ? "Terrane: large voxel worlds. Without a command it plays."
+                          : "Terrane: large voxel worlds. This build has no graphics.",
+                    "terrane");
+    parser.set_version_flag("--version", TERRANE_VERSION);
+    parser.require_subcommand(plays ? 0 : 1, 1);
+    const std::vector<CommandEntry> commands = addCommands(parser);
+    std::string trace;
+    for (const CommandEntry& command : commands) addTraceOption(*command.parser, trace);
+    if (const auto exitCode = parseArguments(parser, argumentsOf(argc, argv))) return *exitCode;
+    for (const CommandEntry& command : commands) {
+        if (!command.parser->parsed()) continue;
+        const base::Result<void> result = runTraced(command, trace);
+        if (result) return withOutputWritten(command.exitCode());
+        base::logError("{}", result.error().message);
+        return kBadInput;
+    }
+    return kBadInput;
+} catch (const std::exception& error) {  // there was no memory to format a message
+    std::fprintf(stderr, "terrane: error: %s\n", base::textOf(error));
+    return kBadInput;
+}
+
+}  // namespace terrane::app
