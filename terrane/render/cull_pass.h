@@ -41,6 +41,8 @@ class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
+    // All mesh sections were removed: those that come now were not visible in the last frame.
+    void forget() { visibleLastFrame_ = {}; }
     // Runs a pass. `meshSections` is up to date. The early and the late pass of a frame follow each other,
     // with drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,

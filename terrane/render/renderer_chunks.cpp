@@ -119,6 +119,7 @@ void Renderer::clearChunks() {
     hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
     passes_.shadowMap.forget();
+    passes_.cull.forget();
     setViewDistance(viewDistance_);
 }
 

@@ -4,8 +4,10 @@ import json
 import os
 import pathlib
 import resource
+import shutil
 import signal
 import subprocess
+import tempfile
 import time
 
 import support
@@ -55,43 +57,75 @@ class Bench(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         return done.stdout
 
-    def test_a_table_is_measured(self):
-        done = self.bench("--only", "disk,layers")
-        self.assertEqual(done.returncode, 0, done.stderr)
+
+class Measured(Bench):
+    """What one run of two rounds leaves, in a folder with files of the user."""
+    own_files = ("work/thesis.txt", "info.txt", "messages.txt")
+
+    @classmethod
+    def setUpClass(cls):
+        cls.output = pathlib.Path(tempfile.mkdtemp(prefix="terrane_test_"))
+        cls.addClassCleanup(shutil.rmtree, cls.output)
+        (cls.output / "work").mkdir()
+        for name in cls.own_files:
+            (cls.output / name).write_text("mine")
+        cls.done = subprocess.run([support.program(), "bench", "--output", str(cls.output), *TINY, "--runs", "2", "--only",
+                                   "disk"], capture_output=True, text=True, timeout=HANG_SECONDS,
+                                  env=support.environment(), check=False)
+
+    def setUp(self):
+        self.assertEqual(self.done.returncode, 0, self.done.stderr)
+
+    def test_the_settings_are_there(self):
         settings = self.lines()[0]["settings"]
         for name, value in (("picture", "64x36"), ("view_distance", 1), ("quick", True), ("frames_of_a_run", 3),
-                            ("runs_of_each_measurement", 1)):
+                            ("runs_of_each_measurement", 2)):
             self.assertEqual(settings[name], value, name)
         for name in ("renderer", "processor", "compiler", "digest_of_the_program"):
             self.assertIn(name, settings)
-        cells = self.cells()
-        self.assertEqual(len(cells), 12)
-        self.assertEqual(sorted(cells), sorted(set(cells)), "equal command lines are measured once")
-        for line in self.lines()[1:]:
-            result = line["result"]
-            if "--world" in line["cell"]:
-                self.assertEqual(result["chunks"], 25)
-                self.assertGreater(result["bytes"]["save"], 2500)
-                self.assertGreater(result["milliseconds"]["load"], 0)
-            else:
-                self.assertGreater(result["milliseconds"]["frame"], 0)
-            self.assertGreater(result["run"]["seconds"], 0)
-        self.assertEqual([path.name for path in self.output.iterdir()], ["results.jsonl"])
 
-    def test_runs_are_made_in_rounds(self):
-        self.assertEqual(self.bench("--only", "disk", "--runs", "2").returncode, 0)
+    def test_cells_are_measured_in_rounds(self):
         cells = self.cells()
         self.assertEqual(len(cells), 8)
+        self.assertEqual(len(set(cells)), 4)
         self.assertEqual(cells[:4], cells[4:])
+        for line in self.lines()[1:]:
+            result = line["result"]
+            self.assertEqual(result["chunks"], 25)
+            self.assertGreater(result["bytes"]["save"], 2500)
+            self.assertGreater(result["milliseconds"]["load"], 0)
+            self.assertGreater(result["run"]["seconds"], 0)
+
+    def test_a_users_own_files_stay(self):
+        for name in self.own_files:
+            self.assertEqual((self.output / name).read_text(), "mine")
+        self.assertEqual(list(self.output.glob(".*")), [], "what runs needed is left")
+        self.assertEqual({path.name for path in self.output.iterdir()} - {"report.md", "tables", "plots"},
+                         {"results.jsonl", "work", "info.txt", "messages.txt"})
 
     def test_the_report(self):
         self.needsReport()
-        self.assertEqual(self.bench("--only", "disk").returncode, 0)
         self.python(TOOLS / "bench_report.py", self.output, "disk")
         report = (self.output / "report.md").read_text()
         for text in ("# Measurements, quick", "| renderer |", "| image | 64x36 |", "## Saves", "\n| cave | 25 |"):
             self.assertIn(text, report)
         self.assertNotIn("failed", report)
+
+    def test_results_can_be_compared(self):
+        results = self.output / "results.jsonl"
+        compared = self.python(TOOLS / "compare_benchmarks.py", results, results)
+        self.assertRegex(compared, r"\n?[1-9]\d* times compared, 0 slower, 0 faster")
+
+
+class Runs(Bench):
+    def test_frames_are_measured(self):
+        done = self.bench("--only", "layers")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        cells = self.cells()
+        self.assertEqual(len(cells), 8)
+        self.assertEqual(sorted(cells), sorted(set(cells)), "equal command lines are measured once")
+        for line in self.lines()[1:]:
+            self.assertGreater(line["result"]["milliseconds"]["frame"], 0)
 
     def test_the_plan_is_what_the_report_asks_for(self):
         self.needsReport()
@@ -116,16 +150,6 @@ class Bench(ProgramTest):
         self.assertEqual(settings["settings"]["picture"], "64x36")
         self.assertEqual(table["table"], "disk")
         self.assertEqual(len(table["cells"]), 4)
-
-    def test_a_users_own_files_stay(self):
-        (self.output / "work").mkdir(parents=True)
-        for name in ("work/thesis.txt", "info.txt", "messages.txt"):
-            (self.output / name).write_text("mine")
-        done = self.bench("--only", "disk")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        for name in ("work/thesis.txt", "info.txt", "messages.txt"):
-            self.assertEqual((self.output / name).read_text(), "mine")
-        self.assertEqual(list(self.output.glob(".*")), [], "what runs needed is left")
 
     def test_a_run_that_was_killed_goes_on(self):
         process = subprocess.Popen(self.command(*TINY, "--only", "disk"), stdout=subprocess.DEVNULL,
@@ -169,14 +193,6 @@ class Bench(ProgramTest):
         done = self.bench("--only", "disk", "--resume")
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(len([line for line in self.lines() if "result" in line]), 4)
-
-    def test_results_can_be_compared(self):
-        self.assertEqual(self.bench("--only", "disk").returncode, 0)
-        results = self.output / "results.jsonl"
-        done = subprocess.run(["python3", "-B", TOOLS / "compare_benchmarks.py", results, results],
-                              capture_output=True, text=True, check=False)
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertRegex(done.stdout, r"\n?[1-9]\d* times compared, 0 slower, 0 faster")
 
     def test_a_folder_that_cannot_be_made(self):
         self.output = self.folder / "file" / "results"

@@ -11,6 +11,7 @@
 
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/gen_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::gen {
 namespace {
@@ -68,11 +69,7 @@ void expectSameDown(const Generator& generator, int chunks) {
 }
 
 TEST(GenerateDown, LayersAreThoseOfTheWholeChunk) {
-#ifdef NDEBUG
-    constexpr int kChunks = 20;
-#else
-    constexpr int kChunks = 1;
-#endif
+    const int kChunks = atDepth(2, 20);
     for (const std::string& name : namesOf(builtInGenerators()))
         for (int level = 0; level <= world::kMaxLevel; ++level) {
             SCOPED_TRACE(name + ", level " + std::to_string(level));

@@ -16,6 +16,7 @@
 #include "terrane/world/block_registry.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
+#include "tests/support/depth.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::world {
@@ -115,12 +116,7 @@ inline void expectChunk(const Generator& generator, ChunkPos pos, const Expected
 
 constexpr std::uint64_t kTestSeed = 42;
 
-// Builds with assertions run without optimization, mostly under sanitizers, and take fifty times as long.
-#ifdef NDEBUG
-constexpr std::uint32_t kRandomCases = 200;
-#else
-constexpr std::uint32_t kRandomCases = 30;
-#endif
+inline const std::uint32_t kRandomCases = atDepth(60u, 200u);
 
 inline void expectBlocks(const Write& write, const ExpectedBlock& expected) {
     const Generator generator(build(write), kTestSeed);

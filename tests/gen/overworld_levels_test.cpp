@@ -12,6 +12,7 @@
 #include "bench/level_figures.h"
 #include "terrane/gen/level_generators.h"
 #include "tests/gen/chunk_area.h"
+#include "tests/support/depth.h"
 
 namespace terrane::gen {
 namespace {
@@ -24,9 +25,9 @@ const LevelGenerators& generators() {
     return all;
 }
 
-// Mountains, coast, plains, desert, forest and hills; sanitizers run without optimization.
+// Coast and hills; at full depth also mountains, plains, desert and forest.
 bench::FigureArea figureArea() {
-#ifdef NDEBUG
+    if (!testsAll()) return {16, {{-1344, -2304}, {-1056, -192}}};
     return {16,
             {{-1824, -1920},
              {-1344, -2304},
@@ -35,9 +36,6 @@ bench::FigureArea figureArea() {
              {-2112, -2304},
              {0, -2208},
              {-1056, -192}}};
-#else
-    return {16, {{-1344, -2304}, {-1056, -192}}};
-#endif
 }
 
 void expectSimilar(const bench::LevelFigures& f) {

@@ -11,6 +11,7 @@
 
 #include "tests/gen/noise_reference.h"
 #include "tests/gen/noise_tile.h"
+#include "tests/support/depth.h"
 
 namespace terrane::gen {
 namespace {
@@ -206,12 +207,7 @@ void expectVoxel(const NoiseTile& tile, const NoiseCall& call, std::array<std::i
     }
 }
 
-// In debug builds tiles take long: two of the places are enough then.
-#ifdef NDEBUG
-constexpr std::size_t kPlaceStep = 1;
-#else
-constexpr std::size_t kPlaceStep = 4;
-#endif
+const std::size_t kPlaceStep = atDepth<std::size_t>(4, 1);  // one of so many places
 
 // 7³ cells, where the tile looks at 5³. Layers in an order that goes back and jumps.
 TEST(Voronoi3D, EverySampleIsThatOfASearchOfMoreCells) {

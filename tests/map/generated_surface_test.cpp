@@ -3,16 +3,12 @@
 #include <string>
 
 #include "tests/map/map_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::map {
 namespace {
 
-// Builds with assertions run without optimization and take fifty times as long.
-#ifdef NDEBUG
-constexpr int kChunks = 24;
-#else
-constexpr int kChunks = 4;
-#endif
+const int kChunks = atDepth(4, 24);
 
 TEST(GeneratedSurface, IsThatOfTheWholeChunk) {
     std::mt19937 random(5);

@@ -7,15 +7,12 @@
 #include "tests/mesh/mesh_fixture.h"
 #include "tests/mesh/random_blocks.h"
 #include "tests/mesh/reference_faces.h"
+#include "tests/support/depth.h"
 
 namespace terrane::mesh {
 namespace {
 
-#ifdef NDEBUG
-constexpr unsigned kSeeds = 6;  // × 9 mixes × 5 methods = 270 chunks
-#else
-constexpr unsigned kSeeds = 2;
-#endif
+const unsigned kSeeds = atDepth(2u, 6u);  // × 9 mixes × 5 methods
 constexpr int kMeshSectionHeights[] = {8, 16, 32, 64, 128};
 
 // Every visible face is covered once, no other face is.
