@@ -14,7 +14,7 @@ namespace terrane::base {
 struct ChildOptions {
     std::filesystem::path folder;                                       // working directory
     std::filesystem::path errorOutput;                                  // file for its standard error
-    std::chrono::seconds atMost{600};                                   // the child is killed then
+    std::chrono::milliseconds atMost = std::chrono::minutes(10);        // the child is killed then
     std::vector<std::pair<std::string, std::string>> environment = {};  // added to the inherited variables
     int mostRuns = 1;  // a child that crashes is run again, up to this many runs
 };

@@ -79,6 +79,8 @@ class JobSystem {
 
     // Runs the most urgent job on the calling thread. False if none is queued.
     bool runNext();
+    // The same for a system with 0 threads; false if it has threads. For code that waits for results of jobs.
+    bool runNextWithoutThreads() { return workers_.empty() && runNext(); }
 
     // The number of jobs that run at a time.
     [[nodiscard]] unsigned threadCount() const {

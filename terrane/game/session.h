@@ -98,6 +98,8 @@ class Session {
     stream::TilePipeline& tiles() { return tiles_; }
     const stream::TilePipeline& tiles() const { return tiles_; }
     std::vector<stream::TaskTime> taskTimes() const;  // of the work on chunks, then on tiles
+    // The workers of both pipelines. With 0 threads, the caller runs the jobs.
+    base::JobSystem& jobs() { return jobs_; }
 
     DayClock clock;
     Permissions permissions;

@@ -23,7 +23,7 @@ struct SessionParts {
     std::shared_ptr<const world::BlockRegistry> blocks;  // not moved: others refer to it
     gen::LevelGenerators generators;                     // has level 0
     std::unique_ptr<store::ChunkStore> store;
-    unsigned threads = 1;         // workers
+    unsigned threads = 1;         // workers; 0: see Session::jobs()
     bool storesGenerated = true;  // chunks without edits too
     // Null: workers generate and light. Both outlive the session.
     gen::BatchGenerator* batchGenerator = nullptr;

@@ -41,7 +41,8 @@ class ChunkPipeline {
     // Takes the results of workers, puts edits on screen and submits new work. Call each frame. Throws what a
     // worker threw.
     void update(Time now = std::chrono::steady_clock::now());
-    // Blocks until a worker or a batch may have a result, or the time is over.
+    // Blocks until a worker or a batch may have a result, or the time is over. Runs a job if there are no
+    // threads.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
     // The chunk; null if it is not loaded, and then it is loaded soon. Each call keeps it for 5 s.

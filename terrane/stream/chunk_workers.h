@@ -37,8 +37,10 @@ class ChunkWorkers {
 
     // Takes the results. Throws what a job threw, nearly always for lack of memory.
     WorkerResults::Lists takeResults();
-    // Blocks until there is a result or the time is over.
-    void waitForAny(std::chrono::milliseconds atMost) { results_->waitForAny(atMost); }
+    // Blocks until there is a result or the time is over. Runs a job if there are no threads.
+    void waitForAny(std::chrono::milliseconds atMost) {
+        if (!parts_.jobs.runNextWithoutThreads()) results_->waitForAny(atMost);
+    }
 
     // The number of jobs of a kind that may be in flight, more if updates are rare.
     std::size_t jobLimit(std::chrono::nanoseconds sinceUpdate) const;

@@ -142,6 +142,7 @@ TileListener TilePipeline::tileListener() const {
 }
 
 void TilePipeline::waitForWorkers(std::chrono::milliseconds atMost) {
+    if (parts_.jobs.runNextWithoutThreads()) return;
     std::unique_lock lock(results_->mutex);
     results_->changed.wait_for(lock, atMost, [&] {
         return !results_->made.empty() || !results_->outdated.empty() || results_->failure;

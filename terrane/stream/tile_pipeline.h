@@ -51,7 +51,8 @@ class TilePipeline {
     TileListener tileListener() const;
     // Takes the results of workers and submits new work. Call each frame. Throws what a worker threw.
     void update(mesh::MergeMethod method);
-    // Blocks until a worker may have finished a tile, or the time is over.
+    // Blocks until a worker may have finished a tile, or the time is over. Runs a job if there are no
+    // threads.
     void waitForWorkers(std::chrono::milliseconds atMost);
 
     // Takes up to `limit` new tiles, which the caller can show from now on.

@@ -4,13 +4,14 @@
 
 #include "terrane/base/files.h"
 #include "tests/base/temp_folder.h"
+#include "tests/base/wait_until.h"
 
 namespace terrane::base {
 namespace {
 
 class ChildProcessTest : public testing::Test {
   protected:
-    Result<ChildEnd> shell(const std::string& script, std::chrono::seconds atMost = std::chrono::minutes(1)) {
+    Result<ChildEnd> shell(const std::string& script, std::chrono::milliseconds atMost = kHangs) {
         return runChild({"/bin/sh", "-c", script},
                         {folder.path(), folder / "errors", atMost, {{"TERRANE_TEST", "set"}}});
     }
@@ -67,7 +68,7 @@ TEST_F(ChildProcessTest, RunsACrashedProgramAgain) {
 }
 
 TEST_F(ChildProcessTest, EndsWhatTakesTooLong) {
-    const auto end = shell("echo before; exec sleep 1000", std::chrono::seconds(1));
+    const auto end = shell("echo before; exec sleep 1000", std::chrono::milliseconds(20));
     ASSERT_TRUE(end);
     EXPECT_TRUE(end->tookTooLong);
     EXPECT_NE(end->exitCode, 0);

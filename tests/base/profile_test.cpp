@@ -10,9 +10,10 @@
 #include <thread>
 #include <vector>
 
-#include "temp_folder.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
+#include "tests/base/temp_folder.h"
+#include "tests/base/wait_until.h"
 
 namespace terrane::base {
 namespace {
@@ -46,16 +47,29 @@ ParsedTrace writeAndParse() {
     return trace;
 }
 
+// Microseconds, by the clock of zones.
+double now() {
+    return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch())
+        .count();
+}
+
 TEST(Profile, RecordsNestedZones) {
     startTrace();
+    double innerLeast = 0, innerMost = 0, outerLeast = 0;
+    const double beforeOuter = now();
     {
         TERRANE_ZONE("outer");
-        std::this_thread::sleep_for(std::chrono::milliseconds(2));
+        const double beforeInner = now();
         {
             TERRANE_ZONE("inner");
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            const double begin = now();
+            while (now() - begin < 100) continue;
+            innerLeast = now() - begin;
         }
+        innerMost = now() - beforeInner;
+        outerLeast = now() - beforeInner;
     }
+    const double outerMost = now() - beforeOuter;
     stopTrace();
     const ParsedTrace trace = writeAndParse();
     ASSERT_EQ(trace.zones.size(), 2u);
@@ -63,10 +77,17 @@ TEST(Profile, RecordsNestedZones) {
     const nlohmann::json inner = trace.named("inner").at(0);
     EXPECT_EQ(outer["tid"], inner["tid"]);
     EXPECT_GE(outer["ts"].get<double>(), 0);
-    EXPECT_GE(outer["dur"].get<double>(), 4000) << "microseconds";
-    EXPECT_GE(inner["dur"].get<double>(), 2000);
-    EXPECT_GE(inner["ts"].get<double>(), outer["ts"].get<double>() + 2000);
-    EXPECT_LE(inner["dur"].get<double>(), outer["dur"].get<double>() - 2000);
+    // Times in the file are rounded.
+    constexpr double kRounding = 0.01;
+    EXPECT_GE(outer["dur"].get<double>(), outerLeast - kRounding);
+    EXPECT_LE(outer["dur"].get<double>(), outerMost + kRounding);
+    EXPECT_GE(inner["dur"].get<double>(), innerLeast - kRounding);
+    EXPECT_LE(inner["dur"].get<double>(), innerMost + kRounding);
+    const auto endOf = [](const nlohmann::json& zone) {
+        return zone["ts"].get<double>() + zone["dur"].get<double>();
+    };
+    EXPECT_GE(inner["ts"].get<double>(), outer["ts"].get<double>() - kRounding);
+    EXPECT_LE(endOf(inner), endOf(outer) + kRounding);
 }
 
 TEST(Profile, RecordsNothingWhileNoTraceRuns) {
@@ -126,9 +147,14 @@ TEST(Profile, JobSystemNamesItsWorkers) {
     startTrace();
     {
         JobSystem jobs(2);
-        const Result<void> done = parallelFor(jobs, 64, [](std::size_t) {
+        // The caller works, too: it lets a worker be the first one.
+        const auto caller = std::this_thread::get_id();
+        std::atomic<bool> hasWorker = false;
+        const Result<void> done = parallelFor(jobs, 64, [&](std::size_t) {
             TERRANE_ZONE("index");
-            std::this_thread::sleep_for(std::chrono::microseconds(200));
+            if (std::this_thread::get_id() == caller) return hasWorker.wait(false);
+            hasWorker = true;
+            hasWorker.notify_all();
         });
         EXPECT_TRUE(done);
     }
@@ -168,19 +194,21 @@ TEST(Profile, DropsWhatDoesNotFitAndSaysSo) {
 
 TEST(Profile, MayBeStartedAndWrittenWhileThreadsRecord) {
     std::atomic<bool> stop{false};
+    std::atomic<int> zones{0};
     std::vector<std::thread> threads;
     for (int t = 0; t < 3; ++t) {
         threads.emplace_back([&] {
             while (!stop) {
                 { TERRANE_ZONE("busy"); }
-                // Keeps the written files small; a trace still takes in hundreds of zones of each thread.
+                ++zones;
+                // Keeps the written files small.
                 std::this_thread::sleep_for(std::chrono::microseconds(5));
             }
         });
     }
     for (int round = 0; round < 10; ++round) {
         startTrace();
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+        EXPECT_TRUE(waitUntil([&, most = zones + 300] { return zones >= most; }));
         if (round % 2 == 0) stopTrace();
         for (const nlohmann::json& zone : writeAndParse().zones) EXPECT_EQ(zone["name"], "busy");
     }

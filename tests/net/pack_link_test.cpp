@@ -13,17 +13,18 @@ class PackLink : public testing::Test {
     void run(LinkEvents events) {
         ClientLink link(context_, {"127.0.0.1", server_.sockets->port()}, testIdentity("ann"),
                         std::move(events));
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(60);
-        while (link.stage() == ClientLink::Stage::Connecting && std::chrono::steady_clock::now() < deadline) {
+        const auto isOver = [&] { return link.stage() != ClientLink::Stage::Connecting; };
+        const auto step = [&] {
             link.update(std::chrono::steady_clock::now());
             server_.update();
             context_.restart();
             // One message at a time; otherwise a login completes in a single call.
             context_.run_one_for(std::chrono::milliseconds(5));
-            if (!untimely_) continue;
+            if (!untimely_) return;
             for (auto& [id, client] : server_.server.state().clients) send(client, *untimely_);
             server_.sockets->flush();
-        }
+        };
+        EXPECT_TRUE(base::waitUntil(isOver, step));
         stage_ = link.stage();
         reason_ = link.reason();
     }
@@ -57,7 +58,7 @@ class PackLink : public testing::Test {
     base::TempFolder folder_;
     boost::asio::io_context context_;
     ServerContent content_ = content();
-    SocketServer server_{context_, folder_.path(), 0, {}, content_};
+    SocketServer server_{context_, folder_.path(), 0, patientSettings(), content_};
     ClientLink::Stage stage_{};
     std::string reason_;
     bool proved_ = false;
