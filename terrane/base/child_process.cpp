@@ -9,7 +9,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
@@ -94,7 +93,7 @@ Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOpt
 }  // namespace
 
 Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options) {
-    assert(!command.empty() && "a program is named");
+    if (command.empty()) return fail(ErrorCode::BadInput, "no program to run is named");
     int crashes = 0;
     for (int run = 1;; ++run) {
         auto end = runOnce(command, options);

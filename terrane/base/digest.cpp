@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 #include <xxhash.h>
 
-#include <cassert>
 #include <new>
+
+#include "terrane/base/require.h"
 
 namespace terrane::base {
 
@@ -14,7 +15,7 @@ Digest::Digest() : state_(XXH3_createState()) {
 }
 
 void Digest::update(std::span<const std::byte> bytes) {
-    assert(state_ && "a moved-from digest takes no bytes");
+    require(state_ != nullptr, "Digest::update: the digest was moved from");
     XXH3_128bits_update(state_.get(), bytes.data(), bytes.size());
 }
 
@@ -23,7 +24,7 @@ void Digest::update(std::string_view text) {
 }
 
 std::string Digest::hex() const {
-    assert(state_ && "a moved-from digest has no result");
+    require(state_ != nullptr, "Digest::hex: the digest was moved from");
     const XXH128_hash_t hash = XXH3_128bits_digest(state_.get());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }

@@ -77,25 +77,30 @@ Result<std::string> encode(PngImage& png, const std::uint8_t* pixels) {
     return bytes;
 }
 
-void setSize(PngImage& png, const Image& image) {
-    assert(image.width > 0 && image.height > 0 && "an image without pixels cannot be a PNG");
+Result<void> setSize(PngImage& png, const Image& image) {
+    if (image.width < 1 || image.height < 1)
+        return fail(ErrorCode::BadInput, "an image of {} × {} pixels cannot be a PNG", image.width,
+                    image.height);
     png.width = static_cast<png_uint_32>(image.width);
     png.height = static_cast<png_uint_32>(image.height);
     png.format = PNG_FORMAT_RGBA;
-    assert(image.rgba.size() == std::size_t{png.width} * png.height * 4 && "four bytes for each pixel");
+    if (image.rgba.size() != std::size_t{png.width} * png.height * 4)
+        return fail(ErrorCode::BadInput, "an image of {} × {} pixels has {} bytes, expected 4 per pixel",
+                    image.width, image.height, image.rgba.size());
+    return {};
 }
 
 }  // namespace
 
 Result<std::string> encodePng(const Image& image) {
     PngImage png;
-    setSize(png, image);
+    if (auto fits = setSize(png, image); !fits) return tl::unexpected(fits.error());
     return encode(png, image.rgba.data());
 }
 
 Result<std::string> encodePngFast(const Image& image) {
     PngImage png;
-    setSize(png, image);
+    if (auto fits = setSize(png, image); !fits) return tl::unexpected(fits.error());
     png.flags |= PNG_IMAGE_FLAG_FAST;
     std::vector<std::uint8_t> rgb;
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) {

@@ -16,6 +16,7 @@
 #include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 
 namespace terrane::base {
 
@@ -182,12 +183,12 @@ void runWorker(JobQueue& queue, unsigned number) {
 }  // namespace
 
 JobState JobHandle::state() const {
-    assert(job_ && "an empty handle has no state");
+    require(job_ != nullptr, "JobHandle::state: an empty handle");
     return job_->state.load(std::memory_order_acquire);
 }
 
 bool JobHandle::cancel() const {
-    assert(job_ && "an empty handle has nothing to cancel");
+    require(job_ != nullptr, "JobHandle::cancel: an empty handle");
     JobQueue& queue = *job_->queue;
     JobWork released;  // outlives the lock: destroying captures may run anything, even another cancel
     bool idle = false;
@@ -205,7 +206,7 @@ bool JobHandle::cancel() const {
 }
 
 void JobHandle::wait() const {
-    assert(job_ && "an empty handle has nothing to wait for");
+    require(job_ != nullptr, "JobHandle::wait: an empty handle");
     forbidOnWorker(*job_->queue, "JobHandle::wait was called on a worker, which could wait for itself");
     if (job_->queue->hasNoThreads)
         while (!isFinished(job_->state) && runFirst(*job_->queue)) continue;
@@ -214,7 +215,7 @@ void JobHandle::wait() const {
 }
 
 std::string JobHandle::error() const {
-    assert(job_ && "an empty handle has no error");
+    require(job_ != nullptr, "JobHandle::error: an empty handle");
     if (state() != JobState::Failed) return {};
     job_->errorSeen = true;
     return job_->error;
@@ -242,7 +243,7 @@ JobSystem::~JobSystem() {
 }
 
 JobHandle JobSystem::submit(JobPriority priority, JobWork work) {
-    assert(work && "a job needs work to do");
+    require(work != nullptr, "JobSystem::submit: a job needs work to do");
     auto job = std::make_shared<Job>(queue_, std::move(work));
     {
         const std::lock_guard lock(queue_->mutex);
@@ -313,7 +314,7 @@ void runIndices(Loop& loop) {
 }  // namespace
 
 Result<void> parallelFor(JobSystem& jobs, std::size_t count, const std::function<void(std::size_t)>& body) {
-    assert(body && "parallelFor needs something to call");
+    require(body != nullptr, "parallelFor: nothing to call");
     if (count == 0) return {};
     const auto loop = std::make_shared<Loop>(body, count);
     std::vector<JobHandle> helpers(std::min<std::size_t>(jobs.threadCount(), count - 1));

@@ -2,14 +2,15 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <vector>
+
+#include "terrane/base/require.h"
 
 namespace terrane::base {
 
 // The median of at least one value; of an even number, the mean of the middle two.
 inline double medianOf(std::vector<double> values) {
-    assert(!values.empty() && "nothing has no median");
+    require(!values.empty(), "medianOf: no values");
     std::ranges::sort(values);
     const std::size_t middle = values.size() / 2;
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;

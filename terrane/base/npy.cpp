@@ -3,8 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cassert>
 #include <string_view>
+
+#include "terrane/base/require.h"
 
 namespace terrane::base {
 
@@ -30,7 +31,7 @@ std::string shapeText(const std::vector<std::size_t>& shape) {
 }  // namespace
 
 std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& shape, std::size_t minBytes) {
-    assert(!descr.empty() && "an array has an element type");
+    require(!descr.empty(), "npyHeader: an array has an element type");
     const std::string type = descr.front() == '[' ? descr : fmt::format("'{}'", descr);
     std::string header =
         fmt::format("{{'descr': {}, 'fortran_order': False, 'shape': {}, }}", type, shapeText(shape));
@@ -38,7 +39,8 @@ std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& 
     const std::size_t wholeBytes = (std::max(usedBytes, minBytes) + kAlignment - 1) / kAlignment * kAlignment;
     header.append(wholeBytes - usedBytes, ' ');
     header += '\n';
-    assert(header.size() <= kMaxHeaderBytes && "version 1.0 counts the header in 16 bits");
+    require(header.size() <= kMaxHeaderBytes,
+            "npyHeader: version 1.0 has no header of more than 65,535 bytes");
     std::string bytes(kMagic);
     bytes += static_cast<char>(header.size() & 255);
     bytes += static_cast<char>(header.size() >> 8);
@@ -46,7 +48,7 @@ std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& 
 }
 
 std::string encodeNpy(const NpyArray& array) {
-    assert(fitsShape(array) && "the data is a whole number of bytes for each element");
+    require(fitsShape(array), "encodeNpy: the data is a whole number of bytes for each element");
     return npyHeader(array.descr, array.shape) + array.data;
 }
 

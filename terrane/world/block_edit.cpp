@@ -1,7 +1,6 @@
 #include "terrane/world/block_edit.h"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
 
 #include "terrane/world/block_set.h"
@@ -103,7 +102,7 @@ bool BlockUpdate::hasEdit(BlockPos pos) {
 }
 
 void BlockUpdate::move(BlockPos from, BlockPos to) {
-    assert(from != to && "a block moves to another place");
+    if (from == to) return;
     const BlockId id = world_.block(from);
     if (id == kAir || !canStand(to, id) || !world_.findWritable(to)) return;
     Chunk* source = world_.findWritable(from);

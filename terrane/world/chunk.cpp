@@ -1,8 +1,9 @@
 #include "terrane/world/chunk.h"
 
 #include <algorithm>
-#include <cassert>
 #include <utility>
+
+#include "terrane/base/require.h"
 
 namespace terrane::world {
 
@@ -33,7 +34,8 @@ void Chunk::setBlockEntityData(BlockIndex i, BlockEntityData data) {
 }
 
 void Chunk::shareBlockEntityData(BlockIndex i, BlockEntityDataPtr data) {
-    assert(data && "clearBlockEntityData() takes data away");
+    base::require(data != nullptr,
+                  "Chunk::shareBlockEntityData: null; clearBlockEntityData() takes data away");
     entityData_[i] = std::move(data);
 }
 
@@ -56,14 +58,16 @@ std::vector<BlockIndex> Chunk::blocksWithBlockEntityData() const {
 }
 
 void Chunk::setSection(int number, Section section) {
-    assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
+    base::require(number >= 0 && number < kSectionsPerChunk,
+                  "Chunk::setSection: a chunk has sections 0 to 15");
     std::erase_if(entityData_, [&](const auto& entry) { return entry.first >> 12 == number; });
     blocks_[static_cast<std::size_t>(number)] = std::move(section);
     blockState_[static_cast<std::size_t>(number)] = Section();
 }
 
 void Chunk::setBlockStateSection(int number, Section section) {
-    assert(number >= 0 && number < kSectionsPerChunk && "number of a section in a chunk");
+    base::require(number >= 0 && number < kSectionsPerChunk,
+                  "Chunk::setBlockStateSection: a chunk has sections 0 to 15");
     blockState_[static_cast<std::size_t>(number)] = std::move(section);
 }
 

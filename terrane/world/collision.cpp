@@ -1,10 +1,10 @@
 #include "terrane/world/collision.h"
 
+#include "terrane/base/require.h"
 #include "terrane/world/block_model.h"
 #include "terrane/world/liquid_flow.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/common.hpp>
 
@@ -76,7 +76,7 @@ double sweepAlong(const World& world, const BlockRegistry& blocks, const Aabb& b
 }  // namespace
 
 Sweep sweep(const World& world, const BlockRegistry& blocks, const Aabb& box, glm::dvec3 motion) {
-    assert(motion == motion && "a number");
+    base::require(motion == motion, "sweep: the motion is not a number");
     Sweep result;
     Aabb moving = box;
     for (const int axis : {2, 0, 1}) {

@@ -1,8 +1,9 @@
 #include "terrane/world/inventory.h"
 
 #include <algorithm>
-#include <cassert>
 #include <span>
+
+#include "terrane/base/require.h"
 
 namespace terrane::world {
 namespace {
@@ -22,7 +23,7 @@ std::uint16_t read16(std::span<const std::byte> bytes) {
 }  // namespace
 
 int addToStack(ItemStack& stack, std::string_view item, int count) {
-    assert(count >= 0 && "adding never takes");
+    base::require(count >= 0, "addToStack: a negative count");
     if (stack.count > 0 && stack.item != item) return count;
     const int moved = std::min(count, kMaxStack - stack.count);
     if (moved > 0) stack = {std::string(item), static_cast<std::uint16_t>(stack.count + moved)};
@@ -30,7 +31,7 @@ int addToStack(ItemStack& stack, std::string_view item, int count) {
 }
 
 int takeFromStack(ItemStack& stack, int count) {
-    assert(count >= 0 && "taking never adds");
+    base::require(count >= 0, "takeFromStack: a negative count");
     const int moved = std::min<int>(count, stack.count);
     stack.count = static_cast<std::uint16_t>(stack.count - moved);
     if (stack.count == 0) stack = {};
@@ -38,7 +39,8 @@ int takeFromStack(ItemStack& stack, int count) {
 }
 
 int addItems(Inventory& inventory, std::string_view item, int count) {
-    assert(!item.empty() && item.size() <= kMaxItemName && count >= 0 && "items of a name");
+    base::require(!item.empty() && item.size() <= kMaxItemName, "addItems: a name has 1 to 255 bytes");
+    base::require(count >= 0, "addItems: a negative count");
     for (ItemStack& stack : inventory)
         if (stack.item == item) count = addToStack(stack, item, count);
     for (ItemStack& stack : inventory)
@@ -47,7 +49,7 @@ int addItems(Inventory& inventory, std::string_view item, int count) {
 }
 
 int takeItems(Inventory& inventory, std::string_view item, int count) {
-    assert(count >= 0 && "taking never adds");
+    base::require(count >= 0, "takeItems: a negative count");
     int taken = 0;
     for (auto stack = inventory.rbegin(); stack != inventory.rend() && taken < count; ++stack) {
         if (stack->item == item) taken += takeFromStack(*stack, count - taken);
@@ -62,11 +64,11 @@ int countItems(const Inventory& inventory, std::string_view item) {
 }
 
 BlockEntityData encodeInventory(const Inventory& inventory) {
-    assert(inventory.size() <= 0xFFFF && "the number of slots has 16 bits");
+    base::require(inventory.size() <= 0xFFFF, "encodeInventory: more than 65,535 slots");
     BlockEntityData out{kVersion};
     append16(out, inventory.size());
     for (const ItemStack& stack : inventory) {
-        assert(stack.item.size() <= kMaxItemName && "the length of a name has 8 bits");
+        base::require(stack.item.size() <= kMaxItemName, "encodeInventory: a name of more than 255 bytes");
         append16(out, stack.count);
         out.push_back(static_cast<std::byte>(stack.item.size()));
         const auto name = std::as_bytes(std::span(stack.item));

@@ -1,5 +1,6 @@
 // The items of a block with slots, such as a chest: stacks of items in the block's block entity data. An edit
-// by SetEntityData writes it back and saves it with the chunk. Plain values, any thread.
+// by SetEntityData writes it back and saves it with the chunk. Plain values, any thread. Negative counts and
+// names that do not fit throw std::invalid_argument.
 #pragma once
 
 #include <cstdint>

@@ -8,6 +8,8 @@
 #include <type_traits>
 #include <utility>
 
+#include "terrane/base/require.h"
+
 namespace terrane::world {
 namespace {
 
@@ -185,9 +187,8 @@ Section Section::fromValues(std::span<const Value, kBlocksPerSection> values) {
 
 std::optional<Section> Section::fromPacked(int bits, std::vector<Value> palette,
                                            std::vector<std::uint64_t> words) {
-    assert((bits == 1 || bits == 2 || bits == 4 || bits == 8 || bits == kDenseBits) &&
-           "bits of a packed form");
-    assert(words.size() == wordCount(bits) && "words of a packed form");
+    if (bits != 1 && bits != 2 && bits != 4 && bits != 8 && bits != kDenseBits) return std::nullopt;
+    if (words.size() != wordCount(bits)) return std::nullopt;
     if (bits == kDenseBits) {
         if (!palette.empty()) return std::nullopt;
     } else {
@@ -231,7 +232,8 @@ void Section::unpack(std::span<Value, kBlocksPerSection> values) const {
 }
 
 void Section::unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const {
-    assert(mapped.size() == palette_.size() && "one value for each palette entry");
+    base::require(mapped.size() == palette_.size(),
+                  "Section::unpackMapped: each palette entry needs a value");
     withPaletteBits(bits_, [&](auto bits) { unpackValues<bits>(words_.data(), mapped, values.data()); });
 }
 

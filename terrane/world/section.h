@@ -30,9 +30,9 @@ class Section {
     // The smallest form of 4,096 values.
     static Section fromValues(std::span<const Value, kBlocksPerSection> values);
 
-    // A section that is not uniform from its bits(), palette() and words(), in the same form. `bits` is 1, 2,
-    // 4, 8 or 16 and `words` holds 64 · bits of them. Nothing if the index of a block has no value in the
-    // palette, or if the palette is longer than `bits` can tell apart.
+    // A section that is not uniform from its bits(), palette() and words(), in the same form. Nothing unless
+    // `bits` is 1, 2, 4, 8 or 16 and `words` holds 64 · bits of them, or if the index of a block has no value
+    // in the palette, or if the palette is longer than `bits` can tell apart.
     static std::optional<Section> fromPacked(int bits, std::vector<Value> palette,
                                              std::vector<std::uint64_t> words);
 

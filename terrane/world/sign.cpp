@@ -1,10 +1,10 @@
 #include "terrane/world/sign.h"
 
 #include <algorithm>
-#include <cassert>
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "terrane/base/require.h"
 #include "terrane/base/utf8.h"
 #include "terrane/world/block_model.h"
 
@@ -54,7 +54,7 @@ base::Result<void> checkSign(const SignText& text) {
 }
 
 BlockEntityData encodeSign(const SignText& text) {
-    assert(checkSign(text) && "the text was checked");
+    base::require(checkSign(text).has_value(), "encodeSign: a text that checkSign() rejects");
     BlockEntityData data{kSignVersion};
     for (std::size_t k = 0; k < text.size(); ++k) {
         if (k > 0) data.push_back(std::byte{'\n'});

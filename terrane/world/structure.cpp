@@ -1,9 +1,10 @@
 #include "terrane/world/structure.h"
 
 #include <algorithm>
-#include <cassert>
 #include <unordered_map>
 #include <utility>
+
+#include "terrane/base/require.h"
 
 namespace terrane::world {
 namespace {
@@ -85,7 +86,7 @@ bool operator==(const Structure& a, const Structure& b) {
 
 Structure copyBlocks(const World& world, const BlockRegistry& blocks, const BlockBox& box) {
     const std::int64_t count = box.blockCount();
-    assert(count > 0 && count <= kMaxStructureBlocks && "the caller limits the box");
+    base::require(count > 0 && count <= kMaxStructureBlocks, "copyBlocks: the box has no blocks or too many");
     Structure structure;
     structure.size = {box.high.x - box.low.x + 1, box.high.y - box.low.y + 1, box.high.z - box.low.z + 1};
     structure.cells.reserve(static_cast<std::size_t>(count));

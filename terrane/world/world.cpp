@@ -1,8 +1,9 @@
 #include "terrane/world/world.h"
 
-#include <cassert>
 #include <memory>
 #include <utility>
+
+#include "terrane/base/require.h"
 
 namespace terrane::world {
 namespace {
@@ -28,8 +29,8 @@ ChunkPtr World::maybeChunkAt(ChunkPos pos) const {
 }
 
 void World::insert(ChunkPos pos, std::shared_ptr<Chunk> chunk) {
-    assert(chunk && "an absent chunk is erased, not inserted as null");
-    assert(isInWorld(pos) && "blocks of a chunk have 32-bit coordinates");
+    base::require(chunk != nullptr, "World::insert: null; erase() removes a chunk");
+    base::require(isInWorld(pos), "World::insert: the chunk is outside the world");
     chunks_.insert_or_assign(pos, std::move(chunk));
 }
 

@@ -1,41 +1,16 @@
 #!/usr/bin/env python3
 """The program and its commands that need no save, end to end. Usage: cli_test.py PROGRAM"""
 import json
+import pathlib
 import re
+import tomllib
 
 import support
 from support import Image, ProgramTest, run
 
 COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
-
-# Light opacity and emission by name.
-BLOCKS = {
-    "air": (0, [0, 0, 0]), "stone": (15, [0, 0, 0]), "dirt": (15, [0, 0, 0]), "grass": (15, [0, 0, 0]),
-    "sand": (15, [0, 0, 0]), "snow": (15, [0, 0, 0]), "glowing_ore": (15, [2, 1, 0]), "oak_log": (15, [0, 0, 0]),
-    "oak_leaves": (3, [0, 0, 0]), "grass_tuft": (3, [0, 0, 0]), "blue_orchid": (3, [0, 0, 0]),
-    "poppy": (3, [0, 0, 0]), "oxeye_daisy": (3, [0, 0, 0]), "wheat": (4, [0, 0, 0]),
-    "red_mushroom": (2, [0, 0, 0]), "brown_mushroom": (2, [0, 0, 0]), "glowing_mushroom": (0, [5, 10, 8]),
-    "cactus": (11, [0, 0, 0]), "lamp_white": (15, [15, 13, 13]), "lamp_red": (15, [15, 0, 0]),
-    "lamp_green": (15, [0, 15, 0]), "lamp_blue": (15, [0, 0, 15]), "cyan_glass": (3, [0, 0, 0]),
-    "water": (1, [0, 0, 0]), "chest": (15, [0, 0, 0]),
-    "birch_log": (15, [0, 0, 0]), "birch_leaves": (3, [0, 0, 0]), "spruce_log": (15, [0, 0, 0]),
-    "spruce_leaves": (3, [0, 0, 0]), "pine_log": (15, [0, 0, 0]), "pine_leaves": (3, [0, 0, 0]),
-    "acacia_log": (15, [0, 0, 0]), "acacia_leaves": (3, [0, 0, 0]), "willow_log": (15, [0, 0, 0]),
-    "willow_leaves": (3, [0, 0, 0]), "palm_log": (15, [0, 0, 0]), "palm_leaves": (3, [0, 0, 0]),
-    "dead_log": (15, [0, 0, 0]), "moss": (15, [0, 0, 0]), "mossy_stone": (15, [0, 0, 0]),
-    "gravel": (15, [0, 0, 0]), "clay": (15, [0, 0, 0]), "mud": (15, [0, 0, 0]), "ice": (15, [0, 0, 0]),
-    "red_sand": (15, [0, 0, 0]), "sandstone": (15, [0, 0, 0]), "red_sandstone": (15, [0, 0, 0]),
-    "terracotta": (15, [0, 0, 0]), "basalt": (15, [0, 0, 0]), "limestone": (15, [0, 0, 0]),
-    "tall_grass": (3, [0, 0, 0]), "savanna_grass": (3, [0, 0, 0]), "fern": (3, [0, 0, 0]),
-    "reeds": (3, [0, 0, 0]), "heather": (3, [0, 0, 0]), "bluebell": (3, [0, 0, 0]), "dead_bush": (2, [0, 0, 0]),
-    "crystal": (0, [6, 8, 13]), "coral_red": (15, [0, 0, 0]), "coral_yellow": (15, [0, 0, 0]),
-    "seagrass": (15, [0, 0, 0]), "mushroom_stem": (15, [0, 0, 0]), "mushroom_cap": (15, [0, 0, 0]),
-}
-NO_COLLISION = {"air", "grass_tuft", "blue_orchid", "poppy", "oxeye_daisy", "wheat", "red_mushroom",
-                "brown_mushroom", "glowing_mushroom", "water",
-                "tall_grass", "savanna_grass", "fern", "reeds", "heather", "bluebell", "dead_bush", "crystal"}
-PLACED_ONLY = {"lamp_white", "lamp_red", "lamp_green", "lamp_blue", "cyan_glass", "chest"}
+BLOCKS_FILE = pathlib.Path(__file__).resolve().parents[2] / "assets" / "blocks.toml"
 
 
 class Help(ProgramTest):
@@ -166,29 +141,40 @@ class Map(ProgramTest):
         self.assertGreater(len(image.colors()), 3)
 
 
-class Blocks(ProgramTest):
-    def test_json_lists_every_block(self):
-        blocks = {block["name"]: block for block in json.loads(self.succeed("blocks", "--json"))}
-        self.assertLess(set(BLOCKS) | {"missing"}, set(blocks))
-        for name in set(blocks) - set(BLOCKS):
-            self.assertFalse(blocks[name]["generated"], name)
-        self.assertEqual((blocks["oak_stairs"]["shape"], blocks["torch"]["emission"]), ("model", [14, 11, 6]))
-        for name, (opacity, emission) in BLOCKS.items():
-            block = blocks[name]
-            self.assertEqual((block["opacity"], block["emission"]), (opacity, emission), name)
-            self.assertEqual(block["collision"] == [], name in NO_COLLISION, name)
-            self.assertEqual(not block["generated"], name in PLACED_ONLY, name)
-            self.assertEqual(len(block["textures"]), 0 if name == "air" else 6, name)
+def textures_of(entry):
+    return {entry["texture"]} if "texture" in entry else set(entry["textures"].values())
 
-    def test_ids_are_the_places_in_the_list(self):
-        blocks = json.loads(self.succeed("blocks", "--json"))
-        self.assertEqual([block["id"] for block in blocks], list(range(len(blocks))))
-        self.assertEqual(blocks[0]["name"], "air")
+
+class Blocks(ProgramTest):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        file = tomllib.loads(BLOCKS_FILE.read_text())
+        cls.in_file, cls.shapes = file["block"], {shape["name"] for shape in file["shape"]}
+
+    def test_json_lists_the_blocks_of_the_file_in_its_order(self):
+        listed = json.loads(self.succeed("blocks", "--json"))
+        names = [block["name"] for block in listed]
+        self.assertEqual(names, ["air", *(block["name"] for block in self.in_file), "missing"])
+        self.assertEqual([block["id"] for block in listed], list(range(len(listed))))
+        for block, entry in zip(listed[1:-1], self.in_file):
+            with self.subTest(block=block["name"]):
+                self.assertEqual(block["opacity"], entry.get("opacity", 15))
+                self.assertEqual(block["emission"], entry.get("emission", [0, 0, 0]))
+                self.assertEqual(block["collision"] != [], entry.get("collides", True))
+                self.assertEqual(block["generated"], entry.get("generated", True))
+                self.assertEqual(block["shape"] == "model", entry["shape"] in self.shapes)
+                self.assertEqual(len(block["textures"]), 6)
+                self.assertLessEqual(set(block["textures"]), textures_of(entry))
+
+    def test_air_has_nothing(self):
+        air = json.loads(self.succeed("blocks", "--json"))[0]
+        self.assertEqual((air["opacity"], air["emission"], air["collision"], air["textures"]), (0, [0, 0, 0], [], []))
 
     def test_text_names_every_block(self):
         text = self.succeed("blocks")
-        for name in BLOCKS:
-            self.assertIn(f" {name} ", text)
+        for block in self.in_file:
+            self.assertIn(f" {block['name']} ", text)
 
 
 class Info(ProgramTest):

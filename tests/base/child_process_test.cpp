@@ -86,5 +86,11 @@ TEST_F(ChildProcessTest, ReadsNothingAndHasTheVariables) {
     EXPECT_EQ(end->output, "set\n");
 }
 
+TEST_F(ChildProcessTest, WithoutAProgramNothingStarts) {
+    const auto end = runChild({}, {folder.path(), folder / "errors"});
+    ASSERT_FALSE(end);
+    EXPECT_EQ(end.error().code, ErrorCode::BadInput);
+}
+
 }  // namespace
 }  // namespace terrane::base

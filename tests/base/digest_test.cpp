@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
 #include <string>
 
 namespace terrane::base {
@@ -74,6 +75,13 @@ TEST(Hash64, IsFixed) {
     EXPECT_EQ(hash64(""), 0xEF46DB3751D8E999u);
     EXPECT_EQ(hash64("abc"), 0x44BC2CF5AD770999u);
     EXPECT_NE(hash64(std::string_view("a\0", 2)), hash64("a"));
+}
+
+TEST(Digest, OneThatWasMovedFromIsOfNoUse) {
+    Digest first;
+    const Digest second = std::move(first);
+    EXPECT_THROW(first.update("bytes"), std::invalid_argument);
+    EXPECT_THROW((void)first.hex(), std::invalid_argument);
 }
 
 }  // namespace

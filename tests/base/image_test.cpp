@@ -138,5 +138,15 @@ TEST(Image, FileErrorsNameThePath) {
               "no/such.png: cannot be written: No such file or directory");
 }
 
+TEST(Image, OnlyAnImageWithAllItsBytesBecomesAPng) {
+    for (const auto& encode : {encodePng, encodePngFast}) {
+        EXPECT_EQ(encode(Image{}).error().message, "an image of 0 × 0 pixels cannot be a PNG");
+        EXPECT_EQ(
+            encode(Image{.width = 2, .height = 2, .rgba = std::vector<std::uint8_t>(15)}).error().message,
+            "an image of 2 × 2 pixels has 15 bytes, expected 4 per pixel");
+        EXPECT_TRUE(encode(Image{.width = 2, .height = 2, .rgba = std::vector<std::uint8_t>(16)}));
+    }
+}
+
 }  // namespace
 }  // namespace terrane::base

@@ -369,5 +369,16 @@ TEST(JobSystem, AJobWithoutMemoryFails) {
     }
 }
 
+TEST(JobSystem, AnEmptyHandleAndEmptyWorkAreRefused) {
+    const JobHandle handle;
+    EXPECT_THROW((void)handle.state(), std::invalid_argument);
+    EXPECT_THROW((void)handle.cancel(), std::invalid_argument);
+    EXPECT_THROW(handle.wait(), std::invalid_argument);
+    EXPECT_THROW((void)handle.error(), std::invalid_argument);
+    JobSystem jobs(0);
+    EXPECT_THROW((void)jobs.submit({}, nullptr), std::invalid_argument);
+    EXPECT_THROW((void)parallelFor(jobs, 3, nullptr), std::invalid_argument);
+}
+
 }  // namespace
 }  // namespace terrane::base

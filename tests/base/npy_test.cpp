@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <stdexcept>
 #include <string>
 
 namespace terrane::base {
@@ -86,6 +87,12 @@ TEST(Npy, AHeaderLeavesRoomForALargerShape) {
     EXPECT_EQ(last.size(), first.size());
     EXPECT_EQ(dictionary(split(last)), "{'descr': '<u2', 'fortran_order': False, 'shape': (7,), }");
     EXPECT_EQ(npyHeader("<u2", {7}, 65).size(), 128u);
+}
+
+TEST(Npy, RefusesAnArrayThatIsNoneOrTooLong) {
+    EXPECT_THROW(npyHeader("", {1}), std::invalid_argument);
+    EXPECT_THROW(npyHeader("<u2", std::vector<std::size_t>(30'000, 1)), std::invalid_argument);
+    EXPECT_THROW(encodeNpy({"<u2", {3}, "1234567"}), std::invalid_argument);
 }
 
 }  // namespace

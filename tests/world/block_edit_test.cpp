@@ -144,5 +144,16 @@ TEST_F(BlockEditTest, EditsOfAChunkThatAWorkerHasRead) {
     }
 }
 
+TEST_F(BlockEditTest, ABlockMovedToItsOwnPlaceStays) {
+    change({1, 2, 3}, SetBlock{contentBlock("stone"), 5});
+    Edits edits;
+    BlockUpdate update(world_, contentBlocks(), edits);
+    update.move({1, 2, 3}, {1, 2, 3});
+    update.run();
+    EXPECT_EQ(edits, Edits{});
+    EXPECT_EQ(world_.block({1, 2, 3}), contentBlock("stone"));
+    EXPECT_EQ(world_.blockState({1, 2, 3}), 5);
+}
+
 }  // namespace
 }  // namespace terrane::world

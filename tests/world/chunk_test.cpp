@@ -4,6 +4,7 @@
 
 #include <map>
 #include <random>
+#include <stdexcept>
 #include <string_view>
 #include <vector>
 
@@ -247,6 +248,16 @@ TEST(Chunk, EqualsPlainMap) {
         }
         ASSERT_EQ(chunk.blockState(seen), plain[seen].blockState);
     }
+}
+
+TEST(Chunk, SectionsOutsideAndNoDataAreRefused) {
+    Chunk chunk;
+    for (const int number : {-1, 16}) {
+        EXPECT_THROW(chunk.setSection(number, Section(1)), std::invalid_argument);
+        EXPECT_THROW(chunk.setBlockStateSection(number, Section(1)), std::invalid_argument);
+    }
+    EXPECT_THROW(chunk.shareBlockEntityData(7, nullptr), std::invalid_argument);
+    EXPECT_EQ(chunk, Chunk());
 }
 
 }  // namespace

@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <glm/common.hpp>
+#include <limits>
 #include <memory>
 #include <random>
+#include <stdexcept>
 
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
@@ -131,6 +133,11 @@ TEST_F(CollisionTest, NeverTunnels) {
         }
     }
     EXPECT_GT(blocked, 500);
+}
+
+TEST_F(CollisionTest, AMotionIsANumber) {
+    EXPECT_THROW(move(playerAt({4.5, 4.5, 15}), {0, std::numeric_limits<double>::quiet_NaN(), 0}),
+                 std::invalid_argument);
 }
 
 }  // namespace

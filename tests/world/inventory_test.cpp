@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <stdexcept>
 
 namespace terrane::world {
 namespace {
@@ -71,6 +72,23 @@ TEST(Inventory, AnyBytesGiveAnInventoryOrAnError) {
         if (!decoded) continue;
         EXPECT_EQ(encodeInventory(*decoded), bytes);
     }
+}
+
+// Bytes that decodeInventory() rejects are never made: names have an 8-bit length, slots a 16-bit number.
+TEST(Inventory, RefusesCountsAndNamesThatDoNotFit) {
+    Inventory chest(2);
+    ItemStack stack;
+    EXPECT_THROW(addItems(chest, "", 1), std::invalid_argument);
+    EXPECT_THROW(addItems(chest, std::string(256, 'a'), 1), std::invalid_argument);
+    EXPECT_THROW(addItems(chest, "stone", -1), std::invalid_argument);
+    EXPECT_THROW(takeItems(chest, "stone", -1), std::invalid_argument);
+    EXPECT_THROW(addToStack(stack, "stone", -1), std::invalid_argument);
+    EXPECT_THROW(takeFromStack(stack, -1), std::invalid_argument);
+    EXPECT_THROW(encodeInventory({{std::string(256, 'a'), 1}}), std::invalid_argument);
+    EXPECT_THROW(encodeInventory(Inventory(65536)), std::invalid_argument);
+    EXPECT_EQ(chest, Inventory(2));
+    EXPECT_EQ(addItems(chest, std::string(255, 'a'), 1), 0);
+    EXPECT_EQ(decodeInventory(encodeInventory(chest), 2).value(), chest);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <memory>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <vector>
 
 namespace terrane::world {
@@ -274,6 +275,24 @@ TEST(Section, FromPackedRefusesIndicesWithoutAValue) {
     EXPECT_FALSE(Section::fromPacked(2, {}, words));
     EXPECT_FALSE(Section::fromPacked(2, {1, 2, 3, 4, 5}, words)) << "two bits tell four values apart";
     EXPECT_FALSE(Section::fromPacked(16, {1}, std::vector<std::uint64_t>(1024))) << "dense has no palette";
+}
+
+TEST(Section, FromPackedRefusesOtherFormsAndNumbersOfWords) {
+    for (const int bits : {-1, 0, 3, 5, 17, 64}) {
+        EXPECT_FALSE(Section::fromPacked(bits, {1, 2}, std::vector<std::uint64_t>(64))) << bits;
+    }
+    for (const std::size_t words : {0u, 63u, 65u}) {
+        EXPECT_FALSE(Section::fromPacked(1, {1, 2}, std::vector<std::uint64_t>(words))) << words;
+    }
+    EXPECT_TRUE(Section::fromPacked(1, {1, 2}, std::vector<std::uint64_t>(64)));
+}
+
+TEST(Section, UnpackMappedNeedsAValueForEachPaletteEntry) {
+    Section section(3);
+    section.set(9, 4);
+    std::array<Section::Value, kBlocksPerSection> values;
+    const std::array<Section::Value, 1> mapped = {7};
+    EXPECT_THROW(section.unpackMapped(mapped, values), std::invalid_argument);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "terrane/world/sign.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -101,6 +103,10 @@ TEST(Sign, TypingStopsWhereALineIsFull) {
     std::string wide;
     for (int n = 0; n < 30; ++n) wide += "ž";
     EXPECT_EQ(fittingBytes(wide), 2 * kSignColumns);
+}
+
+TEST(Sign, AWrongTextIsNotEncoded) {
+    EXPECT_THROW(encodeSign({"a\nb", "", "", ""}), std::invalid_argument);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 
 #include "terrane/world/block_edit.h"
 #include "terrane/world/block_model.h"
@@ -118,6 +119,14 @@ TEST_F(StructureTest, NamesThatARegistryLacksAreMissing) {
     EXPECT_EQ(values[0].state, 3);
     EXPECT_EQ(values[1].id, contentBlocks().missing());
     EXPECT_EQ(unknownNames(structure, contentBlocks()), std::vector<std::string>{"moon_cheese"});
+}
+
+TEST_F(StructureTest, ABoxWithoutBlocksOrWithTooManyIsRefused) {
+    const auto copied = [&](BlockPos low, BlockPos high) {
+        return copyBlocks(world_, contentBlocks(), {low, high});
+    };
+    EXPECT_THROW(copied({5, 5, 5}, {4, 5, 5}), std::invalid_argument);
+    EXPECT_THROW(copied({0, 0, 0}, {99'999, 99'999, 255}), std::invalid_argument);
 }
 
 }  // namespace

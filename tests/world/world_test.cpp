@@ -4,6 +4,7 @@
 
 #include <limits>
 #include <memory>
+#include <stdexcept>
 
 #include "tests/world/lowest_highest.h"
 #include "tests/world/put_block.h"
@@ -68,6 +69,13 @@ TEST(World, MemoryIsTheSumOfChunks) {
     EXPECT_EQ(world.memoryBytes(), 2 * sizeof(Chunk));
     putBlock(world, {0, 0, 0}, 1);
     EXPECT_GT(world.memoryBytes(), 2 * sizeof(Chunk) + 500);
+}
+
+TEST(World, TakesOnlyChunksAndPlacesOfTheWorld) {
+    World world;
+    EXPECT_THROW(world.insert({0, 0}, nullptr), std::invalid_argument);
+    EXPECT_THROW(world.insert({kMaxChunk + 1, 0}, std::make_shared<Chunk>()), std::invalid_argument);
+    EXPECT_EQ(world.chunkCount(), 0u);
 }
 
 }  // namespace
