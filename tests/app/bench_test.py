@@ -119,13 +119,10 @@ class Measured(Bench):
 
 class Runs(Bench):
     def test_frames_are_measured(self):
-        done = self.bench("--only", "layers")
+        done = self.bench("--only", "memory,memory-by-owner")
         self.assertEqual(done.returncode, 0, done.stderr)
-        cells = self.cells()
-        self.assertEqual(len(cells), 8)
-        self.assertEqual(sorted(cells), sorted(set(cells)), "equal command lines are measured once")
-        for line in self.lines()[1:]:
-            self.assertGreater(line["result"]["milliseconds"]["frame"], 0)
+        self.assertEqual(len(self.cells()), 1, "equal command lines of two tables are measured once")
+        self.assertGreater(self.lines()[1]["result"]["run"]["seconds"], 0)
 
     def test_the_plan_is_what_the_report_asks_for(self):
         self.needsReport()
@@ -189,10 +186,6 @@ class Runs(Bench):
         for line in failures:
             self.assertRegex(done.stderr, f"warning: .*--scene {line['cell'][2]} .*: before it: exit code ")
             self.assertNotIn("result", line)
-        # The next run tries again.
-        done = self.bench("--only", "disk", "--resume")
-        self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertEqual(len([line for line in self.lines() if "result" in line]), 4)
 
     def test_a_folder_that_cannot_be_made(self):
         self.output = self.folder / "file" / "results"

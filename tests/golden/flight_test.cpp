@@ -2,6 +2,7 @@
 #include "terrane/content/scenes.h"
 #include "terrane/view/camera_pose.h"
 #include "tests/golden/effect_scenes.h"
+#include "tests/support/depth.h"
 
 namespace terrane::golden {
 namespace {
@@ -55,14 +56,14 @@ class Flight : public GoldenTest {
 TEST_F(Flight, HiddenMeshSectionsAreNeverMissed) {
     RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Open;
-    expectNothingMissed(options, 60, 0);
+    expectNothingMissed(options, atDepth(31, 60), 0);
 }
 
 // Covering quads overlap: at equal depth the first one drawn wins, and culling changes the order.
 TEST_F(Flight, HiddenMeshSectionsAreNeverMissedBetweenCoveringQuads) {
     RenderOptions options = render::plainOptions(1);
     options.tJunctions = render::TJunctions::Covered;
-    expectNothingMissed(options, 30, 2);
+    expectNothingMissed(options, atDepth(16, 30), 2);
 }
 
 // The gallery near the origin and at 2^30, with everything that depends on the position: shadows, waves,

@@ -1,6 +1,7 @@
 // No sun inside of closed rooms, in any cascade. Chunks have no light here, so only the shadow map keeps the
 // sun out.
 #include "tests/render/sunlit_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::render {
 namespace {
@@ -22,7 +23,7 @@ class ClosedRoomTest : public SunlitTest {
     }
     // Steps of the brightest pixel over one without the sun, from one end of the tunnel.
     int brightestUnderAnySun(float fieldOfView, float yaw = 0) {
-        constexpr int kSuns = 24;
+        const int kSuns = atDepth(7, 24);
         const Camera camera{{yaw == 0 ? 3.0 : kRoomLength - 4, 1 + 0.5 * tunnel_.width,
                              kRoomFloor + 1 + 0.5 * tunnel_.height},
                             yaw,

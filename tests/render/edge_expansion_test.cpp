@@ -9,11 +9,12 @@
 #include "terrane/shared/hash.h"
 #include "tests/gpu/scratch_folder.h"
 #include "tests/render/renderer_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::render {
 namespace {
 
-constexpr int kViews = 120;
+const int kViews = atDepth(40, 120);
 constexpr glm::ivec2 kImage{320, 180};
 constexpr int kHollow = 3;  // chunks around the middle one that are hollow; the ring around them is solid
 
