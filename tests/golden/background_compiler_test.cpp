@@ -22,8 +22,9 @@ constexpr render::WorldFeatures kWorld{.hasTint = true, .hasLand = true};
 
 class BackgroundCompilerTest : public GoldenTest {
   protected:
-    // Set before there is a context. Mesa keeps a file per shader.
+    // Set before there is a context. Mesa keeps a file per shader; Mesa 25 does so only if it is told to.
     static void SetUpTestSuite() {
+        ::setenv("MESA_DISK_CACHE_MULTI_FILE", "true", 1);
         ::setenv("MESA_SHADER_CACHE_DIR", cache().path().c_str(), 1);
         ::setenv("MESA_SHADER_CACHE_DISABLE", "false", 1);
     }
