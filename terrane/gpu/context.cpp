@@ -87,6 +87,7 @@ base::Result<HeadlessContext> HeadlessContext::create(const ContextOptions& opti
 HeadlessContext::HeadlessContext(HeadlessContext&& other) noexcept
     : display_(std::exchange(other.display_, nullptr)),
       context_(std::exchange(other.context_, nullptr)),
+      surface_(std::exchange(other.surface_, nullptr)),
       debugLog_(std::move(other.debugLog_)) {}
 
 HeadlessContext& HeadlessContext::operator=(HeadlessContext&& other) noexcept {
@@ -94,6 +95,7 @@ HeadlessContext& HeadlessContext::operator=(HeadlessContext&& other) noexcept {
     release();
     display_ = std::exchange(other.display_, nullptr);
     context_ = std::exchange(other.context_, nullptr);
+    surface_ = std::exchange(other.surface_, nullptr);
     debugLog_ = std::move(other.debugLog_);
     return *this;
 }
@@ -104,9 +106,39 @@ HeadlessContext::~HeadlessContext() {
 
 void HeadlessContext::makeCurrent() const {
     assert(context_ != nullptr && "an empty context cannot be current");
-    [[maybe_unused]] const EGLBoolean done =
-        eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_);
+    [[maybe_unused]] const EGLBoolean done = eglMakeCurrent(display_, surface_, surface_, context_);
     assert(done == EGL_TRUE && "a context that was current before can be current again on its thread");
+}
+
+base::Result<void> HeadlessContext::setSurface(int width, int height) {
+    const EGLint kinds[] = {EGL_SURFACE_TYPE,
+                            EGL_PBUFFER_BIT,
+                            EGL_RENDERABLE_TYPE,
+                            EGL_OPENGL_BIT,
+                            EGL_RED_SIZE,
+                            8,
+                            EGL_GREEN_SIZE,
+                            8,
+                            EGL_BLUE_SIZE,
+                            8,
+                            EGL_NONE};
+    EGLConfig config = nullptr;
+    EGLint count = 0;
+    if (eglChooseConfig(display_, kinds, &config, 1, &count) == EGL_FALSE || count == 0)
+        return base::fail("EGL offers no framebuffer without a window (error {:#x})", eglGetError());
+    const EGLint attributes[] = {EGL_WIDTH, width, EGL_HEIGHT, height, EGL_NONE};
+    EGLSurface made = eglCreatePbufferSurface(display_, config, attributes);
+    if (made == EGL_NO_SURFACE || eglMakeCurrent(display_, made, made, context_) == EGL_FALSE)
+        return base::fail("EGL makes no framebuffer of {} x {} (error {:#x})", width, height, eglGetError());
+    if (surface_ != nullptr) eglDestroySurface(display_, surface_);
+    surface_ = made;
+    // A context that began without a framebuffer draws nowhere.
+    GLboolean isDouble = GL_FALSE;
+    glGetBooleanv(GL_DOUBLEBUFFER, &isDouble);
+    const GLenum buffer = isDouble == GL_TRUE ? GL_BACK : GL_FRONT;
+    glNamedFramebufferDrawBuffer(0, buffer);
+    glNamedFramebufferReadBuffer(0, buffer);
+    return {};
 }
 
 void HeadlessContext::release() {
@@ -114,7 +146,8 @@ void HeadlessContext::release() {
     if (eglGetCurrentContext() == context_)
         eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     eglDestroyContext(display_, context_);
-    context_ = nullptr;
+    if (surface_ != nullptr) eglDestroySurface(display_, surface_);
+    context_ = surface_ = nullptr;
 }
 
 }  // namespace terrane::gpu

@@ -27,6 +27,9 @@ class HeadlessContext {
     ~HeadlessContext();
 
     void makeCurrent() const;
+    // Gives the current context a default framebuffer, which it lacks without a window; replaces a former
+    // one.
+    base::Result<void> setSurface(int width, int height);
     [[nodiscard]] bool valid() const { return context_ != nullptr; }
 
     // Null without the debug option.
@@ -40,6 +43,7 @@ class HeadlessContext {
 
     void* display_ = nullptr;  // EGLDisplay
     void* context_ = nullptr;  // EGLContext
+    void* surface_ = nullptr;  // EGLSurface
     std::unique_ptr<DebugLog> debugLog_;
 };
 

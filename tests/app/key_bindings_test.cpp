@@ -30,12 +30,12 @@ TEST(KeyBindings, TheTableIsInTheOrderOfTheActions) {
 
 TEST(KeyBindings, EveryKeyHasOneName) {
     std::set<std::string_view> names;
-    for (int k = 0; k <= static_cast<int>(Key::Down); ++k) {
+    for (int k = 0; k < static_cast<int>(kKeyCount); ++k) {
         const Key key = static_cast<Key>(k);
         EXPECT_EQ(keyNamed(nameOf(key)), key);
         names.insert(nameOf(key));
     }
-    EXPECT_EQ(names.size(), static_cast<std::size_t>(Key::Down) + 1);
+    EXPECT_EQ(names.size(), kKeyCount);
     EXPECT_EQ(keyNamed("space"), Key::Space);
     EXPECT_EQ(keyNamed("f12"), Key::F12);
     EXPECT_EQ(keyNamed("Digit9"), std::nullopt);

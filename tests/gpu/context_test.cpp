@@ -2,6 +2,7 @@
 
 #include <epoxy/gl.h>
 
+#include <array>
 #include <type_traits>
 
 #include "terrane/gpu/device_info.h"
@@ -55,6 +56,19 @@ TEST_F(ContextTest, movesAndLeavesAnEmptyOne) {
     EXPECT_FALSE(queryDevice().renderer.empty());
     context() = std::move(moved);
     EXPECT_TRUE(context().valid());
+}
+
+TEST_F(ContextTest, DrawsIntoItsSurface) {
+    for (const int width : {4, 7}) {
+        ASSERT_TRUE(context_.setSurface(width, 3));
+        glViewport(0, 0, width, 3);
+        glClearColor(1, 0, 0, 1);
+        glClear(GL_COLOR_BUFFER_BIT);
+        std::array<unsigned char, 4> last{};
+        glReadPixels(width - 1, 2, 1, 1, GL_RGBA, GL_UNSIGNED_BYTE, last.data());
+        EXPECT_EQ(last[0], 255);
+        EXPECT_EQ(last[1], 0);
+    }
 }
 
 TEST_F(ContextTest, endingAnotherContextLeavesThisOne) {

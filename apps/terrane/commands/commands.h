@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <functional>
+#include <memory>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -10,6 +11,8 @@
 namespace terrane::app {
 
 using Command = std::function<base::Result<void>()>;
+
+struct PlayHost;  // window/play_flow.h
 
 struct CommandEntry {
     CLI::App* parser;
@@ -24,6 +27,7 @@ std::vector<CommandEntry> addCommands(CLI::App& app);
 const char* defaultCommand();
 
 CommandEntry addPlay(CLI::App& app);
+CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host);
 CommandEntry addRender(CLI::App& app);
 CommandEntry addRecord(CLI::App& app);
 CommandEntry addFlightBench(CLI::App& app);

@@ -19,13 +19,13 @@ time of day, hotbar, named places and movement mode, in $XDG_DATA_HOME/terrane/N
 ($HOME/.local/share/terrane if that is not set); bookmarks.txt and screenshots/ are beside it. Ctrl+C in the
 terminal also saves and quits.)";
 
-base::Result<Window> openWindow(const PlayOptions& options) {
-    auto window = Window::create({.title = "Terrane",
-                                  .width = options.graphics.size.x,
-                                  .height = options.graphics.size.y,
-                                  .fullScreen = options.settings.fullScreen,
-                                  .debug = options.graphics.debugGl});
-    if (window) setTerraneIcon(*window);
+base::Result<std::unique_ptr<Window>> openWindow(const PlayOptions& options, const PlayHost& host) {
+    auto window = host.openWindow({.title = "Terrane",
+                                   .width = options.graphics.size.x,
+                                   .height = options.graphics.size.y,
+                                   .fullScreen = options.settings.fullScreen,
+                                   .debug = options.graphics.debugGl});
+    if (window) setTerraneIcon(**window);
     return window;
 }
 
@@ -48,20 +48,19 @@ bool namesGraphics(const CLI::App& command) {
                                [&](const render::GraphicsRow& row) { return isGiven(command, row.name); });
 }
 
-base::Result<void> play(const PlayOptions& options, CLI::App& command) {
+base::Result<void> play(const PlayOptions& options, CLI::App& command, PlayHost& host) {
     GivenOptions given{.namesWorld = namesWorld(command),
                        .movement = isGiven(command, "movement"),
                        .resourcePack = isGiven(command, "resource-pack")};
     if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
     given.graphics = namesGraphics(command);
     // The window first: if it cannot open, no world is created.
-    auto window = openWindow(options);
+    const auto window = openWindow(options, host);
     if (!window) return tl::unexpected(window.error());
-    const auto played = PlayFlow(options, given, *window).run();
+    const auto played = PlayFlow(options, given, **window, host).run();
     if (!played) return played;
-    if (window->debugLog() && window->debugLog()->errorCount() > 0) {
-        return base::fail("the graphics driver reported errors, see above");
-    }
+    const gpu::DebugLog* log = (*window)->debugLog();
+    if (log && log->errorCount() > 0) return base::fail("the graphics driver reported errors, see above");
     return {};
 }
 
@@ -109,6 +108,10 @@ void addPlaySettings(CLI::App& command, PlaySettings& settings) {
 }  // namespace
 
 CommandEntry addPlay(CLI::App& app) {
+    return addPlay(app, std::make_shared<PlayHost>());
+}
+
+CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
     auto options = std::make_shared<PlayOptions>();
     CLI::App* command = app.add_subcommand("play", "Open a window to walk, fly and build in (the default)");
     addWorldOptions(*command, options->world);
@@ -152,7 +155,7 @@ CommandEntry addPlay(CLI::App& app) {
     command->get_option("--connect")
         ->needs("--name")
         ->excludes("--world", "--seed", "--generator", "--watch");
-    return {command, [options, command] { return play(*options, *command); }};
+    return {command, [options, command, host] { return play(*options, *command, *host); }};
 }
 
 }  // namespace terrane::app

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -51,13 +52,13 @@ std::optional<std::string> ChatView::draw(const Screen& screen, const Texts& tr,
 
 std::optional<std::string> ChatView::drawInput(const Screen& screen, const Texts& tr) {
     ImGui::SetNextWindowPos({10 * uiScale(), screen.height * 0.74f}, ImGuiCond_Always);
-    ImGui::Begin(tr("Chat"), nullptr,
-                 ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove);
+    ui::beginWindow(tr("Chat"), ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoMove);
     if (takesFocus_) ImGui::SetKeyboardFocusHere();
     takesFocus_ = false;
     ImGui::SetNextItemWidth(screen.width * 0.5f);
     std::optional<std::string> entered;
-    if (ImGui::InputText("##chat", typed_.data(), typed_.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
+    if (ui::textField("##chat", "", typed_.data(), typed_.size(), ImGuiInputTextFlags_EnterReturnsTrue)) {
         entered = typed_.data();
         isTyping_ = false;
     }
@@ -68,9 +69,8 @@ std::optional<std::string> ChatView::drawInput(const Screen& screen, const Texts
 void drawPlayerList(const Screen& screen, const Texts& tr, const net::PlayerList& list) {
     ImGui::SetNextWindowPos({screen.width / 2, screen.height * 0.1f}, ImGuiCond_Always, {0.5f, 0});
     ImGui::SetNextWindowSizeConstraints({0, 0}, {screen.width * 0.8f, screen.height * 0.7f});
-    ImGui::Begin(tr("Players"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoInputs);
+    ui::beginWindow(tr("Players"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                       ImGuiWindowFlags_NoCollapse | ImGuiWindowFlags_NoInputs);
     if (ImGui::BeginTable("players", 3)) {
         for (const net::ListedPlayer& player : list.players) {
             ImGui::TableNextColumn();

@@ -3,6 +3,7 @@
 #include <imgui.h>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -33,15 +34,15 @@ std::optional<game::SlotClick> drawContainer(const Screen& screen, const world::
                                              const ItemLooks& looks, const Texts& tr) {
     std::optional<game::SlotClick> click;
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin(tr("Chest"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+    ui::beginWindow(tr("Chest"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                     ImGuiWindowFlags_NoCollapse);
     const float side = kSide * uiScale();
     for (std::size_t slot = 0; slot < items.size(); ++slot) {
         if (slot % kColumns != 0) ImGui::SameLine(0, 3 * uiScale());
         ImGui::PushID(static_cast<int>(slot));
-        ImGui::InvisibleButton("slot", {side, side},
-                               ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight);
         const world::ItemStack& stack = items[slot];
+        ui::invisibleButton("slot", {side, side},
+                            ImGuiButtonFlags_MouseButtonLeft | ImGuiButtonFlags_MouseButtonRight, stack.item);
         drawStack(ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), stack,
                   stack.count > 0 ? looks.image(stack.item) : 0);
         if (stack.count > 0 && ImGui::IsItemHovered())

@@ -159,7 +159,9 @@ void begin(GameState& game) {
     game.sounds.setVolume(game.settings.soundVolume);
 }
 
-base::Result<void> play(GameState& game) {
+}  // namespace
+
+base::Result<void> runGame(GameState& game) {
     if (!game.options.perfData.empty()) {
         auto log = PerfLog::create(game.options.perfData);
         if (!log) return tl::unexpected(log.error());
@@ -179,19 +181,6 @@ base::Result<void> play(GameState& game) {
     if (!drawn && !saved) base::logError("{}", saved.error().message);
     if (!drawn || !saved) return drawn ? saved : drawn;
     return game.perfLog ? game.perfLog->finish() : base::Result<void>();
-}
-
-}  // namespace
-
-base::Result<void> runGame(const GameParts& parts, const GameOptions& options, GameEnd& end) {
-    GameState game(parts, options);
-    const auto played = play(game);
-    end = {.settings = game.settings,
-           .pose = game.player.pose(),
-           .toTitle = game.leaving.toTitle,
-           .wantsReload = game.leaving.forReload,
-           .serverReason = game.remote.endReason};
-    return played;
 }
 
 }  // namespace terrane::app

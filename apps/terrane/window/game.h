@@ -43,18 +43,10 @@ struct GameOptions {
     std::function<base::Result<void>()> checkContent;  // fails if they cannot be loaded
 };
 
-// The state when a game ends.
-struct GameEnd {
-    PlaySettings settings;
-    world::Pose pose;
-    bool toTitle = false;      // to the title screen, not quit
-    bool wantsReload = false;  // content changed: open the world again
-    std::string serverReason;  // reason of a disconnect by the server, else empty
-};
+struct GameState;  // game_state.h
 
 // Runs until the player leaves, the window closes, a signal asks to stop or a frame fails; then saves
-// everything. If saving fails, the player is asked first; the error names what is lost. `end` is always
-// filled in.
-base::Result<void> runGame(const GameParts& parts, const GameOptions& options, GameEnd& end);
+// everything. If saving fails, the player is asked first; the error names what is lost.
+base::Result<void> runGame(GameState& game);
 
 }  // namespace terrane::app

@@ -23,7 +23,7 @@ ImU32 lit(glm::vec3 color, const glm::vec3& light, float shade) {
     return IM_COL32(static_cast<int>(c.x), static_cast<int>(c.y), static_cast<int>(c.z), 255);
 }
 
-ImVec2 at(glm::vec2 p) {
+ImVec2 pointAt(glm::vec2 p) {
     return {p.x, p.y};
 }
 
@@ -33,10 +33,10 @@ void drawArmPart(ImDrawList& draw, glm::vec2 from, glm::vec2 to, float width, co
     const glm::vec2 along = to - from;
     const float length = std::max(std::sqrt(along.x * along.x + along.y * along.y), 1.0f);
     const glm::vec2 across = glm::vec2(along.y, -along.x) * (width / 2 / length);
-    draw.AddQuadFilled(at(from - across), at(to - across), at(to + across * 0.2f), at(from + across * 0.2f),
-                       colors[0]);
-    draw.AddQuadFilled(at(from + across * 0.2f), at(to + across * 0.2f), at(to + across), at(from + across),
-                       colors[1]);
+    draw.AddQuadFilled(pointAt(from - across), pointAt(to - across), pointAt(to + across * 0.2f),
+                       pointAt(from + across * 0.2f), colors[0]);
+    draw.AddQuadFilled(pointAt(from + across * 0.2f), pointAt(to + across * 0.2f), pointAt(to + across),
+                       pointAt(from + across), colors[1]);
 }
 
 }  // namespace
@@ -65,8 +65,8 @@ void HandView::draw(const Screen& screen, unsigned image, const glm::vec3& light
     const float side = 190 * scale;
     const glm::vec2 min = hand - glm::vec2(side * 0.62f, side * 0.72f);
     const ImU32 tint = lit(glm::vec3(255), glm::min(light * 1.15f, 1.0f), 1);
-    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), at(min), at(min + side),
-                  {0, 0}, {1, 1}, tint);
+    draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image)), pointAt(min),
+                  pointAt(min + side), {0, 0}, {1, 1}, tint);
 }
 
 }  // namespace terrane::app

@@ -6,7 +6,7 @@ namespace terrane::app {
 
 void setTerraneIcon(Window& window) {
     const auto image = content::builtInTextures()("grass_side");
-    if (image) window.setIcon(image->width, image->height, std::as_bytes(std::span(image->rgba)));
+    if (image) window.setIcon({image->width, image->height}, std::as_bytes(std::span(image->rgba)));
 }
 
 }  // namespace terrane::app

@@ -2,15 +2,17 @@
 
 #include <epoxy/gl.h>
 #include <imgui.h>
-#include <imgui_impl_glfw.h>
 #include <imgui_impl_opengl3.h>
 
 #include <algorithm>
+#include <limits>
+#include <optional>
+#include <utility>
 
 #include "apps/terrane/window/font.h"
 #include "apps/terrane/window/pad_navigation.h"
-
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -18,19 +20,53 @@ namespace {
 struct UiKey {
     Key key;
     ImGuiKey imguiKey;
+    bool isLetter = false;  // of the player's keyboard, as for Ctrl+A
 };
 
+// The keys that Dear ImGui uses.
 constexpr UiKey kUiKeys[] = {
-    {Key::Enter, ImGuiKey_Enter},      {Key::Escape, ImGuiKey_Escape}, {Key::Space, ImGuiKey_Space},
-    {Key::Tab, ImGuiKey_Tab},          {Key::Delete, ImGuiKey_Delete}, {Key::Left, ImGuiKey_LeftArrow},
-    {Key::Right, ImGuiKey_RightArrow}, {Key::Up, ImGuiKey_UpArrow},    {Key::Down, ImGuiKey_DownArrow}};
+    {Key::Enter, ImGuiKey_Enter},       {Key::Escape, ImGuiKey_Escape},  {Key::Space, ImGuiKey_Space},
+    {Key::Tab, ImGuiKey_Tab},           {Key::Left, ImGuiKey_LeftArrow}, {Key::Right, ImGuiKey_RightArrow},
+    {Key::Up, ImGuiKey_UpArrow},        {Key::Down, ImGuiKey_DownArrow}, {Key::PageUp, ImGuiKey_PageUp},
+    {Key::PageDown, ImGuiKey_PageDown}, {Key::Home, ImGuiKey_Home},      {Key::End, ImGuiKey_End},
+    {Key::Insert, ImGuiKey_Insert},     {Key::Delete, ImGuiKey_Delete},  {Key::Backspace, ImGuiKey_Backspace},
+    {Key::A, ImGuiKey_A, true},         {Key::C, ImGuiKey_C, true},      {Key::V, ImGuiKey_V, true},
+    {Key::X, ImGuiKey_X, true},         {Key::Y, ImGuiKey_Y, true},      {Key::Z, ImGuiKey_Z, true}};
+
+// Dear ImGui 1.87 replaced its arrays of keys by events.
+#if IMGUI_VERSION_NUM < 18700
+void numberKeys(ImGuiIO& io) {
+    for (const UiKey& key : kUiKeys) io.KeyMap[key.imguiKey] = static_cast<int>(key.key);
+}
+
+void setKey(ImGuiIO& io, const UiKey& key, bool isDown) {
+    io.KeysDown[io.KeyMap[key.imguiKey]] = isDown;
+}
+
+void setModifiers(ImGuiIO& io, Modifiers with) {
+    io.KeyShift = with.shift;
+    io.KeyCtrl = with.control;
+}
+#else
+void numberKeys(ImGuiIO&) {}
+
+void setKey(ImGuiIO& io, const UiKey& key, bool isDown) {
+    io.AddKeyEvent(key.imguiKey, isDown);
+}
+
+void setModifiers(ImGuiIO& io, Modifiers with) {
+    io.AddKeyEvent(ImGuiKey_ModShift, with.shift);
+    io.AddKeyEvent(ImGuiKey_ModCtrl, with.control);
+}
+#endif
 
 constexpr float kFontPixels = 13;  // height of Dear ImGui's own font, the unit of all sizes
 
-// The index in Dear ImGui's array of keys; -1 for a key that it does not use.
-int indexOf(Key key) {
-    const auto* found = std::ranges::find(kUiKeys, key, &UiKey::key);
-    return found == std::end(kUiKeys) ? -1 : ImGui::GetKeyIndex(found->imguiKey);
+// A key that was pressed and released since the last frame counts as down for one frame.
+bool isDown(const Window& window, Key key) {
+    return window.keyDown(key) || std::ranges::any_of(window.events(), [&](const InputEvent& event) {
+               return event.type == InputEvent::Type::KeyPress && event.key == key;
+           });
 }
 
 // Rasterizes the font at its size on the screen, so that it is sharp.
@@ -47,17 +83,29 @@ float uiScale() {
     return ImGui::GetFontSize() / kFontPixels;
 }
 
-ImguiLayer::ImguiLayer(const Window& window) : window_(&window) {
+ImguiLayer::ImguiLayer(Window& window) : window_(window) {
     IMGUI_CHECKVERSION();
     ImGui::CreateContext();
-    ImGui::GetIO().IniFilename = nullptr;  // windows are placed by the program
-    ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+    ImGuiIO& io = ImGui::GetIO();
+    io.IniFilename = nullptr;  // windows are placed by the program
+    io.UserData = window.widgets();
+    io.ClipboardUserData = this;
+    io.GetClipboardTextFn = [](void* layer) {
+        auto& self = *static_cast<ImguiLayer*>(layer);
+        self.clipboard_ = self.window_.clipboard();
+        return self.clipboard_.c_str();
+    };
+    io.SetClipboardTextFn = [](void* layer, const char* text) {
+        static_cast<ImguiLayer*>(layer)->window_.setClipboard(text);
+    };
+    numberKeys(io);
+    if (WidgetRecord* widgets = window.widgets()) widgets->clear();
+    seconds_ = window.timeSeconds();
     ImGui_ImplOpenGL3_Init("#version 450 core");
 }
 
 ImguiLayer::~ImguiLayer() {
     ImGui_ImplOpenGL3_Shutdown();
-    ImGui_ImplGlfw_Shutdown();
     ImGui::DestroyContext();
 }
 
@@ -65,67 +113,87 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     ImGuiIO& io = ImGui::GetIO();
     constexpr int kNavigation = ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavEnableGamepad;
     io.ConfigFlags = isInMenu ? io.ConfigFlags | kNavigation : io.ConfigFlags & ~kNavigation;
-    if (isCursorCaptured) {
-        io.ConfigFlags |= ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange;
-    } else {
-        io.ConfigFlags &= ~(ImGuiConfigFlags_NoMouse | ImGuiConfigFlags_NoMouseCursorChange);
-    }
+    io.ConfigFlags = isCursorCaptured ? io.ConfigFlags | ImGuiConfigFlags_NoMouse
+                                      : io.ConfigFlags & ~ImGuiConfigFlags_NoMouse;
     ImGui_ImplOpenGL3_NewFrame();
-    ImGui_ImplGlfw_NewFrame();
-    holdShortPresses();
-    dropRepeatedText();
-    if (isInMenu) {
-        setPadNavigation(window_->gamepad(), ImGui::GetIO().NavInputs);
-        activateByEnter();
-    }
+    feedScreen();
+    feedKeys();
+    feedMouse();
+    feedText();
+    const std::optional<Gamepad> pad = isInMenu ? window_.gamepad() : std::nullopt;
+    io.BackendFlags = pad ? io.BackendFlags | ImGuiBackendFlags_HasGamepad
+                          : io.BackendFlags & ~ImGuiBackendFlags_HasGamepad;
+    setPadNavigation(pad, io.NavInputs);
+    if (isInMenu) activateByEnter();
     followScale();
+    if (WidgetRecord* widgets = window_.widgets()) widgets->clear();
     ImGui::NewFrame();
 }
 
-// Dear ImGui 1.86 samples keys when a frame begins. A key that was pressed and released since the last frame
-// counts as down for one frame.
-void ImguiLayer::holdShortPresses() {
-    bool(&isDown)[IM_ARRAYSIZE(ImGuiIO::KeysDown)] = ImGui::GetIO().KeysDown;
-    for (const Key key : shortPresses_) isDown[indexOf(key)] = window_->keyDown(key);
-    shortPresses_.clear();
-    for (const InputEvent& event : window_->events()) {
-        if (event.type != InputEvent::Type::KeyPress || indexOf(event.key) < 0 || window_->keyDown(event.key))
-            continue;
-        shortPresses_.push_back(event.key);
-        isDown[indexOf(event.key)] = true;
+void ImguiLayer::feedScreen() {
+    constexpr double kLeastSeconds = 1e-5;  // Dear ImGui needs some
+    ImGuiIO& io = ImGui::GetIO();
+    const double now = window_.timeSeconds();
+    io.DeltaTime = static_cast<float>(std::max(now - std::exchange(seconds_, now), kLeastSeconds));
+    const glm::ivec2 size = window_.size();
+    const float scale = window_.pixelsPerUnit();
+    io.DisplaySize = {static_cast<float>(size.x), static_cast<float>(size.y)};
+    io.DisplayFramebufferScale = {scale, scale};
+}
+
+void ImguiLayer::feedKeys() {
+    ImGuiIO& io = ImGui::GetIO();
+    const Modifiers with{window_.keyDown(Key::Shift), window_.keyDown(Key::Control)};
+    setModifiers(io, with);
+    for (const UiKey& key : kUiKeys) {
+        if (key.isLetter)
+            setKey(io, key, with.control && isDown(window_, window_.keyTyping(key.key)));
+        else
+            setKey(io, key, isDown(window_, key.key));
+    }
+}
+
+// As for keys, a brief click counts as one frame.
+void ImguiLayer::feedMouse() {
+    ImGuiIO& io = ImGui::GetIO();
+    constexpr float kOutside = -std::numeric_limits<float>::max();
+    const std::optional<glm::dvec2> at = window_.cursor();
+    io.MousePos =
+        at ? ImVec2(static_cast<float>(at->x), static_cast<float>(at->y)) : ImVec2(kOutside, kOutside);
+    for (const MouseButton button : {MouseButton::Left, MouseButton::Right, MouseButton::Middle})
+        io.MouseDown[static_cast<int>(button)] = window_.buttonDown(button);
+    for (const InputEvent& event : window_.events()) {
+        if (event.type == InputEvent::Type::ButtonPress) io.MouseDown[static_cast<int>(event.button)] = true;
+        if (event.type != InputEvent::Type::Wheel) continue;
+        io.MouseWheelH += static_cast<float>(event.x);
+        io.MouseWheel += static_cast<float>(event.y);
     }
 }
 
 // Drops repeated characters of the held key that opened a text field: input starts with the next key press.
-void ImguiLayer::dropRepeatedText() {
+void ImguiLayer::feedText() {
     ImGuiIO& io = ImGui::GetIO();
-    if (window_->anyKeyPressed())
+    if (window_.anyKeyPressed())
         acceptsText_ = true;
     else if (!io.WantTextInput)
         acceptsText_ = false;
-    if (!acceptsText_) io.InputQueueCharacters.resize(0);
+    if (!acceptsText_) return;
+    for (const unsigned character : window_.characters()) io.AddInputCharacter(character);
 }
-
-#if IMGUI_VERSION_NUM < 18700
-constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeyPadEnter;
-#else
-constexpr ImGuiKey kKeypadEnter = ImGuiKey_KeypadEnter;
-#endif
 
 // Enter activates, as Space does. An Enter that ends text input activates nothing, however long it is held.
 void ImguiLayer::activateByEnter() {
     ImGuiIO& io = ImGui::GetIO();
-    const bool isDown = ImGui::IsKeyDown(ImGui::GetKeyIndex(ImGuiKey_Enter)) ||
-                        ImGui::IsKeyDown(ImGui::GetKeyIndex(kKeypadEnter));
-    if (!isDown) enter_ = Enter::Up;
-    if (isDown && enter_ == Enter::Up) enter_ = io.WantTextInput ? Enter::Types : Enter::Chooses;
+    const bool isEnter = isDown(window_, Key::Enter);
+    if (!isEnter) enter_ = Enter::Up;
+    if (isEnter && enter_ == Enter::Up) enter_ = io.WantTextInput ? Enter::Types : Enter::Chooses;
     if (enter_ == Enter::Chooses) io.NavInputs[ImGuiNavInput_Activate] = 1;
 }
 
 // Applies a new scale: at the start, and when the window moves to a screen with another scale. On systems
 // whose units are larger than pixels Dear ImGui uses these units: it applies only the rest of the scale.
 void ImguiLayer::followScale() {
-    const Scale scale{window_->contentScale(), window_->pixelsPerUnit(), textSize_};
+    const Scale scale{window_.contentScale(), window_.pixelsPerUnit(), textSize_};
     if (scale == scale_) return;
     scale_ = scale;
     setUiStyle(textSize_ * scale.content / scale.pixelsPerUnit);
@@ -140,6 +208,7 @@ glm::vec2 ImguiLayer::size() const {
 
 void ImguiLayer::endFrame() {
     ImGui::Render();
+    window_.setTextCursor(ImGui::GetMouseCursor() == ImGuiMouseCursor_TextInput);
     glBindFramebuffer(GL_FRAMEBUFFER, 0);
     ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
 }

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 #include <glm/vec2.hpp>
-#include <vector>
+#include <string>
 
 #include "apps/terrane/window/window.h"
 
@@ -11,8 +11,7 @@ namespace terrane::app {
 
 class ImguiLayer {
   public:
-    // `window` outlives this. Created after the window's own callbacks, which Dear ImGui chains.
-    explicit ImguiLayer(const Window& window);
+    explicit ImguiLayer(Window& window);  // `window` outlives this
     ~ImguiLayer();
     ImguiLayer(const ImguiLayer&) = delete;
     ImguiLayer& operator=(const ImguiLayer&) = delete;
@@ -38,18 +37,21 @@ class ImguiLayer {
         bool operator==(const Scale&) const = default;
     };
     void followScale();
-    void holdShortPresses();
+    void feedScreen();
+    void feedKeys();
+    void feedMouse();
+    void feedText();
     void activateByEnter();
-    void dropRepeatedText();
 
-    const Window* window_;
     enum class Enter : std::uint8_t { Up, Types, Chooses };
 
+    Window& window_;
     float textSize_ = 1;
     Enter enter_ = Enter::Up;
     bool acceptsText_ = false;  // a key was pressed in the text field
     Scale scale_;
-    std::vector<Key> shortPresses_;  // pressed and released within the last frame
+    double seconds_ = 0;     // of the window's clock, at the last frame
+    std::string clipboard_;  // as Dear ImGui last read it
 };
 
 // The scale of the user interface in Dear ImGui's units, 1 as designed. Call during a frame.

@@ -2,6 +2,7 @@
 // frame loop.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace terrane::app {
@@ -15,8 +16,11 @@ enum class Key : std::uint8_t {
     Escape, Space, Tab, Enter, Delete,
     Shift, Control,  // either side
     Left, Right, Up, Down,
+    Insert, Backspace, Home, End, PageUp, PageDown,
+    kCount
 };
 // clang-format on
+inline constexpr std::size_t kKeyCount = static_cast<std::size_t>(Key::kCount);
 
 enum class MouseButton : std::uint8_t { Left, Right, Middle };
 

@@ -6,6 +6,7 @@
 
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 #include "terrane/net/client_socket.h"
 #include "terrane/net/people.h"
 
@@ -25,7 +26,7 @@ void JoinDialog::drawList(const Texts& tr) {
     for (const PlayedServer& played : servers_) {
         ImGui::PushID(&played);
         const bool isChosen = played.server == options_.server;
-        if (ImGui::Selectable("##server", isChosen)) {
+        if (ui::selectable("##server", isChosen, played.server)) {
             options_ = {played.server, played.name, {}};
             problem_.clear();
         }

@@ -74,6 +74,12 @@ constexpr KeyName kOtherNames[] = {
     {Key::Down, trLater("Down")},
     {Key::Enter, "Enter"},
     {Key::Delete, "Delete"},
+    {Key::Insert, "Insert"},
+    {Key::Backspace, "Backspace"},
+    {Key::Home, "Home"},
+    {Key::End, "End"},
+    {Key::PageUp, "PageUp"},
+    {Key::PageDown, "PageDown"},
 };
 
 constexpr std::string_view kNone = "none";

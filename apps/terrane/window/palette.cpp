@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -39,7 +40,7 @@ void drawGroups(PaletteState& state, const std::vector<std::string>& groups, con
             ImGui::SameLine();
         const bool isChosen = state.group == k;
         if (isChosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
-        if (ImGui::Button(label.c_str())) state.group = k;
+        if (ui::button(label.c_str())) state.group = k;
         if (isChosen) ImGui::PopStyleColor();
     }
 }
@@ -55,7 +56,7 @@ std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<
     for (std::size_t k = 0; k < shown.size(); ++k) {
         if (k % columns != 0) ImGui::SameLine(0, gap);
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Button("##block", {side, side})) choice = shown[k];
+        if (ui::button("##block", {side, side}, face.name(shown[k]))) choice = shown[k];
         if (ImGui::IsItemVisible()) {
             const ImVec2 min = ImGui::GetItemRectMin();
             drawBlockImage(draw, {min.x, min.y}, side, face.image(shown[k]));
@@ -78,11 +79,11 @@ std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& st
     const float height = std::min(440 * uiScale(), screen.height - hotbarHeight() - margin);
     ImGui::SetNextWindowPos({(screen.width - width) / 2, (screen.height - hotbarHeight() - height) / 2});
     ImGui::SetNextWindowSize({width, height});
-    ImGui::Begin(tr("Blocks"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    ui::beginWindow(tr("Blocks"),
+                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     ImGui::SetNextItemWidth(-1);
-    const bool takesFirst = ImGui::InputTextWithHint(
+    const bool takesFirst = ui::textField(
         "##search", tr("search"), state.search.data(), state.search.size(),
         ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_CallbackCharFilter, withoutDigits);
     const std::vector<std::string> groups = game::paletteGroups(blocks);

@@ -6,21 +6,20 @@
 
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/text.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
 
 // Clamps numbers typed after a Ctrl+click too.
-constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
-
 // A combo box of `count` names; true if another one was chosen.
 template <class NameOf>
 bool combo(const char* label, int& chosen, int count, NameOf nameOf) {
     const std::string current(chosen >= 0 && chosen < count ? nameOf(chosen) : "custom");
-    if (!ImGui::BeginCombo(label, current.c_str())) return false;
+    if (!ui::beginCombo(label, current.c_str())) return false;
     bool isChanged = false;
     for (int k = 0; k < count; ++k) {
-        if (!ImGui::Selectable(std::string(nameOf(k)).c_str(), k == chosen)) continue;
+        if (!ui::selectable(std::string(nameOf(k)).c_str(), k == chosen)) continue;
         isChanged = k != chosen;
         chosen = k;
     }
@@ -65,7 +64,7 @@ void drawRow(const render::GraphicsRow& row, render::GraphicsSettings& graphics)
     bool isChanged = false;
     if (row.valueNames[0] == "off" && row.valueNames.size() == 2) {
         bool isOn = value == 1;
-        isChanged = ImGui::Checkbox(label.c_str(), &isOn);
+        isChanged = ui::checkbox(label.c_str(), &isOn);
         value = isOn ? 1 : 0;
     } else {
         const auto nameOf = [&](int k) { return row.valueNames[static_cast<std::size_t>(k)]; };
@@ -77,32 +76,32 @@ void drawRow(const render::GraphicsRow& row, render::GraphicsSettings& graphics)
 
 void drawView(PlaySettings& s) {
     choice("view", s.view, viewNames());
-    ImGui::SliderInt("view distance", &s.graphics.viewDistance, 2, 64, "%d", kTyped);
-    ImGui::SliderFloat("field of view", &s.fieldOfView, 40, 110, "%.0f", kTyped);
+    ui::slider("view distance", &s.graphics.viewDistance, 2, 64, "%d");
+    ui::slider("field of view", &s.fieldOfView, 40, 110, "%.0f");
 }
 
 // Applied with Enter.
 void drawResourcePack(PlaySettings& s) {
     std::array<char, 512> folder{};
     s.resourcePack.copy(folder.data(), folder.size() - 1);
-    if (ImGui::InputText("resource pack", folder.data(), folder.size(), ImGuiInputTextFlags_EnterReturnsTrue))
+    if (ui::textField("resource pack", "", folder.data(), folder.size(),
+                      ImGuiInputTextFlags_EnterReturnsTrue))
         s.resourcePack = folder.data();
     tooltip("Folder of PNG files named as textures; Enter takes it");
 }
 
 void drawPlayer(PlaySettings& s, game::DayClock& day) {
     choice("movement", s.movement, movementNames());
-    ImGui::SliderFloat("sound volume", &s.soundVolume, 0, 1, "%.2f", kTyped);
-    ImGui::SliderFloat("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
-    ImGui::Checkbox("full screen", &s.fullScreen);
+    ui::slider("sound volume", &s.soundVolume, 0, 1, "%.2f");
+    ui::slider("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f");
+    ui::checkbox("full screen", &s.fullScreen);
     const auto languages = languageChoices();
     choice<std::string>("language", s.language, languages);
     float time = static_cast<float>(day.timeDay);
-    if (ImGui::SliderFloat("time of day", &time, 0, 1, "%.3f", kTyped)) day.timeDay = double{time};
-    ImGui::Checkbox("time runs", &day.isRunning);
+    if (ui::slider("time of day", &time, 0, 1, "%.3f")) day.timeDay = double{time};
+    ui::checkbox("time runs", &day.isRunning);
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat("minutes per day", &minutes, 0.5f, 60, "%.1f", kTyped))
-        s.dayMinutes = double{minutes};
+    if (ui::slider("minutes per day", &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
 }
 
 }  // namespace
@@ -116,7 +115,7 @@ void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& in
     ImGui::SetNextWindowPos({input.width - width - margin, margin});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::SetNextWindowSizeConstraints({width, 0}, {width, input.height - 2 * margin});
-    ImGui::Begin("Settings", nullptr, ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
+    ui::beginWindow("Settings", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
     ImGui::PushItemWidth(120 * scale);
     drawPreset(settings, input.isSoftwareRenderer);
     drawView(settings);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -16,10 +17,10 @@ bool drawNaming(PlacesState& state, std::vector<game::Place>& places, const worl
     if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
     const float button = 90 * uiScale();
     ImGui::SetNextItemWidth(-button);
-    const bool isEntered = ImGui::InputTextWithHint("##name", tr("name of this place"), state.name.data(),
-                                                    state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    const bool isEntered = ui::textField("##name", tr("name of this place"), state.name.data(),
+                                         state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (!ImGui::Button(tr("Add"), {-1, 0}) && !isEntered) return false;
+    if (!ui::button(tr("Add"), {-1, 0}) && !isEntered) return false;
     const bool isNamed = game::namePlace(places, state.name.data(), here);
     if (isNamed) state.name = {};
     return isNamed;
@@ -33,17 +34,17 @@ PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<ga
     const float width = std::min(380 * uiScale(), screen.width - 20 * uiScale());
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
     ImGui::SetNextWindowSize({width, std::min(320 * uiScale(), screen.height - 20 * uiScale())});
-    ImGui::Begin(tr("Places"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    ui::beginWindow(tr("Places"),
+                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
     answer.isChanged = drawNaming(state, places, here, tr);
     ImGui::Separator();
     ImGui::BeginChild("list");
     std::optional<std::size_t> removed;
     for (std::size_t k = 0; k < places.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Button(tr("Go"))) answer.goTo = places[k].pose;
+        if (ui::button(tr("Go"), {0, 0}, places[k].name)) answer.goTo = places[k].pose;
         ImGui::SameLine();
-        if (ImGui::Button(tr("Remove"))) removed = k;
+        if (ui::button(tr("Remove"), {0, 0}, places[k].name)) removed = k;
         ImGui::SameLine();
         const glm::dvec3 to = places[k].pose.position - here.position;
         ImGui::AlignTextToFramePadding();

@@ -5,7 +5,7 @@
 
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/window/content_watch.h"
-#include "apps/terrane/window/game.h"
+#include "apps/terrane/window/game_state.h"
 #include "apps/terrane/window/join_server.h"
 #include "apps/terrane/window/known_edits.h"
 #include "apps/terrane/window/server_list.h"
@@ -85,10 +85,11 @@ void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const
     if (saved.resourcePack && !given.resourcePack) settings.resourcePack = *saved.resourcePack;
 }
 
-PlayFlow::PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window)
+PlayFlow::PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window, PlayHost& host)
     : options_(options),
       given_(given),
       window_(window),
+      host_(host),
       shaders_(gpu::builtInShaders(options.graphics.shaderRoot)),
       screen_{&shaders_, gpu::queryDevice(), options.graphics.gpuMemory, options.graphics.resourcePack,
               options.backend},
@@ -262,17 +263,19 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     }
     hasBegun_ = true;
     if (remote) remote->begin(session, *given.store);
-    GameEnd end;
-    auto played = runGame({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
-                           world.compiler(), shaders_, signals_, remote.get()},
-                          game, end);
+    GameState state({window_, world.content(), session, world.renderer(), world.view(), world.preview(),
+                     world.compiler(), shaders_, signals_, remote.get()},
+                    game);
+    host_.game = &state;
+    auto played = runGame(state);
+    host_.game = nullptr;
     if (played && remote && !options.knownEdits.empty())
-        played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), end.pose,
-                                 end.settings.graphics.viewDistance);
-    settings_ = end.settings;
-    goesToTitle_ = end.toTitle && !isOver();
-    reloads_ = end.wantsReload && !isOver();
-    message_ = end.serverReason;
+        played = writeKnownEdits(options.knownEdits, *given.store, session.blocks(), state.player.pose(),
+                                 state.settings.graphics.viewDistance);
+    settings_ = state.settings;
+    goesToTitle_ = state.leaving.toTitle && !isOver();
+    reloads_ = state.leaving.forReload && !isOver();
+    message_ = state.remote.endReason;
     return played;
 }
 

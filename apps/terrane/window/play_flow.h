@@ -2,12 +2,13 @@
 // the OpenGL context.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 
+#include "apps/terrane/window/glfw_window.h"
 #include "apps/terrane/window/play_options.h"
 #include "apps/terrane/window/title_screen.h"
-#include "apps/terrane/window/window.h"
 #include "apps/terrane/window/world_on_screen.h"
 #include "terrane/base/stop_signals.h"
 #include "terrane/game/player_state.h"
@@ -19,6 +20,14 @@ namespace terrane::app {
 // An unknown movement in the save is ignored with a line in the log.
 void takeFromWorld(PlaySettings& settings, const game::SavedPlayer& saved, const GivenOptions& given);
 
+struct GameState;
+
+// The surroundings of `terrane play`: tests open another window and look at the game.
+struct PlayHost {
+    std::function<base::Result<std::unique_ptr<Window>>(const WindowOptions&)> openWindow = openGlfwWindow;
+    GameState* game = nullptr;  // that is played now
+};
+
 // A server's world, and the store of the session that shows it; null for a local world.
 struct ServersWorld {
     std::unique_ptr<RemotePlay> play;
@@ -27,7 +36,8 @@ struct ServersWorld {
 
 class PlayFlow {
   public:
-    PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window);
+    // `window` and `host` outlive this.
+    PlayFlow(const PlayOptions& options, const GivenOptions& given, Window& window, PlayHost& host);
 
     base::Result<void> run();
 
@@ -46,6 +56,7 @@ class PlayFlow {
     PlayOptions options_;
     GivenOptions given_;
     Window& window_;
+    PlayHost& host_;
     const gpu::ShaderLoader shaders_;
     const base::StopSignals signals_;
     ScreenOptions screen_;

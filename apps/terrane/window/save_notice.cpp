@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -16,13 +17,13 @@ void beginNotice(const char* title, const Screen& screen, float height, ImGuiWin
     ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0});
     ImGui::SetNextWindowSize({width, 0});
     ImGui::PushStyleColor(ImGuiCol_WindowBg, kWarning);
-    ImGui::Begin(title, nullptr,
-                 flags | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    ui::beginWindow(
+        title, flags | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
     ImGui::PopStyleColor();
 }
 
 void drawProblem(const store::SaveStatus& status, const Texts& tr) {
-    ImGui::TextWrapped("%s", status.problem.c_str());
+    ui::wrappedText(status.problem);
     ImGui::TextWrapped(
         tr("For %.0f s. %zu chunks are waiting; the program keeps trying. Nothing is lost while it runs."),
         status.failingSeconds, status.waiting);
@@ -45,16 +46,16 @@ std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::Save
     std::optional<QuitChoice> choice;
     beginNotice(tr("The world could not be saved"), screen, screen.height * 0.35f, ImGuiWindowFlags_None);
     if (status.problem.empty()) {
-        ImGui::TextWrapped("%s", tr("Saving works again."));
+        ui::wrappedText(tr("Saving works again."));
     } else {
         drawProblem(status, tr);
     }
     ImGui::Spacing();
-    if (ImGui::Button(tr("Try again and quit"))) choice = QuitChoice::TryAgain;
+    if (ui::button(tr("Try again and quit"))) choice = QuitChoice::TryAgain;
     ImGui::SameLine();
-    if (ImGui::Button(tr("Keep playing"))) choice = QuitChoice::Stay;
+    if (ui::button(tr("Keep playing"))) choice = QuitChoice::Stay;
     ImGui::SameLine();
-    if (ImGui::Button(tr("Quit without saving"))) choice = QuitChoice::QuitUnsaved;
+    if (ui::button(tr("Quit without saving"))) choice = QuitChoice::QuitUnsaved;
     ImGui::End();
     return choice;
 }

@@ -13,6 +13,7 @@ class ScreenshotView {
     void show(const base::Image& screenshot);
     void advance(double seconds);
     void draw(const Screen& screen) const;
+    bool isShown() const { return secondsLeft_ > 0; }
 
   private:
     gpu::Texture2D image_;

@@ -7,6 +7,7 @@
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/screen_projection.h"
 #include "apps/terrane/window/selection_tool.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -69,9 +70,9 @@ void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
     const float margin = 10 * uiScale();
     ImGui::SetNextWindowPos({screen.width - margin, margin}, ImGuiCond_Always, {1, 0});
     ImGui::SetNextWindowBgAlpha(0.6f);
-    ImGui::Begin(tr("Selection (B)"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse |
-                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ui::beginWindow(tr("Selection (B)"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                             ImGuiWindowFlags_NoCollapse |
+                                             ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     if (const auto box = selection_.box()) {
         const world::BlockPos low = box->low, high = box->high;
         ImGui::TextUnformatted(
@@ -86,7 +87,7 @@ void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
     int column = 0;
     for (const ToolButton& button : kToolButtons) {
         if (column++ % 2 == 1) ImGui::SameLine();
-        if (ImGui::Button(tr(button.label), size)) pressed_ = button.action;
+        if (ui::button(tr(button.label), size)) pressed_ = button.action;
     }
     ImGui::TextUnformatted(tr("Shift: your own position"));
     if (asks_ == Asks::Name) drawName(tr);
@@ -100,7 +101,7 @@ void SelectionTool::drawName(const Texts& tr) {
     if (takesFocus_) ImGui::SetKeyboardFocusHere();
     takesFocus_ = false;
     ImGui::SetNextItemWidth(264 * uiScale());
-    ImGui::InputText("##name", name_.data(), name_.size());
+    ui::textField("##name", "", name_.data(), name_.size());
 }
 
 void SelectionTool::drawFiles(const Texts& tr) {
@@ -109,7 +110,7 @@ void SelectionTool::drawFiles(const Texts& tr) {
     ImGui::BeginChild("files", {264 * uiScale(), 120 * uiScale()});
     for (std::size_t k = 0; k < files_.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
-        if (ImGui::Selectable(files_[k].c_str(), k == file_)) {
+        if (ui::selectable(files_[k].c_str(), k == file_)) {
             file_ = k;
             isAnswered_ = true;
         }

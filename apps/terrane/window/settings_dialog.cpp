@@ -9,13 +9,13 @@
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/key_help.h"
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
 
 constexpr std::array<const char*, static_cast<std::size_t>(SettingsPage::kCount)> kPages = {
     trLater("Graphics"), trLater("Controls"), trLater("World"), trLater("General")};
-constexpr ImGuiSliderFlags kTyped = ImGuiSliderFlags_AlwaysClamp;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     ImGui::PopItemWidth();
     ImGui::EndChild();
     ImGui::Separator();
-    const bool isDone = ImGui::Button(input.tr("Done (Esc)"), {-1, 0});
+    const bool isDone = ui::button(input.tr("Done (Esc)"), {-1, 0});
     ImGui::End();
     if (isDone || page_ != SettingsPage::Controls) waiting_.reset();
     return isDone;
@@ -72,11 +72,11 @@ void SettingsDialog::turnPage(int by) {
 
 void SettingsDialog::drawControls(PlaySettings& settings, const Texts& tr) {
     heading(tr("Mouse and gamepad"));
-    ImGui::SliderFloat(tr("Mouse sensitivity"), &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f", kTyped);
+    ui::slider(tr("Mouse sensitivity"), &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f");
     tooltipFor(tr("Degrees that the view turns per step of the mouse."));
-    ImGui::Checkbox(tr("Invert up and down"), &settings.invertY);
+    ui::checkbox(tr("Invert up and down"), &settings.invertY);
     tooltipFor(tr("Moving the mouse or the stick forward looks down."));
-    ImGui::Checkbox(tr("Jump automatically"), &settings.autoJump);
+    ui::checkbox(tr("Jump automatically"), &settings.autoJump);
     tooltipFor(tr("Climb steps of one block by walking against them."));
     heading(tr("Keys"));
     drawKeys(settings.keys, tr);
@@ -104,7 +104,7 @@ void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
         ImGui::TableNextColumn();
         ImGui::PushID(static_cast<int>(row.action));
         const std::string name = waiting_ == row.action ? "..." : keyText(key, tr);
-        if (ImGui::Button((name + "###key").c_str(), {-1, 0})) waiting_ = row.action;
+        if (ui::button((name + "###key").c_str(), {-1, 0}, row.name)) waiting_ = row.action;
         ImGui::PopID();
     }
     ImGui::EndTable();

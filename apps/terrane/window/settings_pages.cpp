@@ -8,11 +8,10 @@
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/settings_dialog.h"
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
-
-constexpr ImGuiSliderFlags kClamped = ImGuiSliderFlags_AlwaysClamp;
 
 // Texts of a row of the graphics table. Costs are from docs/rendering.md, "What a preset costs".
 struct PlainRow {
@@ -74,15 +73,15 @@ void drawPlainRow(const PlainRow& plain, render::GraphicsSettings& graphics, con
     bool isChanged = false;
     if (plain.words[0] == nullptr) {
         bool isOn = value == 1;
-        isChanged = ImGui::Checkbox(tr(plain.label), &isOn);
+        isChanged = ui::checkbox(tr(plain.label), &isOn);
         value = isOn ? 1 : 0;
     } else {
         const auto count = static_cast<int>(row->valueNames.size());
         const bool isKnown = value >= 0 && value < count;
-        if (ImGui::BeginCombo(tr(plain.label),
-                              isKnown ? tr(plain.words[static_cast<std::size_t>(value)]) : tr("Other"))) {
+        if (ui::beginCombo(tr(plain.label),
+                           isKnown ? tr(plain.words[static_cast<std::size_t>(value)]) : tr("Other"))) {
             for (int k = 0; k < count; ++k) {
-                if (!ImGui::Selectable(tr(plain.words[static_cast<std::size_t>(k)]), k == value)) continue;
+                if (!ui::selectable(tr(plain.words[static_cast<std::size_t>(k)]), k == value)) continue;
                 value = k;
                 isChanged = true;
             }
@@ -128,12 +127,12 @@ void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr)
     heading(tr("Quality"));
     drawQuality(s, isSoftwareRenderer, tr);
     heading(tr("View"));
-    ImGui::SliderInt(tr("View distance"), &s.graphics.viewDistance, 2, 64, tr("%d chunks"), kClamped);
+    ui::slider(tr("View distance"), &s.graphics.viewDistance, 2, 64, tr("%d chunks"));
     tooltipFor(
         tr("In chunks of 16 blocks, which are shown in full.\nCost: high; memory grows with the square."));
-    ImGui::SliderFloat(tr("Field of view"), &s.fieldOfView, 40, 110, tr("%.0f degrees"), kClamped);
+    ui::slider(tr("Field of view"), &s.fieldOfView, 40, 110, tr("%.0f degrees"));
     tooltipFor(tr("Vertical.\nCost: a little higher if it is wider."));
-    ImGui::Checkbox(tr("Full screen"), &s.fullScreen);
+    ui::checkbox(tr("Full screen"), &s.fullScreen);
     heading(tr("Details"));
     for (const PlainRow& row : kRows) drawPlainRow(row, s.graphics, tr);
 }
@@ -148,13 +147,12 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
         char text[16];
         std::snprintf(text, sizeof text, "%02d:%02d", static_cast<int>(time) % 24,
                       static_cast<int>(time * 60) % 60);
-        if (ImGui::SliderFloat(tr("Time of day"), &time, 0, 24, text, kClamped))
+        if (ui::slider(tr("Time of day"), &time, 0, 24, text))
             day->timeDay = std::min(double{time} / 24, 0.99999);
-        ImGui::Checkbox(tr("Time runs"), &day->isRunning);
+        ui::checkbox(tr("Time runs"), &day->isRunning);
     }
     float minutes = static_cast<float>(s.dayMinutes);
-    if (ImGui::SliderFloat(tr("Minutes per day"), &minutes, 0.5f, 60, "%.1f", kClamped))
-        s.dayMinutes = double{minutes};
+    if (ui::slider(tr("Minutes per day"), &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
     tooltipFor(tr("Length of a day of the world."));
     if (!day) {
         dimText(tr("Each world has its own time and movement mode:\nplay it to change them."));
@@ -162,9 +160,9 @@ void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
     }
     heading(tr("Movement"));
     const auto chosen = static_cast<std::size_t>(s.movement);
-    if (!ImGui::BeginCombo(tr("Movement mode"), tr(kMovements[chosen]))) return;
+    if (!ui::beginCombo(tr("Movement mode"), tr(kMovements[chosen]))) return;
     for (std::size_t k = 0; k < kMovements.size(); ++k)
-        if (ImGui::Selectable(tr(kMovements[k]), k == chosen)) s.movement = static_cast<game::Movement>(k);
+        if (ui::selectable(tr(kMovements[k]), k == chosen)) s.movement = static_cast<game::Movement>(k);
     ImGui::EndCombo();
 }
 
@@ -175,14 +173,13 @@ static void drawLanguageAndSound(PlaySettings& s, const Texts& tr) {
     heading(tr("Language and sound"));
     const auto chosen = std::ranges::find(languages, s.language, [](const auto& row) { return row.first; });
     const char* const shown = chosen != languages.end() ? chosen->second : s.language.c_str();
-    if (ImGui::BeginCombo((tr("Language") + std::string("###language")).c_str(), shown)) {
+    if (ui::beginCombo((tr("Language") + std::string("###language")).c_str(), shown)) {
         for (const auto& [code, name] : languages)
-            if (ImGui::Selectable(name, s.language == code)) s.language = code;
+            if (ui::selectable(name, s.language == code)) s.language = code;
         ImGui::EndCombo();
     }
     float percent = s.soundVolume * 100;
-    if (ImGui::SliderFloat(tr("Sound volume"), &percent, 0, 100, "%.0f %%", kClamped))
-        s.soundVolume = percent / 100;
+    if (ui::slider(tr("Sound volume"), &percent, 0, 100, "%.0f %%")) s.soundVolume = percent / 100;
 }
 
 void drawGeneralPage(PlaySettings& s, const Texts& tr) {
@@ -196,16 +193,16 @@ void drawGeneralPage(PlaySettings& s, const Texts& tr) {
     heading(tr("Accessibility"));
     char shown[16];
     std::snprintf(shown, sizeof shown, "%.0f %%", double{s.textSize} * 100);
-    if (ImGui::BeginCombo(tr("Text size"), shown)) {
+    if (ui::beginCombo(tr("Text size"), shown)) {
         for (const auto& [label, size] : kSizes)
-            if (ImGui::Selectable(label, s.textSize == size)) s.textSize = size;
+            if (ui::selectable(label, s.textSize == size)) s.textSize = size;
         ImGui::EndCombo();
     }
     tooltipFor(tr("Size of all texts and menus."));
-    ImGui::Checkbox(tr("High contrast"), &s.highContrast);
+    ui::checkbox(tr("High contrast"), &s.highContrast);
     tooltipFor(
         tr("The targeted block gets thick lines in black, white and orange, for color-blind players."));
-    ImGui::Checkbox(tr("Reduced motion"), &s.reducedMotion);
+    ui::checkbox(tr("Reduced motion"), &s.reducedMotion);
     tooltipFor(tr("The world behind the title stands still."));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -41,21 +42,21 @@ void SignDialog::onKey(Key key) {
 
 std::optional<SignDialog::Choice> SignDialog::draw(const Screen& screen, const Texts& tr) {
     ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::Begin(tr("Sign"), nullptr,
-                 ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoCollapse);
+    ui::beginWindow(tr("Sign"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                    ImGuiWindowFlags_NoCollapse);
     for (std::size_t k = 0; k < lines_.size(); ++k) {
         ImGui::PushID(static_cast<int>(k));
         if (takesFocus_ && k == line_) ImGui::SetKeyboardFocusHere();
         ImGui::SetNextItemWidth(220 * uiScale());
-        ImGui::InputText("##line", lines_[k].data(), lines_[k].size(), ImGuiInputTextFlags_CallbackAlways,
-                         keepFitting);
+        ui::textField("##line", "", lines_[k].data(), lines_[k].size(), ImGuiInputTextFlags_CallbackAlways,
+                      keepFitting);
         if (ImGui::IsItemActive() && !takesFocus_) line_ = k;
         ImGui::PopID();
     }
     takesFocus_ = false;
-    if (ImGui::Button(tr("Done"))) choice_ = Choice::Done;
+    if (ui::button(tr("Done"))) choice_ = Choice::Done;
     ImGui::SameLine();
-    if (ImGui::Button(tr("Cancel"))) choice_ = Choice::Cancel;
+    if (ui::button(tr("Cancel"))) choice_ = Choice::Cancel;
     ImGui::SameLine();
     ImGui::TextUnformatted("Enter   Esc");
     ImGui::End();

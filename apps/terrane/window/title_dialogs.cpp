@@ -7,6 +7,7 @@
 
 #include "apps/terrane/window/title_screen.h"
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 #include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::app {
@@ -50,7 +51,7 @@ void TitleScreen::drawForm() {
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
     editText("##seed", form_.seed);
     ImGui::SameLine();
-    if (ImGui::Button(tr_("Random"), {button, 0})) {
+    if (ui::button(tr_("Random"), {button, 0})) {
         form_.seed.clear();
         form_.randomSeed = std::random_device()();
     }
@@ -60,9 +61,9 @@ void TitleScreen::drawForm() {
         warningText(seed.error().message);
     }
     dimText(tr_("Generator"));
-    if (ImGui::BeginCombo("##generator", form_.generator.c_str())) {
+    if (ui::beginCombo("##generator", form_.generator.c_str())) {
         for (const std::string& name : gen::namesOf(parts_.content.generators))
-            if (ImGui::Selectable(name.c_str(), name == form_.generator)) form_.generator = name;
+            if (ui::selectable(name.c_str(), name == form_.generator)) form_.generator = name;
         ImGui::EndCombo();
     }
     ImGui::PopItemWidth();

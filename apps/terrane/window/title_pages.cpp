@@ -8,6 +8,7 @@
 #include "apps/terrane/window/thumbnail.h"
 #include "apps/terrane/window/title_screen.h"
 #include "apps/terrane/window/ui_style.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 
@@ -102,8 +103,8 @@ void TitleScreen::drawRow(std::size_t index) {
     const float width = height * kThumbnailWidth / kThumbnailHeight;
     const ImVec2 at = ImGui::GetCursorScreenPos();
     ImGui::PushID(static_cast<int>(index));
-    const bool isPressed =
-        ImGui::Selectable("##world", isChosen, ImGuiSelectableFlags_AllowDoubleClick, {0, height + 2 * gap});
+    const bool isPressed = ui::selectable("##world", isChosen, world.name,
+                                          ImGuiSelectableFlags_AllowDoubleClick, {0, height + 2 * gap});
     if (isChosen && ImGui::IsWindowAppearing()) ImGui::SetItemDefaultFocus();
     if (ImGui::IsItemFocused() || isPressed) shelf_.choose(index);
     const bool isByMouse = ImGui::IsMouseClicked(0) || ImGui::IsMouseReleased(0);

@@ -6,6 +6,7 @@
 #include <array>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
@@ -120,14 +121,14 @@ void beginMenu(const MenuWindow& menu) {
     const ImGuiWindowFlags flags = ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize |
                                    ImGuiWindowFlags_NoCollapse |
                                    (menu.hasTitle ? 0 : ImGuiWindowFlags_NoTitleBar);
-    ImGui::Begin(menu.title, nullptr, flags);
+    ui::beginWindow(menu.title, flags);
     if (!ImGui::IsWindowAppearing()) return;
     ImGui::SetWindowFocus();
     ImGui::GetCurrentContext()->NavDisableHighlight = false;  // show the focus to players without a mouse
 }
 
 bool menuButton(const char* label, float width) {
-    return ImGui::Button(label, {width, 30 * uiScale()});
+    return ui::button(label, {width, 30 * uiScale()});
 }
 
 bool menuButton(const char* label, float width, bool isEnabled) {
@@ -142,7 +143,7 @@ bool tabButton(const char* label, bool isChosen, float width) {
         ImGui::PushStyleColor(ImGuiCol_Button, withAlpha(colors::kAccent, 0.85f));
         ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.08f, 0.08f, 0.08f, 1));
     }
-    const bool isPressed = ImGui::Button(label, {width, 24 * uiScale()});
+    const bool isPressed = ui::button(label, {width, 24 * uiScale()});
     if (isChosen) ImGui::PopStyleColor(2);
     return isPressed;
 }
@@ -158,14 +159,14 @@ void dimText(std::string_view text) {
 
 void warningText(std::string_view text) {
     ImGui::PushStyleColor(ImGuiCol_Text, colors::kWarning);
-    ImGui::TextWrapped("%.*s", static_cast<int>(text.size()), text.data());
+    ui::wrappedText(text);
     ImGui::PopStyleColor();
 }
 
 bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags) {
     std::array<char, 256> buffer{};
     text.copy(buffer.data(), buffer.size() - 1);
-    const bool isDone = ImGui::InputText(label, buffer.data(), buffer.size(), flags);
+    const bool isDone = ui::textField(label, "", buffer.data(), buffer.size(), flags);
     text = buffer.data();
     return isDone;
 }

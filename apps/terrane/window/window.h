@@ -1,20 +1,22 @@
-// A GLFW window with an OpenGL 4.5 core context and its input. Used on the program's main thread. One window
-// at a time: destroying it terminates GLFW.
+// The program's window and its input. Used on the program's main thread. Two back ends: GLFW (glfw_window.h),
+// and one without a screen for tests, whose events the tests make (tests/window/offscreen_window.h).
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <glm/vec2.hpp>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "apps/terrane/window/input.h"
 #include "terrane/base/result.h"
 #include "terrane/gpu/debug.h"
 
-struct GLFWwindow;
-
 namespace terrane::app {
+
+class WidgetRecord;
 
 struct WindowOptions {
     std::string title = "Terrane";
@@ -24,49 +26,80 @@ struct WindowOptions {
     bool debug = false;       // as ContextOptions
 };
 
+// Modifier keys held with a key or button.
+struct Modifiers {
+    bool shift = false, control = false;
+};
+
 class Window {
   public:
-    [[nodiscard]] static base::Result<Window> create(const WindowOptions& options);
+    Window() = default;
+    virtual ~Window() = default;
+    Window(const Window&) = delete;
+    Window& operator=(const Window&) = delete;
 
-    Window();
-    Window(Window&&) noexcept;
-    Window& operator=(Window&&) noexcept;
-    ~Window();
-
-    // Polls input; the results of the next three functions change only here.
+    // Polls input; the results of the next functions change only here.
     void pollEvents();
-    [[nodiscard]] std::span<const InputEvent> events() const;
-    [[nodiscard]] bool anyKeyPressed() const;  // also keys that Key does not name
-    [[nodiscard]] bool keyDown(Key key) const;
-
-    void swapBuffers();
-    [[nodiscard]] bool shouldClose() const;
-    void cancelClose();
-
-    [[nodiscard]] glm::ivec2 framebufferSize() const;  // pixels; 0 while minimised
-    [[nodiscard]] float contentScale() const;          // scale of the user interface
-    [[nodiscard]] float pixelsPerUnit() const;         // framebuffer pixels per screen unit
-    // Full screen on the first monitor, or the former window.
-    void setFullScreen(bool isFullScreen);
-    // `pixels`: width × height × 4 bytes, RGBA, top row first. Does nothing on systems without window icons.
-    void setIcon(int width, int height, std::span<const std::byte> pixels);
+    [[nodiscard]] std::span<const InputEvent> events() const { return events_; }
+    // Typed characters (Unicode), with those that a held key repeats.
+    [[nodiscard]] std::span<const unsigned> characters() const { return characters_; }
+    [[nodiscard]] bool anyKeyPressed() const { return isAnyKeyPressed_; }  // also keys that Key does not name
+    [[nodiscard]] bool keyDown(Key key) const { return keysDown_[static_cast<std::size_t>(key)] > 0; }
+    [[nodiscard]] bool buttonDown(MouseButton button) const {
+        return buttonsDown_[static_cast<std::size_t>(button)];
+    }
+    // Of the cursor, in screen units; none while it is elsewhere.
+    [[nodiscard]] virtual std::optional<glm::dvec2> cursor() const = 0;
     // The first gamepad, if there is one.
-    [[nodiscard]] std::optional<Gamepad> gamepad() const;
+    [[nodiscard]] virtual std::optional<Gamepad> gamepad() const = 0;
+    // The key that types this letter on the player's keyboard.
+    [[nodiscard]] virtual Key keyTyping(Key letter) const { return letter; }
 
-    void setVsync(bool isOn);  // frames wait for vertical sync
+    virtual void swapBuffers() = 0;
+    [[nodiscard]] virtual bool shouldClose() const = 0;
+    virtual void cancelClose() = 0;
+
+    [[nodiscard]] virtual glm::ivec2 size() const = 0;             // screen units
+    [[nodiscard]] virtual glm::ivec2 framebufferSize() const = 0;  // pixels; 0 while minimised
+    [[nodiscard]] virtual float contentScale() const = 0;          // scale of the user interface
+    [[nodiscard]] float pixelsPerUnit() const;                     // framebuffer pixels per screen unit
+    // Full screen on the first monitor, or the former window.
+    virtual void setFullScreen(bool isFullScreen) = 0;
+    // `pixels`: width × height × 4 bytes, RGBA, top row first. Does nothing on systems without window icons.
+    virtual void setIcon(glm::ivec2 size, std::span<const std::byte> pixels) = 0;
+    virtual void setVsync(bool isOn) = 0;  // frames wait for vertical sync
 
     // A captured cursor is hidden and its motion is unlimited.
     void setCursorCaptured(bool captured);
-    [[nodiscard]] double timeSeconds() const;  // since the window was made
+    virtual void setTextCursor(bool isOverText) = 0;
+    [[nodiscard]] virtual std::string clipboard() const = 0;
+    virtual void setClipboard(const std::string& text) = 0;
+    [[nodiscard]] virtual double timeSeconds() const = 0;  // since the window was made
 
     // Null without the debug option.
-    [[nodiscard]] gpu::DebugLog* debugLog() const;
-    // For Dear ImGui's GLFW back end.
-    [[nodiscard]] GLFWwindow* handle() const;
+    [[nodiscard]] virtual gpu::DebugLog* debugLog() const = 0;
+    // Receives the widgets of each frame; null: nobody reads them.
+    [[nodiscard]] virtual WidgetRecord* widgets() { return nullptr; }
+
+    // Input, reported by the back end during pollEvents().
+    void onKey(std::optional<Key> key, bool isPress, Modifiers with);  // not for repetitions of a held key
+    void onCharacter(unsigned character);
+    void onButton(MouseButton button, bool isPress, Modifiers with);
+    void onWheel(glm::dvec2 steps);
+    void onCursor(glm::dvec2 position);
+
+  protected:
+    virtual void receiveEvents() = 0;
+    virtual void captureCursor(bool isCaptured) = 0;
 
   private:
-    struct State;
-    std::unique_ptr<State> state_;
+    std::vector<InputEvent> events_;
+    std::vector<unsigned> characters_;
+    bool isAnyKeyPressed_ = false;
+    std::array<int, kKeyCount> keysDown_{};  // 2 if both keys of a pair are down
+    std::array<bool, 3> buttonsDown_{};
+    glm::dvec2 lastCursor_{0};
+    bool cursorKnown_ = false;  // false: the next position is only a reference
 };
 
 }  // namespace terrane::app
