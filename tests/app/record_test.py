@@ -2,6 +2,8 @@
 """terrane record, end to end: videos according to ffprobe, frames, edits, errors. Usage: record_test.py PROGRAM"""
 import json
 import os
+import pathlib
+import re
 import signal
 import subprocess
 import time
@@ -124,8 +126,11 @@ class Video(RecordTest):
 
 
     def test_an_interrupt_while_ffmpeg_finishes_waits_for_it(self):
-        tool, finishing = self.folder / "ffmpeg", self.folder / "finishing"
-        tool.write_text(f"#!/bin/sh\ncat > /dev/null\ntouch '{finishing}'\nsleep 1\n"
+        tool, finishing, may_end = (self.folder / name for name in ("ffmpeg", "finishing", "may_end"))
+        os.mkfifo(may_end)
+        pipe = os.open(may_end, os.O_RDWR)
+        self.addCleanup(os.close, pipe)
+        tool.write_text(f"#!/bin/sh\ncat > /dev/null\ntouch '{finishing}'\nread answer < '{may_end}'\n"
                         "for last; do :; done\necho video > \"${last#file:}\"\n")
         tool.chmod(0o755)
         process = subprocess.Popen(
@@ -136,9 +141,18 @@ class Video(RecordTest):
         while not finishing.exists() and process.poll() is None and time.monotonic() < end:
             time.sleep(0.02)
         process.send_signal(signal.SIGINT)
+        while self.has_signals(process.pid) and time.monotonic() < end:
+            time.sleep(0.02)
+        os.write(pipe, b"yes\n")
         _, errors = process.communicate(timeout=support.HANG_SECONDS)
         self.assertEqual(process.returncode, 0, errors)
-        self.assertEqual(sorted(p.name for p in self.folder.iterdir()), ["a.mp4", "ffmpeg", "finishing", "path.toml"])
+        self.assertEqual(sorted(p.name for p in self.folder.iterdir()),
+                         ["a.mp4", "ffmpeg", "finishing", "may_end", "path.toml"])
+
+    def has_signals(self, pid):
+        """Whether a process was sent a signal that it has not taken yet."""
+        status = pathlib.Path(f"/proc/{pid}/status").read_text("ascii")
+        return re.search(r"^ShdPnd:\s*0+$", status, re.MULTILINE) is None
 
 
 class Frames(RecordTest):

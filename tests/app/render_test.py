@@ -17,11 +17,11 @@ class FlightBench(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         rows = [line.split(",") for line in table.read_text().splitlines()]
         self.assertEqual(rows[0][:5], ["time_s", "frame_ms", "follow_ms", "upload_ms", "draw_ms"])
-        self.assertGreater(len(rows), 3)
+        self.assertGreater(len(rows), 1)
         self.assertTrue(all(len(row) == len(rows[0]) for row in rows))
         for row in rows[1:]:
             whole, parts = float(row[1]), sum(map(float, row[2:5]))
-            self.assertAlmostEqual(whole, parts, delta=0.5 + 0.5 * whole)
+            self.assertLessEqual(parts, whole + 0.002)  # they are rounded
         frames, x = re.search(r"(\d+) frames to (-?\d+),8,120", done.stderr).groups()
         self.assertEqual(int(frames), len(rows) - 1)
         self.assertGreater(int(x), 20)  # 60 blocks per second; a long frame moves at most a quarter of that

@@ -1,13 +1,16 @@
 #!/usr/bin/env python3
 """tools/mutate.py without builds: the places, the draw, the copy, the runs of programs, results and report.
 Usage: mutate_test.py SCRIPT"""
+import contextlib
 import json
+import math
 import pathlib
 import shutil
 import subprocess
 import sys
 import tempfile
 import unittest
+import unittest.mock
 from dataclasses import asdict
 
 SCRIPT = pathlib.Path(sys.argv.pop(1)).resolve()
@@ -146,30 +149,36 @@ class Copies(unittest.TestCase):
 
 
 class Programs(unittest.TestCase):
-    def run_script(self, script, seconds=0.0):
-        """A script in place of a test program."""
+    @contextlib.contextmanager
+    def program(self, script):
+        """A script in place of a test program, in a folder."""
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "a_tests"
             path.write_text("#!/bin/sh\n" + script)
             path.chmod(0o755)
-            return Program("a_tests", path, 2).run(Unchanged(slow=["A.Slow"], slow_seconds=seconds))
+            yield Program("a_tests", path, 2), pathlib.Path(folder)
+
+    def run_script(self, script):
+        with self.program(script) as (program, _):
+            return program.run(Unchanged(slow=["A.Slow"]))
 
     def test_passing(self):
         self.assertEqual(self.run_script("exit 0\n").kind, "passed")
 
     def test_a_failing_shard(self):
-        run = self.run_script('[ "$GTEST_SHARD_INDEX" = 0 ] && exec sleep 60\necho "[  FAILED  ] A.B (3 ms)"; exit 1\n')
+        script = '[ "$GTEST_SHARD_INDEX" = 0 ] && exec sleep 100000\necho "[  FAILED  ] A.B (3 ms)"; exit 1\n'
+        with self.program(script) as (program, folder):
+            run = program.run_shards([], math.inf, folder, fails_fast=True)
         self.assertEqual((run.kind, run.test), ("noticed", "A.B"))
-        self.assertLess(run.seconds, 9)
 
     def test_a_program_that_does_not_end(self):
-        with tempfile.TemporaryDirectory() as folder:
-            path = pathlib.Path(folder) / "a_tests"
-            path.write_text('#!/bin/sh\necho "[ RUN      ] A.B"; sleep 60 & wait\n')
-            path.chmod(0o755)
-            run = Program("a_tests", path, 2).run_shards([], 0.5, pathlib.Path(folder), fails_fast=True)
+        with self.program('echo "[ RUN      ] A.B"; sleep 100000 & wait\n') as (program, folder):
+            def now():  # the time is over once the test runs
+                output = folder / "0.txt"
+                return 60.0 if output.exists() and output.read_text() else 0.0
+            with unittest.mock.patch("mutate.programs.time.monotonic", now):
+                run = program.run_shards([], 10, folder, fails_fast=True)
         self.assertEqual((run.kind, run.test), ("timed_out", "A.B"))
-        self.assertLess(run.seconds, 9)
 
     def test_slow_tests_run_after_the_others(self):
         run = self.run_script('case "$1" in *=\\*-*) exit 0;; esac; echo "[ RUN      ] A.Slow"; kill -SEGV $$\n')
