@@ -60,7 +60,7 @@ TEST_F(ContextTest, movesAndLeavesAnEmptyOne) {
 
 TEST_F(ContextTest, DrawsIntoItsSurface) {
     for (const int width : {4, 7}) {
-        ASSERT_TRUE(context_.setSurface(width, 3));
+        ASSERT_TRUE(context().setSurface(width, 3));
         glViewport(0, 0, width, 3);
         glClearColor(1, 0, 0, 1);
         glClear(GL_COLOR_BUFFER_BIT);
