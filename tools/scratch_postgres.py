@@ -65,9 +65,10 @@ class ScratchPostgres:
 
     def query(self, sql):
         """The output of psql: a row per line, columns separated by |."""
-        return subprocess.run(["psql", "-X", "-q", "-A", "-t", "-c", sql,
-                               f"postgresql://postgres@127.0.0.1:{self.port}/postgres"], check=True,
-                              capture_output=True, text=True).stdout.strip()
+        return subprocess.run([*self.psql(), "-c", sql], check=True, capture_output=True, text=True).stdout.strip()
+
+    def psql(self):
+        return ["psql", "-X", "-q", "-A", "-t", f"postgresql://postgres@127.0.0.1:{self.port}/postgres"]
 
     def close(self):
         self.kill()

@@ -11,6 +11,7 @@ import pathlib
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -19,8 +20,7 @@ import time
 import child_processes
 from acknowledged_blocks import lost_blocks, read_kept
 from server_tools import Server, bots_command
-
-BACK_SECONDS = 60  # in which all bots must have joined
+from wait_for import wait_for
 
 
 def joined(server):
@@ -29,14 +29,19 @@ def joined(server):
 
 def wait_for_all(server, bots, count):
     """Seconds until all bots have joined."""
-    start = time.monotonic()
-    while len(joined(server)) < count:
+    def are_here():
         if bots.poll() is not None:
             sys.exit("server_kill_test: the bots ended by themselves")
-        if time.monotonic() - start > BACK_SECONDS:
-            sys.exit(f"server_kill_test: {count - len(joined(server))} of {count} bots stay away")
-        time.sleep(0.05)
-    return time.monotonic() - start
+        return len(joined(server)) >= count
+    return wait_for(are_here, "the return of all bots")
+
+
+def count_edits(server):
+    """The number of edits in the server's history."""
+    with sqlite3.connect(f"file:{server.world.with_suffix('.server.sqlite')}?mode=ro", uri=True) as database:
+        count = database.execute("SELECT count(*) FROM edits").fetchone()[0]
+    database.close()
+    return count
 
 
 def check_blocks(program, world, acknowledged, folder):
@@ -68,15 +73,17 @@ def main():
         wait_for_all(server, bots, count)
         back = []
         for _ in range(kills):
-            time.sleep(generator.random() * 2)
+            time.sleep(generator.random())  # a random moment of play
             server.stop(signal.SIGKILL)
             server = Server(program, folder, port)
             if generator.random() < 0.7:
                 back.append(wait_for_all(server, bots, count))
         back.append(wait_for_all(server, bots, count))
-        time.sleep(1)
+        # Bots that go on building have read that they joined.
+        edits = count_edits(server)
+        wait_for(lambda: count_edits(server) >= edits + 2 * count, "building", 0.2)
         bots.send_signal(signal.SIGINT)
-        if bots.wait(60) != 0:
+        if bots.wait() != 0:
             sys.exit(f"server_kill_test: the bots end with {bots.returncode}")
         if server.stop() != 0:
             sys.exit("server_kill_test: the server does not end well")

@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
-"""Kills a random worker of a world in PostgreSQL every second, while the database restarts.
+"""Kills random workers of a world in PostgreSQL at random moments, while the database restarts.
 
     tools/work_kill_test.py PROGRAM [RADIUS [KILLS [WORKERS [GENERATOR]]]]      96, 60, 4, voronoi
 
 At the end each chunk exists once, and the digest equals that of one process that generates in memory. Killed workers are
-restarted at once. The database is stopped after a third of the kills, and killed after two thirds.
+restarted at once. The database is stopped after a third of the kills, and killed after two thirds. The leases of a killed
+worker end at once, as if their time had passed.
 """
 
 import json
@@ -15,6 +16,7 @@ import time
 
 import child_processes
 from scratch_postgres import ScratchPostgres
+from wait_for import wait_for
 
 
 def start_worker(program, url, radius, generator):
@@ -28,16 +30,25 @@ def status(program, url):
     return json.loads(answer.stdout)
 
 
+def has_begun(server, worker):
+    """Whether the worker is in the list of workers, or has ended: one that is still starting ends with an error if the
+    database stops."""
+    if worker.poll() is not None:
+        return True
+    if not server.query("SELECT to_regclass('terrane.workers')"):
+        return False
+    return server.query(f"SELECT count(*) FROM terrane.workers WHERE name LIKE '% process {worker.pid}'") == "1"
+
+
 def disturb(program, server, workers, radius, generator, kills):
-    """Kills a random worker each second; returns the number of kills during work."""
+    """Kills random workers; returns the number of kills during work."""
     killed, choice = 0, random.Random(1)
     for n in range(kills):
-        time.sleep(1)
-        if n in (kills // 3, 2 * kills // 3):
-            time.sleep(2)  # a worker that is still starting ends with an error
+        for worker in workers:
+            wait_for(lambda: has_begun(server, worker), "the start of a worker")
+        time.sleep(choice.random() / 2)  # a random moment of the work
         if n == kills // 3:
             server.stop()
-            time.sleep(1)
             server.start()
         if n == 2 * kills // 3:
             server.kill()
@@ -49,6 +60,8 @@ def disturb(program, server, workers, radius, generator, kills):
             raise SystemExit(f"a worker ended with {workers[k].returncode}")
         workers[k].kill()
         workers[k].wait()
+        server.query("UPDATE terrane.jobs SET lease = clock_timestamp() FROM terrane.workers WHERE state = 0 AND "
+                     f"worker = workers.number AND name LIKE '% process {workers[k].pid}'")
         workers[k] = start_worker(program, server.url(), radius, generator)
     return killed
 

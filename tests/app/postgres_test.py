@@ -3,10 +3,8 @@
 import json
 import pathlib
 import re
-import signal
 import subprocess
 import sys
-import time
 
 import support
 from support import ProgramTest, run
@@ -14,6 +12,7 @@ from support import ProgramTest, run
 sys.path.insert(0, str(pathlib.Path(__file__).parents[2] / "tools"))
 from scratch_postgres import ScratchPostgres, free_port  # noqa: E402
 from server_tools import Server, bots_command  # noqa: E402
+from wait_for import wait_for  # noqa: E402
 
 _server = None
 
@@ -141,8 +140,8 @@ class Copy(Postgres):
 
     def test_what_servers_keep_comes_along_and_not_while_one_runs(self):
         server = Server(support.program(), self.folder, 0, "--generator", "overworld")
-        bots = subprocess.run(bots_command(support.program(), server.port, "--count", "2", "--seconds", "3", "--behaviour", "build"),
-                              capture_output=True, text=True)
+        bots = subprocess.run(bots_command(support.program(), server.port, "--count", "2", "--seconds", "1", "--behaviour", "build",
+                                           "--edits-per-second", "10"), capture_output=True, text=True)
         self.assertEqual(bots.returncode, 0, bots.stderr)
         done = run("copy", server.world, self.url)
         self.assertEqual(done.returncode, 2, done.stderr)
@@ -165,21 +164,29 @@ class Copy(Postgres):
     def test_a_killed_copy_goes_on(self):
         file = self.folder / "a.sqlite"
         self.succeed("generate", "--radius", "60", "--world", file, "--generator", "flat")
+        # The copy waits for a lock once it has written some chunks.
+        _server.query(f"""
+            CREATE FUNCTION public.wait() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN
+                IF EXISTS (SELECT FROM {self.table}) THEN PERFORM pg_advisory_xact_lock(1); END IF; RETURN NULL; END $$;
+            CREATE FUNCTION public.watch() RETURNS event_trigger LANGUAGE plpgsql AS $$ BEGIN
+                IF EXISTS (SELECT FROM pg_event_trigger_ddl_commands() WHERE object_identity = '{self.table}') THEN
+                    CREATE TRIGGER waits BEFORE INSERT ON {self.table} EXECUTE FUNCTION public.wait(); END IF; END $$;
+            CREATE EVENT TRIGGER watches ON ddl_command_end WHEN TAG IN ('CREATE TABLE') EXECUTE FUNCTION public.watch()""")
+        lock = subprocess.Popen([*_server.psql(), "-c", "SELECT pg_advisory_lock(1)", "-c", "SELECT pg_sleep(1000)"],
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(lock.wait)
+        self.addCleanup(lock.kill)
+        wait_for(lambda: _server.query("SELECT count(*) FROM pg_locks WHERE locktype = 'advisory'") == "1", "the lock")
         copy = subprocess.Popen([support.program(), "copy", str(file), self.url], stdout=subprocess.DEVNULL,
                                 stderr=subprocess.DEVNULL)
         self.addCleanup(copy.kill)
-        has_begun = False
-        while copy.poll() is None and not has_begun:
-            # It stands still while the rows are counted, which takes longer than to copy all of them.
-            copy.send_signal(signal.SIGCONT)
-            time.sleep(0.005)
-            copy.send_signal(signal.SIGSTOP)
-            has_begun = "t" in _server.query(
-                f"SELECT CASE WHEN to_regclass('{self.table}') IS NULL THEN 'f' ELSE (xpath('/row/c/text()', "
-                f"query_to_xml('SELECT count(*) > 600 AS c FROM {self.table}', false, true, '')))[1]::text END")
+        waiting = "SELECT count(*) FROM pg_stat_activity WHERE wait_event = 'advisory'"
+        wait_for(lambda: copy.poll() is not None or _server.query(waiting) == "1", "the copy's waiting")
         self.assertIsNone(copy.poll(), "the copy ended before it could be killed")
-        copy.send_signal(signal.SIGKILL)
+        copy.kill()
         copy.wait()
+        _server.query("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE wait_event IN ('advisory', 'PgSleep')")
+        _server.query("DROP EVENT TRIGGER watches; DROP FUNCTION watch, wait CASCADE")
         mark = _server.query(f"SELECT value FROM {self.schema}.settings WHERE name = 'copy'")
         self.assertTrue(mark.startswith("unfinished"), mark)
         self.assertRefused(run("generate", "--radius", "1", "--world", self.url), "not finished")
@@ -192,8 +199,8 @@ class Copy(Postgres):
     def test_a_copy_of_a_world_that_may_only_be_read(self):
         """Copies players and history too, and writes nothing to the source."""
         server = Server(support.program(), self.folder, 0, "--generator", "flat", url=self.url)
-        self.succeed("bots", "--connect", f"127.0.0.1:{server.port}", "--count", "3", "--seconds", "4",
-                     "--builders", "1")
+        self.succeed("bots", "--connect", f"127.0.0.1:{server.port}", "--count", "3", "--seconds", "1",
+                     "--builders", "1", "--edits-per-second", "10")
         self.assertEqual(server.stop(), 0)
         source = self.url + ("&" if "?" in self.url else "?") + "options=-c%20default_transaction_read_only%3Don"
         self.succeed("copy", source, self.folder / "a.sqlite")
