@@ -26,7 +26,7 @@ const LevelGenerators& generators() {
 
 // Mountains, coast, plains, desert, forest and hills; sanitizers run without optimization.
 bench::FigureArea figureArea() {
-#ifdef NDEBUG
+#ifdef __OPTIMIZE__
     return {16,
             {{-1824, -1920},
              {-1344, -2304},

@@ -207,7 +207,7 @@ void expectVoxel(const NoiseTile& tile, const NoiseCall& call, std::array<std::i
 }
 
 // In debug builds tiles take long: two of the places are enough then.
-#ifdef NDEBUG
+#ifdef __OPTIMIZE__
 constexpr std::size_t kPlaceStep = 1;
 #else
 constexpr std::size_t kPlaceStep = 4;
