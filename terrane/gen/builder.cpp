@@ -50,7 +50,8 @@ void GeneratorBuilder::setTint(std::uint32_t field, Type type) {
 }
 
 void GeneratorBuilder::addPass(std::string name, bool is3D, const std::function<void(Pass&)>& body) {
-    Pass pass(*this, static_cast<int>(generator_.passes.size()), std::move(name), is3D);
+    const int number = static_cast<int>(generator_.passes.size());
+    Pass& pass = *written_.emplace_back(new Pass(*this, number, std::move(name), is3D));
     body(pass);
     generator_.passes.push_back(pass.finish());
 }

@@ -14,12 +14,14 @@
 //
 // A generator is recorded once for each level of detail; at level k its columns lie 2^k blocks apart.
 //
-// Used on one thread. Mistakes (unknown block, offset too large, a name used twice, more values at once than
-// there are registers) are collected and reported by finish(), each with pass and name.
+// Used on one thread. Mistakes (unknown block, offset too large, a name used twice, a value of another pass,
+// more values at once than there are registers) are collected and reported by finish(), each with pass and
+// name.
 #pragma once
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -92,6 +94,8 @@ class GeneratorBuilder {
     std::optional<std::uint32_t> tint_;                   // field
     std::map<std::string, std::string> noiseParameters_;  // by name: kind and parameters
     std::vector<VoxelShape> shapes_;
+    std::vector<std::unique_ptr<Pass>>
+        written_;  // kept: expressions that outlive their pass point to its graph
     std::vector<std::string> errors_;
 };
 

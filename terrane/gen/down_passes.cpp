@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <utility>
 
+#include "terrane/base/require.h"
+
 namespace terrane::gen {
 namespace {
 
@@ -41,7 +43,7 @@ bool canRunDown(const GeneratorGraph& generator) {
 }
 
 int firstDownPass(const GeneratorGraph& generator) {
-    assert(canRunDown(generator));
+    base::require(canRunDown(generator), "firstDownPass: the last pass of the generator is not 3D");
     auto pass = generator.passes.size() - 1;
     // A pass before another one must write no field: that takes all of its layers.
     while (pass > 0 && layersReadBelow(generator.passes[pass]) && generator.passes[pass - 1].is3D &&

@@ -44,7 +44,8 @@ std::uint32_t DrainageHeights::hash(DrainageCell cell) const {
 }
 
 DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
-    assert(corner.x % kTileCells == 0 && corner.y % kTileCells == 0 && side % kTileCells == 0);
+    assert(corner.x % kTileCells == 0 && corner.y % kTileCells == 0 && side % kTileCells == 0 &&
+           "nodes are computed in whole tiles");
     const int spacing = graph_.spec.spacing, level = drainageLevel(graph_.spec);
     const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     DrainageNodes nodes{std::vector<HeightKey>(count), std::vector<NodePlace>(count)};

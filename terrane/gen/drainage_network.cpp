@@ -247,7 +247,8 @@ std::size_t DrainageNetwork::drainOf(std::size_t node) const {
 }
 
 void findDrainage(DrainageNetwork& n, const DrainageSpec& spec) {
-    assert(n.heights.size() == static_cast<std::size_t>(n.side) * static_cast<std::size_t>(n.side));
+    assert(n.heights.size() == static_cast<std::size_t>(n.side) * static_cast<std::size_t>(n.side) &&
+           "each node of the square has a height");
     const HeightKey sea = heightKey(spec.seaLevel, 0);
     n.levels = n.heights;
     n.drains.assign(n.heights.size(), kNoDrain);

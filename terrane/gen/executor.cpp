@@ -22,7 +22,8 @@ Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, Exe
 
 void Executor::run2D(const Program& program, const PassInputs& inputs,
                      std::span<ColumnValues* const> results) {
-    assert(!program.is3D && results.size() == program.fields.size());
+    assert(!program.is3D && results.size() == program.fields.size() &&
+           "a result for each field of a 2D pass");
     prepareTile(program, inputs);
     runInstructions(program.column, context_);
     for (std::size_t k = 0; k < results.size(); ++k) {
@@ -53,7 +54,7 @@ void fillLayers(std::uint16_t* layers, int count, std::uint16_t block) {
 
 void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result) {
     const Program& program = pass.program();
-    assert(program.is3D && program.block);
+    assert(program.is3D && program.block && "a 3D pass has blocks");
     prepareTile(program, inputs);
     runInstructions(program.column, context_);
     ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
@@ -65,7 +66,7 @@ void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArr
 
 void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                      std::span<ColumnValues* const> fieldResults) {
-    assert(fieldResults.size() == pass.program().fields.size());
+    assert(fieldResults.size() == pass.program().fields.size() && "a result for each field");
     for (ColumnValues* field : fieldResults) field->fill(0);
     begin3D(pass, inputs, result);
     run_.fieldResults = fieldResults;
@@ -93,7 +94,7 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
 void Executor::runDown(int lowest, const WantedColumns& wanted) {
     context_.rows = wanted.rows();
     context_.wanted = wanted.lanes();
-    assert(run_.pass && lowest >= 0 && lowest < lowestMade_);
+    assert(run_.pass && lowest >= 0 && lowest < lowestMade_ && "begin3D() comes first, and layers go down");
     if (lowestMade_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
     int height = std::min(nextLayers_, lowestMade_ - lowest);
     ranges_.analyze(lowestMade_ - height, height);

@@ -1,5 +1,7 @@
 #include "terrane/gen/expr.h"
 
+#include <cassert>
+
 namespace terrane::gen {
 namespace {
 

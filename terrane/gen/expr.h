@@ -3,8 +3,6 @@
 // operators record.
 #pragma once
 
-#include <cassert>
-
 #include "terrane/gen/graph.h"
 #include "terrane/world/chunk.h"
 
@@ -15,9 +13,10 @@ struct Value {
     Graph* graph = nullptr;  // null for a literal
     Bits bits = 0;           // node, or the literal's bits
 
+    // A value of another pass has no node in `g`: Graph::usesForeignValue().
     NodeId nodeIn(Graph& g, Type type) const {
-        assert((graph == nullptr || graph == &g) && "an expression is used in the pass that made it");
-        return graph ? bits : g.constant(type, bits);
+        if (graph == nullptr) return g.constant(type, bits);
+        return graph == &g ? bits : g.foreignValue(type);
     }
 };
 

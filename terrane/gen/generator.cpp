@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/gen/chunks_around.h"
 #include "terrane/gen/executor.h"
 #include "terrane/gen/pass_cache.h"
@@ -295,7 +296,8 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
 void Generator::generateDown(world::ChunkPos pos, const LayerTaker& take) const {
     TERRANE_ZONE("generate chunk from the top");
     Impl& impl = *impl_;
-    assert(canRunDown(impl.graph) && "its last pass is 3D");
+    base::require(canRunDown(impl.graph),
+                  "Generator::generateDown: the last pass of the generator is not 3D");
     requireGenerated(pos, impl.graph.level);
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);

@@ -68,7 +68,8 @@ NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t 
     std::array<Bits, 3> values{};
     bool allConstant = rec.evaluate != nullptr;
     for (std::size_t k = 0; k < args.size(); ++k) {
-        assert(args[k] < nodes_.size() && "arguments stand before their users");
+        // Only a graph that was moved from has lost its nodes.
+        if (args[k] >= nodes_.size()) return foreignValue(type);
         n.args[k] = args[k];
         n.dependence |= nodes_[args[k]].dependence;
         const std::int32_t loop = nodes_[args[k]].loop;
@@ -84,6 +85,11 @@ NodeId Graph::add(Op op, Type type, std::span<const NodeId> args, std::uint32_t 
     }
     if (const auto same = simplified(*this, n)) return *same;
     return intern(n);
+}
+
+NodeId Graph::foreignValue(Type type) {
+    usesForeignValue_ = true;
+    return constant(type, 0);
 }
 
 int Graph::depth(std::int32_t loop) const {

@@ -70,6 +70,10 @@ class Graph {
     // Whether some node outside of a loop depends on a node inside otherwise than through a variable's `out`.
     bool leaksOutOfLoop() const { return leaksOutOfLoop_; }
 
+    // Stands for a value of another graph, which has no node in this one.
+    NodeId foreignValue(Type type);
+    bool usesForeignValue() const { return usesForeignValue_; }
+
     // Returns a copy with the same node numbers in which some conditions are known: they become constants,
     // and nodes that depend on z are simplified. `standIn`, by node: the node that has its value in the copy.
     // Nothing can be added to the copy.
@@ -98,7 +102,7 @@ class Graph {
     std::vector<Loop> loops_;
     std::vector<LoopVariable> loopVariables_;
     std::int32_t openLoop_ = kNoLoop;
-    bool leaksOutOfLoop_ = false;
+    bool leaksOutOfLoop_ = false, usesForeignValue_ = false;
 };
 
 }  // namespace terrane::gen

@@ -137,10 +137,9 @@ bool Pass::claimField(std::uint32_t field) {
     return true;
 }
 
-void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value) {
-    if (!requireField(field)) return;
+void Pass::setField(std::uint32_t field, Type type, Value value) {
+    if (!requireField(field, type)) return;
     const FieldInfo& info = generator_.generator_.fields[field];
-    assert(info.type == type && "a field's type is part of its C++ type");
     if (graph_.is3D) return error(fmt::format("field \"{}\": 3D passes write fields with setAt", info.name));
     if (field >= fieldSlots_.size()) {
         return error(fmt::format("field \"{}\" is declared inside the pass that writes it", info.name));
@@ -149,7 +148,7 @@ void Pass::setField(std::uint32_t field, [[maybe_unused]] Type type, Value value
 }
 
 void Pass::setFieldAt(std::uint32_t field, Type type, Int atZ, Value value) {
-    if (!requireField(field) || !require3D("setAt")) return;
+    if (!requireField(field, type) || !require3D("setAt")) return;
     const std::string name = generator_.generator_.fields[field].name;
     if (branchDepth_ > 0) return error(fmt::format("field \"{}\": setAt stands inside if_ or while_", name));
     if (generator_.generator_.fields[field].writtenBy == number_) {
@@ -176,7 +175,11 @@ PassGraph Pass::finish() {
     bool leaks = graph_.graph.leaksOutOfLoop();
     for (const NodeId output : outputsOf(graph_)) leaks = leaks || graph_.graph.node(output).loop != kNoLoop;
     if (leaks) error("a value made inside while_ is used after it: carry it out in a Var");
-    return std::move(graph_);
+    if (graph_.graph.usesForeignValue())
+        error("a value of another pass is used: write it to a field there and read it here");
+    PassGraph done = std::move(graph_);
+    graph_.graph = Graph();  // an expression that outlives the pass finds none of its nodes
+    return done;
 }
 
 }  // namespace terrane::gen

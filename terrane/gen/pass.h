@@ -146,8 +146,8 @@ class Pass {
     bool claimField(std::uint32_t field);
     void checkOffset(std::string_view what, IVec2 offset);
     bool require3D(std::string_view what);
-    bool requireField(std::uint32_t field);
-    bool requireWritten(std::uint32_t field);
+    bool requireField(std::uint32_t field, Type type);
+    bool requireWritten(std::uint32_t field, Type type);
     bool requireBlocks();
     void error(std::string_view message);
     PassGraph finish();

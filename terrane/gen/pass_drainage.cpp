@@ -65,6 +65,7 @@ Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec&
     noiseParameters_ = std::move(heights.noiseParameters_);
     map.heights = std::move(heights.generator_.passes.front());
     if (map.heights.fields.size() != 1) error("its heights write a field");
+    for (auto& pass : heights.written_) written_.push_back(std::move(pass));
     map.noises = std::move(heights.generator_.noises);
     map.hashNames = std::move(heights.generator_.hashNames);
     maps.push_back(std::move(map));

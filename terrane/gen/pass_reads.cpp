@@ -6,15 +6,21 @@
 
 namespace terrane::gen {
 
-// A field of another generator may have a number beyond those of this one.
-bool Pass::requireField(std::uint32_t field) {
-    const bool isThere = field < generator_.generator_.fields.size();
-    if (!isThere) error("this generator has no such field");
-    return isThere;
+// A field of another generator may have a number beyond those of this one, or that of a field of another
+// type.
+bool Pass::requireField(std::uint32_t field, Type type) {
+    const auto& fields = generator_.generator_.fields;
+    const bool isThere = field < fields.size();
+    if (!isThere) {
+        error("this generator has no such field");
+    } else if (fields[field].type != type) {
+        error(fmt::format("field \"{}\" holds values of another type", fields[field].name));
+    }
+    return isThere && fields[field].type == type;
 }
 
-bool Pass::requireWritten(std::uint32_t field) {
-    if (!requireField(field)) return false;
+bool Pass::requireWritten(std::uint32_t field, Type type) {
+    if (!requireField(field, type)) return false;
     const FieldInfo& info = generator_.generator_.fields[field];
     const bool earlier = info.writtenBy >= 0 && info.writtenBy < number_;
     if (!earlier) error(fmt::format("field \"{}\" is read, but no earlier pass writes it", info.name));
@@ -28,7 +34,7 @@ bool Pass::requireBlocks() {
 }
 
 Value Pass::readField(std::uint32_t field, Type type) {
-    requireWritten(field);
+    requireWritten(field, type);
     return leaf(Op::Field, type, field, kDependsColumn);
 }
 
@@ -42,8 +48,8 @@ void Pass::checkOffset(std::string_view what, IVec2 offset) {
 }
 
 Value Pass::readFieldAt(std::uint32_t field, Type type, IVec2 offset) {
-    requireWritten(field);
-    if (!requireField(field)) return {nullptr, 0};
+    requireWritten(field, type);
+    if (!requireField(field, type)) return {nullptr, 0};
     checkOffset(fmt::format("field \"{}\"", generator_.generator_.fields[field].name), offset);
     return readColumn(field, type, nearestColumn(offset));
 }
@@ -67,7 +73,7 @@ IVec2 Pass::nearestColumn(IVec2 offset) const {
 }
 
 Vec2 Pass::slope(Field<Float> field) {
-    requireWritten(field.index);
+    requireWritten(field.index, Type::Float);
     const int reach = slopeReach(step()) / step();  // columns
     const auto at = [&](int dx, int dy) { return Float(readColumn(field.index, Type::Float, {dx, dy})); };
     const float perBlock = 1.0f / static_cast<float>(2 * reach * step());
@@ -75,7 +81,7 @@ Vec2 Pass::slope(Field<Float> field) {
 }
 
 Float Pass::readBetween(Field<Float> field, Vec2 offset) {
-    requireWritten(field.index);
+    requireWritten(field.index, Type::Float);
     if (step() > 1) offset = offset * (1.0f / static_cast<float>(step()));
     const auto at = [&](Int dx, Int dy) { return Float(readColumn(field.index, Type::Float, {dx, dy})); };
     const Int x(floor(offset.x)), y(floor(offset.y));

@@ -8,7 +8,7 @@ namespace terrane::gen {
 
 Block Pass::stamp(Field<Int> shape, Field<Int> base) {
     if (!require3D("stamp")) return Block(world::kAir);
-    const bool isWritten = requireWritten(shape.index) && requireWritten(base.index);
+    const bool isWritten = requireWritten(shape.index, Type::Int) && requireWritten(base.index, Type::Int);
     auto& stamps = graph_.stamps;
     const StampCall call = {shape.index, base.index};
     const auto known = std::find(stamps.begin(), stamps.end(), call);

@@ -24,7 +24,8 @@ bool reaches(const StampFoot& foot) {
 }  // namespace
 
 void StampTile::paint(const ShapeTable& shapes, std::span<const Bits> numbers, std::span<const Bits> bases) {
-    assert(numbers.size() == std::size_t{kWindowSize} * kWindowSize && bases.size() == numbers.size());
+    assert(numbers.size() == std::size_t{kWindowSize} * kWindowSize && bases.size() == numbers.size() &&
+           "each column of the window has both fields");
     clear();
     findFeet(shapes, numbers, bases);
     // The block painted first stays: feet are in the order of precedence.
@@ -42,7 +43,7 @@ bool StampTile::isPainted(int low, int high) const {
 }
 
 const std::uint16_t* StampTile::layer(int z) const {
-    assert(isPainted(z));
+    assert(isPainted(z) && "paint() comes first");
     return blocks_.data() + static_cast<std::size_t>(z) * kTileLanes;
 }
 

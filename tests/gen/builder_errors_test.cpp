@@ -148,6 +148,50 @@ TEST(BuilderErrors, AConditionThatIsAValueOfAnInnerLoop) {
     EXPECT_THAT(error, HasSubstr("pass \"solid\": a value made inside while_ is used after it"));
 }
 
+// Every pass has its own nodes: a number of another one's would be anything, or nothing.
+TEST(BuilderErrors, AValueOfAnEarlierPass) {
+    const std::string expected = "pass \"second\": a value of another pass is used: write it to a field";
+    const auto secondPass = [](const std::function<void(Pass&, Int)>& second) {
+        return errorOf([&](GeneratorBuilder& g) {
+            Int kept = 0;
+            g.pass2D("first", [&](Pass& p) { kept = p.x() * p.y() + 3; });
+            g.pass3D("second", [&](Pass& p) { second(p, kept); });
+        });
+    };
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.setBlock(Block(kept)); }), HasSubstr(expected));
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.setBlock(Block(kept + 1)); }), HasSubstr(expected));
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.setBlock(Block(kept + p.x())); }), HasSubstr(expected));
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.setBlock(Block(p.x() + kept)); }), HasSubstr(expected));
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.if_(kept < 4, [&] { p.setBlock(Block(1)); }); }),
+                HasSubstr(expected));
+    EXPECT_THAT(secondPass([](Pass& p, Int kept) { p.while_([&] { return kept < p.x(); }, [] {}); }),
+                HasSubstr(expected));
+}
+
+TEST(BuilderErrors, AValueOfADrainage) {
+    const std::string error = errorOf([](GeneratorBuilder& g) {
+        Float kept = 0.0f;
+        g.drainage("rivers", {}, [&](Pass& p) { return kept = Float(p.x()); });
+        g.pass3D("solid", [&](Pass& p) { p.setBlock(Block(Int(kept))); });
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"solid\": a value of another pass is used"));
+}
+
+// The number of a field stands for another one in another generator.
+TEST(BuilderErrors, AFieldOfAnotherGenerator) {
+    GeneratorBuilder other("other", testBlocks());
+    const auto number = other.field<Float>("number"), beyond = other.field<Float>("beyond");
+    const std::string error = errorOf([&](GeneratorBuilder& g) {
+        g.field<Int>("own");
+        g.pass2D("writes", [&](Pass& p) { p.set(number, Float(1.0f)); });
+        g.pass2D("reads", [&](Pass& p) { p.slope(number); });
+        g.pass3D("final", [&](Pass& p) { p.read(beyond); });
+    });
+    EXPECT_THAT(error, HasSubstr("pass \"writes\": field \"own\" holds values of another type"));
+    EXPECT_THAT(error, HasSubstr("pass \"reads\": field \"own\" holds values of another type"));
+    EXPECT_THAT(error, HasSubstr("pass \"final\": this generator has no such field"));
+}
+
 // 5,000 products that are all needed at the end: 16 rows each.
 TEST(BuilderErrors, MoreValuesAtOnceThanThereAreRegisters) {
     const std::string error = errorIn3D([](Pass& p) {

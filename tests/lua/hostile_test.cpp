@@ -45,10 +45,11 @@ TEST(HostileScripts, AreStoppedWithOneLine) {
 
 // Runs a script without a generator that follows from it.
 struct ScriptRun {
-    explicit ScriptRun(const std::filesystem::path& path) {
+    explicit ScriptRun(const std::filesystem::path& path, const Limits& limits = {}) {
         gen::GeneratorBuilder builder("hostile", contentBlocks());
         BlockNames names(contentBlocks(), "");
         Recording recording(builder, names);
+        recording.budget = Budget(limits);
         const StatePtr state = makeState(recording);
         reason = runScript(state.get(), {readText(path), "x.lua"});
         peakBytes = recording.budget.peakBytes();
@@ -78,7 +79,8 @@ TEST(HostileScripts, AreStoppedAtTheSameStep) {
                              "huge_shapes", "doubled_string", "insert_at_front"}) {
         const auto path =
             std::filesystem::path(TERRANE_SOURCE_DIR) / "tests/lua/hostile" / (std::string(name) + ".lua");
-        const ScriptRun first(path), second(path);
+        const Limits limits{.time = std::chrono::hours(1)};
+        const ScriptRun first(path, limits), second(path, limits);
         EXPECT_EQ(first.steps, second.steps) << name;
         EXPECT_EQ(first.reason, second.reason) << name;
     }

@@ -92,7 +92,7 @@ TreeKinds record(GeneratorBuilder& g) {
     TreeKinds kinds = means;
     for (std::size_t n = 0; n < kinds.size(); ++n) {
         const std::vector<VoxelShape>& shapes = shapesOf(static_cast<Kind>(n));
-        assert(static_cast<int>(shapes.size()) == kinds[n].count);
+        assert(static_cast<int>(shapes.size()) == kinds[n].count && "the table of kinds counts its shapes");
         for (std::size_t k = 0; k < shapes.size(); ++k) {
             const int number = g.shape(shapes[k]);
             if (k == 0) kinds[n].first = number;
