@@ -4,6 +4,7 @@
 
 #include "terrane/base/job_system.h"
 #include "tests/light/reference_light.h"
+#include "tests/support/depth.h"
 
 namespace terrane::light {
 namespace {
@@ -35,11 +36,7 @@ void expectExact(const TestArea::Source& source, LightScratch& scratch) {
     }
 }
 
-#if defined(NDEBUG)
-constexpr std::uint32_t kWorlds = 3;
-#else
-constexpr std::uint32_t kWorlds = 1;
-#endif
+const std::uint32_t kWorlds = atDepth(1u, 3u);
 
 TEST(LightChunk, EqualsTheReferenceOfALargerWorld) {
     LightScratch scratch;

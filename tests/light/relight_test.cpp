@@ -6,6 +6,7 @@
 
 #include "tests/light/lit_area.h"
 #include "tests/light/reference_light.h"
+#include "tests/support/depth.h"
 
 namespace terrane::light {
 namespace {
@@ -174,11 +175,7 @@ void expectFromScratch(const LitArea& lit) {
     }
 }
 
-#if defined(NDEBUG)
-constexpr int kEditsAWorld = 1500;
-#else
-constexpr int kEditsAWorld = 60;
-#endif
+const int kEditsAWorld = atDepth(200, 1500);
 
 // Edits single blocks and batches of 2 to 12, and compares after the first and then after every 10 edits or
 // more.

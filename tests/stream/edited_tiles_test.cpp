@@ -7,6 +7,7 @@
 
 #include "terrane/stream/tile_table.h"
 #include "tests/stream/edited_world.h"
+#include "tests/support/depth.h"
 
 namespace terrane::stream {
 namespace {
@@ -135,11 +136,8 @@ class RandomEdits {
 };
 
 TEST(EditedTiles, StepByStepIsAsFromScratch) {
-#ifdef NDEBUG
-    constexpr int kBatches = 200, kEdits = 50;
-#else
-    constexpr int kBatches = 20, kEdits = 50;
-#endif
+    const int kBatches = atDepth(30, 200);
+    constexpr int kEdits = 50;
     EditedWorld world(hills(), 6);
     RandomEdits edits(world);
     for (int batch = 1; batch <= kBatches; ++batch) {
