@@ -35,7 +35,7 @@ void expectExact(const TestArea::Source& source, LightScratch& scratch) {
     }
 }
 
-#if defined(NDEBUG)
+#ifdef __OPTIMIZE__
 constexpr std::uint32_t kWorlds = 3;
 #else
 constexpr std::uint32_t kWorlds = 1;
