@@ -1,6 +1,8 @@
 #include "terrane/light/light_area.h"
 
-#include <cassert>
+#include <algorithm>
+
+#include "terrane/base/require.h"
 
 namespace terrane::light {
 namespace {
@@ -38,9 +40,16 @@ class LocalRows {
 
 }  // namespace
 
+void requireWhole(const LightArea& area) {
+    const bool hasSize = area.chunksX > 0 && area.chunksY > 0;
+    const auto count =
+        hasSize ? static_cast<std::size_t>(area.chunksX) * static_cast<std::size_t>(area.chunksY) : 0;
+    base::require(hasSize && area.chunks.size() == count && std::ranges::count(area.chunks, nullptr) == 0,
+                  "LightArea: chunks are chunksX × chunksY, at least one, none null");
+}
+
 std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table) {
-    assert(area.chunks.size() ==
-           static_cast<std::size_t>(area.chunksX) * static_cast<std::size_t>(area.chunksY));
+    requireWhole(area);
     std::vector<ChunkLight> lights;
     lights.reserve(area.chunks.size());
     LightScratch scratch;

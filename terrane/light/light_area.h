@@ -17,8 +17,11 @@ struct LightArea {
     }
 };
 
-// Returns the light of all chunks, in the order of `area.chunks`. One thread; keeps three rows of chunks
-// unpacked (about 300 KiB for each chunk of a row).
+// Throws std::invalid_argument if the chunks are not as LightArea says.
+void requireWhole(const LightArea& area);
+
+// Returns the light of all chunks, in the order of `area.chunks`; requireWhole(area). One thread; keeps three
+// rows of chunks unpacked (about 300 KiB for each chunk of a row).
 std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table);
 
 }  // namespace terrane::light

@@ -1,10 +1,10 @@
 #include "terrane/light/light_chunk.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/light/kernels_internal.h"
 
 namespace terrane::light {
@@ -166,7 +166,7 @@ LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightS
 
 ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch) {
     TERRANE_ZONE("light chunk");
-    assert(chunks[kCenterChunk] && "the chunk to light is the one in the middle");
+    base::require(chunks[kCenterChunk] != nullptr, "lightChunk: the chunk to light, in the middle, is null");
     LightField& field = scratch.field;
     field.reset();
     for (int chunk = 0; chunk < kFieldChunks; ++chunk) {

@@ -1,11 +1,11 @@
 #include "terrane/light/relight.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstring>
 #include <map>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/light/kernels_internal.h"
 #include "terrane/light/source_change_internal.h"
 
@@ -152,7 +152,8 @@ ChangedBricks store(LightWindow& window, const Range& range, LightField& decreas
 ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
                       LightScratch& scratch) {
     TERRANE_ZONE("relight");
-    assert(window.chunks[kCenterChunk] && window.lights[kCenterChunk] && "what changes is known");
+    base::require(window.chunks[kCenterChunk] && window.lights[kCenterChunk],
+                  "relight: the changed chunk, in the middle, or its light is null");
     const std::vector<SourceChange> sources = findSourceChanges(*window.chunks[kCenterChunk], changes, table);
     const Range range = rangeOf(sources);
     scratch.field.reset();

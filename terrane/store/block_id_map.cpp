@@ -1,7 +1,5 @@
 #include "terrane/store/block_id_map.h"
 
-#include <cassert>
-
 namespace terrane::store {
 namespace {
 
@@ -16,12 +14,13 @@ base::Result<BlockIdMap> BlockIdMap::make(const world::BlockRegistry& registry,
     map.toSaved_.assign(registry.types().size(), kNone);
     map.toSession_.assign(kMaxIds, kNone);
     const auto connect = [&](world::BlockId savedId, std::size_t session) {
-        assert(map.toSession_[savedId] == kNone && "a save has no id twice");
         map.toSession_[savedId] = static_cast<std::uint32_t>(session);
         map.toSaved_[session] = savedId;
     };
 
     for (const SavedName& entry : saved) {
+        if (map.toSession_[entry.id] != kNone)
+            return base::fail(base::ErrorCode::Damaged, "block id {} stands for two block types", entry.id);
         if (const world::BlockType* type = registry.find(entry.name)) {
             connect(entry.id, type->id);
             continue;

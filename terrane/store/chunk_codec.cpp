@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "terrane/base/require.h"
 #include "terrane/store/compression.h"
 #include "terrane/store/scratch.h"
 
@@ -238,7 +239,7 @@ base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids
 }
 
 void sealChunk(std::span<std::byte> bytes, std::uint64_t seed) {
-    assert(bytes.size() >= kHeaderBytes && "an encoded chunk");
+    base::require(bytes.size() >= kHeaderBytes, "sealChunk: less than the header of an encoded chunk");
     const std::uint64_t sum = checksum(bytes, seed);
     std::memcpy(bytes.data(), &sum, sizeof sum);
 }

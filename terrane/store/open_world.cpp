@@ -1,6 +1,5 @@
 #include "terrane/store/open_world.h"
 
-#include <cassert>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -63,7 +62,9 @@ StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& r
 
 StoreResult openWorld(const WorldLocation& location, const world::BlockRegistry& blocks,
                       const WorldRequest& request) {
-    assert(request.versionOf && "the generators of the program decide whether a world fits");
+    if (!request.versionOf)
+        return base::fail(base::ErrorCode::BadInput, "{}: the request names no versions of generators",
+                          location.text);
     const auto path = fileOf(location);
     if (!path) return tl::unexpected(path.error());
     reportFormerPlace(location, *path);

@@ -230,7 +230,8 @@ base::Result<std::optional<std::int64_t>> Database::queryNumber(std::string_view
 }
 
 base::Result<void> Database::backUpTo(const std::filesystem::path& target, const CopyProgress& progress) {
-    assert(!std::filesystem::exists(target) && "a copy never replaces a file");
+    if (std::filesystem::exists(target))
+        return base::fail(base::ErrorCode::BadInput, "{}: exists; a copy replaces no file", target.string());
     auto copied = copyTo(target, progress);
     if (!copied) {
         std::error_code ignored;

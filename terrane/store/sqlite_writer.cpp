@@ -1,6 +1,5 @@
 #include "terrane/store/sqlite_writer.h"
 
-#include <cassert>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -141,7 +140,9 @@ base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingCh
 
 base::Result<void> SqliteWriter::writeDerived(std::span<const ChunkRow> rows) {
     for (const auto& [pos, chunk] : rows) {
-        assert(pos.level > 0 && world::isInWorld(pos) && "chunks of level 0 follow from no others");
+        if (pos.level == 0 || !world::isInWorld(pos))
+            return base::fail(base::ErrorCode::BadInput, "chunk {},{} of level {} follows from no others",
+                              pos.x, pos.y, int{pos.level});
         base::Result<void> done;
         if (chunk) {
             done = writeChunk(pos, {chunk, Provenance::Edited});

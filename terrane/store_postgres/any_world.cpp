@@ -1,6 +1,5 @@
 #include "terrane/store_postgres/any_world.h"
 
-#include <cassert>
 #include <utility>
 
 #include "terrane/store/save_file.h"
@@ -66,9 +65,11 @@ std::string shownOf(const store::WorldLocation& location) {
 StoreResult openAnyWorld(const store::WorldLocation& location, const world::BlockRegistry& blocks,
                          const store::WorldRequest& request) {
     if (!isPostgres(location)) return store::openWorld(location, blocks, request);
-    assert(request.versionOf && "the generators of the program decide whether a world fits");
     const auto address = addressOf(location.text);
     if (!address) return tl::unexpected(address.error());
+    if (!request.versionOf)
+        return base::fail(base::ErrorCode::BadInput, "{}: the request names no versions of generators",
+                          address->shown);
     return openDatabase(*address, blocks, request);
 }
 

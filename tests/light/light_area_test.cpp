@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <stdexcept>
 #include <string>
 
 #include "tests/light/reference_light.h"
@@ -136,6 +137,18 @@ TEST(LightArea, ColorsDoNotMix) {
     const std::vector<LightValue> light = area.solve();
     EXPECT_EQ(light[area.index(13, 8, 100)], 15 << 12 | 10 << 8 | 10);
     EXPECT_EQ(light[area.index(9, 8, 100)], 15 << 12 | 6 << 8 | 14);
+}
+
+TEST(LightArea, NeedsTheChunksOfItsSize) {
+    const LightTable table(contentBlocks());
+    const world::Chunk chunk;
+    EXPECT_THROW(lightArea({.chunksX = 2, .chunksY = 1, .chunks = {&chunk}}, table), std::invalid_argument);
+    EXPECT_THROW(lightArea({.chunksX = -1, .chunksY = -1, .chunks = {&chunk}}, table), std::invalid_argument);
+    EXPECT_THROW(lightArea({.chunksX = 0, .chunksY = 0, .chunks = {}}, table), std::invalid_argument);
+    EXPECT_THROW(lightArea({.chunksX = 1, .chunksY = 2, .chunks = {&chunk, nullptr}}, table),
+                 std::invalid_argument);
+    LightScratch scratch;
+    EXPECT_THROW(lightChunk({}, scratch), std::invalid_argument);
 }
 
 }  // namespace

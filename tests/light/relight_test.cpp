@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "tests/light/lit_area.h"
@@ -223,6 +224,12 @@ TEST(RelightRandom, SolidGround) {
 TEST(RelightRandom, Sea) {
     const BlockId water = contentBlock("water");
     editRandomly([=](int, int, int z) { return z < kFilledHeight ? water : world::kAir; }, 7, {0, 0});
+}
+
+TEST(Relight, NeedsTheChunkThatChanged) {
+    LightWindow window;
+    LightScratch scratch;
+    EXPECT_THROW(relight(window, {}, LightTable(contentBlocks()), scratch), std::invalid_argument);
 }
 
 }  // namespace

@@ -67,5 +67,15 @@ TEST(BlockIdMap, TooManyTypes) {
     EXPECT_FALSE(BlockIdMap::make(registryOf({"stone"}), saved));
 }
 
+// A file whose table has lost its primary key.
+TEST(BlockIdMap, AnIdThatStandsForTwoTypesIsDamage) {
+    for (const char* second : {"dirt", "unknown"}) {
+        const auto map = BlockIdMap::make(registryOf({"stone", "dirt"}), {{1, "stone"}, {1, second}});
+        ASSERT_FALSE(map);
+        EXPECT_EQ(map.error().code, base::ErrorCode::Damaged);
+        EXPECT_EQ(map.error().message, "block id 1 stands for two block types");
+    }
+}
+
 }  // namespace
 }  // namespace terrane::store

@@ -1,5 +1,7 @@
 #include "terrane/store/chunk_codec.h"
 
+#include <stdexcept>
+
 #include <gmock/gmock.h>
 #include <xxhash.h>
 
@@ -260,6 +262,11 @@ TEST(ChunkCodec, DamagedContent) {
             EXPECT_NE(errorOf(frame(bad)), "") << "cut off";
         }
     }
+}
+
+TEST(ChunkCodec, SealsNothingShorterThanAHeader) {
+    std::vector<std::byte> bytes(7);
+    EXPECT_THROW(sealChunk(bytes, 1), std::invalid_argument);
 }
 
 }  // namespace

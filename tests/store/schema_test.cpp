@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "terrane/base/files.h"
 #include "tests/base/file_size_limit.h"
 #include "tests/store/store_fixture.h"
 
@@ -76,6 +77,17 @@ TEST_F(MigrationTest, Kinds) {
     EXPECT_EQ(*classify(*database, 1), SaveKind::Current);
     EXPECT_EQ(*classify(*database, 2), SaveKind::Old);
     EXPECT_FALSE(classify(*database, 0)) << "newer than the program";
+}
+
+TEST(Database, ACopyReplacesNoFile) {
+    const base::TempFolder folder;
+    auto database = Database::open(folder / "a.sqlite", OpenMode::Create);
+    ASSERT_TRUE(database) << database.error().message;
+    ASSERT_TRUE(base::writeFile(folder / "b.sqlite", "of somebody else"));
+    const auto copied = database->backUpTo(folder / "b.sqlite");
+    ASSERT_FALSE(copied);
+    EXPECT_EQ(copied.error().code, base::ErrorCode::BadInput);
+    EXPECT_EQ(*base::readFile(folder / "b.sqlite"), "of somebody else");
 }
 
 }  // namespace

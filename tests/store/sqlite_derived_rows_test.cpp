@@ -194,5 +194,22 @@ TEST_F(SqliteDerivedRowsTest, TheCheckCountsTiles) {
     EXPECT_EQ(report->chunks, 8u);
 }
 
+TEST_F(SqliteDerivedRowsTest, OnlyTilesAreDerived) {
+    const auto store = open();
+    store->save({0, 0}, numberedChunk(1), Provenance::Edited);
+    ASSERT_TRUE(store->flush());
+    store->setDerivedRows({[](std::span<const ChunkRow>, const ReadEdited&) {
+                               return std::vector<ChunkRow>{{{0, 0}, numberedChunk(9)}};
+                           },
+                           {}});
+    store->save({1, 0}, numberedChunk(2), Provenance::Edited);
+    const auto saved = store->flush();
+    ASSERT_FALSE(saved);
+    EXPECT_THAT(saved.error().message, HasSubstr("chunk 0,0 of level 0 follows from no others"));
+    EXPECT_EQ(*store->load({0, 0}).chunk, *numberedChunk(1));
+    store->setDerivedRows({deriveSums, {}});
+    EXPECT_TRUE(store->flush()) << "nothing is lost";
+}
+
 }  // namespace
 }  // namespace terrane::store

@@ -126,5 +126,14 @@ TEST_F(OpenWorldTest, ErrorsHaveCodes) {
     EXPECT_EQ(open(WorldAccess::ReadWrite).error().code, ErrorCode::Unsupported);
 }
 
+TEST_F(OpenWorldTest, NeedsTheVersionsOfGenerators) {
+    const auto opened =
+        openWorld(worldLocation(path_), registry_,
+                  {.access = {}, .create = kIdentity, .world = {}, .versionOf = {}, .limits = kNever});
+    ASSERT_FALSE(opened);
+    EXPECT_EQ(opened.error().code, ErrorCode::BadInput);
+    EXPECT_FALSE(std::filesystem::exists(path_));
+}
+
 }  // namespace
 }  // namespace terrane::store
