@@ -8,16 +8,15 @@ HANG_SECONDS = 120
 class Display:
     """A virtual X server on a number that it chooses itself."""
 
-    def __init__(self, size, repeats_keys=False):
-        """Key repeat is off by default: on a busy machine a short press would repeat too."""
+    def __init__(self, size):
         self.size = size  # pixels
-        self.options = [] if repeats_keys else ["-r"]
 
     def __enter__(self):
         read_end, write_end = os.pipe()
         self.server = subprocess.Popen(
             ["Xvfb", "-displayfd", str(write_end), "-screen", "0", f"{self.size[0]}x{self.size[1]}x24", "-nolisten", "tcp",
-             "-noreset", *self.options],  # else it restarts whenever its last window closes
+             "-noreset",  # else it restarts whenever its last window closes
+             "-r"],  # no key repeat: on a busy machine a short press would repeat too
             pass_fds=(write_end,), stderr=subprocess.DEVNULL)
         os.close(write_end)
         with os.fdopen(read_end) as pipe:

@@ -8,7 +8,6 @@ import signal
 import subprocess
 
 import support
-import title_test
 import window_support
 from support import HANG_SECONDS, ProgramTest
 from window_support import SIZE, is_green, is_grey
@@ -76,15 +75,6 @@ class Together(ProgramTest):
             self.assertRegex(self.history(), r"Ann at 8 8 81: air to cobble")
             self.stop()
 
-    def test_a_wrong_name_is_one_line(self):
-        with window_support.Display() as display:
-            data = self.folder / "nobody"
-            data.mkdir()
-            game = window_support.Game(display, data, ("--connect", f"127.0.0.1:{self.server.port}", "--name", " x "))
-            self.addCleanup(game.log.close)
-            self.assertEqual(game.process.wait(HANG_SECONDS), 2)
-            self.assertRegex(game.output(), r"error: --name  x : a name has 1 to 24 bytes")
-
     def test_the_console_and_a_clean_end(self):
         self.server.say("help")
         self.server.wait_for(r"rollback PLAYER")
@@ -100,40 +90,6 @@ class Together(ProgramTest):
         self.assertIn("air to stone", self.history())
         self.stop()
         self.succeed("check", self.server.world)
-
-
-class JoinFromTheTitle(title_test.TitleScript):
-    def setUp(self):
-        super().setUp()
-        self.server = Server(self.folder)
-        self.addCleanup(self.server.clean_up)
-
-    def test_a_server_is_joined_and_remembered(self):
-        address = f"127.0.0.1:{self.server.port}"
-        with window_support.Display() as display:
-            player = self.open(display)
-            player.choose("Down")  # Join a server: there is no world to continue
-            player.type(address)
-            player.press_once("Tab")
-            player.type("Eve")
-            player.settle()
-            keep(display, player, "join")
-            player.press_once("Return")
-            self.server.wait_for(r"Eve joined")
-            servers = self.folder / "terrane" / "servers.txt"
-            player.wait_for(lambda: servers.exists() and servers.read_text() == f"{address} Eve\n")
-            player.settle()
-            self.leave_for_title(player)
-            self.server.wait_for(r"Eve left")
-            self.server.process.kill()
-            player.choose("Down")
-            keep(display, player, "join_again")
-            player.choose()  # Join: both fields are filled in
-            player.wait_for(lambda: f"{address}: Connection refused" in player.output())
-            player.settle()
-            player.choose()  # OK
-            player.press_once("Escape")
-            self.quit(player)
 
 
 if __name__ == "__main__":

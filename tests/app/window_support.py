@@ -26,8 +26,8 @@ SIZE, LARGER = (320, 180), (480, 270)
 
 
 class Display(virtual_display.Display):
-    def __init__(self, size=SCREEN, repeats_keys=False):
-        super().__init__(size, repeats_keys)
+    def __init__(self, size=SCREEN):
+        super().__init__(size)
 
     def screenshot(self, window):
         data = subprocess.run(["xwd", "-id", window, "-silent", "-display", self.name], capture_output=True,
@@ -62,13 +62,9 @@ class Screenshot:
         return found
 
 
-# Classify the color of the ground: grass, earth, stone.
+# Classify the color of the ground: grass, stone.
 def is_green(red, green, blue):
     return green > 1.1 * max(red, blue)
-
-
-def is_brown(red, green, blue):
-    return red > 1.1 * green > 1.1 * blue
 
 
 def is_grey(red, green, blue):
@@ -120,23 +116,6 @@ class Game:
         """Waits for a color (red, green, blue) of the block below the player, next to the crosshair."""
         self.wait_for(lambda: is_it(*self.display.screenshot(self.window).color(SIZE[0] // 2 + 8, SIZE[1] // 2 + 8)))
 
-    # In a window as large as the screen:
-    def is_red(self, y):
-        red, green, blue = self.display.screenshot(self.window).color(SCREEN[0] // 2 - 200, y)
-        return red > 3 * max(green, blue)
-
-    def is_warned(self):
-        """Whether the notice that saving fails is shown."""
-        return self.is_red(18)
-
-    def asks_to_lose(self):
-        """Whether the question to quit unsaved is shown."""
-        return self.is_red(194)
-
-    def quit_unsaved(self):
-        """Clicks the button to quit unsaved."""
-        self.click(1, 322, 228)
-
     def press(self, key):
         self.display.xdotool("key", key)
 
@@ -167,14 +146,6 @@ class Game:
         """Presses and releases a key within one frame, with time for some frames before the next key."""
         with self.asleep():
             self.press(key)
-        time.sleep(pause)
-
-    def click(self, button, x=SIZE[0] // 2, y=SIZE[1] // 2, pause=0.3):
-        self.display.xdotool("mousemove", "--window", self.window, x, y)
-        time.sleep(pause)  # some frames, so that the program sees the cursor there
-        self.display.xdotool("mousedown", button)
-        time.sleep(pause)
-        self.display.xdotool("mouseup", button)
         time.sleep(pause)
 
     def tap(self, button, x, y, pause):
