@@ -2,6 +2,7 @@
 // fail.
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/golden_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::golden {
 namespace {
@@ -11,18 +12,21 @@ class GoldenProof : public GoldenTest {
     static constexpr std::size_t kGalleries = 5;
 
     base::Image drawOne(std::size_t gallery, const render::TextureSource& textures) {
-        render::Renderer renderer = makeRenderer(textures);
+        if (!renderer_) renderer_ = makeRenderer(textures);
+        const auto set = renderer_->setTextures(contentBlocks(), textures);
+        if (!set) throw std::runtime_error(set.error().message);
+        renderer_->clearChunks();
         switch (gallery) {
             case 0:
-                return drawGallery(renderer, galleryOnGround(), kAbove);
+                return drawGallery(*renderer_, galleryOnGround(), kAbove);
             case 1:
-                return drawGallery(renderer, galleryInTheAir(), kBelow);
+                return drawGallery(*renderer_, galleryInTheAir(), kBelow);
             case 2:
-                return drawGallery(renderer, galleryOf(GalleryPart::Land), kLand);
+                return drawGallery(*renderer_, galleryOf(GalleryPart::Land), kLand);
             case 3:
-                return drawGallery(renderer, galleryOf(GalleryPart::Cubes), kLand);
+                return drawGallery(*renderer_, galleryOf(GalleryPart::Cubes), kLand);
             default:
-                return drawGallery(renderer, galleryOf(GalleryPart::Shapes), kShapes);
+                return drawGallery(*renderer_, galleryOf(GalleryPart::Shapes), kShapes);
         }
     }
 
@@ -53,6 +57,7 @@ class GoldenProof : public GoldenTest {
     }
 
   private:
+    std::optional<render::Renderer> renderer_;  // of textures that are replaced
     std::size_t lastNoticed_ = 0;
 };
 
@@ -76,7 +81,7 @@ TEST_F(GoldenProof, TheSameIsTheSame) {
 TEST_F(GoldenProof, AnyWrongTextureIsNoticed) {
     const Images right = drawAll(render::contentTexture);
     const auto names = contentBlocks().textures();
-    for (std::size_t k = 0; k < names.size(); ++k) {
+    for (std::size_t k = 0; k < names.size(); k += atDepth<std::size_t>(7, 1)) {
         if (names[k] == "missing") continue;  // for unknown blocks, which the gallery lacks
         const std::string& other = names[(k + 1) % names.size()];
         EXPECT_TRUE(isNoticed(right, replaced(names[k], other))) << other << " for " << names[k];
