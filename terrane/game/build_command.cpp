@@ -1,12 +1,12 @@
 #include "terrane/game/build_command.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cstdlib>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "terrane/base/require.h"
 #include "terrane/game/session.h"
 #include "terrane/world/sign.h"
 
@@ -79,9 +79,17 @@ void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
     });
 }
 
+void requireWhole(const world::Structure& structure) {
+    base::require(structure.cells.size() == static_cast<std::size_t>(structure.blockCount()),
+                  "PlaceStructure: each block of a structure needs a cell");
+    const auto isNamed = [&](std::uint32_t entry) { return entry < structure.palette.size(); };
+    base::require(std::ranges::all_of(structure.cells, isNamed),
+                  "PlaceStructure: a cell is no index into the structure's palette");
+}
+
 void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceStructure& place) {
     const world::Structure& structure = *place.structure;
-    assert(structure.cells.size() == static_cast<std::size_t>(structure.blockCount()) && "a block each");
+    requireWhole(structure);
     const std::vector<BlockValue> values = world::paletteValues(structure, blocks);
     forEachBlock(boxOf(place), [&](BlockPos pos) {
         const std::uint32_t cell =
@@ -116,8 +124,7 @@ BuildOutcome::Result check(const world::World& world, const BuildChange& change)
 BlockBox boxOf(const BuildChange& change) {
     if (const auto* fill = std::get_if<FillBox>(&change)) return fill->box;
     const auto& place = std::get<PlaceStructure>(change);
-    assert(place.structure && "there is something to place");
-    const glm::ivec3 size = place.structure->size;
+    const glm::ivec3 size = place.structure ? place.structure->size : glm::ivec3(0);
     return {place.low,
             {farEnd(place.low.x, size.x), farEnd(place.low.y, size.y), farEnd(place.low.z, size.z)}};
 }

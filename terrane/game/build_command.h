@@ -53,7 +53,7 @@ struct BuildOutcome {
     std::size_t kept = 0;     // blocks of the lowest layer, which no player breaks
 };
 
-// The box that a change affects. `low` is above `high` if a structure has no blocks.
+// The box that a change affects. `low` is above `high` if there is no structure or it has no blocks.
 world::BlockBox boxOf(const BuildChange& change);
 // Distance from a point to the nearest point of the box.
 double distanceTo(const world::BlockBox& box, const glm::dvec3& point);

@@ -1,7 +1,5 @@
 #include "terrane/game/container.h"
 
-#include <cassert>
-
 #include "terrane/world/block_behavior.h"
 
 namespace terrane::game {
@@ -23,7 +21,7 @@ base::Result<world::Inventory> itemsOf(const world::World& world, const world::B
 
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
                world::BlockId& inHand) {
-    assert(click.slot < items.size() && "a slot of the container");
+    if (click.slot >= items.size()) return false;
     const int count = click.wholeStack ? world::kMaxStack : 1;
     world::ItemStack& stack = items[click.slot];
     if (!click.takes && inHand == world::kAir) return false;

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <random>
+#include <stdexcept>
 
 #include "terrane/light/light_chunk.h"
 #include "terrane/store/structure_file.h"
@@ -248,6 +249,17 @@ TEST_F(BuildTest, TextOfASignIsUndone) {
     EXPECT_FALSE(session_.world().blockEntityData(pos));
     session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block(pos), world::kAir);
+}
+
+TEST_F(BuildTest, AStructureThatIsNoneIsNotPlaced) {
+    const BlockPos low{2, 2, kGroundHeight};
+    EXPECT_EQ(session_.build({kBuilder, PlaceStructure{nullptr, low}}).result, Result::Empty);
+    world::Structure cells = copy(kCube), palette = cells;
+    cells.cells.pop_back();
+    EXPECT_THROW(place(cells, low), std::invalid_argument);
+    palette.cells.front() = static_cast<std::uint32_t>(palette.palette.size());
+    EXPECT_THROW(place(palette, low), std::invalid_argument);
+    EXPECT_EQ(steps(), 0u);
 }
 
 }  // namespace

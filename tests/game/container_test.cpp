@@ -74,5 +74,14 @@ TEST_F(ContainerTest, DataThatIsNoInventoryIsNamed) {
     EXPECT_EQ(items.error().message, "the chest at 3,4,50: not an inventory of version 1");
 }
 
+TEST_F(ContainerTest, AClickBesideTheSlotsChangesNothing) {
+    world::Inventory items(27);
+    world::BlockId hand = id("sand");
+    EXPECT_FALSE(clickSlot(items, blocks_, {.slot = 27}, hand));
+    EXPECT_FALSE(clickSlot(items, blocks_, {.slot = SIZE_MAX, .takes = true}, hand));
+    EXPECT_EQ(items, world::Inventory(27));
+    EXPECT_EQ(hand, id("sand"));
+}
+
 }  // namespace
 }  // namespace terrane::game
