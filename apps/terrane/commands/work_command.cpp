@@ -70,10 +70,10 @@ void print(const WorkStatus& status) {
     }
 }
 
-base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool json) {
+base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool asJson) {
     const auto status = pool.run<WorkStatus>([](Connection& connection) { return workStatus(connection); });
     if (!status) return tl::unexpected(status.error());
-    if (json)
+    if (asJson)
         std::cout << toJson(*status).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     else
         print(*status);
