@@ -88,7 +88,9 @@ TEST_F(SlowNetwork, CutsAtAnyTime) {
             runOnce();
         }
         // The first cut comes after an edit has arrived, the others whenever the machine gets there.
-        if (cut == 0) ASSERT_TRUE(runUntil([&] { return server_->server.state().history.newest > 0; }));
+        if (cut == 0) {
+            ASSERT_TRUE(runUntil([&] { return server_->server.state().history.newest > 0; }));
+        }
         acknowledged = made - static_cast<std::int64_t>(far_->world->undecidedCount());
         proxy_->cutAll();
         ASSERT_TRUE(runUntil([&] { return far_->joins == cut + 2 && far_->isLoaded(); }))
