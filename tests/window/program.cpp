@@ -14,6 +14,9 @@ namespace {
 // A guard against hangs, far above what a slow machine needs to load a world.
 constexpr int kMostFrames = 20000;
 
+// Frames until widgets show the effect of an event, and a text field that ended takes no more keys.
+constexpr int kSettling = 2;
+
 std::optional<Key> keyOf(char typed) {
     if (typed >= 'a' && typed <= 'z') return static_cast<Key>(static_cast<int>(Key::A) + typed - 'a');
     if (typed >= '0' && typed <= '9') return static_cast<Key>(static_cast<int>(Key::Digit0) + typed - '0');
@@ -134,7 +137,7 @@ void Program::press(Key key, Modifiers with) {
     w.onKey(key, false, with);
     frames();
     if (!window_) return;
-    for (int k = 0; k < 2 && !hasEnded_; ++k) step();  // a field that took keys until now takes no more
+    for (int k = 0; k < kSettling && !hasEnded_; ++k) step();
     if (!window_) return;
     if (with.control) w.onKey(Key::Control, false, {});
     if (with.shift) w.onKey(Key::Shift, false, {});
@@ -242,6 +245,7 @@ void Program::click(std::string_view label, std::string_view value, double acros
     moveTo(label, value, across);
     hold(button);
     if (window_) release(button);
+    for (int k = 0; k < kSettling && !hasEnded_; ++k) step();
 }
 
 void Program::callThere(std::function<void()> call) {

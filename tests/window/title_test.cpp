@@ -175,7 +175,10 @@ TEST_F(TitleTest, ANamedWorldIsOpenedAtOnce) {
 TEST_F(TitleTest, AWorldThatCannotBeOpenedIsTold) {
     write(worldFile("bad"), "no save");
     Program program = start();
-    program.click("Worlds");
+    program.until("an entry is in focus", [&] { return program.focused() == "New world"; });
+    program.press(Key::Up);
+    EXPECT_EQ(program.focused(), "Worlds");
+    program.press(Key::Enter);
     program.until("the only world is in focus", [&] { return program.focused() == "##world"; });
     EXPECT_FALSE(program.widget("Play").isEnabled);
     program.press(Key::Enter);
