@@ -3,6 +3,7 @@
 #include <atomic>
 #include <functional>
 
+#include "tests/base/wait_until.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -96,12 +97,12 @@ TEST(SaveQueue, WritesAfterTheDelayAndWhenThereIsMuch) {
     {
         SaveQueue queue(recorder.write(), {.delay = 20ms, .chunks = 1000});
         queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
-        while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
+        ASSERT_TRUE(base::waitUntil([&] { return queue.status().durable >= 1; }));
     }
     EXPECT_EQ(recorder.batches.size(), 1u);
     SaveQueue queue(recorder.write(), {.delay = 1h, .chunks = 3});
     for (int x = 0; x < 3; ++x) queue.add({x, 0}, {numberedChunk(x), Provenance::Edited});
-    while (queue.status().durable < 3) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(base::waitUntil([&] { return queue.status().durable >= 3; }));
     EXPECT_EQ(recorder.batches.size(), 2u);
 }
 
@@ -173,9 +174,9 @@ TEST(SaveQueue, TriedAgainByItself) {
     SaveQueue queue(recorder.write(), {.delay = 10ms, .chunks = 1});
     recorder.fail("no");
     queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
-    while (queue.status().problem.empty()) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(base::waitUntil([&] { return !queue.status().problem.empty(); }));
     recorder.fail("");
-    while (queue.status().durable < 1) std::this_thread::sleep_for(1ms);
+    ASSERT_TRUE(base::waitUntil([&] { return queue.status().durable >= 1; }));
     EXPECT_EQ(recorder.batches.size(), 1u);
 }
 

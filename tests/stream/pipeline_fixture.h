@@ -3,13 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <limits>
 #include <map>
 #include <memory>
 
 #include "terrane/gen/builder.h"
 #include "terrane/stream/chunk_pipeline.h"
+#include "tests/base/wait_until.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::stream {
@@ -99,11 +99,12 @@ class PipelineTest : public testing::Test {
 
     // Updates until the view is complete and no job is left.
     void settle() {
-        const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(120);
-        for (update(); !pipeline_->progress().isUpToDate(); update()) {
-            ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "the view is never complete";
+        update();
+        const auto step = [this] {
             pipeline_->waitForWorkers(std::chrono::milliseconds(100));
-        }
+            update();
+        };
+        ASSERT_TRUE(base::waitUntil([this] { return pipeline_->progress().isUpToDate(); }, step));
         jobs_.waitIdle();
         update();
         take(kAll);
