@@ -135,7 +135,7 @@ class RandomEdits {
 };
 
 TEST(EditedTiles, StepByStepIsAsFromScratch) {
-#ifdef NDEBUG
+#ifdef __OPTIMIZE__
     constexpr int kBatches = 200, kEdits = 50;
 #else
     constexpr int kBatches = 20, kEdits = 50;
