@@ -256,7 +256,8 @@ void Window::setFullScreen(bool isFullScreen) {
 
 void Window::setIcon(int width, int height, std::span<const std::byte> pixels) {
     assert(pixels.size() ==
-           std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+               std::size_t{4} * static_cast<std::size_t>(width) * static_cast<std::size_t>(height) &&
+           "four bytes for each pixel");
     std::vector<unsigned char> copy(pixels.size());  // GLFW takes a writable pointer
     std::memcpy(copy.data(), pixels.data(), pixels.size());
     const GLFWimage image{width, height, copy.data()};
