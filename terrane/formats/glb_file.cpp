@@ -1,8 +1,8 @@
 #include "terrane/formats/glb_file.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <cstddef>
 #include <glm/common.hpp>
 #include <nlohmann/json.hpp>
@@ -98,7 +98,6 @@ class GlbWriter {
 
     void writeVertices() {
         for (const GlbPart& part : model_.parts) {
-            assert(!part.vertices.empty() && !part.indices.empty() && "a part has triangles");
             addVertexAccessors(part, binary_.size());
             binary_ += bytesOf(part.vertices);
         }
@@ -194,6 +193,9 @@ class GlbWriter {
 
 base::Result<std::string> encodeGlb(const GlbModel& model) {
     GlbWriter writer(model);
+    const auto isEmpty = [](const GlbPart& part) { return part.vertices.empty() || part.indices.empty(); };
+    if (model.parts.empty() || std::ranges::any_of(model.parts, isEmpty))
+        return base::fail(base::ErrorCode::BadInput, ".glb: a model has parts, and each of them triangles");
     // The JSON takes about 1 KiB a material.
     const std::size_t bytes = writer.binaryBytes() + model.parts.size() * 4096;
     if (bytes >= UINT32_MAX)

@@ -39,10 +39,11 @@ struct GlbPart {
 struct GlbModel {
     std::string name;
     std::vector<GlbImage> images;
-    std::vector<GlbPart> parts;  // not empty; none of them empty
+    std::vector<GlbPart> parts;
 };
 
-// The whole file. OutOfResources if it would have 4 GiB or more.
+// The whole file. BadInput if there are no parts or one has no triangles, OutOfResources if it would have 4
+// GiB or more.
 [[nodiscard]] base::Result<std::string> encodeGlb(const GlbModel& model);
 
 }  // namespace terrane::formats

@@ -2,9 +2,10 @@
 
 #include <zlib.h>
 
-#include <cassert>
 #include <new>
 #include <string_view>
+
+#include "terrane/base/require.h"
 
 namespace terrane::formats {
 namespace {
@@ -45,7 +46,11 @@ std::string filteredRows(const GrayImage& image) {
 }  // namespace
 
 std::string encodeGrayPng(const GrayImage& image) {
-    assert((image.bits == 8 || image.bits == 16) && "PNG has gray of 8 and 16 bits");
+    base::require(image.bits == 8 || image.bits == 16, "encodeGrayPng: gray has 8 or 16 bits");
+    base::require(image.width > 0 && image.height > 0 &&
+                      image.values.size() ==
+                          static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height),
+                  "encodeGrayPng: each pixel needs a value, and there is at least one");
     std::string header;
     appendBigEndian(header, static_cast<std::uint32_t>(image.width));
     appendBigEndian(header, static_cast<std::uint32_t>(image.height));

@@ -1,9 +1,10 @@
 #include "terrane/formats/nbt.h"
 
 #include <bit>
-#include <cassert>
 #include <type_traits>
 #include <utility>
+
+#include "terrane/base/require.h"
 
 namespace terrane::formats {
 namespace {
@@ -166,7 +167,7 @@ class NbtWriter {
         out_ += bytes.bytes;
     }
     void write(const std::string& text) {
-        assert(text.size() <= UINT16_MAX && "a text of NBT has a length of 16 bits");
+        base::require(text.size() <= UINT16_MAX, "encodeNbt: a text has more than 65,535 bytes");
         write(static_cast<std::uint16_t>(text.size()));
         out_ += text;
     }
@@ -174,7 +175,7 @@ class NbtWriter {
         write(list.type);
         write(static_cast<std::int32_t>(list.tags.size()));
         for (const NbtTag& tag : list.tags) {
-            assert(tag.value.index() == list.type && "the tags of a list are of its type");
+            base::require(tag.value.index() == list.type, "encodeNbt: a tag is not of its list's type");
             write(tag);
         }
     }

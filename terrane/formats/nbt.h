@@ -71,7 +71,8 @@ constexpr std::size_t kMaxNbtTags = std::size_t{1} << 20;
 
 // Bytes after the root are ignored, as Minecraft does. Errors say at which byte the data are wrong.
 [[nodiscard]] base::Result<NbtRoot> decodeNbt(std::string_view bytes);
-// Names and texts must have at most 65,535 bytes, and the tags of a list must have its type.
+// Throws std::invalid_argument if a name or text has more than 65,535 bytes or a tag is not of its list's
+// type.
 [[nodiscard]] std::string encodeNbt(const NbtRoot& root);
 
 template <class T>

@@ -50,7 +50,7 @@ void MappedRing::endFrame() {
 }
 
 std::optional<MappedRing::Allocation> MappedRing::allocate(std::size_t sizeBytes) {
-    assert(inFrame_ && "allocations live between beginFrame and endFrame");
+    base::require(inFrame_, "MappedRing::allocate: beginFrame() comes first");
     if (mapped_ == nullptr || sizeBytes > frameSliceBytes_ - usedBytes_) return std::nullopt;
     const std::size_t offset = frameSlice_ * frameSliceBytes_ + usedBytes_;
     usedBytes_ = std::min(roundUp(usedBytes_ + sizeBytes, alignmentBytes_), frameSliceBytes_);

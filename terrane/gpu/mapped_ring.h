@@ -4,13 +4,13 @@
 #pragma once
 
 #include <array>
-#include <cassert>
 #include <cstddef>
 #include <cstring>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include "terrane/base/require.h"
 #include "terrane/gpu/buffer.h"
 #include "terrane/gpu/fence.h"
 
@@ -45,11 +45,12 @@ class MappedRing {
     }
 
     void bindUniform(GLuint index, const Allocation& allocation) const;
-    // Writes a uniform block and binds it. The frame slice must have room for it.
+    // Writes a uniform block and binds it. Throws std::invalid_argument if the frame slice has no room for
+    // it.
     template <class T>
     void writeUniform(GLuint index, const T& block) {
         const std::optional<Allocation> allocation = write(std::span(&block, 1));
-        assert(allocation && "the ring has room for the uniforms of a frame");
+        base::require(allocation.has_value(), "MappedRing: the frame has no room for a uniform block");
         bindUniform(index, *allocation);
     }
 

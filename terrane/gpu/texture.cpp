@@ -4,6 +4,8 @@
 #include <bit>
 #include <cassert>
 
+#include "terrane/base/require.h"
+
 namespace terrane::gpu {
 namespace {
 
@@ -15,7 +17,7 @@ Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label)
     return handle;
 }
 
-[[maybe_unused]] std::size_t channels(GLenum format) {
+std::size_t channels(GLenum format) {
     switch (format) {
         case GL_RED:
         case GL_RED_INTEGER:
@@ -35,7 +37,7 @@ Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label)
     }
 }
 
-[[maybe_unused]] std::size_t channelBytes(GLenum type) {
+std::size_t channelBytes(GLenum type) {
     switch (type) {
         case GL_BYTE:
         case GL_UNSIGNED_BYTE:
@@ -53,10 +55,11 @@ Handle<ObjectKind::Texture> createTexture(GLenum target, std::string_view label)
     }
 }
 
-// Zero for formats unknown to the tables above, such as packed ones.
-[[maybe_unused]] std::size_t imageBytes(glm::ivec2 size, GLenum format, GLenum type) {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * channels(format) *
-           channelBytes(type);
+// Zero for formats unknown to the tables above.
+std::size_t imageBytes(glm::ivec2 size, GLenum format, GLenum type) {
+    const auto texels = static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y);
+    if (type == GL_UNSIGNED_SHORT_4_4_4_4_REV) return texels * 2;  // a packed type
+    return texels * channels(format) * channelBytes(type);
 }
 
 // Bytes of a texel, for the sized formats used here.
@@ -87,10 +90,9 @@ std::size_t levelBytes(glm::ivec2 size, int levels, GLenum format) {
 }
 
 // OpenGL would read past the end of shorter data.
-void checkData([[maybe_unused]] std::span<const std::byte> data, [[maybe_unused]] std::size_t expectedBytes) {
-    assert(expectedBytes != 0 && "uploads are in a format with one number per channel");
-    assert(data.size() == expectedBytes && "an upload covers the whole level");
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+void requireAll(std::span<const std::byte> data, std::size_t expectedBytes) {
+    base::require(expectedBytes != 0, "texture upload: a format of unknown size");
+    base::require(data.size() == expectedBytes, "texture upload: the data are not those of all texels");
 }
 
 }  // namespace
@@ -113,7 +115,8 @@ Texture2D::Texture2D(glm::ivec2 size, GLenum format, int levels, std::string_vie
 void Texture2D::upload(int level, GLenum format, GLenum type, std::span<const std::byte> data) {
     assert(level >= 0 && level < levels_ && "the level exists");
     const glm::ivec2 size = levelSize(size_, level);
-    checkData(data, imageBytes(size, format, type));
+    requireAll(data, imageBytes(size, format, type));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage2D(id(), level, 0, 0, size.x, size.y, format, type, data.data());
 }
 
@@ -142,14 +145,16 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
     assert(level >= 0 && level < shape_.levels && "the level exists");
     assert(layer >= 0 && layer < shape_.layers && "the layer exists");
     const glm::ivec2 size = levelSize(shape_.size, level);
-    checkData(data, imageBytes(size, format, type));
+    requireAll(data, imageBytes(size, format, type));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
 }
 
 void Texture2DArray::uploadPart(int layer, const Part& part, GLenum format, GLenum type,
                                 std::span<const std::byte> data) {
     assert(layer >= 0 && layer < shape_.layers && "the layer exists");
-    checkData(data, imageBytes(part.size, format, type));
+    requireAll(data, imageBytes(part.size, format, type));
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage3D(id(), 0, part.corner.x, part.corner.y, layer, part.size.x, part.size.y, 1, format,
                         type, data.data());
 }
@@ -180,6 +185,7 @@ Texture3D::Texture3D(glm::ivec3 size, GLenum format, std::string_view label)
 
 void Texture3D::uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GLenum type,
                            std::span<const std::byte> data) {
+    requireAll(data, static_cast<std::size_t>(size.z) * imageBytes({size.x, size.y}, format, type));
     glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
     glTextureSubImage3D(id(), 0, corner.x, corner.y, corner.z, size.x, size.y, size.z, format, type,
                         data.data());

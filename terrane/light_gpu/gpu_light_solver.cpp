@@ -1,7 +1,6 @@
 #include "terrane/light_gpu/gpu_light_solver.h"
 
 #include <algorithm>
-#include <cassert>
 
 namespace terrane::light_gpu {
 namespace {
@@ -18,7 +17,7 @@ base::Result<GpuLightSolver> GpuLightSolver::create(const gpu::ShaderLoader& sha
 }
 
 std::vector<light::ChunkLight> GpuLightSolver::solve(const light::LightArea& area) {
-    assert(area.chunksX > 0 && area.chunksY > 0 && "an area has chunks");
+    light::requireWhole(area);
     std::vector<light::ChunkLight> lights(area.chunks.size());
     std::vector<light::LightRequest> part;
     for (int y = 0; y < area.chunksY; y += kPartChunks) {

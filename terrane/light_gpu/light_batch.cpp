@@ -1,7 +1,7 @@
+#include "terrane/base/require.h"
 #include "terrane/light_gpu/light_batch_internal.h"
 
 #include <algorithm>
-#include <cassert>
 #include <unordered_map>
 
 namespace terrane::light_gpu {
@@ -68,7 +68,8 @@ LightBatch gatherBatch(std::span<const LightRequest> requests) {
     KnownChunks known;
     LightBatch batch;
     for (const LightRequest& request : requests) {
-        assert(request.chunks[light::kCenterChunk] && "the chunk to light is there");
+        base::require(request.chunks[light::kCenterChunk] != nullptr,
+                      "LightRequest: the chunk to light is null");
         if (!known.add(request)) break;
         batch.requested.push_back(request.pos);
     }

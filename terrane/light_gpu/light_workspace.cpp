@@ -122,7 +122,7 @@ void LightWorkspace::spreadAndPack(const LightPrograms& programs) {
 void LightWorkspace::start(const LightPrograms& programs, const LightBatch& batch,
                            const light::LightTable& table) {
     TERRANE_ZONE("start light on the GPU");
-    assert(isFree() && !batch.requested.empty());
+    assert(isFree() && !batch.requested.empty() && "one batch at a time, with chunks");
     const gpu::DebugGroup group("light");
     requested_ = batch.requested;
     chunkCount_ = batch.chunks.size();

@@ -1,13 +1,13 @@
 #include "terrane/map/edited_positions.h"
 
-#include <cassert>
+#include "terrane/base/require.h"
 
 namespace terrane::map {
 
 using world::ChunkPos;
 
 bool EditedPositions::add(ChunkPos chunk) {
-    assert(chunk.level == 0 && "tiles follow from their chunks");
+    base::require(chunk.level == 0, "EditedPositions::add: tiles follow from their chunks");
     for (auto& level : positions_) {
         if (!level.insert(chunk).second) return chunk.level > 0;
         chunk = {chunk.x >> 1, chunk.y >> 1, static_cast<std::uint8_t>(chunk.level + 1)};
@@ -16,8 +16,7 @@ bool EditedPositions::add(ChunkPos chunk) {
 }
 
 bool EditedPositions::contains(ChunkPos chunk) const {
-    assert(chunk.level <= world::kMaxLevel);
-    return positions_[chunk.level].contains(chunk);
+    return chunk.level <= world::kMaxLevel && positions_[chunk.level].contains(chunk);
 }
 
 std::vector<EditedChunk> EditedPositions::among(std::span<const ChunkPos> chunks) const {

@@ -1,8 +1,8 @@
 #include "terrane/mesh/chunk_mesher.h"
 
 #include <algorithm>
-#include <cassert>
 
+#include "terrane/base/require.h"
 #include "terrane/mesh/section_faces.h"
 
 namespace terrane::mesh {
@@ -27,9 +27,10 @@ SectionView viewSection(const MeshInput& input, int number) {
     return view;
 }
 
-void checkInput([[maybe_unused]] const MeshInput& input) {
-    assert(input.center && input.blocks && "a chunk and what its ids mean");
-    assert(isMeshSectionHeight(input.options.meshSectionHeight) && "a power of two, 8 to 128");
+void requireWhole(const MeshInput& input) {
+    base::require(input.center && input.blocks, "MeshInput: the chunk or the block registry is null");
+    base::require(isMeshSectionHeight(input.options.meshSectionHeight),
+                  "MeshInput: the height of mesh sections is a power of two, 8 to 128");
 }
 
 }  // namespace
@@ -43,9 +44,10 @@ MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks
 
 MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
                              std::vector<shared::Quad>& quads) {
-    checkInput(input);
+    requireWhole(input);
     const int height = input.options.meshSectionHeight;
-    assert(meshSection >= 0 && meshSection < world::kChunkHeight / height && "number of a mesh section");
+    base::require(meshSection >= 0 && meshSection < world::kChunkHeight / height,
+                  "buildMeshSection: the chunk has no mesh section of this number");
     const int step = std::min(height, world::kSectionSize);  // a section, or half of one
     for (int z = meshSection * height; z < (meshSection + 1) * height; z += step) {
         SectionView view = viewSection(input, z / world::kSectionSize);
@@ -57,7 +59,7 @@ MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratc
 }
 
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
-    checkInput(input);
+    requireWhole(input);
     ChunkMesh mesh;
     scratch.quads.clear();
     for (int meshSection = 0; meshSection < world::kChunkHeight / input.options.meshSectionHeight;

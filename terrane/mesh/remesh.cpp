@@ -1,8 +1,8 @@
 #include "terrane/mesh/remesh.h"
 
-#include <cassert>
 #include <cstddef>
 
+#include "terrane/base/require.h"
 #include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh {
@@ -15,8 +15,9 @@ MeshSectionSet meshSectionAt(int z, int meshSectionHeight) {
 }  // namespace
 
 std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSectionHeight) {
-    assert(world::isInHeight(pos.z) && "a block of the world");
-    assert(isMeshSectionHeight(meshSectionHeight) && "a power of two, 8 to 128");
+    base::require(world::isInHeight(pos.z), "meshSectionsTouchedBy: the block is above or below the world");
+    base::require(isMeshSectionHeight(meshSectionHeight),
+                  "meshSectionsTouchedBy: the height of mesh sections is a power of two, 8 to 128");
     const MeshSectionSet own = meshSectionAt(pos.z, meshSectionHeight);
     const world::ChunkPos chunk = world::chunkOf(pos);
     std::vector<TouchedChunk> touched{{chunk, own | meshSectionAt(pos.z - 1, meshSectionHeight) |
@@ -47,7 +48,8 @@ ChunkMesh buildMeshSections(const MeshInput& input, MeshSectionSet meshSections,
 }
 
 ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, MeshSectionSet meshSections) {
-    assert(old.meshSections.size() == newer.meshSections.size() && "made with the same options");
+    base::require(old.meshSections.size() == newer.meshSections.size(),
+                  "withMeshSections: the meshes have mesh sections of different heights");
     ChunkMesh mesh;
     mesh.quads.reserve(old.quads.size() + newer.quads.size());
     for (std::size_t r = 0; r < old.meshSections.size(); ++r) {

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cstring>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/gpu/debug.h"
 #include "terrane/gpu/fence.h"
 #include "terrane/gpu/program.h"
@@ -120,14 +120,17 @@ base::Result<GpuMesher> GpuMesher::create(const gpu::ShaderLoader& shaders,
 
 void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("count quads on the GPU");
-    assert(!chunks.empty() && chunks.size() <= kMaxChunks && "a batch");
+    base::require(!chunks.empty() && chunks.size() <= kMaxChunks,
+                  "GpuMesher::count: a batch has 1 to 256 chunks");
     const mesh::MeshOptions options = chunks.front().options;
-    assert(mesh::isMeshSectionHeight(options.meshSectionHeight) && "a power of two, 8 to 128");
+    base::require(mesh::isMeshSectionHeight(options.meshSectionHeight),
+                  "GpuMesher::count: the height of mesh sections is a power of two, 8 to 128");
     const gpu::DebugGroup group("count quads");
     Impl& m = *impl_;
     m.upload.clear();
     for (const mesh::MeshInput& chunk : chunks) {
-        assert(chunk.options == options && "the same for the batch");
+        base::require(chunk.options == options,
+                      "GpuMesher::count: the chunks of a batch have the same options");
         m.upload.add(chunk);
     }
     m.method = options.method;
@@ -178,7 +181,7 @@ std::size_t GpuMesher::gpuBytes() const {
 
 std::vector<mesh::MeshSection> GpuMesher::meshSections() const {
     const Impl& m = *impl_;
-    assert(m.counted.valid() && "after count()");
+    base::require(m.counted.valid(), "GpuMesher::meshSections: count() comes first");
     m.counted.wait();
     std::vector<shared::MeshSectionCounts> counts(m.meshSectionCount);
     std::memcpy(counts.data(), m.readback.data().data(), counts.size() * sizeof(counts[0]));
@@ -191,7 +194,7 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
     TERRANE_ZONE("write quads on the GPU");
     Impl& m = *impl_;
     const std::vector<mesh::MeshSection> counted = meshSections();
-    assert(firstQuads.size() == counted.size() && "a place for each mesh section");
+    base::require(firstQuads.size() == counted.size(), "GpuMesher::write: each mesh section needs a place");
     if (m.unitCount == 0) return;
     const gpu::DebugGroup group("write quads");
     std::vector<uint> places;
@@ -204,10 +207,9 @@ void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buff
         for (const mesh::QuadRange range : mesh::rangesOf(counted[k])) {
             places.push_back(firstQuads[k] + range.first);
         }
-        assert((counted[k].maxZ == 0 ||
-                (std::size_t{firstQuads[k]} + mesh::quadCount(counted[k])) * shared::kQuadBytes <=
-                    quads.sizeBytes()) &&
-               "the quads fit the buffer");
+        const std::size_t end = std::size_t{firstQuads[k]} + mesh::quadCount(counted[k]);
+        base::require(counted[k].maxZ == 0 || end * shared::kQuadBytes <= quads.sizeBytes(),
+                      "GpuMesher::write: the quads of a mesh section do not fit the buffer");
     }
     m.places.uploadVector(0, places);
     m.bind();

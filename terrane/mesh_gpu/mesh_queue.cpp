@@ -1,9 +1,9 @@
 #include "terrane/mesh_gpu/mesh_queue.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 
 namespace terrane::mesh_gpu {
 namespace {
@@ -58,13 +58,14 @@ std::vector<world::ChunkPos> MeshQueue::takeWaiting() {
 
 void MeshQueue::count(std::span<const mesh::MeshInput> chunks) {
     TERRANE_ZONE("mesh queue: count");
-    assert(chunks.size() == counting_.size() && "all that takeWaiting() returned");
+    base::require(chunks.size() == counting_.size(),
+                  "MeshQueue::count: the chunks are those of takeWaiting()");
     mesher_.count(chunks);
     countMilliseconds_ = millisecondsSince(start_);
 }
 
 std::vector<CountedChunk> MeshQueue::takeCounted() {
-    assert(isCounted());
+    base::require(isCounted(), "MeshQueue::takeCounted: no batch is counted");
     start_ = Clock::now();
     meshSections_ = mesher_.meshSections();
     const std::size_t perChunk = meshSections_.size() / counting_.size();
@@ -78,13 +79,15 @@ std::vector<CountedChunk> MeshQueue::takeCounted() {
 
 void MeshQueue::write(std::span<const FirstQuads> places, const gpu::ArenaBuffers& quads) {
     TERRANE_ZONE("mesh queue: write");
-    assert(places.size() == counting_.size() - isRemoved_.size() && "one for each of takeCounted()");
+    base::require(!counting_.empty() && places.size() == counting_.size() - isRemoved_.size(),
+                  "MeshQueue::write: each chunk of takeCounted() needs a place");
     const std::size_t perChunk = meshSections_.size() / counting_.size();
     std::vector<std::uint32_t> addresses(meshSections_.size(), kNoPlace);
     auto place = places.begin();
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         if (isRemoved_.contains(counting_[k])) continue;
-        assert((place->empty() || place->size() == perChunk) && "one for each mesh section");
+        base::require(place->empty() || place->size() == perChunk,
+                      "MeshQueue::write: each mesh section of a chunk needs a place");
         std::ranges::copy(*place++, addresses.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
     }
     for (std::size_t arena = 0; arena < quads.buffers.size(); ++arena) {

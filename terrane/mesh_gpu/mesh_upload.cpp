@@ -1,7 +1,7 @@
+#include "terrane/base/require.h"
 #include "terrane/mesh_gpu/mesh_upload_internal.h"
 
 #include <algorithm>
-#include <cassert>
 
 #include "terrane/mesh/section_side.h"
 
@@ -87,8 +87,8 @@ void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
 }
 
 void MeshUpload::add(const mesh::MeshInput& chunk) {
-    assert(chunk.center && std::ranges::count(chunk.neighbors, nullptr) == 0 &&
-           "a chunk is meshed when its neighbors are known");
+    base::require(chunk.center && std::ranges::count(chunk.neighbors, nullptr) == 0,
+                  "GpuMesher: a chunk is meshed when its neighbors are known");
     for (int number = 0; number < world::kSectionsPerChunk; ++number) {
         if (mayBeSeen(chunk, number)) addUnits(chunk, number);
     }

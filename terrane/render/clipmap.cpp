@@ -1,8 +1,9 @@
 #include "terrane/render/clipmap.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "terrane/base/require.h"
 
 namespace terrane::render {
 namespace {
@@ -37,7 +38,7 @@ bool Clipmap::isTile(world::ChunkPos tile) const {
 }
 
 ClipmapPlace Clipmap::placeOf(world::ChunkPos tile) const {
-    assert(isTile(tile) && "the clipmap has the level");
+    base::require(isTile(tile), "Clipmap: it has no tiles of this level");
     const int level = (tile.level - shape_.firstLevel) / shape_.levelStep;
     return {level, {16 * (tile.x & (kTiles - 1)), 16 * (tile.y & (kTiles - 1))}};
 }

@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cassert>
 #include <cmath>
 #include <vector>
+
+#include "terrane/base/require.h"
 
 namespace terrane::render {
 namespace {
@@ -47,8 +48,8 @@ void setFromOutside(Line& line, std::size_t at, const LandShadow& shadow) {
 void sweepShadows(const LandHeights& land, glm::vec3 direction,
                   const std::function<LandShadow(glm::vec2)>& outside, std::span<LandShadow> shadows) {
     const auto side = static_cast<std::size_t>(land.side);
-    assert(land.blocks.size() == side * side && shadows.size() == land.blocks.size() &&
-           "squares of one size");
+    base::require(land.blocks.size() == side * side && shadows.size() == land.blocks.size(),
+                  "sweepShadows: heights and shadows are squares of one size");
     const float across = std::hypot(direction.x, direction.y);
     if (across < kOverhead) {
         std::ranges::fill(shadows, LandShadow{kNoShadow, 0});
@@ -112,7 +113,7 @@ constexpr int kDistances = 6;  // each twice the one before
 }  // namespace
 
 void skyVisibility(const LandHeights& land, float minBlocks, std::span<float> visibility) {
-    assert(visibility.size() == land.blocks.size() && "one for each texel");
+    base::require(visibility.size() == land.blocks.size(), "skyVisibility: each texel needs a value");
     std::ranges::fill(visibility, 1.0f);
     std::vector<float> tangents(visibility.size());
     for (int k = 0; k < kDirections; ++k) {

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <cassert>
 #include <iterator>
 #include <utility>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -164,7 +164,7 @@ bool LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
 
 bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
     TERRANE_ZONE("upload light");
-    assert(pos.level == 0 && "the grid has light tiles of blocks");
+    base::require(pos.level == 0, "Renderer::setLight: only chunks of level 0 have light");
     const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
     const std::span entries(it->second);
     bool hasRoom = true;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "terrane/base/require.h"
 #include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::render {
@@ -45,10 +46,11 @@ QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) {
 }
 
 bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+    base::require(quadsOf(mesh.meshSections) == mesh.quads.size(),
+                  "Renderer::setChunk: the mesh sections do not name each quad once");
     if (!reserve(pos, mesh.meshSections, meshSections)) return false;
     if (mesh.quads.empty()) return true;
     const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
-    assert(quadsOf(mesh.meshSections) == mesh.quads.size() && "ranges name each quad once");
     std::size_t lowest = 0;
     while (!mesh::hasMeshSection(meshSections, lowest)) ++lowest;
     const std::uint32_t first = mesh::firstQuad(stored[lowest]);
@@ -60,6 +62,10 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::Mesh
 
 bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
                         mesh::MeshSectionSet meshSections) {
+    for (std::size_t r = 0; r < meshes.size(); ++r) {
+        base::require(mesh::hasMeshSection(meshSections, r) || mesh::quadCount(meshes[r]) == 0,
+                      "Renderer::setChunk: quads of a mesh section that is not set");
+    }
     ChunkMeshSections& chunk = chunks_[pos];
     if (chunk.size() != meshes.size()) {
         free(chunk, mesh::kAllMeshSections);
@@ -70,8 +76,6 @@ bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> 
     const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
     std::uint32_t next = first.value_or(0);
     for (std::size_t r = 0; first && r < meshes.size(); ++r) {
-        assert((mesh::hasMeshSection(meshSections, r) || mesh::quadCount(meshes[r]) == 0) &&
-               "nothing for the others");
         if (!mesh::hasMeshSection(meshSections, r)) continue;
         chunk[r] = mesh::movedTo(next, meshes[r]);
         next += mesh::quadCount(meshes[r]);

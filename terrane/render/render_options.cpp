@@ -1,7 +1,8 @@
 #include "terrane/render/render_options.h"
 
 #include <algorithm>
-#include <cassert>
+
+#include "terrane/base/require.h"
 
 namespace terrane::render {
 namespace {
@@ -79,7 +80,7 @@ const Preset* findPreset(std::string_view name, bool isSoftwareRenderer) {
 
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer) {
     const Preset* preset = findPreset(name, isSoftwareRenderer);
-    assert(preset && "whoever reads a name checks it");
+    base::require(preset != nullptr, "withPreset: no preset has this name");
     return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance),
             preset->horizon.value_or(before.horizon), preset->detail};
 }

@@ -1,12 +1,12 @@
 #include "terrane/render/renderer.h"
 
 #include <algorithm>
-#include <cassert>
 #include <span>
 #include <utility>
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/gpu/program.h"
 #include "terrane/render/direct_image.h"
 #include "terrane/render/edge_expansion.h"
@@ -97,6 +97,10 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
     if (options.msaaSamples > device_.maxSamples) {
         return base::fail("{} samples per pixel: the graphics driver has at most {}", options.msaaSamples,
                           device_.maxSamples);
+    }
+    if (std::min(size.x, size.y) < 1) {
+        return base::fail(base::ErrorCode::BadInput, "{} × {} pixels: an image has at least 1 per side",
+                          size.x, size.y);
     }
     if (std::max(size.x, size.y) > device_.maxTextureSize) {
         return base::fail("{} × {} pixels: the graphics driver has at most {} per side", size.x, size.y,
@@ -306,7 +310,7 @@ void Renderer::drawDebugView() {
 
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
-    assert(targets_.size.x > 0 && "configure comes before the first frame");
+    base::require(targets_.size.x > 0, "Renderer::draw: configure() comes before the first frame");
     const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
     timer_.nextFrame();
     ring_.beginFrame();

@@ -1,9 +1,9 @@
 #include "terrane/render/tint_textures.h"
 
 #include <array>
-#include <cassert>
 #include <span>
 
+#include "terrane/base/require.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -17,7 +17,7 @@ TintTextures TintTextures::create() {
 }
 
 void TintTextures::set(world::ChunkPos tile, const world::TintTile& colors) {
-    assert(isUsed() && "there is a tint");
+    base::require(isUsed(), "Renderer::setTint: useTint(true) comes first");
     std::array<std::uint8_t, 4 * std::tuple_size_v<world::TintTile>> rgba;
     for (std::size_t k = 0; k < colors.size(); ++k) {
         for (const std::size_t channel : {0u, 1u, 2u})

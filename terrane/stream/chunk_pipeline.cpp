@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/require.h"
 #include "terrane/mesh/remesh.h"
 #include "terrane/stream/lighting.h"
 #include "terrane/stream/meshing.h"
@@ -42,6 +43,7 @@ ChunkPipeline::~ChunkPipeline() {
 }
 
 void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 direction, int horizon) {
+    base::require(viewDistance >= 0, "ChunkPipeline::setView: a negative view distance");
     const bool isOther = stream::setView(table_, center, viewDistance, direction);
     const TileView before = std::exchange(tileView_, {center, viewDistance, horizon});
     remeshBorders(table_, before, tileView_);
@@ -341,6 +343,8 @@ void ChunkPipeline::resendLight() {
 }
 
 ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {
+    base::require(pos.level == 0 && world::isInWorld(pos),
+                  "ChunkPipeline: chunks of level 0 in the world can be loaded");
     requestChunk(table_, pos, now_);
     return parts_.world.maybeChunkAt(pos);
 }

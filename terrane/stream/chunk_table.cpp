@@ -39,7 +39,8 @@ ChunkRecord& addRecord(ChunkTable& table, ChunkPos pos) {
 
 void eraseRecord(ChunkTable& table, ChunkPos pos) {
     const auto found = table.records.find(pos);
-    assert(found != table.records.end() && found->second.stage != ChunkStage::Visible);
+    assert(found != table.records.end() && found->second.stage != ChunkStage::Visible &&
+           "visible chunks are hidden before they are unloaded");
     --table.stageCounts[static_cast<std::size_t>(found->second.stage)];
     table.records.erase(found);
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "terrane/base/require.h"
 #include "terrane/stream/tile_table.h"
 
 namespace terrane::stream {
@@ -169,7 +170,7 @@ std::vector<TileChange> tilesAfterEdits(const gen::LevelGenerators& generators,
                                         const world::DownsampleRule& rule,
                                         std::span<const ChunkPos> editedChunks, const ReadTile& read,
                                         int topLevel) {
-    assert(topLevel <= world::kMaxLevel && "no level above");
+    base::require(topLevel <= world::kMaxLevel, "tilesAfterEdits: there is no such level");
     GeneratedChunks generated(generators);
     std::vector<TileChange> changes;
     std::set<ChunkPos> changed(editedChunks.begin(), editedChunks.end());

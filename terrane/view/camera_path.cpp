@@ -1,9 +1,10 @@
 #include "terrane/view/camera_path.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <glm/trigonometric.hpp>
+
+#include "terrane/base/require.h"
 
 namespace terrane::view {
 namespace {
@@ -48,7 +49,7 @@ Look lookFrom(glm::dvec3 eye, glm::dvec3 point) {
 }
 
 CameraPath::CameraPath(std::vector<CameraKey> keys)
-    : looksAtPoints_(keys.front().lookAt.has_value()),
+    : looksAtPoints_(!keys.empty() && keys.front().lookAt.has_value()),
       x_(positionCurve(keys, 0)),
       y_(positionCurve(keys, 1)),
       z_(positionCurve(keys, 2)),
@@ -57,8 +58,9 @@ CameraPath::CameraPath(std::vector<CameraKey> keys)
       aimZ_(aimCurve(keys, 2)),
       timeDay_(curveOf(keys, [](const CameraKey& key) { return key.timeDay; })),
       fieldOfView_(curveOf(keys, [](const CameraKey& key) { return key.fieldOfView; })) {
-    assert(std::ranges::all_of(keys,
-                               [&](const CameraKey& k) { return k.lookAt.has_value() == looksAtPoints_; }));
+    base::require(
+        std::ranges::all_of(keys, [&](const CameraKey& k) { return k.lookAt.has_value() == looksAtPoints_; }),
+        "CameraPath: all keys look at points, or none does");
 }
 
 PathPoint CameraPath::at(double seconds) const {

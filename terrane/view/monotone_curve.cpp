@@ -1,8 +1,9 @@
 #include "terrane/view/monotone_curve.h"
 
 #include <algorithm>
-#include <cassert>
 #include <cmath>
+
+#include "terrane/base/require.h"
 
 namespace terrane::view {
 namespace {
@@ -28,13 +29,14 @@ double slopeAtEnd(double width, double near, double widthNext, double next) {
 
 MonotoneCurve::MonotoneCurve(std::vector<double> times, std::vector<double> values)
     : times_(std::move(times)), values_(std::move(values)), slopes_(times_.size(), 0.0) {
-    assert(!times_.empty() && times_.size() == values_.size() && "a time for each value");
+    base::require(!times_.empty() && times_.size() == values_.size(),
+                  "MonotoneCurve: each value needs a time, and there is at least one");
     const std::size_t pieces = times_.size() - 1;
     if (pieces == 0) return;
     std::vector<double> widths, steps;
     for (std::size_t k = 0; k < pieces; ++k) {
         widths.push_back(times_[k + 1] - times_[k]);
-        assert(widths.back() > 0 && "times ascend");
+        base::require(widths.back() > 0, "MonotoneCurve: times ascend");
         steps.push_back((values_[k + 1] - values_[k]) / widths.back());
     }
     if (pieces == 1) {

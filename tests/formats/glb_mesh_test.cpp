@@ -125,5 +125,15 @@ TEST_F(GlbMeshTest, AirIsNoModel) {
     EXPECT_FALSE(mesh.finish("nothing"));
 }
 
+TEST_F(GlbMeshTest, AModelWithoutTrianglesIsNotEncoded) {
+    GlbModel model = modelOf(chunkWith("stone"));
+    model.parts.front().indices.clear();
+    for (const GlbModel& empty : {GlbModel(), model}) {
+        const auto bytes = encodeGlb(empty);
+        ASSERT_FALSE(bytes);
+        EXPECT_EQ(bytes.error().code, base::ErrorCode::BadInput);
+    }
+}
+
 }  // namespace
 }  // namespace terrane::formats

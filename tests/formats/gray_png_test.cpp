@@ -1,5 +1,7 @@
 #include "terrane/formats/gray_png.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include "terrane/base/image.h"
@@ -20,6 +22,12 @@ TEST(GrayPng, IsReadByAnotherReader) {
     // Read as linear light by this reader: black and white stay.
     EXPECT_EQ(deep->rgba[0], 0);
     EXPECT_EQ(deep->rgba[8], 255);
+}
+
+TEST(GrayPng, RefusesAnImageThatIsNone) {
+    EXPECT_THROW((void)encodeGrayPng({1, 1, 4, {0}}), std::invalid_argument);
+    EXPECT_THROW((void)encodeGrayPng({0, 1, 8, {}}), std::invalid_argument);
+    EXPECT_THROW((void)encodeGrayPng({2, 1, 8, {0}}), std::invalid_argument);
 }
 
 }  // namespace

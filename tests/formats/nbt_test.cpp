@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <stdexcept>
 
 namespace terrane::formats {
 namespace {
@@ -132,6 +133,18 @@ TEST(Nbt, RefusesWhatIsDeepOrLarge) {
     std::string many("\x0a\0\0\x09\0\0\x01\0\x50\0\0", 11);
     many += std::string(0x500000, '\0');
     EXPECT_THAT(nbtError(many), HasSubstr("too many tags"));
+}
+
+TEST(Nbt, RefusesToWriteWhatTheFormatLacks) {
+    NbtRoot root;
+    root.compound.add("text", {std::string(65'536, 'a')});
+    EXPECT_THROW((void)encodeNbt(root), std::invalid_argument);
+    root.compound.entries.clear();
+    root.compound.add(std::string(65'536, 'a'), {std::int32_t{1}});
+    EXPECT_THROW((void)encodeNbt(root), std::invalid_argument);
+    root.compound.entries.clear();
+    root.compound.add("list", {NbtList{3, {{std::int32_t{1}}, {std::string("two")}}}});
+    EXPECT_THROW((void)encodeNbt(root), std::invalid_argument);
 }
 
 }  // namespace

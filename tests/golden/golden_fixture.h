@@ -66,9 +66,9 @@ class GoldenTest : public gpu::GlTest {
         placeGallery(world);
         return meshWorld(world);
     }
-    static Meshes galleryOf(GalleryPart part) {
+    static Meshes galleryOf(std::string_view gallery) {
         world::World world = flatWorld(3);
-        placeGallery(world, part);
+        placeGallery(world, gallery);
         return meshWorld(world);
     }
     static Meshes galleryInTheAir() {

@@ -17,18 +17,17 @@ TEST_F(Golden, GalleryFromAbove) {
 
 TEST_F(Golden, GalleryOfTheLand) {
     render::Renderer& renderer = emptyRenderer();
-    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOf(GalleryPart::Land), kLand)));
+    EXPECT_TRUE(matchesGolden("gallery_land", drawGallery(renderer, galleryOf(kLandGallery), kLand)));
 }
 
 TEST_F(Golden, GalleryOfCubesToBuildWith) {
     render::Renderer& renderer = emptyRenderer();
-    EXPECT_TRUE(matchesGolden("gallery_cubes", drawGallery(renderer, galleryOf(GalleryPart::Cubes), kLand)));
+    EXPECT_TRUE(matchesGolden("gallery_cubes", drawGallery(renderer, galleryOf(kCubesGallery), kLand)));
 }
 
 TEST_F(Golden, GalleryOfShapes) {
     render::Renderer& renderer = emptyRenderer();
-    EXPECT_TRUE(
-        matchesGolden("gallery_shapes", drawGallery(renderer, galleryOf(GalleryPart::Shapes), kShapes)));
+    EXPECT_TRUE(matchesGolden("gallery_shapes", drawGallery(renderer, galleryOf(kShapesGallery), kShapes)));
 }
 
 TEST_F(Golden, GalleryFromBelow) {

@@ -3,7 +3,10 @@
 
 #include <algorithm>
 #include <map>
+#include <ranges>
+#include <stdexcept>
 #include <string_view>
+#include <vector>
 
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -59,13 +62,47 @@ inline world::World flatWorld(int radius) {
 
 constexpr int kGalleryZ = 81;  // on the flat world's grass
 
-// By the place in the file of blocks: land is between water and chest; what people build with comes after it,
-// first cubes, then shapes.
-enum class GalleryPart : std::uint8_t { First, Land, Cubes, Shapes };
+// The blocks that the galleries show, a fixed sample with each shape, alpha and animation: a new block that
+// has no other is not added. First the basic blocks, then those of the land of `continents`, then the cubes
+// and the shapes that people build with.
+constexpr std::string_view kFirstGallery =
+    "stone dirt grass sand snow glowing_ore oak_log oak_leaves grass_tuft blue_orchid poppy "
+    "oxeye_daisy wheat red_mushroom brown_mushroom glowing_mushroom cactus lamp_white "
+    "lamp_red lamp_green lamp_blue cyan_glass water chest";
 
-inline GalleryPart partOf(const world::BlockType& type) {
-    if (type.id > contentBlock("chest")) return type.model ? GalleryPart::Shapes : GalleryPart::Cubes;
-    return type.id > contentBlock("water") && type.name != "chest" ? GalleryPart::Land : GalleryPart::First;
+constexpr std::string_view kLandGallery =
+    "birch_log birch_leaves spruce_log spruce_leaves pine_log pine_leaves acacia_log "
+    "acacia_leaves willow_log willow_leaves palm_log palm_leaves dead_log moss mossy_stone "
+    "gravel clay mud ice red_sand sandstone red_sandstone terracotta basalt limestone "
+    "tall_grass savanna_grass fern reeds heather bluebell dead_bush crystal coral_red "
+    "coral_yellow seagrass mushroom_stem mushroom_cap";
+
+constexpr std::string_view kCubesGallery =
+    "oak_planks birch_planks spruce_planks pine_planks acacia_planks willow_planks "
+    "palm_planks cobble stone_bricks bricks smooth_stone roof_tiles thatch plaster bookshelf "
+    "hay iron glass white_glass red_glass orange_glass yellow_glass green_glass blue_glass "
+    "purple_glass white_wool red_wool orange_wool yellow_wool green_wool cyan_wool blue_wool "
+    "purple_wool brown_wool black_wool";
+
+constexpr std::string_view kShapesGallery =
+    "oak_stairs birch_stairs spruce_stairs pine_stairs acacia_stairs willow_stairs "
+    "palm_stairs stone_stairs cobble_stairs stone_bricks_stairs bricks_stairs "
+    "sandstone_stairs roof_tiles_stairs thatch_stairs oak_slab birch_slab spruce_slab "
+    "pine_slab acacia_slab willow_slab palm_slab stone_slab cobble_slab stone_bricks_slab "
+    "bricks_slab sandstone_slab roof_tiles_slab thatch_slab glass_pane white_carpet "
+    "red_carpet orange_carpet yellow_carpet green_carpet cyan_carpet blue_carpet "
+    "purple_carpet brown_carpet black_carpet oak_fence birch_fence spruce_fence pine_fence "
+    "acacia_fence willow_fence palm_fence oak_gate birch_gate spruce_gate pine_gate "
+    "acacia_gate willow_gate palm_gate oak_door oak_door_top oak_trapdoor ladder torch sign "
+    "lantern";
+
+// The block types of a gallery.
+inline std::vector<const world::BlockType*> galleryTypes(std::string_view gallery) {
+    std::vector<const world::BlockType*> types;
+    for (const auto name : std::views::split(gallery, ' ')) {
+        types.push_back(&contentBlocks().type(contentBlock(std::string_view(name.begin(), name.end()))));
+    }
+    return types;
 }
 
 // The block state at which a block stands in the gallery: shapes take turns at theirs.
@@ -73,18 +110,16 @@ inline std::uint16_t galleryState(const world::BlockType& type, int number, std:
     return static_cast<std::uint16_t>(type.model ? 7 * number % 256 & type.model->stateMask : stagesLeft);
 }
 
-// Every block type of the part once, plants that grow at each stage, in rows of seven with gaps.
-inline void placeGallery(world::World& world, GalleryPart part = GalleryPart::First) {
+// The blocks of a gallery, plants that grow at each stage, in rows of seven with gaps.
+inline void placeGallery(world::World& world, std::string_view gallery = kFirstGallery) {
     constexpr int kRow = 7;
     int number = 0;
-    for (const world::BlockType& type : contentBlocks().types()) {
-        if (type.id == world::kAir || type.id == contentBlocks().missing()) continue;
-        if (partOf(type) != part) continue;
-        for (std::size_t left = 0; left <= type.growth.size(); ++left, ++number) {
+    for (const world::BlockType* type : galleryTypes(gallery)) {
+        for (std::size_t left = 0; left <= type->growth.size(); ++left, ++number) {
             const world::BlockPos pos{2 * (number % kRow), 2 * (number / kRow), kGalleryZ};
-            if (!world::putBlock(world, pos, type.id))
+            if (!world::putBlock(world, pos, type->id))
                 throw std::runtime_error("the gallery is not in the world");
-            world::putState(world, pos, galleryState(type, number, left));
+            world::putState(world, pos, galleryState(*type, number, left));
         }
     }
 }

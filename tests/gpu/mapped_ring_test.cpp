@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <set>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -76,6 +77,16 @@ TEST_F(MappedRingTest, fencesArePassedInTheEnd) {
     const Fence moved = std::move(fence);
     EXPECT_FALSE(fence.valid());
     EXPECT_TRUE(moved.passed());
+}
+
+TEST_F(MappedRingTest, AUniformThatDoesNotFitIsRefused) {
+    MappedRing ring(64, "ring");
+    EXPECT_THROW((void)ring.allocate(1), std::invalid_argument) << "outside of a frame";
+    ring.beginFrame();
+    const std::vector<std::byte> most(ring.frameSliceBytes());
+    EXPECT_TRUE(ring.write(std::span(most)));
+    EXPECT_THROW(ring.writeUniform(0, std::uint32_t{1}), std::invalid_argument);
+    ring.endFrame();
 }
 
 }  // namespace

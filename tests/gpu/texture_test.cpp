@@ -1,6 +1,7 @@
 #include "terrane/gpu/texture.h"
 
 #include <cstdint>
+#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -111,6 +112,26 @@ TEST_F(TextureTest, moveAndLeaveEmptyOnes) {
     const Sampler sampler2 = std::move(sampler);
     EXPECT_EQ(plain.id() + array.id() + samples.id() + sampler.id(), 0U);
     EXPECT_TRUE(plain2.id() != 0 && array2.id() != 0 && samples2.id() != 0 && sampler2.id() != 0);
+}
+
+// OpenGL would read past the end of the data.
+TEST_F(TextureTest, UploadsAreOfAllTexels) {
+    const Bytes bytes = pattern(4 * 4 * 4 * 4 - 1, 1);
+    const auto data = std::as_bytes(std::span(bytes));
+    Texture2D texture({8, 8}, GL_RGBA8, 1, "texture");
+    EXPECT_THROW(texture.upload(0, GL_RGBA, GL_UNSIGNED_BYTE, data), std::invalid_argument);
+    Texture2DArray layers({.size = {8, 8}, .layers = 1, .levels = 1}, GL_RGBA8, "layers");
+    EXPECT_THROW(layers.upload(0, 0, GL_RGBA, GL_UNSIGNED_BYTE, data), std::invalid_argument);
+    EXPECT_THROW(layers.uploadPart(0, {{0, 0}, {8, 8}}, GL_RGBA, GL_UNSIGNED_BYTE, data),
+                 std::invalid_argument);
+    Texture3D box({4, 4, 4}, GL_RGBA8, "box");
+    EXPECT_THROW(box.uploadPart({0, 0, 0}, {4, 4, 4}, GL_RGBA, GL_UNSIGNED_BYTE, data),
+                 std::invalid_argument);
+    EXPECT_THROW(
+        box.uploadPart({0, 0, 0}, {4, 4, 4}, GL_BGRA, GL_UNSIGNED_SHORT_4_4_4_4_REV, data.first(127)),
+        std::invalid_argument);
+    EXPECT_THROW(texture.upload(0, GL_RGBA, GL_UNSIGNED_INT_8_8_8_8, data), std::invalid_argument)
+        << "a type whose size is not known";
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <stdexcept>
 
 namespace terrane::light_gpu {
 namespace {
@@ -86,6 +87,11 @@ TEST(LightBatch, EndsWhereSnapshotsDiffer) {
     requests[3] = chunks.request({2, 2});
     requests[3].chunks[0] = nullptr;  // 1,1, which the first one has
     EXPECT_EQ(gatherBatch(requests).requested.size(), 3u);
+}
+
+TEST(LightBatch, NeedsTheChunkToLight) {
+    const std::vector<LightRequest> requests(1);  // without chunks
+    EXPECT_THROW(gatherBatch(requests), std::invalid_argument);
 }
 
 }  // namespace

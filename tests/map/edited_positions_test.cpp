@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <random>
+#include <stdexcept>
 #include <vector>
 
 #include "tests/map/map_fixture.h"
@@ -56,6 +57,14 @@ TEST(EditedPositions, AreThoseOfASlowSearch) {
             }
         }
     }
+}
+
+TEST(EditedPositions, AreChunksAndTheTilesOfLevelsThatExist) {
+    EditedPositions edited;
+    EXPECT_THROW(edited.add({0, 0, 1}), std::invalid_argument);
+    edited.add({0, 0});
+    EXPECT_FALSE(edited.contains({0, 0, world::kMaxLevel + 1}));
+    EXPECT_FALSE(edited.contains({0, 0, 255}));
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "tests/mesh/mesh_fixture.h"
@@ -244,6 +245,24 @@ TEST(ChunkMesher, BottomOfTheWorldIsNotDrawn) {
     const ChunkMesh mesh = meshOf(placed({{4, 4, 0, "stone"}, {8, 8, 0, "water"}, {12, 4, 0, "cactus"}}));
     for (const shared::Quad q : mesh.quads) EXPECT_NE(quadShapeFace(q), unsigned{world::kFaceNegZ});
     EXPECT_EQ(mesh.quads.size(), 15u);
+}
+
+TEST(MeshChunk, NeedsAChunkItsBlocksAndAHeight) {
+    const Area area([](int, int, int) { return world::kAir; });
+    MeshScratch scratch;
+    std::vector<shared::Quad> quads;
+    const auto refuses = [&](auto change) {
+        MeshInput input = area.input();
+        change(input);
+        EXPECT_THROW(meshChunk(input, scratch), std::invalid_argument);
+    };
+    refuses([](MeshInput& input) { input.center = nullptr; });
+    refuses([](MeshInput& input) { input.blocks = nullptr; });
+    for (const int height : {0, -16, 4, 24, 256})
+        refuses([=](MeshInput& input) { input.options.meshSectionHeight = height; });
+    for (const int number : {-1, 4})
+        EXPECT_THROW(buildMeshSection(area.input({MergeMethod::None, 64}), number, scratch, quads),
+                     std::invalid_argument);
 }
 
 }  // namespace

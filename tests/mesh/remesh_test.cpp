@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <stdexcept>
 
 #include "terrane/shared/hash.h"
 #include "tests/mesh/mesh_fixture.h"
@@ -104,6 +105,18 @@ TEST(BuildMeshSections, OthersAreEmpty) {
     EXPECT_EQ(none.meshSections[0], MeshSection{});
     EXPECT_EQ(withMeshSections(all, none, 0b1110), all);
     EXPECT_EQ(buildMeshSections(area.input(kFourMeshSections), kAllMeshSections, scratch), all);
+}
+
+TEST(MeshSectionsTouchedBy, RefusesWhatIsNotInTheWorld) {
+    EXPECT_THROW(meshSectionsTouchedBy({5, 6, -1}, 64), std::invalid_argument);
+    EXPECT_THROW(meshSectionsTouchedBy({5, 6, 256}, 64), std::invalid_argument);
+    EXPECT_THROW(meshSectionsTouchedBy({5, 6, 7}, 0), std::invalid_argument);
+}
+
+TEST(WithMeshSections, NeedsMeshesOfOneHeight) {
+    const Area area(randomBlocks(Mix::Dense, 1));
+    const ChunkMesh low = meshOf(area, {MergeMethod::None, 32}), high = meshOf(area, {MergeMethod::None, 64});
+    EXPECT_THROW(withMeshSections(low, high, 1), std::invalid_argument);
 }
 
 }  // namespace

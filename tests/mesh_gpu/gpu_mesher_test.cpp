@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh_gpu/gpu_batch_mesher.h"
@@ -178,6 +179,26 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
         mesh::MeshScratch scratch;
         EXPECT_TRUE(sorted(stored) == sorted(meshChunk(inputs[k], scratch))) << "chunk " << k;
     }
+}
+
+TEST_F(GpuMesherTest, RefusesBatchesItCannotMesh) {
+    auto mesher = GpuMesher::create(render::contentShaders(), mesh::testBlocks());
+    ASSERT_TRUE(mesher) << mesher.error().message;
+    EXPECT_THROW((void)mesher->meshSections(), std::invalid_argument) << "nothing is counted";
+    EXPECT_THROW(mesher->count({}), std::invalid_argument);
+    const mesh::Area area(mesh::randomBlocks(mesh::Mix::Dense, 1));
+    std::vector<MeshInput> chunks(2, area.input({MergeMethod::None, 64}));
+    chunks[1].options.meshSectionHeight = 32;
+    EXPECT_THROW(mesher->count(chunks), std::invalid_argument) << "two heights";
+    chunks[1] = chunks[0];
+    chunks[1].neighbors[2] = nullptr;
+    EXPECT_THROW(mesher->count(chunks), std::invalid_argument) << "an unknown neighbor";
+    chunks.pop_back();
+    mesher->count(chunks);
+    const gpu::Buffer quads(shared::kQuadBytes, 0, "quads");
+    EXPECT_THROW(mesher->write(std::vector<std::uint32_t>(3), quads), std::invalid_argument)
+        << "of four mesh sections";
+    EXPECT_THROW(mesher->write(std::vector<std::uint32_t>(4), quads), std::invalid_argument) << "no room";
 }
 
 }  // namespace

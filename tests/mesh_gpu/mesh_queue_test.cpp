@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <map>
+#include <stdexcept>
 #include <thread>
 
 #include "terrane/gpu/fence.h"
@@ -222,6 +223,14 @@ TEST_F(MeshQueueTest, ManyChangesAddUp) {
     finish();
     EXPECT_GT(store_->chunks().size(), 3u);
     for (const auto& [pos, meshSections] : store_->chunks()) expectStored(pos);
+}
+
+TEST_F(MeshQueueTest, CallsOutOfOrderAreRefused) {
+    EXPECT_THROW(queue_->takeCounted(), std::invalid_argument);
+    EXPECT_THROW(queue_->write({}, store_->buffers()), std::invalid_argument);
+    queue_->add({1, 1});
+    ASSERT_EQ(queue_->takeWaiting().size(), 1u);
+    EXPECT_THROW(queue_->count({}), std::invalid_argument);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <map>
 #include <random>
 #include <set>
+#include <stdexcept>
 #include <tuple>
 
 namespace terrane::render {
@@ -150,6 +151,14 @@ TEST(Clipmap, RandomFlightsShowTheRightColumns) {
         }
     }
     EXPECT_GT(compared, 2000);
+}
+
+TEST(Clipmap, HasNoPlaceForATileOfAnotherLevel) {
+    const Clipmap clipmap({.levels = 2, .firstLevel = 2, .levelStep = 2, .order = TileOrder::NearFirst});
+    EXPECT_NO_THROW(clipmap.placeOf({0, 0, 4}));
+    for (const int level : {0, 3, 6})
+        EXPECT_THROW(clipmap.placeOf({0, 0, static_cast<std::uint8_t>(level)}), std::invalid_argument)
+            << level;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <map>
 #include <span>
+#include <stdexcept>
 
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/shared/hash.h"
@@ -252,6 +253,16 @@ TEST_F(QuadStoreTest, AMeshSectionThatFindsNoRoomIsEmpty) {
                           {mesh::MeshSection{}, numberedMesh(2, 50).meshSections[0]}};
     EXPECT_FALSE(store.set({0, 0}, upper, 0b10));
     expectStored(store, {0, 0}, two);
+}
+
+TEST_F(QuadStoreTest, MeshSectionsNameEachQuadOnce) {
+    QuadStore store;
+    mesh::ChunkMesh mesh = numberedMesh(1, 9);
+    mesh.quads.pop_back();
+    EXPECT_THROW(store.set({0, 0}, mesh), std::invalid_argument);
+    EXPECT_THROW(store.set({0, 0}, numberedMesh(1, 9), 0b10), std::invalid_argument)
+        << "quads of another mesh section";
+    EXPECT_TRUE(store.chunks().empty());
 }
 
 }  // namespace

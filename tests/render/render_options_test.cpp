@@ -1,5 +1,7 @@
 #include "terrane/render/render_options.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 namespace terrane::render {
@@ -61,6 +63,11 @@ TEST(RenderOptions, AutoGoesByTheRenderer) {
 TEST(RenderOptions, OtherNamesAreNone) {
     EXPECT_FALSE(findPreset("", false));
     EXPECT_FALSE(findPreset("best", false));
+}
+
+TEST(RenderOptions, APresetHasAName) {
+    EXPECT_EQ(findPreset("lowest", true), nullptr);
+    EXPECT_THROW(withPreset({}, "lowest", true), std::invalid_argument);
 }
 
 }  // namespace

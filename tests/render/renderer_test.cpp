@@ -7,6 +7,7 @@
 #include <cmath>
 #include <memory>
 #include <set>
+#include <stdexcept>
 
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/mesh/remesh.h"
@@ -332,6 +333,20 @@ TEST_F(RendererTest, EditsOfMeshSectionsLookAsIfAllWasMeshedAgain) {
         ASSERT_TRUE(draw(frame).rgba == other->readImage().rgba) << step;
     }
     EXPECT_EQ(renderer_->quadBytes(), other->quadBytes());
+}
+
+TEST_F(RendererTest, RefusesAFrameWithoutASizeAndChunksThatItCannotPlace) {
+    auto fresh = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice());
+    ASSERT_TRUE(fresh) << fresh.error().message;
+    EXPECT_THROW(fresh->draw(noon(kLevel)), std::invalid_argument);
+    for (const glm::ivec2 size : {glm::ivec2(0, 0), glm::ivec2(64, 0), glm::ivec2(-1, 64)}) {
+        const auto configured = fresh->configure(size, plainOptions(1));
+        ASSERT_FALSE(configured);
+        EXPECT_EQ(configured.error().code, base::ErrorCode::BadInput);
+    }
+    EXPECT_THROW(renderer_->setLight({0, 0, 1}, light::ChunkLight()), std::invalid_argument);
+    EXPECT_THROW(renderer_->setTint({0, 0}, {}), std::invalid_argument) << "useTint() comes first";
+    draw(noon(kLevel));
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "terrane/stream/chunk_pipeline.h"
 
+#include <stdexcept>
+
 #include "terrane/shared/hash.h"
 #include "tests/stream/pipeline_fixture.h"
 
@@ -174,6 +176,14 @@ TEST_F(ChunkPipelineTest, OtherMeshOptionsMeshAgain) {
     EXPECT_GT(shown_.at({0, 0}).mesh->quads.size(), before.at({0, 0}).mesh->quads.size());
     pipeline_->setMeshOptions(none);
     EXPECT_EQ(take(kAll), 0u) << "the same options change nothing";
+}
+
+TEST_F(ChunkPipelineTest, RefusesWhatIsNotInTheWorld) {
+    EXPECT_THROW(pipeline_->setView({0, 0}, -1), std::invalid_argument);
+    EXPECT_THROW(pipeline_->maybeLoadChunkAt({world::kMaxChunk + 1, 0}), std::invalid_argument);
+    EXPECT_THROW(pipeline_->maybeLoadChunkAt({0, 0, 1}), std::invalid_argument);
+    EXPECT_THROW(pipeline_->chunkAt({0, world::kMinChunk - 1}), std::invalid_argument);
+    EXPECT_EQ(world_.chunkCount(), 0u);
 }
 
 }  // namespace

@@ -1,5 +1,7 @@
 #include "terrane/view/camera_path.h"
 
+#include <stdexcept>
+
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
@@ -65,6 +67,12 @@ TEST(CameraPath, LookFromOnePointToAnother) {
     EXPECT_NEAR(lookFrom({0, 0, 0}, {0, 5, 0}).yaw, 90, 1e-9);
     EXPECT_NEAR(lookFrom({0, 0, 0}, {3, 0, 3}).pitch, 45, 1e-9);
     EXPECT_NEAR(lookFrom({0, 0, 9}, {0, 0, 3}).pitch, -90, 1e-9);
+}
+
+TEST(CameraPath, RefusesKeysThatMakeNone) {
+    EXPECT_THROW(CameraPath({}), std::invalid_argument);
+    EXPECT_THROW(CameraPath({keyAt(1, {}), keyAt(1, {})}), std::invalid_argument);
+    EXPECT_THROW(CameraPath({keyAt(0, {}), keyToward(1, {}, {})}), std::invalid_argument);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <stdexcept>
 
 namespace terrane::view {
 namespace {
@@ -77,6 +78,12 @@ TEST_P(MonotoneCurveRandom, HasNoCorners) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, MonotoneCurveRandom, testing::Range(1u, 21u));
+
+TEST(MonotoneCurve, NeedsATimeForEachValue) {
+    EXPECT_THROW(MonotoneCurve({}, {}), std::invalid_argument);
+    EXPECT_THROW(MonotoneCurve({1, 2}, {3}), std::invalid_argument);
+    EXPECT_THROW(MonotoneCurve({1, 1, 2}, {3, 4, 5}), std::invalid_argument);
+}
 
 }  // namespace
 }  // namespace terrane::view

@@ -141,7 +141,7 @@ std::string TitlePainter::missingLetter(std::string_view text) {
 }
 
 void TitlePainter::paint(base::Image& image, std::string_view text, bool isLarge, float strength) const {
-    assert(image.width > 0 && image.height > 0);
+    assert(image.width > 0 && image.height > 0 && "frames have pixels");
     const ImFont& font = isLarge ? *large_ : *small_;
     const LetterPainter letters(*atlas_);
     const auto lines = linesOf(text);

@@ -91,7 +91,7 @@ bool isSame(std::string_view a, std::string_view b) {
 }
 
 std::size_t indexOf(Action action) {
-    assert(action < Action::kCount);
+    assert(action < Action::kCount && "one of the actions");
     return static_cast<std::size_t>(action);
 }
 
