@@ -14,10 +14,10 @@ namespace {
 constexpr int kSide = Clipmap::kTexels;
 // The sun moves this far in 0.3 s of a day of 20 minutes; 1/50 of its diameter.
 constexpr float kLandLightStep = 0.0018f;  // radians
-constexpr float kMinForm = 16;         // blocks: light levels and ambient occlusion shade smaller forms
-constexpr float kBlockError = 0.75f;   // blocks: heights are integers
-constexpr float kBlendBegins = 0.75f;  // share of half a side from which a level blends into the next one
-constexpr float kBlendEnds = 0.92f;    // below kLandUsed, since filters read beyond a place
+constexpr float kMinForm = 16;             // blocks: light levels and ambient occlusion shade smaller forms
+constexpr float kBlockError = 0.75f;       // blocks: heights are integers
+constexpr float kBlendBegins = 0.75f;      // share of half a side from which a level blends into the next one
+constexpr float kBlendEnds = 0.92f;        // below kLandUsed, since filters read beyond a place
 
 // Place of a texel of a level in the next one, in its texels from the middle of the first one.
 glm::vec2 inCoarser(const LandLevel& fine, const LandLevel& coarse, glm::vec2 texel) {

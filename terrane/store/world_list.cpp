@@ -119,7 +119,8 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
     std::vector<WorldEntry> worlds;
     std::error_code error;
     fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListedWorlds; at.increment(error)) {
+    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListedWorlds;
+         at.increment(error)) {
         const fs::path& path = at->path();
         std::error_code ignored;
         if (path.extension() != kSaveEnding || belongsToAWorld(path) || at->is_directory(ignored)) continue;

@@ -1,4 +1,5 @@
-// One renderer for the tests of a process: creating it takes longer than most of them. Needs the context of GlTest.
+// One renderer for the tests of a process: creating it takes longer than most of them. Needs the context of
+// GlTest.
 #pragma once
 
 #include <map>
@@ -10,8 +11,8 @@
 
 namespace terrane::render {
 
-// Without chunks and tiles, as after Renderer::create(); not configured. Renderers differ by device. Lives as long as the
-// process: drivers may be gone when static objects are destroyed.
+// Without chunks and tiles, as after Renderer::create(); not configured. Renderers differ by device. Lives as
+// long as the process: drivers may be gone when static objects are destroyed.
 inline Renderer& emptyRenderer(const gpu::DeviceInfo& device) {
     static auto* const made = new std::map<std::pair<bool, int>, Renderer>;
     const std::pair key(device.software, device.subpixelBits);
