@@ -34,15 +34,18 @@ class Window(ProgramTest):
         return place
 
     def setting(self, name):
+        """Of the save; None before the program wrote it."""
         with contextlib.closing(sqlite3.connect(self.folder / "terrane" / "home.sqlite")) as database:
-            return database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()[0]
+            row = database.execute("SELECT value FROM settings WHERE name = ?", (name,)).fetchone()
+            return row and row[0]
 
     def test_draws_flies_resizes_and_closes(self):
         with Display() as display:
             game = self.play(display, "--movement", "fast", "--size", f"{SIZE[0]}x{SIZE[1]}", "--world", "home", *FLAT)
-            start = tuple(map(float, self.setting("camera").split()[:3]))
+            saved = game.wait_for(lambda: self.setting("camera"))
+            start = tuple(map(float, saved.split()[:3]))
             display.xdotool("keydown", "w")
-            game.wait_for(lambda: self.setting("camera").split()[:2] != [f"{value:g}" for value in start[:2]])
+            game.wait_for(lambda: self.setting("camera").split()[:2] != saved.split()[:2])
             display.xdotool("keyup", "w")
             display.xdotool("windowsize", game.window, *LARGER)
             game.wait_for_image(LARGER, x0=SIZE[0])
@@ -52,8 +55,8 @@ class Window(ProgramTest):
     def test_mouse_and_text_reach_the_game(self):
         with Display() as display:
             game = self.play(display, "--size", f"{SIZE[0]}x{SIZE[1]}", "--world", "home", *FLAT)
-            hotbar = self.setting("hotbar")
-            yaw = self.setting("camera").split()[3]
+            hotbar = game.wait_for(lambda: self.setting("hotbar"))
+            yaw = game.wait_for(lambda: self.setting("camera")).split()[3]
             game.pause_after("F1")
             game.take_mouse()
             display.xdotool("click", 5)  # the wheel
