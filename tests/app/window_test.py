@@ -68,7 +68,7 @@ class Window(ProgramTest):
             game.type("here and now")
             time.sleep(game.pause)
             game.press_alone("Return", game.pause)
-            game.wait_for(lambda: self.setting("places").endswith(" here and now\n"))
+            game.wait_for(lambda: (self.setting("places") or "").endswith(" here and now\n"))
             self.close(game, open_things=1)
 
     def test_full_screen(self):
