@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """Completions and the manual page against --help. Usage: help_test.py PROGRAM"""
+import functools
 import json
 import os
 import re
@@ -12,6 +13,14 @@ from support import ProgramTest, run
 
 def generators(test):
     return set(json.loads(test.succeed("info", "--json"))["generators"])
+
+
+@functools.cache
+def flags_by_command():
+    """As --help lists them."""
+    text = run("--help").stdout
+    commands = re.findall(r"^  ([\w-]+)  +", text[text.index("Subcommands:"):], re.MULTILINE)
+    return {c: re.findall(r"^  (-[-\w,]+)", run(c, "--help").stdout, re.MULTILINE) for c in commands}
 
 
 class HelpTest(ProgramTest):
@@ -28,10 +37,9 @@ class HelpTest(ProgramTest):
 
     def setUp(self):
         super().setUp()
-        text = self.succeed("--help")
-        self.commands = re.findall(r"^  ([\w-]+)  +", text[text.index("Subcommands:"):], re.MULTILINE)
+        self.flags = flags_by_command()
+        self.commands = list(self.flags)
         self.assertGreaterEqual(len(self.commands), 10)
-        self.flags = {c: re.findall(r"^  (-[-\w,]+)", self.succeed(c, "--help"), re.MULTILINE) for c in self.commands}
         self.assertIn("-o,--output", self.flags["render"])
 
     def names(self, command):
@@ -157,11 +165,12 @@ class Zsh(HelpTest):
 
     # The shell's own check of specifications, which reports wrong ones; without a terminal.
     def test_specifications_are_understood(self):
-        for command in self.commands:
-            self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; " f"source {self.script('zsh')}; "
-                       "_describe() { :; }; _arguments() { for s in $@; do [[ $s == (--#[a-z-]##\\[*\\]*|\\*:*:*|[0-9]:*:*) ]] "
-                       "|| { print -u2 bad: $s; }; done; }; setopt extendedglob; "
-                       f"words=(terrane {command} -); CURRENT=3; _terrane")
+        said = self.shell("zsh", "-f", "-c", "autoload -U compinit; compinit -u -D; " f"source {self.script('zsh')}; "
+                          "_describe() { :; }; _arguments() { print $words[1]; for s in $@; do "
+                          "[[ $s == (--#[a-z-]##\\[*\\]*|\\*:*:*|[0-9]:*:*) ]] || { print -u2 bad: $s; }; done; }; "
+                          f"setopt extendedglob; for c in {' '.join(self.commands)}; "
+                          "do words=(terrane $c -); CURRENT=3; _terrane; done")
+        self.assertEqual([line for line in said if line], self.commands)
 
     def test_arguments_have_places_of_their_own(self):
         text = self.script("zsh").read_text()
