@@ -23,7 +23,7 @@ readonly LONG_ADDRESS=(
     'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*' 'Places/Continents*' 'RayCast.Equals*'
     'RelightRandom.Caves*' 'RelightRandom.Layers*' 'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*'
     'RelightRandom.Solid*' 'Seeds/Convergence.EverybodyHasTheServersWorld/1*'
-    'Seeds/Convergence.EverybodyHasTheServersWorld/2*' 'ShapeSurface.CoversEachPart*' 'SimulationTest.NothingIsLost*'
+    'ShapeSurface.CoversEachPart*' 'SimulationTest.NothingIsLost*'
     'Sites*' 'TilesOfArea.Seen*' 'Utf8.ExactlyTheCodes*' 'Voronoi3D.EverySample*'
 )
 # Also cases of objects that threads do not share.

@@ -10,7 +10,8 @@ namespace terrane::render {
 
 TintTextures TintTextures::create() {
     TintTextures made;
-    made.textures_ = gpu::Texture2DArray({{shared::kTintTexels, shared::kTintTexels}, shared::kTintLevels, 1}, GL_RGBA8, "tint");
+    made.textures_ = gpu::Texture2DArray({{shared::kTintTexels, shared::kTintTexels}, shared::kTintLevels, 1},
+                                         GL_RGBA8, "tint");
     made.sampler_ = gpu::Sampler({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT}, "tint");
     return made;
 }

@@ -3,8 +3,9 @@
 
 #include <algorithm>
 #include <map>
-#include <ranges>
+#include <sstream>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -99,9 +100,8 @@ constexpr std::string_view kShapesGallery =
 // The block types of a gallery.
 inline std::vector<const world::BlockType*> galleryTypes(std::string_view gallery) {
     std::vector<const world::BlockType*> types;
-    for (const auto name : std::views::split(gallery, ' ')) {
-        types.push_back(&contentBlocks().type(contentBlock(std::string_view(name.begin(), name.end()))));
-    }
+    std::istringstream names{std::string(gallery)};
+    for (std::string name; names >> name;) types.push_back(&contentBlocks().type(contentBlock(name)));
     return types;
 }
 
