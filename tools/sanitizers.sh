@@ -3,35 +3,41 @@
 #
 #   tools/sanitizers.sh [PART…]    both parts unless one is named
 #
-#   address    address, undefined behavior: all modules, also those that draw (in software), and the scripts that use the
-#              program without a window; before them the fuzzers, on the inputs that tests/fuzz keeps
+#   address    address, undefined behavior: all modules, also those that draw (in software); before them the fuzzers, on the
+#              inputs that tests/fuzz keeps
 #   threads    the thread sanitizer: base, store, stream, game, whose objects threads share
 #
-# TERRANE_DEPTH=all runs all cases, and each fuzzer for a minute on new inputs; tools/fuzz.sh 600 runs longer, in a build
-# that guides them. Needs clang, libclang-rt-dev, lld.
+# TERRANE_DEPTH=all runs all cases, also the scripts that use the program without a window, and each fuzzer for a minute on new
+# inputs; tools/fuzz.sh 600 runs longer, in a build that guides them. Needs clang, libclang-rt-dev, lld.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Cases (patterns of GoogleTest) that take long under a sanitizer and run no code that others do not: the character of
-# generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel.
+# generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel, long ways
+# through menus.
 readonly LONG_ADDRESS=(
-    'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'BatchLighter.DoesWhat*'
-    'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'CollisionTest.NeverTunnels*'
-    'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*'
-    'Examples.HaveTheirBlocks*' 'ExprMath*' 'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*'
-    'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*' 'MapPainter.AnEditChangesTheTiles*'
-    'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*' 'Places/Continents*' 'RayCast.Equals*'
-    'RelightRandom.Caves*' 'RelightRandom.Layers*' 'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*'
-    'RelightRandom.Solid*' 'Seeds/Convergence.EverybodyHasTheServersWorld/1*'
-    'ShapeSurface.CoversEachPart*' 'SimulationTest.NothingIsLost*'
-    'Sites*' 'TilesOfArea.Seen*' 'Utf8.ExactlyTheCodes*' 'Voronoi3D.EverySample*'
+    'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'ArenasTest*' 'BatchLighter.DoesWhat*'
+    'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'ClosedRoomTest*' 'CollisionTest.NeverTunnels*'
+    'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*' 'EdgeExpansion*'
+    'Examples.HaveTheirBlocks*' 'ExprMath*' 'FaceSampling*' 'FarSamenessTest*' 'FarViewTest*' 'FarWalkTest*'
+    'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*' 'GpuGeneratorTest.LevelsEqualCpu*'
+    'GpuGeneratorTest.Overworld*' 'GraphicsTest*' 'HudTest*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
+    'MapPainter.AnEditChangesTheTiles*' 'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*'
+    'Places/Continents*' 'PlayTest*' 'RayCast.Equals*' 'RelightRandom.Caves*' 'RelightRandom.Layers*'
+    'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*' 'RelightRandom.Solid*'
+    'Seeds/Convergence.EverybodyHasTheServersWorld/1*' 'ShadowAcneTest*' 'ShapeSurface.CoversEachPart*'
+    'SimulationTest.NothingIsLost*' 'Sites*' 'TilesOfArea.Seen*' 'TitleTest*' 'Utf8.ExactlyTheCodes*'
+    'Voronoi3D.EverySample*'
 )
 # Also cases of objects that threads do not share.
 readonly LONG_THREADS=(
     'Checksum*' 'ChunkCodec*' 'EditedTiles*' 'HostileSave*' 'LogCheck*' 'Sites*' 'SwollenSave*'
 )
-# Scripts of CTest: windows, databases and kills have their own runs; pictures of the program are the same without a sanitizer.
-readonly SCRIPTS='^(app[.](browser|bench|formats|memory|postgres|python|record|render|together|window)_test|app[.]random_player|.*kill_test|net_postgres|store_postgres|package|tools|docs)'
+# Tests of CTest that do not run here: real windows, databases, kills and limits of memory; pictures of the program are the same
+# without a sanitizer.
+readonly ELSEWHERE='^(app[.](browser|bench|formats|hostile_save|memory|postgres|python|record|render|together|window)_test|app[.]random_player|.*kill_test|net_postgres|store_postgres|package|tools|docs|check_|compare)'
+# And those that run only at full depth: scripts that start the program a hundred times.
+readonly PROGRAM='^app[.].*_test$'
 
 fail() {
     echo "sanitizers: $*" >&2
@@ -74,19 +80,19 @@ test_without() {
 
 # The driver's own memory is not ours to free: tests/leaks.supp.
 address() {
-    local seconds=0
-    [[ ${TERRANE_DEPTH:-} != all ]] || seconds=60
-    configure asan -DTERRANE_FUZZ=ON
+    local seconds=60 elsewhere=$ELSEWHERE
+    [[ ${TERRANE_DEPTH:-} == all ]] || seconds=0 elsewhere+="|$PROGRAM"
+    configure asan -DTERRANE_FUZZ=ON -DTERRANE_PYTHON=OFF
     cmake --build build-asan
     FUZZ_BUILD=build-asan tools/fuzz.sh $seconds
     LSAN_OPTIONS="suppressions=$PWD/tests/leaks.supp:print_suppressions=0" \
-        test_without build-asan "${LONG_ADDRESS[@]}" -- --exclude-regex "$SCRIPTS"
+        test_without build-asan "${LONG_ADDRESS[@]}" -- --exclude-regex "$elsewhere"
 }
 
 threads() {
     configure tsan
     cmake --build build-tsan --target base_tests store_tests stream_tests game_tests
-    test_without build-tsan "${LONG_THREADS[@]}" -- --tests-regex '^(base|store|stream|game)[.]' --exclude-regex "$SCRIPTS"
+    test_without build-tsan "${LONG_THREADS[@]}" -- --tests-regex '^(base|store|stream|game)[.]' --exclude-regex "$ELSEWHERE"
 }
 
 parts=("$@")
