@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace terrane::world {
 namespace {
@@ -76,7 +77,7 @@ double sweepAlong(const World& world, const BlockRegistry& blocks, const Aabb& b
 }  // namespace
 
 Sweep sweep(const World& world, const BlockRegistry& blocks, const Aabb& box, glm::dvec3 motion) {
-    base::require(motion == motion, "sweep: the motion is not a number");
+    base::require(!glm::any(glm::isnan(motion)), "sweep: the motion is not a number");
     Sweep result;
     Aabb moving = box;
     for (const int axis : {2, 0, 1}) {
