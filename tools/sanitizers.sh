@@ -21,11 +21,11 @@ readonly LONG_ADDRESS=(
     'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*' 'EdgeExpansion*'
     'Examples.HaveTheirBlocks*' 'ExprMath*' 'FaceSampling*' 'FarSamenessTest*' 'FarViewTest*' 'FarWalkTest*'
     'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*' 'GpuGeneratorTest.LevelsEqualCpu*'
-    'GpuGeneratorTest.Overworld*' 'GraphicsTest*' 'HudTest*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
+    'GpuGeneratorTest.Overworld*' 'GoldenProof*' 'GraphicsTest*' 'HudTest*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
     'MapPainter.AnEditChangesTheTiles*' 'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*'
     'Places/Continents*' 'PlayTest*' 'RayCast.Equals*' 'RelightRandom.Caves*' 'RelightRandom.Layers*'
     'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*' 'RelightRandom.Solid*'
-    'Seeds/Convergence.EverybodyHasTheServersWorld/1*' 'ShadowAcneTest*' 'ShapeSurface.CoversEachPart*'
+    'Seeds/Convergence.EverybodyHasTheServersWorld/1*' 'Shaders.ReferenceCompiler*' 'ShadowAcneTest*' 'ShapeSurface.CoversEachPart*'
     'SimulationTest.NothingIsLost*' 'Sites*' 'TilesOfArea.Seen*' 'TitleTest*' 'Utf8.ExactlyTheCodes*'
     'Voronoi3D.EverySample*'
 )
