@@ -90,9 +90,10 @@ std::size_t levelBytes(glm::ivec2 size, int levels, GLenum format) {
 }
 
 // OpenGL would read past the end of shorter data.
-void requireAll(std::span<const std::byte> data, std::size_t expectedBytes) {
+void prepareUpload(std::span<const std::byte> data, std::size_t expectedBytes) {
     base::require(expectedBytes != 0, "texture upload: a format of unknown size");
     base::require(data.size() == expectedBytes, "texture upload: the data are not those of all texels");
+    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
 }
 
 }  // namespace
@@ -115,8 +116,7 @@ Texture2D::Texture2D(glm::ivec2 size, GLenum format, int levels, std::string_vie
 void Texture2D::upload(int level, GLenum format, GLenum type, std::span<const std::byte> data) {
     assert(level >= 0 && level < levels_ && "the level exists");
     const glm::ivec2 size = levelSize(size_, level);
-    requireAll(data, imageBytes(size, format, type));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    prepareUpload(data, imageBytes(size, format, type));
     glTextureSubImage2D(id(), level, 0, 0, size.x, size.y, format, type, data.data());
 }
 
@@ -145,16 +145,14 @@ void Texture2DArray::upload(int level, int layer, GLenum format, GLenum type,
     assert(level >= 0 && level < shape_.levels && "the level exists");
     assert(layer >= 0 && layer < shape_.layers && "the layer exists");
     const glm::ivec2 size = levelSize(shape_.size, level);
-    requireAll(data, imageBytes(size, format, type));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    prepareUpload(data, imageBytes(size, format, type));
     glTextureSubImage3D(id(), level, 0, 0, layer, size.x, size.y, 1, format, type, data.data());
 }
 
 void Texture2DArray::uploadPart(int layer, const Part& part, GLenum format, GLenum type,
                                 std::span<const std::byte> data) {
     assert(layer >= 0 && layer < shape_.layers && "the layer exists");
-    requireAll(data, imageBytes(part.size, format, type));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    prepareUpload(data, imageBytes(part.size, format, type));
     glTextureSubImage3D(id(), 0, part.corner.x, part.corner.y, layer, part.size.x, part.size.y, 1, format,
                         type, data.data());
 }
@@ -185,8 +183,7 @@ Texture3D::Texture3D(glm::ivec3 size, GLenum format, std::string_view label)
 
 void Texture3D::uploadPart(glm::ivec3 corner, glm::ivec3 size, GLenum format, GLenum type,
                            std::span<const std::byte> data) {
-    requireAll(data, static_cast<std::size_t>(size.z) * imageBytes({size.x, size.y}, format, type));
-    glPixelStorei(GL_UNPACK_ALIGNMENT, 1);
+    prepareUpload(data, static_cast<std::size_t>(size.z) * imageBytes({size.x, size.y}, format, type));
     glTextureSubImage3D(id(), 0, corner.x, corner.y, corner.z, size.x, size.y, size.z, format, type,
                         data.data());
 }

@@ -1,8 +1,9 @@
-#include "terrane/base/require.h"
 #include "terrane/light_gpu/light_batch_internal.h"
 
 #include <algorithm>
 #include <unordered_map>
+
+#include "terrane/base/require.h"
 
 namespace terrane::light_gpu {
 namespace {

@@ -1,8 +1,8 @@
-#include "terrane/base/require.h"
 #include "terrane/mesh_gpu/mesh_upload_internal.h"
 
 #include <algorithm>
 
+#include "terrane/base/require.h"
 #include "terrane/mesh/section_side.h"
 
 namespace terrane::mesh_gpu {
