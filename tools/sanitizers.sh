@@ -13,8 +13,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # Cases (patterns of GoogleTest) that take long under a sanitizer and run no code that others do not: the character of
-# generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel, long ways
-# through menus.
+# generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel,
+# long ways through menus.
 readonly LONG_ADDRESS=(
     'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'ArenasTest*' 'BatchLighter.DoesWhat*'
     'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'ClosedRoomTest*' 'CollisionTest.NeverTunnels*'
@@ -37,7 +37,7 @@ readonly LONG_THREADS=(
 # without a sanitizer.
 readonly ELSEWHERE='^(app[.](browser|bench|formats|hostile_save|memory|postgres|python|record|render|together|window)_test|app[.]random_player|.*kill_test|net_postgres|store_postgres|package|tools|docs|check_|compare)'
 # And those that run only at full depth: scripts that start the program a hundred times.
-readonly PROGRAM='^app[.].*_test$'
+readonly SCRIPTS='^app[.].*_test$'
 
 fail() {
     echo "sanitizers: $*" >&2
@@ -81,7 +81,7 @@ test_without() {
 # The driver's own memory is not ours to free: tests/leaks.supp.
 address() {
     local seconds=60 elsewhere=$ELSEWHERE
-    [[ ${TERRANE_DEPTH:-} == all ]] || seconds=0 elsewhere+="|$PROGRAM"
+    [[ ${TERRANE_DEPTH:-} == all ]] || seconds=0 elsewhere+="|$SCRIPTS"
     configure asan -DTERRANE_FUZZ=ON -DTERRANE_PYTHON=OFF
     cmake --build build-asan
     FUZZ_BUILD=build-asan tools/fuzz.sh $seconds
