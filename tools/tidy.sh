@@ -4,7 +4,8 @@
 #
 #   tools/tidy.sh [MODULE …]            all modules unless told otherwise: tools/tidy.sh stream game app
 #   tools/tidy.sh --changed [COMMIT]    modules with a file that changed since COMMIT; without one, in the half day before the
-#                                       newest commit. All modules where TERRANE_DEPTH=all
+#                                       newest commit. All modules where that commit is missing (a shallow clone), or
+#                                       TERRANE_DEPTH=all
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,7 +16,8 @@ changed_modules() {
     local newest base=${1:-}
     newest=$(git log -1 --format=%ct)
     [[ -n $base ]] || base=$(git rev-list -1 --before="$((newest - 43200))" HEAD)
-    git diff --name-only "${base:-HEAD~1}" HEAD -- 'terrane/*.cpp' 'terrane/*.h' 'apps/*.cpp' 'apps/*.h' |
+    [[ -n $base ]] || { echo '*'; return; }  # a clone without that history
+    git diff --name-only "$base" HEAD -- 'terrane/*.cpp' 'terrane/*.h' 'apps/*.cpp' 'apps/*.h' |
         sed -nE 's#^terrane/([^/]+)/.*#\1#p; s#^apps/terrane/.*#app#p' | sort -u
 }
 
