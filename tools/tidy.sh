@@ -25,6 +25,7 @@ modules=("$@")
 if [[ ${1:-} == --changed ]]; then
     modules=('*')
     if [[ ${TERRANE_DEPTH:-} != all ]]; then
+        [[ -z ${2:-} ]] || git rev-parse --quiet --verify "$2^{commit}" >/dev/null || { echo "tidy: no commit $2" >&2; exit 2; }
         mapfile -t modules < <(changed_modules "${2:-}")
         [[ ${#modules[@]} -gt 0 ]] || { echo "tidy: no module changed"; exit 0; }
         echo "tidy: ${modules[*]}"
