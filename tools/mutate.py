@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Mutation runs: changes one operator or constant at a time and counts the changes that the tests detect.
 
-    mutate.py [--count 200] [--seed 1] [--modules gen,light,mesh,store,net] -o FOLDER
+    mutate.py [--count 200] [--seed 1] [--modules gen,light] -o FOLDER
     mutate.py -o FOLDER --again     tries the undetected changes again, on the current sources
     mutate.py --report FOLDER       prints the tables
 

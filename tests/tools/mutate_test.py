@@ -156,7 +156,7 @@ class Programs(unittest.TestCase):
             path = pathlib.Path(folder) / "a_tests"
             path.write_text("#!/bin/sh\n" + script)
             path.chmod(0o755)
-            yield Program("a_tests", path, 2), pathlib.Path(folder)
+            yield Program(path, 2), pathlib.Path(folder)
 
     def run_script(self, script):
         with self.program(script) as (program, _):
@@ -164,6 +164,16 @@ class Programs(unittest.TestCase):
 
     def test_passing(self):
         self.assertEqual(self.run_script("exit 0\n").kind, "passed")
+
+    def test_a_script_uses_the_program(self):
+        with self.program("exit 3\n") as (program, folder):
+            script = folder / "cli_test.py"
+            script.write_text("import subprocess, sys\nif subprocess.run([sys.argv[1]]).returncode:\n"
+                              "    print('FAIL: test_version (cli_test.CliTest)')\n    sys.exit(1)\n")
+            run = Program(program.path, 2, script=script).run(Unchanged(quick_seconds=1))
+            self.assertEqual((run.kind, run.test), ("noticed", "test_version"))
+            program.path.write_text("#!/bin/sh\n")
+            self.assertEqual(Program(program.path, 2, script=script).run(Unchanged()).kind, "passed")
 
     def test_a_failing_shard(self):
         script = '[ "$GTEST_SHARD_INDEX" = 0 ] && exec sleep 100000\necho "[  FAILED  ] A.B (3 ms)"; exit 1\n'
@@ -211,9 +221,10 @@ class Programs(unittest.TestCase):
 
     def test_the_own_program_is_the_first(self):
         for module, names in PROGRAMS.items():
-            self.assertEqual(names[0], f"{module}_tests")
+            self.assertEqual(names[0], {"video": "record_tests"}.get(module, f"{module}_tests"))
         self.assertEqual(programs_of("net", {"net_tests", "gen_tests"}), ["net_tests"])
         self.assertEqual(programs_of("base", {"base_tests"}), ["base_tests"])
+        self.assertEqual(programs_of("pack", {"pack_tests", "terrane"}), ["pack_tests", "packs_test.py"])
 
 
 def place(module, line, old="<", new="<="):

@@ -1,4 +1,4 @@
-"""Builds the test programs: without unity builds, with -O1, with assertions."""
+"""Builds the test programs: each source of the library alone, with -O1, with assertions."""
 
 import os
 import re
@@ -15,9 +15,8 @@ SETTINGS = {
     "CMAKE_CXX_FLAGS_MUTATION": "-O1",
     "CMAKE_GTEST_DISCOVER_TESTS_DISCOVERY_MODE": "PRE_TEST",  # a crashing test program does not fail the build
     "TERRANE_BENCHMARKS": "OFF",
-    "TERRANE_GRAPHICS": "OFF",
     "TERRANE_PYTHON": "OFF",
-    "TERRANE_WEB": "OFF",
+    "TERRANE_UNITY_TESTS": "ON",
 }
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from . import BadInput
 from .build import Build
 from .draw import Draw
-from .places import places_of_module, read_source
+from .places import modules_of, places_of_module, read_source
 from .programs import Unchangeds
 from .report import report_of
 from .results import Results
@@ -17,7 +17,6 @@ from .tree import Tree, digest_of
 from .trial import Trial, place_now
 
 ROOT = Path(__file__).resolve().parent.parent.parent
-MODULES = "gen,light,mesh,store,net"
 MOST_NOT_COMPILED = 20  # in a row: the build is broken
 
 
@@ -26,7 +25,7 @@ def main(arguments, description):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--count", type=int, default=200, help="of places (200)")
     parser.add_argument("--seed", type=int, default=1, help="of the draw (1)")
-    parser.add_argument("--modules", default=MODULES, metavar="NAMES", help=f"with commas ({MODULES})")
+    parser.add_argument("--modules", metavar="NAMES", help="with commas; app is the program (all modules)")
     parser.add_argument("-j", "--jobs", type=int, default=2, help="compilers, and processes of a test program (2)")
     parser.add_argument("--patience", type=float, default=3, metavar="N", help="tests hang if they take N times as long as "
                         "without a change (3); more on a machine that does other work")
@@ -86,9 +85,9 @@ def prepare(options, modules):
 
 def try_places(options):
     results = Results(options.output / "results.jsonl").read()
-    modules = options.modules.split(",")
+    modules = options.modules.split(",") if options.modules else modules_of(ROOT)
     for module in modules:
-        if not (ROOT / "terrane" / module).is_dir():
+        if module not in modules_of(ROOT):
             raise BadInput(f"--modules: there is no module {module}")
     settings = {"count": options.count, "seed": options.seed, "modules": modules, "sources": digest_of(ROOT, modules)}
     if results.settings not in (None, settings):

@@ -79,11 +79,19 @@ def places_of_file(module, file, source):
         yield Place(module, file, line, offset - starts[line - 1], old, new)
 
 
+def modules_of(root):
+    """All modules of the library, and the program, which is called app."""
+    return ["app"] + sorted(path.name for path in (root / "terrane").iterdir() if path.is_dir())
+
+
+def folder_of(root, module):
+    return root / "apps" / "terrane" if module == "app" else root / "terrane" / module
+
+
 def places_of_module(root, module):
     """All places of the module, and its lines of code: those with a token."""
     places, line_count = [], 0
-    folder = root / "terrane" / module
-    for path in sorted(path for path in folder.rglob("*") if path.suffix in (".h", ".cpp")):
+    for path in sorted(path for path in folder_of(root, module).rglob("*") if path.suffix in (".h", ".cpp")):
         source = read_source(path)
         places += places_of_file(module, path.relative_to(root).as_posix(), source)
         starts = line_starts(source)

@@ -6,6 +6,7 @@ import os
 import re
 import resource
 import subprocess
+import sys
 import tempfile
 import time
 from dataclasses import asdict, dataclass, field
@@ -14,15 +15,33 @@ from pathlib import Path
 from . import BadInput
 from .processes import end_group
 
-# The module's own program first, then those of modules that include it, the quick ones first. They run in this order
-# until one detects the change. Modules that are not listed are checked by their own program only.
+# The module's own program first, then those of modules that include it, the quick ones first. They run in this order until one
+# detects the change. Modules that are not listed are checked by their own program only. NAME.py is a script of tests/app, which
+# uses the program itself.
 PROGRAMS = {
+    "app": ("app_tests", "record_tests", "maps_tests", "window_tests", "save_commands_test.py", "cli_test.py", "help_test.py",
+            "dump_test.py", "packs_test.py"),
+    "base": ("base_tests", "world_tests", "store_tests", "formats_tests", "net_tests"),
+    "content": ("content_tests", "app_tests", "pack_tests"),
     "gen": ("gen_tests", "lua_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests"),
+    "game": ("game_tests", "net_tests"),
+    "gpu": ("gpu_tests", "gen_gpu_tests", "mesh_gpu_tests", "render_tests"),
     "light": ("light_tests", "volume_tests", "stream_tests", "game_tests"),
+    "map": ("map_tests", "web_tests", "maps_tests"),
     "mesh": ("mesh_tests", "formats_tests", "stream_tests", "game_tests"),
+    "net": ("net_tests", "net_postgres_tests"),
+    "net_postgres": ("net_postgres_tests",),
+    "pack": ("pack_tests", "packs_test.py"),
+    "render": ("render_tests", "golden_tests", "view_tests"),
+    "shared": ("shared_tests", "world_tests", "gen_tests", "mesh_tests", "render_tests"),
+    "sound": ("sound_tests", "window_tests"),
     "store": ("store_tests", "faults_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests",
               "store_postgres_tests"),
-    "net": ("net_tests", "net_postgres_tests"),
+    "store_postgres": ("store_postgres_tests", "net_postgres_tests"),
+    "stream": ("stream_tests", "game_tests", "faults_tests", "net_tests", "view_tests"),
+    "video": ("record_tests", "record_test.py"),
+    "view": ("view_tests", "golden_tests"),
+    "world": ("world_tests", "mesh_tests", "light_tests", "game_tests", "store_tests", "stream_tests"),
 }
 ONE_PROCESS = ("store_postgres_tests", "net_postgres_tests")  # each process starts a database server
 # The program of another module is not built for a header that more object files than this include.
@@ -37,10 +56,15 @@ OUTPUT_BYTES = 1 << 20  # read from each end of a program's output: an endless l
 
 def programs_of(module, targets):
     """The programs of a module that exist in the build."""
-    own = f"{module}_tests"
-    if own not in targets:
-        raise BadInput(f"module {module}: the build has no program {own}")
-    return [program for program in PROGRAMS.get(module, (own,)) if program in targets]
+    programs = PROGRAMS.get(module, (f"{module}_tests",))
+    if programs[0] not in targets:
+        raise BadInput(f"module {module}: the build has no program {programs[0]}")
+    return [program for program in programs if target_of(program) in targets]
+
+
+def target_of(program):
+    """What is built for it."""
+    return "terrane" if program.endswith(".py") else program
 
 
 @dataclass
@@ -61,14 +85,20 @@ class Run:
 
 
 class Program:
-    def __init__(self, name, path, jobs, patience=3):
-        self.name = name
+    def __init__(self, path, jobs, patience=3, script=None):
         self.path = path
-        self.jobs = 1 if name in ONE_PROCESS else jobs
+        self.command = [str(path)] if script is None else [sys.executable, "-B", str(script), str(path)]
+        self.is_script = script is not None
+        self.jobs = 1 if self.is_script or path.name in ONE_PROCESS else jobs
         self.patience = patience  # factor on the time without a change, after which tests count as hanging
 
     def measure(self):
         with scratch_folder() as folder:
+            if self.is_script:
+                run = self.run_shards([], UNCHANGED_LIMIT_SECONDS, folder, fails_fast=False)
+                if run.kind != "passed":
+                    raise BadInput(f"{self.command[2]}: fails unchanged")
+                return Unchanged(quick_seconds=run.seconds, longest_seconds=run.seconds)
             run = self.run_shards(["--gtest_output=json:{folder}/{shard}.json"], UNCHANGED_LIMIT_SECONDS, folder,
                                   fails_fast=False)
             reports = list(folder.glob("*.json"))
@@ -77,17 +107,17 @@ class Program:
             return unchanged_of([json.loads(path.read_text(encoding="utf-8")) for path in reports])
 
     def run(self, unchanged):
-        """The quick tests, then the others, until one fails."""
+        """The quick tests, then the others, until one fails; a script as a whole."""
         not_quick = ":".join(unchanged.slow + unchanged.failing)
-        runs = [(f"--gtest_filter=*-{not_quick}", unchanged.quick_seconds, QUICK_SECONDS)]
+        runs = [([] if self.is_script else [f"--gtest_filter=*-{not_quick}"], unchanged.quick_seconds, QUICK_SECONDS)]
         if unchanged.slow:
-            option = f"--gtest_filter={':'.join(unchanged.slow)}"
-            runs.append((option, unchanged.slow_seconds, unchanged.longest_seconds))
+            options = [f"--gtest_filter={':'.join(unchanged.slow)}"]
+            runs.append((options, unchanged.slow_seconds, unchanged.longest_seconds))
         seconds = 0.0
-        for option, unchanged_seconds, longest in runs:
+        for options, unchanged_seconds, longest in runs:
             limit = 10 + self.patience * max(unchanged_seconds / self.jobs, longest)
             with scratch_folder() as folder:
-                run = self.run_shards([option], limit, folder, fails_fast=True)
+                run = self.run_shards(options, limit, folder, fails_fast=True)
             seconds += run.seconds
             if run.kind != "passed":
                 break
@@ -121,7 +151,7 @@ class Program:
         environment = {**os.environ, "TMPDIR": str(home), "GTEST_TOTAL_SHARDS": str(self.jobs),
                        "GTEST_SHARD_INDEX": str(shard), "GTEST_FAIL_FAST": str(int(fails_fast)), "GTEST_COLOR": "no",
                        "GTEST_BRIEF": "0"}
-        command = [str(self.path)] + [option.format(folder=folder, shard=shard) for option in options]
+        command = self.command + [option.format(folder=folder, shard=shard) for option in options]
         with open(folder / f"{shard}.txt", "wb") as output:
             return subprocess.Popen(command, cwd=home, env=environment, stdin=subprocess.DEVNULL, stdout=output,
                                     stderr=subprocess.STDOUT, start_new_session=True, preexec_fn=set_limits)
@@ -153,9 +183,9 @@ def read_output(path):
 
 def test_that_failed(output):
     """The first failed test, else the running one."""
-    failed = re.search(r"^\[  FAILED  \] ([^\s,]+)", output, re.MULTILINE)
+    failed = re.search(r"^\[  FAILED  \] ([^\s,]+)|^(?:FAIL|ERROR): (\S+)", output, re.MULTILINE)
     if failed:
-        return failed.group(1)
+        return failed.group(1) or failed.group(2)
     running = re.findall(r"^\[ RUN      \] (\S+)", output, re.MULTILINE)
     return running[-1] if running else ""
 

@@ -6,6 +6,7 @@ import shutil
 import subprocess
 
 from . import BadInput
+from .places import folder_of
 
 NOT_TESTED = ("docs/", "packaging/", "python/", "tools/")  # by the test programs
 
@@ -53,7 +54,7 @@ def digest_of(root, modules):
     """Digest of the modules' sources: if it is unchanged, so are the places."""
     digest = hashlib.sha256()
     for module in modules:
-        for path in sorted((root / "terrane" / module).rglob("*")):
+        for path in sorted(folder_of(root, module).rglob("*")):
             if path.suffix in (".h", ".cpp"):
                 digest.update(path.relative_to(root).as_posix().encode() + b"\0" + path.read_bytes() + b"\0")
     return digest.hexdigest()[:16]

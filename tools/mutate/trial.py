@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from . import BadInput
 from .places import changed, read_source
-from .programs import MOST_OBJECTS, Program, programs_of
+from .programs import MOST_OBJECTS, Program, programs_of, target_of
 from .results import Result
 
 
@@ -21,7 +21,7 @@ class Trial:
         targets = self.build.targets()
         self.programs = {module: programs_of(module, targets) for module in modules}
         for name in dict.fromkeys(name for names in self.programs.values() for name in names):
-            built = self.build.build(name)
+            built = self.build.build(target_of(name))
             if not built.is_good:
                 raise BadInput(f"{name} cannot be built unchanged: {built.error}")
             if name in self.unchangeds.by_program:
@@ -35,7 +35,8 @@ class Trial:
         self.build.read_dependencies()
 
     def program(self, name):
-        return Program(name, self.build.folder / name, self.options.jobs, self.options.patience)
+        script = self.tree / "tests" / "app" / name if name.endswith(".py") else None
+        return Program(self.build.folder / target_of(name), self.options.jobs, self.options.patience, script)
 
     def run(self, place):
         path = self.tree / place.file
@@ -52,7 +53,7 @@ class Trial:
 
     def run_programs(self, result):
         for name in self.programs[result.place.module][:1 if result.is_wide else None]:
-            built = self.build.build(name)
+            built = self.build.build(target_of(name))
             result.build_seconds = round(result.build_seconds + built.seconds, 1)
             if not built.is_good:
                 result.outcome, result.by = "not_compiled", built.error
