@@ -18,9 +18,8 @@ base::Result<OnBackend<Worker>> onCpu(Backend backend, std::unique_ptr<Worker> w
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
                                                                 const pack::Content& content) {
-    auto generator = makeGenerator(options, content);
-    if (!generator) return tl::unexpected(generator.error());
-    return onCpu(backend, gen::makeCpuGenerator(std::move(*generator), threadCount(options)));
+    auto generator = TERRANE_TRY(makeGenerator(options, content));
+    return onCpu(backend, gen::makeCpuGenerator(std::move(generator), threadCount(options)));
 }
 
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table) {

@@ -17,9 +17,8 @@ using Context = std::shared_ptr<gpu::HeadlessContext>;
 // A headless context for work on the GPU; null for work on the CPU.
 base::Result<Context> openContext(Backend backend) {
     if (!usesGpu(backend)) return nullptr;
-    auto context = gpu::HeadlessContext::create({});
-    if (!context) return tl::unexpected(context.error());
-    return std::make_shared<gpu::HeadlessContext>(std::move(*context));
+    auto context = TERRANE_TRY(gpu::HeadlessContext::create({}));
+    return std::make_shared<gpu::HeadlessContext>(std::move(context));
 }
 
 // `makeCpu` returns a Result<unique_ptr<Worker>>, `makeGpu` a Result of a class that implements Worker in the
@@ -27,17 +26,15 @@ base::Result<Context> openContext(Backend backend) {
 template <class Worker, class MakeCpu, class MakeGpu>
 base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& makeCpu,
                                               const MakeGpu& makeGpu) {
-    auto context = openContext(backend);
-    if (!context) return tl::unexpected(context.error());
-    if (!*context) {
-        base::Result<std::unique_ptr<Worker>> worker = makeCpu();
-        if (!worker) return tl::unexpected(worker.error());
-        return OnBackend<Worker>{nullptr, std::move(*worker)};
+    auto context = TERRANE_TRY(openContext(backend));
+    if (!context) {
+        std::unique_ptr<Worker> worker = TERRANE_TRY(makeCpu());
+        return OnBackend<Worker>{nullptr, std::move(worker)};
     }
     auto worker = makeGpu();
     if (!worker) return tl::unexpected(worker.error());
     using GpuWorker = typename decltype(worker)::value_type;
-    return OnBackend<Worker>{std::move(*context), std::make_unique<GpuWorker>(std::move(*worker))};
+    return OnBackend<Worker>{std::move(context), std::make_unique<GpuWorker>(std::move(*worker))};
 }
 
 }  // namespace
@@ -51,9 +48,8 @@ base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionPar
                                                                 Backend backend) {
     if (!usesGpu(backend)) return nullptr;
     const store::WorldIdentity& identity = parts.store->identity();
-    auto graph = gen::makeGenerator(identity.generator, *parts.blocks, 0, generators);
-    if (!graph) return tl::unexpected(graph.error());
-    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), *graph, identity.seed, *parts.blocks);
+    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, generators));
+    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), graph, identity.seed, *parts.blocks);
     if (made) view::useBackEnds(parts, **made);
     return made;
 }
@@ -61,14 +57,12 @@ base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionPar
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
                                                                 const pack::Content& content) {
     const auto makeCpu = [&]() -> base::Result<std::unique_ptr<gen::BatchGenerator>> {
-        auto generator = makeGenerator(options, content);
-        if (!generator) return tl::unexpected(generator.error());
-        return gen::makeCpuGenerator(std::move(*generator), threadCount(options));
+        auto generator = TERRANE_TRY(makeGenerator(options, content));
+        return gen::makeCpuGenerator(std::move(generator), threadCount(options));
     };
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
-        auto graph = makeGraph(options, content);
-        if (!graph) return tl::unexpected(graph.error());
-        return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), *graph, options.effectiveSeed());
+        auto graph = TERRANE_TRY(makeGraph(options, content));
+        return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), graph, options.effectiveSeed());
     };
     return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);
 }
@@ -87,9 +81,8 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
         return mesh::makeCpuMesher();
     };
     const auto makeGpu = [&]() -> base::Result<mesh_gpu::GpuBatchMesher> {
-        auto mesher = mesh_gpu::GpuMesher::create(gpu::builtInShaders(""), blocks);
-        if (!mesher) return tl::unexpected(mesher.error());
-        return mesh_gpu::GpuBatchMesher(std::move(*mesher));
+        auto mesher = TERRANE_TRY(mesh_gpu::GpuMesher::create(gpu::builtInShaders(""), blocks));
+        return mesh_gpu::GpuBatchMesher(std::move(mesher));
     };
     return makeOnBackend<mesh::BatchMesher>(backend, makeCpu, makeGpu);
 }

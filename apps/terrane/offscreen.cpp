@@ -9,15 +9,13 @@ namespace terrane::app {
 base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOptions& options) {
     const GraphicsOptions& graphics = options.graphics;
     WorldOptions world = options.world;
-    auto opened = openSessionParts(world, options.save, options.access);
-    if (!opened) return tl::unexpected(opened.error());
-    game::SessionParts& parts = opened->parts;
-    auto textures = content::loadTextures(graphics.resourcePack, *parts.blocks, opened->content.textures);
-    if (!textures) return tl::unexpected(textures.error());
-    auto context = gpu::HeadlessContext::create({.debug = graphics.debugGl});
-    if (!context) return tl::unexpected(context.error());
+    auto opened = TERRANE_TRY(openSessionParts(world, options.save, options.access));
+    game::SessionParts& parts = opened.parts;
+    auto textures =
+        TERRANE_TRY(content::loadTextures(graphics.resourcePack, *parts.blocks, opened.content.textures));
+    auto context = TERRANE_TRY(gpu::HeadlessContext::create({.debug = graphics.debugGl}));
 
-    std::unique_ptr<Offscreen> made(new Offscreen{std::move(*context),
+    std::unique_ptr<Offscreen> made(new Offscreen{std::move(context),
                                                   gpu::builtInShaders(graphics.shaderRoot),
                                                   gpu::queryDevice(),
                                                   {},
@@ -25,16 +23,14 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOption
                                                   {},
                                                   {},
                                                   {}});
-    auto backEnds = chooseBackEnds(parts, opened->content.generators, options.backend);
-    if (!backEnds) return tl::unexpected(backEnds.error());
-    made->backEnds = std::move(*backEnds);
-    auto renderer = render::Renderer::create(made->shaders, *parts.blocks, *textures, made->device);
+    auto backEnds = TERRANE_TRY(chooseBackEnds(parts, opened.content.generators, options.backend));
+    made->backEnds = std::move(backEnds);
+    auto renderer = render::Renderer::create(made->shaders, *parts.blocks, textures, made->device);
     if (!renderer) return tl::unexpected(renderer.error());
     made->renderer = std::move(*renderer);
     made->renderer.setMemoryBudget(view::gpuMemoryBudget(made->device, graphics.gpuMemory));
     made->graphics = render::settingsOf(graphics.choices, made->device.software);
-    if (auto done = made->renderer.configure(graphics.size, made->graphics.render); !done)
-        return tl::unexpected(done.error());
+    TERRANE_TRY(made->renderer.configure(graphics.size, made->graphics.render));
     made->renderer.setViewDistance(made->graphics.viewDistance);
     made->session = std::make_unique<game::Session>(std::move(parts));
     made->session->pipeline().setMeshOptions(made->graphics.mesh);

@@ -27,18 +27,18 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
         return nullptr;
     }
     // An unknown generator is an error before a save is created.
-    if (auto known = makeGraph(options, content); !known) return tl::unexpected(known.error());
+    (void)TERRANE_TRY(makeGraph(options, content));
     store::WorldRequest request;
     request.access = access;
     if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options, content);
     request.world = {options.seed, options.generator, save.regenerate, save.followsGenerator};
     request.versionOf = [&](std::string_view name) { return gen::versionOf(content.generators, name); };
     request.sharing = sharing;
-    auto opened = store_postgres::openAnyWorld(store::worldLocation(save.world), *content.blocks, request);
-    if (!opened) return opened;
-    if (access != store::WorldAccess::ReadOnly) pack::rememberPacks(**opened, content);
-    options.seed = (*opened)->identity().seed;
-    options.generator = (*opened)->identity().generator;
+    auto opened =
+        TERRANE_TRY(store_postgres::openAnyWorld(store::worldLocation(save.world), *content.blocks, request));
+    if (access != store::WorldAccess::ReadOnly) pack::rememberPacks(*opened, content);
+    options.seed = opened->identity().seed;
+    options.generator = opened->identity().generator;
     return opened;
 }
 
@@ -47,9 +47,8 @@ base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const p
 }
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content) {
-    auto graph = makeGraph(options, content);
-    if (!graph) return tl::unexpected(graph.error());
-    return gen::Generator(std::move(*graph), options.effectiveSeed());
+    auto graph = TERRANE_TRY(makeGraph(options, content));
+    return gen::Generator(std::move(graph), options.effectiveSeed());
 }
 
 namespace {
@@ -67,18 +66,14 @@ bool storesGenerated(store::ChunkStore& store, const SaveOptions& save) {
 
 base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                            store::WorldAccess access, store::WorldSharing sharing) {
-    auto content = loadContent(options, save);
-    if (!content) return tl::unexpected(content.error());
-    auto opened = openSave(options, save, access, *content, sharing);
-    if (!opened) return tl::unexpected(opened.error());
-    auto generators = gen::makeLevelGenerators(options.effectiveGenerator(), *content->blocks,
-                                               options.effectiveSeed(), content->generators);
-    if (!generators) return tl::unexpected(generators.error());
-    if (!*opened) *opened = std::make_unique<store::MemoryStore>(identityOf(options, *content));
-    game::SessionParts parts{content->blocks, std::move(*generators), std::move(*opened),
-                             threadCount(options)};
+    auto content = TERRANE_TRY(loadContent(options, save));
+    auto opened = TERRANE_TRY(openSave(options, save, access, content, sharing));
+    auto generators = TERRANE_TRY(gen::makeLevelGenerators(options.effectiveGenerator(), *content.blocks,
+                                                           options.effectiveSeed(), content.generators));
+    if (!opened) opened = std::make_unique<store::MemoryStore>(identityOf(options, content));
+    game::SessionParts parts{content.blocks, std::move(generators), std::move(opened), threadCount(options)};
     parts.storesGenerated = storesGenerated(*parts.store, save);
-    return OpenedWorld{std::move(*content), std::move(parts)};
+    return OpenedWorld{std::move(content), std::move(parts)};
 }
 
 }  // namespace terrane::app

@@ -45,12 +45,11 @@ struct SettingsText {
 base::Result<SettingsText> readSettings(const fs::path& file) {
     std::error_code ignored;
     if (!fs::exists(file, ignored)) return SettingsText();
-    auto text = base::readFile(file);
-    if (!text) return tl::unexpected(text.error());
+    auto text = TERRANE_TRY(base::readFile(file));
     try {
-        toml::table table = toml::parse(*text, file.string());
+        toml::table table = toml::parse(text, file.string());
         useCurrentNames(table);
-        return SettingsText{std::move(*text), std::move(table)};
+        return SettingsText{std::move(text), std::move(table)};
     } catch (const toml::parse_error& error) {
         return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
     }
@@ -151,9 +150,8 @@ fs::path settingsPath() {
 base::Result<void> applySettings(const fs::path& file, CLI::App& command,
                                  const std::vector<std::string>& graphics) {
     if (file.empty()) return {};
-    const auto read = readSettings(file);
-    if (!read) return tl::unexpected(read.error());
-    const toml::table& table = read->table;
+    const auto read = TERRANE_TRY(readSettings(file));
+    const toml::table& table = read.table;
     const CLI::Option* preset = command.get_option_no_throw("--preset");
     const bool standsAlone = preset && preset->count() > 0;
     // In the order of the options: the preset precedes the options that change it.
@@ -162,7 +160,7 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
         const bool isGraphics = std::find(graphics.begin(), graphics.end(), name) != graphics.end();
         const auto found = table.find(name);
         if (found == table.end() || (isGraphics && standsAlone)) continue;
-        if (auto done = applyOne(file, command, found->first, found->second); !done) return done;
+        TERRANE_TRY(applyOne(file, command, found->first, found->second));
     }
     for (const auto& [key, node] : table) {
         if (command.get_option_no_throw("--" + std::string(key.str()))) continue;
@@ -174,11 +172,10 @@ base::Result<void> applySettings(const fs::path& file, CLI::App& command,
 base::Result<void> writeChanges(const fs::path& file, const SettingValues& before, const SettingValues& after,
                                 const std::vector<std::string>& graphics) {
     if (file.empty() || before == after) return {};
-    const auto settings = readSettings(file);
-    if (!settings) return tl::unexpected(settings.error());
+    const auto settings = TERRANE_TRY(readSettings(file));
     std::error_code ignored;  // an error shows when the file is written
     fs::create_directories(file.parent_path(), ignored);
-    return base::writeFile(file, withChanges(*settings, changesOf(before, after, graphics)));
+    return base::writeFile(file, withChanges(settings, changesOf(before, after, graphics)));
 }
 
 }  // namespace terrane::app

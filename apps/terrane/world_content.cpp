@@ -9,17 +9,14 @@
 namespace terrane::app {
 
 base::Result<pack::Content> loadContent(const WorldOptions& options, const SaveOptions& save) {
-    auto packs = pack::readPacks(options.content);
-    if (!packs) return tl::unexpected(packs.error());
+    auto packs = TERRANE_TRY(pack::readPacks(options.content));
     if (!save.world.empty()) {
         // If the world cannot be read, opening it reports the error.
         const auto metadata = store_postgres::anyWorldMetadata(store::worldLocation(save.world));
-        if (metadata)
-            if (auto added = pack::addPacks(*packs, pack::rememberedPacks(*metadata)); !added)
-                return tl::unexpected(added.error());
+        if (metadata) TERRANE_TRY(pack::addPacks(packs, pack::rememberedPacks(*metadata)));
     }
-    if (auto added = pack::addRequired(*packs); !added) return tl::unexpected(added.error());
-    return pack::loadContent(std::move(*packs));
+    TERRANE_TRY(pack::addRequired(packs));
+    return pack::loadContent(std::move(packs));
 }
 
 base::Result<pack::Content> loadInstalledContent(const WorldOptions& options) {

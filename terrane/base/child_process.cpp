@@ -96,11 +96,10 @@ Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOp
     if (command.empty()) return fail(ErrorCode::BadInput, "no program to run is named");
     int crashes = 0;
     for (int run = 1;; ++run) {
-        auto end = runOnce(command, options);
-        if (!end) return end;
-        crashes += end->crashes;
-        if (end->crashes > 0 && run < options.mostRuns) continue;
-        end->crashes = crashes;
+        auto end = TERRANE_TRY(runOnce(command, options));
+        crashes += end.crashes;
+        if (end.crashes > 0 && run < options.mostRuns) continue;
+        end.crashes = crashes;
         return end;
     }
 }

@@ -63,10 +63,9 @@ Result<std::string> readFile(const std::filesystem::path& path, std::size_t maxB
 }
 
 Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes) {
-    Result<OutputFile> file = OutputFile::create(path);
-    if (!file) return tl::unexpected(file.error());
-    if (auto written = file->write(0, bytes); !written) return written;
-    return file->finish();
+    OutputFile file = TERRANE_TRY(OutputFile::create(path));
+    TERRANE_TRY(file.write(0, bytes));
+    return file.finish();
 }
 
 Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes) {

@@ -94,13 +94,13 @@ Result<void> setSize(PngImage& png, const Image& image) {
 
 Result<std::string> encodePng(const Image& image) {
     PngImage png;
-    if (auto fits = setSize(png, image); !fits) return tl::unexpected(fits.error());
+    TERRANE_TRY(setSize(png, image));
     return encode(png, image.rgba.data());
 }
 
 Result<std::string> encodePngFast(const Image& image) {
     PngImage png;
-    if (auto fits = setSize(png, image); !fits) return tl::unexpected(fits.error());
+    TERRANE_TRY(setSize(png, image));
     png.flags |= PNG_IMAGE_FLAG_FAST;
     std::vector<std::uint8_t> rgb;
     for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
@@ -112,9 +112,8 @@ Result<std::string> encodePngFast(const Image& image) {
 }
 
 Result<Image> readPng(const std::filesystem::path& path, std::int64_t maxPixels) {
-    const Result<std::string> bytes = readFile(path);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return decodePng(*bytes, path.string(), maxPixels);
+    const std::string bytes = TERRANE_TRY(readFile(path));
+    return decodePng(bytes, path.string(), maxPixels);
 }
 
 Result<void> writePng(const std::filesystem::path& path, const Image& image) {

@@ -91,7 +91,7 @@ tl::unexpected<Error> tooManyTemporary(const fs::path& path) {
 
 Result<OutputFile> OutputFile::create(const fs::path& given) {
     const fs::path path = behindLinks(given);
-    if (auto checked = checkReplaceable(path); !checked) return tl::unexpected(checked.error());
+    TERRANE_TRY(checkReplaceable(path));
     const auto made = [&](int descriptor, fs::path temporary) {
         keepMode(descriptor, path);
         return OutputFile(descriptor, path, std::move(temporary));

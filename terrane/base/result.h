@@ -77,4 +77,28 @@ template <class... Args>
     return fail(ErrorCode::Failed, format, std::forward<Args>(args)...);
 }
 
+// Used by TERRANE_TRY. A value must be used: a lock that the caller does not keep would be released at once.
+template <class T>
+[[nodiscard]] T valueOf(Result<T>&& result) {
+    return *std::move(result);
+}
+inline void valueOf(Result<void>&&) {}
+
 }  // namespace terrane::base
+
+// The value of a result, or a return of its error from the function around it:
+//
+//     const auto text = TERRANE_TRY(readFile(path));
+//     TERRANE_TRY(writeFile(path, text));
+//
+// A statement expression, which GCC and Clang have. Use it as a statement or as a whole initializer: a return
+// from the middle of an expression leaves the rest of the expression open.
+#define TERRANE_TRY(...) TERRANE_TRY_NAMED(TERRANE_TRY_JOIN(terraneResult, __COUNTER__), __VA_ARGS__)
+#define TERRANE_TRY_NAMED(result, ...)                                 \
+    __extension__({                                                    \
+        auto result = (__VA_ARGS__);                                   \
+        if (!result) return tl::unexpected(std::move(result).error()); \
+        ::terrane::base::valueOf(std::move(result));                   \
+    })
+#define TERRANE_TRY_JOIN(a, b) TERRANE_TRY_JOINED(a, b)
+#define TERRANE_TRY_JOINED(a, b) a##b

@@ -50,9 +50,8 @@ base::Result<std::vector<TextureFile>> pngFilesIn(const fs::path& folder,
 }
 
 base::Result<base::Image> readTexture(const fs::path& file) {
-    auto image = base::readPng(file, std::int64_t{kMaxTextureSide} * kMaxTextureSide);
-    if (!image) return image;
-    if (auto checked = checkTexture(*image, file.string()); !checked) return tl::unexpected(checked.error());
+    auto image = TERRANE_TRY(base::readPng(file, std::int64_t{kMaxTextureSide} * kMaxTextureSide));
+    TERRANE_TRY(checkTexture(image, file.string()));
     return image;
 }
 
@@ -60,11 +59,10 @@ base::Result<Images> readPack(const fs::path& folder, std::span<const std::strin
     std::set<std::string> packs;
     for (const std::string& name : names)
         if (const auto colon = name.find(':'); colon != name.npos) packs.insert(name.substr(0, colon));
-    const auto files = pngFilesIn(folder, packs);
-    if (!files) return tl::unexpected(files.error());
+    const auto files = TERRANE_TRY(pngFilesIn(folder, packs));
     Images images;
     std::vector<base::Error> errors;
-    for (const auto& [name, file] : *files) {
+    for (const auto& [name, file] : files) {
         if (std::ranges::find(names, name) == names.end()) {
             base::logWarning("{}: not used, since no texture has this name (see terrane blocks --json)",
                              file.string());
@@ -98,15 +96,13 @@ base::Result<void> checkTexture(const base::Image& image, const std::string& whe
 base::Result<world::TextureSource> loadTextures(const std::string& folder, const world::BlockRegistry& blocks,
                                                 const world::TextureSource& otherwise) {
     if (folder.empty()) return otherwise;
-    auto images = readPack(folder, blocks.textures());
-    if (!images) return tl::unexpected(images.error());
+    auto images = TERRANE_TRY(readPack(folder, blocks.textures()));
     for (const std::string& name : blocks.textures()) {
-        if (images->contains(name)) continue;
-        auto image = otherwise(name);
-        if (!image) return tl::unexpected(image.error());
-        (*images)[name] = std::move(*image);
+        if (images.contains(name)) continue;
+        auto image = TERRANE_TRY(otherwise(name));
+        images[name] = std::move(image);
     }
-    const auto all = std::make_shared<const Images>(std::move(*images));
+    const auto all = std::make_shared<const Images>(std::move(images));
     return [all](std::string_view name) -> base::Result<base::Image> {
         const auto found = all->find(name);
         if (found == all->end()) return base::fail("texture \"{}\": there is none", name);

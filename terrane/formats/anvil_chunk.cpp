@@ -73,9 +73,8 @@ base::Result<AnvilSection> sectionOf(int y, const NbtList& palette, const std::v
         if (section.palette.size() > 1) return damaged("a section has no indices");
         return section;
     }
-    auto blocks = unpacked(*words, section.palette.size(), isAligned);
-    if (!blocks) return tl::unexpected(blocks.error());
-    section.blocks = std::move(*blocks);
+    auto blocks = TERRANE_TRY(unpacked(*words, section.palette.size(), isAligned));
+    section.blocks = std::move(blocks);
     return section;
 }
 
@@ -165,9 +164,8 @@ base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyI
     if (sections && sections->tags.size() > kMaxAnvilSections)
         return damaged("the chunk has too many sections");
     for (const NbtTag& tag : sections ? std::span<const NbtTag>(sections->tags) : std::span<const NbtTag>()) {
-        auto section = readSection(tag, result.dataVersion, ids);
-        if (!section) return tl::unexpected(section.error());
-        if (*section) result.sections.push_back(std::move(**section));
+        auto section = TERRANE_TRY(readSection(tag, result.dataVersion, ids));
+        if (section) result.sections.push_back(std::move(*section));
     }
     countBlockEntities(chunk, result);
     return result;

@@ -107,12 +107,10 @@ base::Result<std::size_t> GlbMesh::imageOf(const world::Material& material, bool
     const GlbImageUse use = useOf(material.alpha, isGlow);
     const auto [place, isNew] = imageNumbers_.try_emplace({texture, use}, model.images.size());
     if (!isNew) return place->second;
-    auto image = textures_(texture);
-    if (!image) return tl::unexpected(image.error());
-    prepareImage(*image, use);
-    auto png = base::encodePng(*image);
-    if (!png) return tl::unexpected(png.error());
-    model.images.push_back({texture + std::string(suffixOf(use)), std::move(*png)});
+    auto image = TERRANE_TRY(textures_(texture));
+    prepareImage(image, use);
+    auto png = TERRANE_TRY(base::encodePng(image));
+    model.images.push_back({texture + std::string(suffixOf(use)), std::move(png)});
     return place->second;
 }
 
@@ -122,16 +120,14 @@ base::Result<GlbModel> GlbMesh::finish(std::string name) {
     model.name = std::move(name);
     for (auto& [number, part] : parts_) {
         const world::Material& material = blocks_.materials()[number];
-        const auto image = imageOf(material, false, model);
-        if (!image) return tl::unexpected(image.error());
-        part.image = *image;
-        part.name = model.images[*image].name;
+        const auto image = TERRANE_TRY(imageOf(material, false, model));
+        part.image = image;
+        part.name = model.images[image].name;
         part.alpha = alphaOf(material.alpha);
         part.isTwoSided = material.twoSided;
         if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::TestGlow) {
-            const auto glow = imageOf(material, true, model);
-            if (!glow) return tl::unexpected(glow.error());
-            part.glow = static_cast<int>(*glow);
+            const auto glow = TERRANE_TRY(imageOf(material, true, model));
+            part.glow = static_cast<int>(glow);
         }
         model.parts.push_back(std::move(part));
     }

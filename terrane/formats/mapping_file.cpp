@@ -127,15 +127,13 @@ class BlockMapping::Reader {
 base::Result<BlockMapping> BlockMapping::create(const world::BlockRegistry& blocks,
                                                 std::span<const MappingFile> files) {
     BlockMapping mapping(blocks);
-    for (const MappingFile& file : files)
-        if (auto read = Reader(mapping, file).read(); !read) return tl::unexpected(read.error());
+    for (const MappingFile& file : files) TERRANE_TRY(Reader(mapping, file).read());
     return mapping;
 }
 
 base::Result<BlockMapping> loadMapping(const world::BlockRegistry& blocks, const std::string& file) {
-    const auto builtIn = builtInFile("minecraft.toml");
-    if (!builtIn) return tl::unexpected(builtIn.error());
-    std::vector<MappingFile> files{{*builtIn, "minecraft.toml"}};
+    const auto builtIn = TERRANE_TRY(builtInFile("minecraft.toml"));
+    std::vector<MappingFile> files{{builtIn, "minecraft.toml"}};
     base::Result<std::string> text;
     if (!file.empty()) {
         text = base::readFile(file, kMaxMappingBytes);
@@ -146,9 +144,8 @@ base::Result<BlockMapping> loadMapping(const world::BlockRegistry& blocks, const
 }
 
 base::Result<LegacyIds> builtInLegacyIds() {
-    const auto text = builtInFile("minecraft_ids.toml");
-    if (!text) return tl::unexpected(text.error());
-    return LegacyIds::parse(*text, "minecraft_ids.toml");
+    const auto text = TERRANE_TRY(builtInFile("minecraft_ids.toml"));
+    return LegacyIds::parse(text, "minecraft_ids.toml");
 }
 
 }  // namespace terrane::formats

@@ -79,9 +79,8 @@ base::Result<std::string> readRegionChunk(std::string_view region, int number,
     if ((compression & kIsExternal) == 0)
         return decompressed(region.substr(start + 5, length - 1), compression);
     if (!external) return base::fail(base::ErrorCode::NotFound, "is in a separate file");
-    const auto bytes = external();
-    if (!bytes) return tl::unexpected(bytes.error());
-    return decompressed(*bytes, static_cast<std::uint8_t>(compression & ~kIsExternal));
+    const auto bytes = TERRANE_TRY(external());
+    return decompressed(bytes, static_cast<std::uint8_t>(compression & ~kIsExternal));
 }
 
 }  // namespace terrane::formats

@@ -35,8 +35,7 @@ base::Result<glm::ivec3> sizeOf(const NbtCompound& schematic) {
         if (!side) return damagedSchematic("its size is missing");
         sides[k] = *side & kMaxSide;
     }
-    if (auto checked = checkVolumeSize(sides[0], sides[1], sides[2]); !checked)
-        return tl::unexpected(checked.error());
+    TERRANE_TRY(checkVolumeSize(sides[0], sides[1], sides[2]));
     return glm::ivec3(sides[0], sides[1], sides[2]);
 }
 
@@ -76,33 +75,29 @@ base::Result<std::unordered_map<std::uint32_t, std::uint16_t>> readPalette(const
 
 base::Result<NamedVolume> readSponge(const NbtCompound& schematic, const NbtCompound& palette,
                                      const NbtBytes& data) {
-    const auto size = sizeOf(schematic);
-    if (!size) return tl::unexpected(size.error());
-    NamedVolume volume{*size, {}, {}};
-    const auto entries = readPalette(palette, volume);
-    if (!entries) return tl::unexpected(entries.error());
-    const auto count = static_cast<std::size_t>(std::int64_t{size->x} * size->y * size->z);
+    const auto size = TERRANE_TRY(sizeOf(schematic));
+    NamedVolume volume{size, {}, {}};
+    const auto entries = TERRANE_TRY(readPalette(palette, volume));
+    const auto count = static_cast<std::size_t>(std::int64_t{size.x} * size.y * size.z);
     if (data.bytes.size() < count) return damagedSchematic("it has too few blocks");
-    const auto numbers = readVarints(data.bytes, count);
-    if (!numbers) return tl::unexpected(numbers.error());
+    const auto numbers = TERRANE_TRY(readVarints(data.bytes, count));
     volume.cells.resize(count);
     for (std::size_t k = 0; k < count; ++k) {
-        const auto entry = entries->find((*numbers)[k]);
-        if (entry == entries->end()) return damagedSchematic("a block has no entry in its palette");
-        volume.cells[cellOfFileIndex(k, *size)] = entry->second;
+        const auto entry = entries.find(numbers[k]);
+        if (entry == entries.end()) return damagedSchematic("a block has no entry in its palette");
+        volume.cells[cellOfFileIndex(k, size)] = entry->second;
     }
     return volume;
 }
 
 // MCEdit's format: a byte of id and one of data for each block, four more bits of ids in AddBlocks.
 base::Result<NamedVolume> readNumbered(const NbtCompound& schematic, const LegacyIds& ids) {
-    const auto size = sizeOf(schematic);
-    if (!size) return tl::unexpected(size.error());
+    const auto size = TERRANE_TRY(sizeOf(schematic));
     const auto* low = schematic.get<NbtBytes>("Blocks");
     const auto* data = schematic.get<NbtBytes>("Data");
     const auto* high = schematic.get<NbtBytes>("AddBlocks");
-    NamedVolume volume{*size, {}, {}};
-    const auto count = static_cast<std::size_t>(std::int64_t{size->x} * size->y * size->z);
+    NamedVolume volume{size, {}, {}};
+    const auto count = static_cast<std::size_t>(std::int64_t{size.x} * size.y * size.z);
     if (!data || low->bytes.size() < count || data->bytes.size() < count ||
         (high && high->bytes.size() < (count + 1) / 2))
         return damagedSchematic("it has too few blocks");
@@ -118,7 +113,7 @@ base::Result<NamedVolume> readNumbered(const NbtCompound& schematic, const Legac
             entry = static_cast<std::int32_t>(volume.palette.size());
             volume.palette.push_back(ids.stateOf(id, bits));
         }
-        volume.cells[cellOfFileIndex(k, *size)] = static_cast<std::uint16_t>(entry);
+        volume.cells[cellOfFileIndex(k, size)] = static_cast<std::uint16_t>(entry);
     }
     return volume;
 }
@@ -133,11 +128,10 @@ void appendVarint(std::string& bytes, std::uint32_t value) {
 base::Result<NamedVolume> decodeSchematic(std::string_view bytes, const LegacyIds& ids) {
     const auto nbt = inflate(bytes, kMaxSchematicBytes);
     if (!nbt) return base::fail(nbt.error().code, "schematic: {}", nbt.error().message);
-    const auto root = decodeNbt(*nbt);
-    if (!root) return tl::unexpected(root.error());
+    const auto root = TERRANE_TRY(decodeNbt(*nbt));
     // Version 3 has an outer compound without name.
-    const auto* inner = root->compound.get<NbtCompound>("Schematic");
-    const NbtCompound& schematic = inner ? *inner : root->compound;
+    const auto* inner = root.compound.get<NbtCompound>("Schematic");
+    const NbtCompound& schematic = inner ? *inner : root.compound;
     if (schematic.get<NbtBytes>("Blocks")) return readNumbered(schematic, ids);
     const auto version = schematic.integer("Version");
     if (!version) return damagedSchematic("it has no version: not a schematic");

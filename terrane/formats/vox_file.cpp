@@ -158,28 +158,24 @@ std::array<std::uint32_t, 256> defaultVoxColors() {
 }
 
 base::Result<VoxImage> decodeVox(std::string_view bytes) {
-    const auto parts = readVoxParts(bytes);
-    if (!parts) return tl::unexpected(parts.error());
-    const auto models = placedModels(*parts);
-    if (!models) return tl::unexpected(models.error());
-    const VoxBox box = boxOf(*parts, *models);
+    const auto parts = TERRANE_TRY(readVoxParts(bytes));
+    const auto models = TERRANE_TRY(placedModels(parts));
+    const VoxBox box = boxOf(parts, models);
     VoxImage image;
     const std::array<std::int64_t, 3> sides{std::int64_t{box.high.x} - box.low.x + 1,
                                             std::int64_t{box.high.y} - box.low.y + 1,
                                             std::int64_t{box.high.z} - box.low.z + 1};
-    if (auto checked = checkVolumeSize(sides[0], sides[1], sides[2]); !checked)
-        return tl::unexpected(checked.error());
+    TERRANE_TRY(checkVolumeSize(sides[0], sides[1], sides[2]));
     image.size = box.high - box.low + 1;
-    image.colors = parts->colors;
+    image.colors = parts.colors;
     image.cells.resize(static_cast<std::size_t>(sides[0] * sides[1] * sides[2]));
     std::size_t voxels = 0;
-    for (const PlacedModel& placement : *models) {
-        const VoxModel& model = parts->models[placement.model];
+    for (const PlacedModel& placement : models) {
+        const VoxModel& model = parts.models[placement.model];
         voxels += model.voxels.size() / 4;
         if (voxels > kMaxPlacedVoxels)
             return base::fail(base::ErrorCode::OutOfResources, ".vox: more than {} voxels", kMaxPlacedVoxels);
-        if (auto put = putModel(model, placement.transform, box.low, image); !put)
-            return tl::unexpected(put.error());
+        TERRANE_TRY(putModel(model, placement.transform, box.low, image));
     }
     return image;
 }

@@ -14,9 +14,8 @@ namespace {
 base::Result<void> readInto(std::vector<world::Pose>& bookmarks, const std::filesystem::path& file) {
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
-    const auto text = base::readFile(file);
-    if (!text) return tl::unexpected(text.error());
-    std::istringstream in(*text);
+    const auto text = TERRANE_TRY(base::readFile(file));
+    std::istringstream in(text);
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
@@ -52,9 +51,9 @@ base::Result<std::vector<world::Pose>> readBookmarks(const BookmarkFiles& files)
     std::vector<world::Pose> bookmarks;
     for (const std::filesystem::path& former : files.former) {
         if (isSameFile(former, files.file)) continue;
-        if (auto read = readInto(bookmarks, former); !read) return tl::unexpected(read.error());
+        TERRANE_TRY(readInto(bookmarks, former));
     }
-    if (auto read = readInto(bookmarks, files.file); !read) return tl::unexpected(read.error());
+    TERRANE_TRY(readInto(bookmarks, files.file));
     return bookmarks;
 }
 

@@ -103,7 +103,7 @@ std::unique_ptr<BatchGenerator> makeCpuGenerator(Generator generator, unsigned t
 base::Result<std::vector<std::shared_ptr<world::Chunk>>> generateAll(BatchGenerator& generator,
                                                                      std::span<const ChunkPos> positions) {
     for (const ChunkPos pos : positions) {
-        if (auto valid = checkGenerated(pos, generator.level()); !valid) return tl::unexpected(valid.error());
+        TERRANE_TRY(checkGenerated(pos, generator.level()));
     }
     std::vector<std::shared_ptr<world::Chunk>> chunks;
     chunks.reserve(positions.size());

@@ -70,10 +70,9 @@ const LevelGenerators::Impl::Tint* LevelGenerators::Impl::tint(int level) {
 }
 
 base::Result<std::optional<LevelGenerators::Impl::Tint>> LevelGenerators::Impl::makeTint(int level) {
-    const auto graph = makeGraph(level);
-    if (!graph) return tl::unexpected(graph.error());
-    if (!graph->tint) return std::nullopt;
-    return Tint{Generator(graph->tint->passes, seed), graph->tint->field};
+    const auto graph = TERRANE_TRY(makeGraph(level));
+    if (!graph.tint) return std::nullopt;
+    return Tint{Generator(graph.tint->passes, seed), graph.tint->field};
 }
 
 bool LevelGenerators::hasTint() const {

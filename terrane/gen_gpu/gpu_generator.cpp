@@ -140,9 +140,8 @@ base::Result<void> GpuGenerator::Impl::build(std::uint64_t seed) {
     for (std::size_t pass = 0; pass < texts.size(); ++pass) files.push_back({names[pass], texts[pass]});
     shaders.addFiles(files);
     for (std::size_t pass = 0; pass < texts.size(); ++pass) {
-        auto program = buildPass(pass);
-        if (!program) return tl::unexpected(program.error());
-        programs.push_back(std::move(*program));
+        auto program = TERRANE_TRY(buildPass(pass));
+        programs.push_back(std::move(program));
     }
     const gen::Seeds seeds = gen::makeSeeds(generator, seed);
     noiseSeeds = wordBuffer(seeds.noises, "noise seeds");
@@ -245,7 +244,7 @@ base::Result<GpuGenerator> GpuGenerator::create(const gpu::ShaderLoader& shaders
             generator.name, slotsOfOne, slots);
     }
     auto impl = std::make_unique<Impl>(generator, shaders, seed, slots);
-    if (auto built = impl->build(seed); !built) return tl::unexpected(built.error());
+    TERRANE_TRY(impl->build(seed));
     return GpuGenerator(std::move(impl));
 }
 

@@ -78,11 +78,9 @@ base::Result<Handle<ObjectKind::Program>> linkProgram(const ShaderLoader& loader
     Handle<ObjectKind::Program> program(id);
     program.label(label);
     for (const ProgramStage& stage : stages) {
-        const base::Result<ShaderSource> source = loader.load(stage.name, stage.stage, defines);
-        if (!source) return tl::unexpected(source.error());
-        const base::Result<Handle<ObjectKind::Shader>> shader = compile(*source, stage.stage);
-        if (!shader) return tl::unexpected(shader.error());
-        glAttachShader(id, shader->id());  // the program keeps the shader until it is deleted itself
+        const ShaderSource source = TERRANE_TRY(loader.load(stage.name, stage.stage, defines));
+        const Handle<ObjectKind::Shader> shader = TERRANE_TRY(compile(source, stage.stage));
+        glAttachShader(id, shader.id());  // the program keeps the shader until it is deleted itself
     }
     glLinkProgram(id);
     GLint linked = GL_FALSE;
@@ -98,17 +96,15 @@ base::Result<Program> Program::graphics(const ShaderLoader& loader, std::string_
                                         std::string_view fragmentName, const ShaderDefines& defines,
                                         std::string_view label) {
     const ProgramStage stages[] = {{ShaderStage::Vertex, vertexName}, {ShaderStage::Fragment, fragmentName}};
-    auto linked = linkProgram(loader, stages, defines, label);
-    if (!linked) return tl::unexpected(linked.error());
-    return Program(*std::move(linked));
+    auto linked = TERRANE_TRY(linkProgram(loader, stages, defines, label));
+    return Program(std::move(linked));
 }
 
 base::Result<Program> Program::compute(const ShaderLoader& loader, std::string_view name,
                                        const ShaderDefines& defines, std::string_view label) {
     const ProgramStage stages[] = {{ShaderStage::Compute, name}};
-    auto linked = linkProgram(loader, stages, defines, label);
-    if (!linked) return tl::unexpected(linked.error());
-    return Program(*std::move(linked));
+    auto linked = TERRANE_TRY(linkProgram(loader, stages, defines, label));
+    return Program(std::move(linked));
 }
 
 void Program::use() const {

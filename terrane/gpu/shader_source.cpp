@@ -88,8 +88,7 @@ class Expander {
             const bool code = !inComment;
             inComment = endsInComment(current, inComment);
             const Place place{file, number, line};
-            base::Result<void> done = code ? expandLine(current, place, conditions) : keep(current);
-            if (!done) return done;
+            TERRANE_TRY(code ? expandLine(current, place, conditions) : keep(current));
         }
         return {};
     }

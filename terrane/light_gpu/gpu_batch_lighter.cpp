@@ -29,9 +29,8 @@ GpuBatchLighter::~GpuBatchLighter() = default;
 
 base::Result<GpuBatchLighter> GpuBatchLighter::create(const gpu::ShaderLoader& shaders,
                                                       const light::LightTable& table) {
-    auto programs = LightPrograms::create(shaders);
-    if (!programs) return tl::unexpected(programs.error());
-    return GpuBatchLighter(std::make_unique<Impl>(std::move(*programs), table));
+    auto programs = TERRANE_TRY(LightPrograms::create(shaders));
+    return GpuBatchLighter(std::make_unique<Impl>(std::move(programs), table));
 }
 
 std::size_t GpuBatchLighter::submit(std::span<const light::LightRequest> requests) {

@@ -11,9 +11,8 @@ constexpr int kPartChunks = 16;  // a side
 
 base::Result<GpuLightSolver> GpuLightSolver::create(const gpu::ShaderLoader& shaders,
                                                     const light::LightTable& table) {
-    auto lighter = GpuBatchLighter::create(shaders, table);
-    if (!lighter) return tl::unexpected(lighter.error());
-    return GpuLightSolver(std::move(*lighter));
+    auto lighter = TERRANE_TRY(GpuBatchLighter::create(shaders, table));
+    return GpuLightSolver(std::move(lighter));
 }
 
 std::vector<light::ChunkLight> GpuLightSolver::solve(const light::LightArea& area) {

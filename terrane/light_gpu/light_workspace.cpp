@@ -46,10 +46,9 @@ base::Result<LightPrograms> LightPrograms::create(const gpu::ShaderLoader& shade
     for (const auto& [program, name] :
          {std::pair(&programs.sources, "sources"), std::pair(&programs.firstTiles, "first_tiles"),
           std::pair(&programs.spread, "spread"), std::pair(&programs.pack, "pack")}) {
-        auto made = gpu::Program::compute(shaders, fmt::format("terrane/light_gpu/{}.comp.glsl", name), {},
-                                          fmt::format("light {}", name));
-        if (!made) return tl::unexpected(made.error());
-        *program = std::move(*made);
+        auto made = TERRANE_TRY(gpu::Program::compute(
+            shaders, fmt::format("terrane/light_gpu/{}.comp.glsl", name), {}, fmt::format("light {}", name)));
+        *program = std::move(made);
     }
     return programs;
 }

@@ -83,9 +83,8 @@ base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& na
 base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                const world::BlockRegistry& blocks, int level) {
     BlockNames blockNames(blocks, names.pack);
-    auto recorded = record(script, blockNames, {names.generator, blocks, level, true});
-    if (!recorded) return tl::unexpected(recorded.error());
-    return std::move(recorded->graph);
+    auto recorded = TERRANE_TRY(record(script, blockNames, {names.generator, blocks, level, true}));
+    return std::move(recorded.graph);
 }
 
 base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
@@ -94,19 +93,16 @@ base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
     int lastLevel = 0;
     BlockNames used(blocks, names.pack);
     for (int level = 0; level <= lastLevel; ++level) {
-        const auto first = record(script, used, {names.generator, blocks, level, false});
-        if (!first) return tl::unexpected(first.error());
-        if (first->readsStep) lastLevel = world::kMaxLevel;
+        const auto first = TERRANE_TRY(record(script, used, {names.generator, blocks, level, false}));
+        if (first.readsStep) lastLevel = world::kMaxLevel;
     }
     const BlockNames::Aliases aliases = aliasesOf(used.used());
-    const auto registry = registryOf(used.used(), aliases);
-    if (!registry) return tl::unexpected(registry.error());
+    const auto registry = TERRANE_TRY(registryOf(used.used(), aliases));
     std::string text;
     for (int level = 0; level <= lastLevel; ++level) {
-        BlockNames again(*registry, names.pack, aliases);
-        const auto recorded = record(script, again, {names.generator, *registry, level, false});
-        if (!recorded) return tl::unexpected(recorded.error());
-        text += fmt::format("{:016x}", gen::graphHash(recorded->graph));
+        BlockNames again(registry, names.pack, aliases);
+        const auto recorded = TERRANE_TRY(record(script, again, {names.generator, registry, level, false}));
+        text += fmt::format("{:016x}", gen::graphHash(recorded.graph));
     }
     for (const std::string& name : used.used()) text += "\n" + name;
     const auto version = static_cast<int>(base::hash64(text) & 0x7FFFFFFFu);

@@ -31,7 +31,7 @@ base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect, 
     for (int top = 0; top < rect.height; top += kStripHeight) {
         const int height = std::min(kStripHeight, rect.height - top);
         std::vector<base::Result<void>> results(static_cast<std::size_t>(count));
-        const auto ran = base::parallelFor(jobs, results.size(), [&](std::size_t k) {
+        TERRANE_TRY(base::parallelFor(jobs, results.size(), [&](std::size_t k) {
             // East, which is -x, is to the right.
             const int right = static_cast<int>(k) * kPieceWidth,
                       width = std::min(kPieceWidth, rect.width - right);
@@ -41,8 +41,7 @@ base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect, 
                 copyInto(image, *piece, rect.width - right - width, top);
             else
                 results[k] = tl::unexpected(piece.error());
-        });
-        if (!ran) return tl::unexpected(ran.error());
+        }));
         for (const base::Result<void>& result : results)
             if (!result) return tl::unexpected(result.error());
         if (!goesOn(top + height)) return base::fail("the image is not wanted any more");

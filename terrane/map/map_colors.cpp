@@ -65,21 +65,19 @@ glm::vec3 colorOfLiquid(const BlockColor& block, const glm::vec3& liquid, const 
 
 base::Result<MapColors> mapColors(const world::BlockRegistry& blocks, const world::TextureSource& source) {
     const world::TextureSource textures = readingOnce(source);
-    const auto tops = world::topColors(blocks, textures);
-    if (!tops) return tl::unexpected(tops.error());
+    const auto tops = TERRANE_TRY(world::topColors(blocks, textures));
     const SurfaceKinds kinds = surfaceKinds(blocks);
     MapColors colors;
     for (const world::BlockType& type : blocks.types()) {
-        const world::TopColor& top = (*tops)[type.id];
+        const world::TopColor& top = tops[type.id];
         BlockColor color{.mean = top.mean / 255.0f, .isTinted = top.tinted, .kind = kinds[type.id]};
         const auto brightest = *std::ranges::max_element(type.emission);
         color.emission = glm::vec3(type.emission[0], type.emission[1], type.emission[2]) / 15.0f;
         color.reach = static_cast<float>(brightest);
         if (type.shape != world::Shape::None) {
             const auto& material = blocks.materials()[type.material[world::kFacePosZ]];
-            const auto texture = textures(blocks.textures()[material.texture]);
-            if (!texture) return tl::unexpected(texture.error());
-            color.texels = texelsOf(*texture, color.mean);
+            const auto texture = TERRANE_TRY(textures(blocks.textures()[material.texture]));
+            color.texels = texelsOf(texture, color.mean);
         }
         colors.push_back(color);
     }

@@ -50,9 +50,8 @@ ColumnRect columnsOf(const MapTile& tile) {
 }
 
 base::Result<MapPainter> MapPainter::create(Parts parts) {
-    auto colors = mapColors(parts.blocks, parts.textures);
-    if (!colors) return tl::unexpected(colors.error());
-    return MapPainter(std::move(parts), std::move(*colors));
+    auto colors = TERRANE_TRY(mapColors(parts.blocks, parts.textures));
+    return MapPainter(std::move(parts), std::move(colors));
 }
 
 MapPainter::MapPainter(Parts parts, MapColors colors)
@@ -143,9 +142,8 @@ std::uint64_t MapPainter::colorDigest() const {
 
 base::Result<std::string> MapPainter::paint(const MapTile& tile, std::span<const EditedChunk> edited) {
     if (!hasLayer(tile.layer)) return base::fail(base::ErrorCode::NotFound, "the generator has no biomes");
-    const auto painted = image(tile, edited);
-    if (!painted) return tl::unexpected(painted.error());
-    return base::encodePngFast(*painted);
+    const auto painted = TERRANE_TRY(image(tile, edited));
+    return base::encodePngFast(painted);
 }
 
 base::Result<std::uint64_t> MapPainter::surfaceDigest(ChunkPos pos, std::span<const EditedChunk> edited) {

@@ -52,12 +52,10 @@ std::string originOf(const std::string& origin) {
 
 base::Result<bool> hasNoSurfaces(store::Database& database) {
     bool isEmpty = true;
-    const auto read =
-        store::forEachRow(database, "SELECT 1 FROM surfaces LIMIT 1", [&](const store::Statement&) {
-            isEmpty = false;
-            return base::Result<void>();
-        });
-    if (!read) return tl::unexpected(read.error());
+    TERRANE_TRY(store::forEachRow(database, "SELECT 1 FROM surfaces LIMIT 1", [&](const store::Statement&) {
+        isEmpty = false;
+        return base::Result<void>();
+    }));
     return isEmpty;
 }
 
@@ -70,28 +68,23 @@ void removeWhereLarger(const std::filesystem::path& file, std::int64_t maxBytes)
 
 // A connection to a file of this origin; an error if it is another kind of file or has another origin.
 base::Result<store::Database> openFile(const std::filesystem::path& file, const std::string& origin) {
-    auto database = store::Database::open(file, store::OpenMode::Create);
-    if (!database) return database;
-    if (auto set = database->execute(kSettings); !set) return tl::unexpected(set.error());
-    if (auto made = database->execute(kSchema); !made) return tl::unexpected(made.error());
+    auto database = TERRANE_TRY(store::Database::open(file, store::OpenMode::Create));
+    TERRANE_TRY(database.execute(kSettings));
+    TERRANE_TRY(database.execute(kSchema));
     std::string found;
-    const auto read =
-        store::forEachRow(*database, "SELECT text FROM origin", [&](const store::Statement& row) {
-            found = row.text(0);
-            return base::Result<void>();
-        });
-    if (!read) return tl::unexpected(read.error());
+    TERRANE_TRY(store::forEachRow(database, "SELECT text FROM origin", [&](const store::Statement& row) {
+        found = row.text(0);
+        return base::Result<void>();
+    }));
     if (found == origin) return database;
     if (!found.empty())
         return base::fail(base::ErrorCode::Incompatible, "{}: of another world", file.string());
-    const auto empty = hasNoSurfaces(*database);
-    if (!empty) return tl::unexpected(empty.error());
-    if (!*empty)
+    const auto empty = TERRANE_TRY(hasNoSurfaces(database));
+    if (!empty)
         return base::fail(base::ErrorCode::Incompatible, "{}: does not name its world", file.string());
-    auto insert = database->prepare("INSERT INTO origin VALUES (?)");
-    if (!insert) return tl::unexpected(insert.error());
-    insert->bind(1, std::string_view(origin));
-    if (auto written = insert->run(); !written) return tl::unexpected(written.error());
+    auto insert = TERRANE_TRY(database.prepare("INSERT INTO origin VALUES (?)"));
+    insert.bind(1, std::string_view(origin));
+    TERRANE_TRY(insert.run());
     return database;
 }
 
@@ -130,21 +123,20 @@ struct SurfaceCache::Impl {
 };
 
 base::Result<void> SurfaceCache::Impl::prepare() {
-    const auto read = store::forEachRow(database, "SELECT key, length(bytes) FROM surfaces ORDER BY used",
-                                        [&](const store::Statement& row) {
-                                            rows[row.number(0)] = {++uses, roomOf(row.number(1))};
-                                            byUse[uses] = row.number(0);
-                                            bytes += roomOf(row.number(1));
-                                            return base::Result<void>();
-                                        });
-    if (!read) return read;
+    TERRANE_TRY(store::forEachRow(database, "SELECT key, length(bytes) FROM surfaces ORDER BY used",
+                                  [&](const store::Statement& row) {
+                                      rows[row.number(0)] = {++uses, roomOf(row.number(1))};
+                                      byUse[uses] = row.number(0);
+                                      bytes += roomOf(row.number(1));
+                                      return base::Result<void>();
+                                  }));
     const auto make = [&](std::optional<store::Statement>& statement, std::string_view sql) {
         auto made = database.prepare(sql);
         if (made) statement.emplace(std::move(*made));
         return made ? base::Result<void>() : tl::unexpected(made.error());
     };
-    if (auto made = make(select, "SELECT bytes FROM surfaces WHERE key = ?"); !made) return made;
-    if (auto made = make(insert, "INSERT OR REPLACE INTO surfaces VALUES (?, ?, ?)"); !made) return made;
+    TERRANE_TRY(make(select, "SELECT bytes FROM surfaces WHERE key = ?"));
+    TERRANE_TRY(make(insert, "INSERT OR REPLACE INTO surfaces VALUES (?, ?, ?)"));
     return make(remove, "DELETE FROM surfaces WHERE key = ?");
 }
 
@@ -168,14 +160,13 @@ base::Result<void> SurfaceCache::Impl::forget(std::int64_t key) {
 base::Result<void> SurfaceCache::Impl::write(std::int64_t key, store::ByteView blob) {
     const std::int64_t size = roomOf(static_cast<std::int64_t>(blob.size()));
     const auto most = static_cast<std::int64_t>(static_cast<double>(maxBytes) * kFilled);
-    if (auto forgotten = forget(key); !forgotten) return forgotten;
-    while (!byUse.empty() && bytes + size > most)
-        if (auto forgotten = forget(byUse.begin()->second); !forgotten) return forgotten;
+    TERRANE_TRY(forget(key));
+    while (!byUse.empty() && bytes + size > most) TERRANE_TRY(forget(byUse.begin()->second));
     if (size > most) return {};
     insert->bind(1, key);
     insert->bind(2, ++uses);
     insert->bind(3, blob);
-    if (auto written = insert->run(); !written) return written;
+    TERRANE_TRY(insert->run());
     rows[key] = {uses, size};
     byUse[uses] = key;
     bytes += size;
@@ -205,10 +196,9 @@ void SurfaceCache::Impl::keepUses() {
 base::Result<std::unique_ptr<SurfaceCache::Impl>> SurfaceCache::Impl::open(const std::filesystem::path& file,
                                                                            const std::string& origin,
                                                                            std::int64_t maxBytes) {
-    auto database = openFile(file, originOf(origin));
-    if (!database) return tl::unexpected(database.error());
-    auto impl = std::make_unique<Impl>(std::move(*database), maxBytes);
-    if (auto prepared = impl->prepare(); !prepared) return tl::unexpected(prepared.error());
+    auto database = TERRANE_TRY(openFile(file, originOf(origin)));
+    auto impl = std::make_unique<Impl>(std::move(database), maxBytes);
+    TERRANE_TRY(impl->prepare());
     return impl;
 }
 
@@ -216,8 +206,7 @@ base::Result<std::unique_ptr<SurfaceCache>> SurfaceCache::open(const std::filesy
                                                                const std::string& origin,
                                                                std::int64_t maxBytes) {
     // SQLite's own lock would let two programs read, until one of them writes.
-    auto lock = store::FileLock::acquire(file, store::FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
+    auto lock = TERRANE_TRY(store::FileLock::acquire(file, store::FileLock::Kind::Exclusive));
     removeWhereLarger(file, maxBytes);
     auto impl = Impl::open(file, origin, maxBytes);
     if (!impl && isOtherFile(impl.error())) {
@@ -226,7 +215,7 @@ base::Result<std::unique_ptr<SurfaceCache>> SurfaceCache::open(const std::filesy
         impl = Impl::open(file, origin, maxBytes);
     }
     if (!impl) return tl::unexpected(impl.error());
-    (*impl)->lock = std::move(*lock);
+    (*impl)->lock = std::move(lock);
     return std::unique_ptr<SurfaceCache>(new SurfaceCache(std::move(*impl)));
 }
 

@@ -63,8 +63,7 @@ base::Result<std::vector<SurfaceColumn>> decodeSurfaces(store::ByteView bytes) {
     store::ByteReader reader(bytes);
     const auto expected = reader.number<std::uint64_t>();
     std::vector<std::uint8_t> raw(kRawBytes);
-    if (auto read = store::decompress(reader.rest(), std::as_writable_bytes(std::span(raw))); !read)
-        return tl::unexpected(read.error());
+    TERRANE_TRY(store::decompress(reader.rest(), std::as_writable_bytes(std::span(raw))));
     if (checksum(std::as_bytes(std::span(raw))) != expected)
         return base::fail(base::ErrorCode::Damaged, "surfaces: wrong checksum");
     std::vector<SurfaceColumn> columns(kColumnsOfBlob);

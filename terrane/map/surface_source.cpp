@@ -75,9 +75,8 @@ struct SurfaceSource::Impl {
 
 base::Result<SurfacePtr> SurfaceSource::Impl::generated(ChunkPos pos) {
     if (SurfacePtr known = remembered(pos)) return known;
-    const auto generator = parts.generators.at(pos.level);
-    if (!generator) return tl::unexpected(generator.error());
-    const auto surface = std::make_shared<const Surface>(surfaceOf(**generator, pos, parts.kinds));
+    const auto generator = TERRANE_TRY(parts.generators.at(pos.level));
+    const auto surface = std::make_shared<const Surface>(surfaceOf(*generator, pos, parts.kinds));
     remember(pos, surface);
     return surface;
 }
@@ -99,7 +98,7 @@ base::Result<SurfaceMap> SurfaceSource::Impl::editedAmong(std::span<const ChunkP
         else
             stored.push_back(pos);
     }
-    if (auto loaded = loadEdited(stored, result); !loaded) return tl::unexpected(loaded.error());
+    TERRANE_TRY(loadEdited(stored, result));
     return result;
 }
 
@@ -191,10 +190,10 @@ base::Result<std::vector<SurfacePtr>> SurfaceSource::surfaces(std::span<const Ch
             continue;
         }
         const auto found = asEdited->find(chunk);
-        auto surface = found != asEdited->end() && found->second ? base::Result<SurfacePtr>(found->second)
-                                                                 : impl_->generated(chunk);
-        if (!surface) return tl::unexpected(surface.error());
-        surfaces.push_back(std::move(*surface));
+        auto surface =
+            TERRANE_TRY(found != asEdited->end() && found->second ? base::Result<SurfacePtr>(found->second)
+                                                                  : impl_->generated(chunk));
+        surfaces.push_back(std::move(surface));
     }
     if (impl_->parts.cache) {
         impl_->noteEdited(*asEdited);
@@ -227,11 +226,10 @@ std::vector<ChunkPos> chunksTouching(const ColumnRect& rect) {
 
 base::Result<SurfaceArea> SurfaceSource::area(const ColumnRect& rect, std::span<const EditedChunk> edited) {
     const std::vector<ChunkPos> chunks = chunksTouching(rect);
-    const auto found = surfaces(chunks, edited);
-    if (!found) return tl::unexpected(found.error());
+    const auto found = TERRANE_TRY(surfaces(chunks, edited));
     SurfaceArea area{rect, std::vector<SurfaceColumn>(static_cast<std::size_t>(rect.width) *
                                                       static_cast<std::size_t>(rect.height))};
-    for (std::size_t k = 0; k < chunks.size(); ++k) copyChunk(rect, chunks[k], *(*found)[k], area.columns);
+    for (std::size_t k = 0; k < chunks.size(); ++k) copyChunk(rect, chunks[k], *found[k], area.columns);
     return area;
 }
 

@@ -111,9 +111,8 @@ base::Result<GpuMesher> GpuMesher::create(const gpu::ShaderLoader& shaders,
                                           const world::BlockRegistry& blocks) {
     auto impl = std::make_unique<Impl>(blocks);
     for (const bool writesQuads : {false, true}) {
-        auto made = compile(shaders, writesQuads);
-        if (!made) return tl::unexpected(made.error());
-        (writesQuads ? impl->writeProgram : impl->countProgram) = std::move(*made);
+        auto made = TERRANE_TRY(compile(shaders, writesQuads));
+        (writesQuads ? impl->writeProgram : impl->countProgram) = std::move(made);
     }
     return GpuMesher(std::move(impl));
 }

@@ -113,8 +113,7 @@ base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, c
                           "more than {} blocks to roll back: choose a shorter time or a smaller area",
                           kMaxRollback);
     };
-    if (auto done = forEachEdit(filter, EditOrder::NewestFirst, take); !done)
-        return tl::unexpected(done.error());
+    TERRANE_TRY(forEachEdit(filter, EditOrder::NewestFirst, take));
     std::vector<RolledBack> plan;
     plan.reserve(blocks.size());
     for (auto& [pos, block] : blocks) plan.push_back(std::move(block));

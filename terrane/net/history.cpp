@@ -16,20 +16,17 @@ base::Result<History> readHistoryFile(const std::filesystem::path& file, const w
     if (!std::filesystem::exists(file, error))
         return base::fail(base::ErrorCode::NotFound,
                           "{}: there is no such file: no server has run this world", file.string());
-    auto database = store::Database::open(file, store::OpenMode::ReadOnly);
-    if (!database) return tl::unexpected(database.error());
-    const auto names = store::readBlockNames(*database);
-    if (!names) return tl::unexpected(names.error());
-    auto ids = store::BlockIdMap::make(blocks, *names);
+    auto database = TERRANE_TRY(store::Database::open(file, store::OpenMode::ReadOnly));
+    const auto names = TERRANE_TRY(store::readBlockNames(database));
+    auto ids = store::BlockIdMap::make(blocks, names);
     if (!ids) return tl::unexpected(ids.error());
     History history;
     const auto take = [&](const store::Statement& row) -> base::Result<void> {
         history.names[static_cast<game::PlayerId>(row.number(0))] = row.text(1);
         return {};
     };
-    if (auto done = store::forEachRow(*database, "SELECT id, name FROM players", take); !done)
-        return tl::unexpected(done.error());
-    const auto kept = std::make_shared<store::Database>(std::move(*database));
+    TERRANE_TRY(store::forEachRow(database, "SELECT id, name FROM players", take));
+    const auto kept = std::make_shared<store::Database>(std::move(database));
     history.forEachEdit = [kept, ids = std::move(*ids)](const EditFilter& filter, EditOrder order,
                                                         const UseEdit& use) {
         return forEachEdit(*kept, ids, filter, order, use);

@@ -37,8 +37,7 @@ base::Result<PlayerKey> writeKey(const std::filesystem::path& file) {
     std::array<char, 65> text{};
     sodium_bin2hex(text.data(), text.size(), raw(key.seed), key.seed.size());
     text[64] = '\n';
-    if (auto written = base::writePrivateFile(file, {text.data(), text.size()}); !written)
-        return tl::unexpected(written.error());
+    TERRANE_TRY(base::writePrivateFile(file, {text.data(), text.size()}));
     return key;
 }
 
@@ -71,16 +70,15 @@ base::Result<PlayerKey> loadPlayerKey(const std::filesystem::path& file) {
         std::filesystem::create_directories(file.parent_path(), error);
         return writeKey(file);
     }
-    const auto text = base::readFile(file);
-    if (!text) return tl::unexpected(text.error());
+    const auto text = TERRANE_TRY(base::readFile(file));
     std::array<std::byte, 32> seed;
     std::size_t length = 0;
     const char* end = nullptr;
     const bool isHex =
-        sodium_hex2bin(rawOf(seed), seed.size(), text->data(), text->size(), nullptr, &length, &end) == 0;
-    const bool isWhole = isHex && length == seed.size() &&
-                         std::string_view(end, text->data() + text->size()).find_first_not_of("\r\n ") ==
-                             std::string_view::npos;
+        sodium_hex2bin(rawOf(seed), seed.size(), text.data(), text.size(), nullptr, &length, &end) == 0;
+    const bool isWhole =
+        isHex && length == seed.size() &&
+        std::string_view(end, text.data() + text.size()).find_first_not_of("\r\n ") == std::string_view::npos;
     if (isWhole) return playerKeyFrom(seed);
     return base::fail(base::ErrorCode::Damaged, "{}: not a player's key: expected 64 hexadecimal digits",
                       file.string());

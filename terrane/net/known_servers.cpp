@@ -12,9 +12,8 @@ base::Result<bool> isKnownOrNew(const std::filesystem::path& file, const std::st
     std::error_code ignored;
     std::string text;
     if (std::filesystem::exists(file, ignored)) {
-        auto read = base::readFile(file);
-        if (!read) return tl::unexpected(read.error());
-        text = std::move(*read);
+        auto read = TERRANE_TRY(base::readFile(file));
+        text = std::move(read);
     }
     std::istringstream lines(text);
     std::string name, known;
@@ -22,8 +21,7 @@ base::Result<bool> isKnownOrNew(const std::filesystem::path& file, const std::st
         if (name == server) return known == key;
     std::filesystem::create_directories(file.parent_path(), ignored);
     if (!text.empty() && text.back() != '\n') text += '\n';
-    auto written = base::writeFile(file, text + server + ' ' + key + '\n');
-    if (!written) return tl::unexpected(written.error());
+    TERRANE_TRY(base::writeFile(file, text + server + ' ' + key + '\n'));
     return true;
 }
 

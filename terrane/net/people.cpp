@@ -27,12 +27,10 @@ bool isSameName(std::string_view a, std::string_view b) {
 
 base::Result<People> People::read(ServerRecords& records) {
     People people(records);
-    auto players = records.players();
-    if (!players) return tl::unexpected(players.error());
-    for (KnownPlayer& player : *players) people.players_.insert({player.id, std::move(player)});
-    const auto claims = records.claims();
-    if (!claims) return tl::unexpected(claims.error());
-    for (const game::Claim& claim : *claims)
+    auto players = TERRANE_TRY(records.players());
+    for (KnownPlayer& player : players) people.players_.insert({player.id, std::move(player)});
+    const auto claims = TERRANE_TRY(records.claims());
+    for (const game::Claim& claim : claims)
         if (auto added = people.claims_.add(claim); !added)
             return base::fail(base::ErrorCode::Damaged, "the records of the server are damaged: {}",
                               added.error().message);
@@ -99,7 +97,7 @@ void People::setBan(game::PlayerId id, const std::string& reason) {
 }
 
 base::Result<void> People::addClaim(const game::Claim& claim) {
-    if (auto added = claims_.add(claim); !added) return added;
+    TERRANE_TRY(claims_.add(claim));
     records_->addClaim(claim);
     return {};
 }

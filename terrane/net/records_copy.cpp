@@ -19,7 +19,7 @@ base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_
         return to.flush();
     };
     const EditFilter rest{.afterNumber = after};
-    if (auto copied = from.forEachEdit(rest, EditOrder::OldestFirst, take); !copied) return copied;
+    TERRANE_TRY(from.forEachEdit(rest, EditOrder::OldestFirst, take));
     return to.flush();
 }
 
@@ -38,38 +38,32 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
         return base::fail(base::ErrorCode::Incompatible,
                           "the copy has a history of its own: {} edits, expected {}", begun->newest,
                           ends->newest);
-    const auto players = from.players();
-    if (!players) return tl::unexpected(players.error());
-    const auto known = to.players();
-    if (!known) return tl::unexpected(known.error());
+    const auto players = TERRANE_TRY(from.players());
+    const auto known = TERRANE_TRY(to.players());
     // A resumed copy may have outdated players and claims.
-    for (const KnownPlayer& player : *players) {
-        if (std::ranges::none_of(*known, [&](const KnownPlayer& other) { return other.id == player.id; }))
+    for (const KnownPlayer& player : players) {
+        if (std::ranges::none_of(known, [&](const KnownPlayer& other) { return other.id == player.id; }))
             to.addPlayer(player);
         else
             to.changePlayer(
                 player.id,
                 {.name = player.name, .role = player.role, .pose = player.pose, .ban = player.ban});
     }
-    const auto claims = from.claims();
-    if (!claims) return tl::unexpected(claims.error());
-    const auto former = to.claims();
-    if (!former) return tl::unexpected(former.error());
-    for (const game::Claim& claim : *former) to.removeClaim(claim.name);
-    for (const game::Claim& claim : *claims) to.addClaim(claim);
-    const auto password = from.text(kPasswordText);
-    if (!password) return tl::unexpected(password.error());
-    to.setText(kPasswordText, *password);
-    if (auto copied = copyEdits(from, to, begun->newest); !copied) return tl::unexpected(copied.error());
+    const auto claims = TERRANE_TRY(from.claims());
+    const auto former = TERRANE_TRY(to.claims());
+    for (const game::Claim& claim : former) to.removeClaim(claim.name);
+    for (const game::Claim& claim : claims) to.addClaim(claim);
+    const auto password = TERRANE_TRY(from.text(kPasswordText));
+    to.setText(kPasswordText, password);
+    TERRANE_TRY(copyEdits(from, to, begun->newest));
     to.setSavedEdit(ends->newest);
-    if (auto flushed = to.flush(); !flushed) return tl::unexpected(flushed.error());
-    const auto end = to.historyEnds();
-    if (!end) return tl::unexpected(end.error());
-    if (end->newest != ends->newest)
+    TERRANE_TRY(to.flush());
+    const auto end = TERRANE_TRY(to.historyEnds());
+    if (end.newest != ends->newest)
         return base::fail(base::ErrorCode::Incompatible, "the copy's history ends with edit {}, expected {}",
-                          end->newest, ends->newest);
+                          end.newest, ends->newest);
     if (to.shared()) to.shared()->tellState(0, ends->newest);
-    return RecordsCopied{players->size(), claims->size(), ends->newest};
+    return RecordsCopied{players.size(), claims.size(), ends->newest};
 }
 
 }  // namespace terrane::net

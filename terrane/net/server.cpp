@@ -76,12 +76,10 @@ ServerClient* clientOf(ServerState& server, ConnectionId id) {
 }
 
 base::Result<void> prepare(ServerState& server) {
-    auto edited = server.session.store().editedChunks();
-    if (!edited) return tl::unexpected(edited.error());
-    for (const world::ChunkPos pos : *edited) server.edited.add(pos);
-    auto password = server.records.text(kPasswordText);
-    if (!password) return tl::unexpected(password.error());
-    server.passwordHash = std::move(*password);
+    auto edited = TERRANE_TRY(server.session.store().editedChunks());
+    for (const world::ChunkPos pos : edited) server.edited.add(pos);
+    auto password = TERRANE_TRY(server.records.text(kPasswordText));
+    server.passwordHash = std::move(password);
     server.session.permissions.claims = server.people.claims();
     server.session.clock.dayMinutes = server.settings.dayMinutes;
     std::uint64_t random = 0;
@@ -107,9 +105,9 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
             logChanges(state, player, changes);
         },
         parts.records.shared() != nullptr);
-    if (auto restored = restoreEdits(*server); !restored) return tl::unexpected(restored.error());
-    if (auto begun = beginSharing(*server); !begun) return tl::unexpected(begun.error());
-    if (auto prepared = prepare(*server); !prepared) return tl::unexpected(prepared.error());
+    TERRANE_TRY(restoreEdits(*server));
+    TERRANE_TRY(beginSharing(*server));
+    TERRANE_TRY(prepare(*server));
     return server;
 }
 

@@ -32,19 +32,17 @@ constexpr const char* kTables =
     "CREATE INDEX edits_of_player ON edits (player, number);";
 
 base::Result<void> makeTables(store::Database& database) {
-    auto transaction = store::Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
+    auto transaction = TERRANE_TRY(store::Transaction::begin(database));
     const std::string marks =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
-    if (auto done = database.execute(marks + kTables); !done) return done;
-    return transaction->commit();
+    TERRANE_TRY(database.execute(marks + kTables));
+    return transaction.commit();
 }
 
 // Creates the tables in an empty file; refuses files of another kind or format.
 base::Result<void> prepareTables(store::Database& database) {
-    const auto tables = database.queryNumber("SELECT count(*) FROM sqlite_schema");
-    if (!tables) return tl::unexpected(tables.error());
-    if (tables->value_or(0) == 0) return makeTables(database);
+    const auto tables = TERRANE_TRY(database.queryNumber("SELECT count(*) FROM sqlite_schema"));
+    if (tables.value_or(0) == 0) return makeTables(database);
     const auto mark = database.queryNumber("PRAGMA application_id");
     const auto version = database.queryNumber("PRAGMA user_version");
     if (!mark || !version) return tl::unexpected((!mark ? mark : version).error());
@@ -58,20 +56,17 @@ base::Result<void> prepareTables(store::Database& database) {
 
 // Adds block types that are new to the file.
 base::Result<store::BlockIdMap> mapBlocks(store::Database& database, const world::BlockRegistry& blocks) {
-    const auto names = store::readBlockNames(database);
-    if (!names) return tl::unexpected(names.error());
-    auto ids = store::BlockIdMap::make(blocks, *names);
+    const auto names = TERRANE_TRY(store::readBlockNames(database));
+    auto ids = store::BlockIdMap::make(blocks, names);
     if (!ids || ids->added().empty()) return ids;
-    auto transaction = store::Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    auto insert = database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)");
-    if (!insert) return tl::unexpected(insert.error());
+    auto transaction = TERRANE_TRY(store::Transaction::begin(database));
+    auto insert = TERRANE_TRY(database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)"));
     for (const store::SavedName& name : ids->added()) {
-        insert->bind(1, std::int64_t{name.id});
-        insert->bind(2, name.name);
-        if (auto done = insert->run(); !done) return tl::unexpected(done.error());
+        insert.bind(1, std::int64_t{name.id});
+        insert.bind(2, name.name);
+        TERRANE_TRY(insert.run());
     }
-    if (auto done = transaction->commit(); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(transaction.commit());
     return ids;
 }
 
@@ -84,19 +79,14 @@ std::filesystem::path serverFilePath(const std::filesystem::path& world) {
 
 base::Result<std::unique_ptr<ServerFile>> ServerFile::open(const std::filesystem::path& path,
                                                            const world::BlockRegistry& blocks) {
-    auto lock = store::FileLock::acquire(path, store::FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
-    auto writer = store::Database::open(path, store::OpenMode::Create);
-    if (!writer) return tl::unexpected(writer.error());
-    if (auto done = writer->execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL"); !done)
-        return tl::unexpected(done.error());
-    if (auto done = prepareTables(*writer); !done) return tl::unexpected(done.error());
-    auto ids = mapBlocks(*writer, blocks);
-    if (!ids) return tl::unexpected(ids.error());
-    auto reader = store::Database::open(path, store::OpenMode::ReadOnly);
-    if (!reader) return tl::unexpected(reader.error());
+    auto lock = TERRANE_TRY(store::FileLock::acquire(path, store::FileLock::Kind::Exclusive));
+    auto writer = TERRANE_TRY(store::Database::open(path, store::OpenMode::Create));
+    TERRANE_TRY(writer.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL"));
+    TERRANE_TRY(prepareTables(writer));
+    auto ids = TERRANE_TRY(mapBlocks(writer, blocks));
+    auto reader = TERRANE_TRY(store::Database::open(path, store::OpenMode::ReadOnly));
     return std::unique_ptr<ServerFile>(
-        new ServerFile(Parts{std::move(*lock), std::move(*writer), std::move(*reader), std::move(*ids)}));
+        new ServerFile(Parts{std::move(lock), std::move(writer), std::move(reader), std::move(ids)}));
 }
 
 ServerFile::ServerFile(Parts parts)
@@ -141,11 +131,9 @@ base::Result<void> ServerFile::flush() {
 }
 
 base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
-    auto transaction = store::Transaction::begin(writer_);
-    if (!transaction) return tl::unexpected(transaction.error());
-    for (const Write& write : writes)
-        if (auto done = write(writer_); !done) return done;
-    return transaction->commit();
+    auto transaction = TERRANE_TRY(store::Transaction::begin(writer_));
+    for (const Write& write : writes) TERRANE_TRY(write(writer_));
+    return transaction.commit();
 }
 
 // Failed writes are kept and tried again, at the end once.

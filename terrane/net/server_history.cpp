@@ -38,24 +38,23 @@ std::int64_t newestEdit(const ServerState& server) {
 base::Result<void> restoreEdits(ServerState& server) {
     if (server.records.shared()) return {};  // beginSharing() reads the tail instead
     ServerHistory& history = server.history;
-    const auto ends = server.records.historyEnds();
-    if (!ends) return tl::unexpected(ends.error());
-    history.newest = ends->newest;
-    history.saved = ends->saved;
+    const auto ends = TERRANE_TRY(server.records.historyEnds());
+    history.newest = ends.newest;
+    history.saved = ends.saved;
     std::map<world::ChunkPos, ChunkDifference> chunks;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         mergeInto(chunks[edit.chunk], edit.after);
         return {};
     };
-    const EditFilter unsaved{.afterNumber = ends->saved};
-    if (auto done = server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take); !done) return done;
+    const EditFilter unsaved{.afterNumber = ends.saved};
+    TERRANE_TRY(server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take));
     if (chunks.empty()) return {};
     for (const auto& [pos, blocks] : chunks) {
         (void)server.session.pipeline().chunkAt(pos);
         server.session.setBlocks(placedBlocks(pos, blocks));
     }
-    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), ends->saved + 1,
-                  ends->newest);
+    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), ends.saved + 1,
+                  ends.newest);
     return saveEverything(server);
 }
 
@@ -82,9 +81,9 @@ base::Result<void> saveEverything(ServerState& server) {
         completeLoaded(server);
         continueRollbacks(server);
     }
-    if (auto decided = decideAll(server); !decided) return decided;
+    TERRANE_TRY(decideAll(server));
     game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
-    if (auto saved = server.session.save(); !saved) return saved;
+    TERRANE_TRY(server.session.save());
     if (server.sharing.shared) {
         tellSavedPlaces(server);
         server.sharing.shared->tellState(0, server.sharing.newest);
@@ -99,21 +98,20 @@ base::Result<void> saveEverything(ServerState& server) {
 
 base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter) {
     // The reader sees only durable edits.
-    if (auto flushed = server.records.flush(); !flushed) return tl::unexpected(flushed.error());
+    TERRANE_TRY(server.records.flush());
     const auto forEachEdit = [&](const EditFilter& selected, EditOrder order, const UseEdit& use) {
         return server.records.forEachEdit(selected, order, use);
     };
-    auto plan = rollback(forEachEdit, filter);
-    if (!plan) return tl::unexpected(plan.error());
+    auto plan = TERRANE_TRY(rollback(forEachEdit, filter));
     // Each block occurs once in the plan. Parts of earlier rollbacks stay separate, even of the same chunk.
     const std::size_t first = server.rollbacks.size();
-    for (RolledBack& block : *plan) {
+    for (RolledBack& block : plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);
         if (server.rollbacks.size() == first || server.rollbacks.back().chunk != chunk)
             server.rollbacks.push_back({chunk, {}});
         server.rollbacks.back().blocks.push_back(std::move(block));
     }
-    return plan->size();
+    return plan.size();
 }
 
 void continueRollbacks(ServerState& server) {

@@ -10,11 +10,9 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
                                         const ServerSettings& settings, const std::string& program,
                                         const ServerContent& content) {
     const store::WorldIdentity identity = parts.store->identity();
-    auto graph = gen::makeGenerator(identity.generator, *parts.blocks, 0, content.generators);
-    if (!graph) return tl::unexpected(graph.error());
-    const WorldFingerprint fingerprint = worldFingerprint(identity, *graph, *parts.blocks);
-    auto people = People::read(*records);
-    if (!people) return tl::unexpected(people.error());
+    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, content.generators));
+    const WorldFingerprint fingerprint = worldFingerprint(identity, graph, *parts.blocks);
+    auto people = TERRANE_TRY(People::read(*records));
 
     const auto tiles = std::make_shared<WrittenTiles>();
     parts.tileListener = [tiles](std::span<const world::ChunkPos> written) { noteTiles(*tiles, written); };
@@ -23,11 +21,10 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
     if (const auto time = game::savedPlayer(host.session->store()).timeDay)
         host.session->clock.timeDay = *time;
     host.records = std::move(records);
-    host.people = std::make_unique<People>(std::move(*people));
-    auto state = openServer({*host.session, *host.records, *host.people, program, fingerprint, content.packs},
-                            settings, tiles);
-    if (!state) return tl::unexpected(state.error());
-    host.state = std::move(*state);
+    host.people = std::make_unique<People>(std::move(people));
+    auto state = TERRANE_TRY(openServer(
+        {*host.session, *host.records, *host.people, program, fingerprint, content.packs}, settings, tiles));
+    host.state = std::move(state);
     return host;
 }
 

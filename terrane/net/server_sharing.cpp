@@ -150,19 +150,18 @@ base::Result<void> beginSharing(ServerState& server) {
     SharingState& sharing = server.sharing;
     sharing.shared = server.records.shared();
     if (!sharing.shared) return {};
-    const auto ends = server.records.historyEnds();
-    if (!ends) return tl::unexpected(ends.error());
-    sharing.newest = ends->newest;
-    sharing.saved = ends->saved;
-    sharing.ownSaved = ends->newest;
+    const auto ends = TERRANE_TRY(server.records.historyEnds());
+    sharing.newest = ends.newest;
+    sharing.saved = ends.saved;
+    sharing.ownSaved = ends.newest;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         if (edit.number > sharing.newest) return {};  // takeNews() will deliver it
         addToTail(sharing, edit.chunk, edit.number, edit.after);
         server.edited.add(edit.chunk);
         return {};
     };
-    const EditFilter unsaved{.afterNumber = ends->saved};
-    if (auto read = server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take); !read) return read;
+    const EditFilter unsaved{.afterNumber = ends.saved};
+    TERRANE_TRY(server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take));
     stream::ChunkPipeline& pipeline = server.session.pipeline();
     pipeline.setSaveFilter(
         [undecided = sharing.undecidedChunks](ChunkPos chunk) { return !undecided->contains(chunk); });

@@ -90,7 +90,7 @@ struct ServerSockets::Impl : std::enable_shared_from_this<ServerSockets::Impl> {
 };
 
 base::Result<void> ServerSockets::Impl::listen(const ListenAddress& address) {
-    if (auto listens = base::listenAt(acceptor, address.address, address.port); !listens) return listens;
+    TERRANE_TRY(base::listenAt(acceptor, address.address, address.port));
     SocketError error;
     acceptor.non_blocking(true, error);
     if (error)
@@ -237,10 +237,9 @@ base::Result<std::unique_ptr<ServerSockets>> ServerSockets::open(asio::io_contex
                                                                  ServerState& server,
                                                                  const ListenAddress& address,
                                                                  const std::filesystem::path& keyFile) {
-    auto tls = serverContext(keyFile);
-    if (!tls) return tl::unexpected(tls.error());
-    auto impl = std::make_shared<Impl>(context, server, std::move(*tls));
-    if (auto listening = impl->listen(address); !listening) return tl::unexpected(listening.error());
+    auto tls = TERRANE_TRY(serverContext(keyFile));
+    auto impl = std::make_shared<Impl>(context, server, std::move(tls));
+    TERRANE_TRY(impl->listen(address));
     return std::unique_ptr<ServerSockets>(new ServerSockets(std::move(impl)));
 }
 

@@ -21,10 +21,9 @@ std::string queryOf(const EditFilter& filter, EditOrder order) {
 base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
                                const EditFilter& filter, EditOrder order, const UseEdit& use) {
     const auto take = [&](const store::Statement& row) -> base::Result<void> {
-        const auto edit =
-            decodeEdit({row.number(0), row.number(1), row.number(2), row.number(3), row.blob(4)}, ids);
-        if (!edit) return tl::unexpected(edit.error());
-        return isInArea(*edit, filter) ? use(*edit) : base::Result<void>();
+        const auto edit = TERRANE_TRY(
+            decodeEdit({row.number(0), row.number(1), row.number(2), row.number(3), row.blob(4)}, ids));
+        return isInArea(edit, filter) ? use(edit) : base::Result<void>();
     };
     return store::forEachRow(database, queryOf(filter, order), take);
 }

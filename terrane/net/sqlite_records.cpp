@@ -21,18 +21,16 @@ tl::unexpected<base::Error> damaged(const Database& database, std::string_view w
 }
 
 base::Result<std::int64_t> numberOr0(Database& database, const std::string& sql) {
-    const auto number = database.queryNumber(sql);
-    if (!number) return tl::unexpected(number.error());
-    return number->value_or(0);
+    const auto number = TERRANE_TRY(database.queryNumber(sql));
+    return number.value_or(0);
 }
 
 }  // namespace
 
 base::Result<std::unique_ptr<SqliteRecords>> SqliteRecords::open(const std::filesystem::path& path,
                                                                  const world::BlockRegistry& blocks) {
-    auto file = ServerFile::open(path, blocks);
-    if (!file) return tl::unexpected(file.error());
-    return std::make_unique<SqliteRecords>(std::move(*file));
+    auto file = TERRANE_TRY(ServerFile::open(path, blocks));
+    return std::make_unique<SqliteRecords>(std::move(file));
 }
 
 base::Result<std::vector<KnownPlayer>> SqliteRecords::players() {
@@ -68,12 +66,10 @@ base::Result<std::vector<game::Claim>> SqliteRecords::claims() {
 }
 
 base::Result<std::string> SqliteRecords::text(const std::string& name) {
-    auto query = file_->reader().prepare("SELECT value FROM texts WHERE name = ?1");
-    if (!query) return tl::unexpected(query.error());
-    query->bind(1, name);
-    const auto row = query->step();
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::string(query->text(0)) : std::string();
+    auto query = TERRANE_TRY(file_->reader().prepare("SELECT value FROM texts WHERE name = ?1"));
+    query.bind(1, name);
+    const auto row = TERRANE_TRY(query.step());
+    return row ? std::string(query.text(0)) : std::string();
 }
 
 base::Result<HistoryEnds> SqliteRecords::historyEnds() {
@@ -90,65 +86,61 @@ base::Result<void> SqliteRecords::forEachEdit(const EditFilter& filter, EditOrde
 
 void SqliteRecords::addPlayer(const KnownPlayer& player) {
     file_->write([player](Database& database) -> base::Result<void> {
-        auto put = database.prepare(
-            "INSERT INTO players (id, key, name, role, pose, ban) VALUES (?1, ?2, ?3, ?4, ?5, ?6)");
-        if (!put) return tl::unexpected(put.error());
-        put->bind(1, std::int64_t{player.id});
-        put->bind(2, ByteView(player.key));
-        put->bind(3, player.name);
-        put->bind(4, static_cast<std::int64_t>(player.role));
-        put->bind(5, player.pose ? game::textOf(*player.pose) : std::string());
-        put->bind(6, player.ban);
-        return put->run();
+        auto put = TERRANE_TRY(database.prepare(
+            "INSERT INTO players (id, key, name, role, pose, ban) VALUES (?1, ?2, ?3, ?4, ?5, ?6)"));
+        put.bind(1, std::int64_t{player.id});
+        put.bind(2, ByteView(player.key));
+        put.bind(3, player.name);
+        put.bind(4, static_cast<std::int64_t>(player.role));
+        put.bind(5, player.pose ? game::textOf(*player.pose) : std::string());
+        put.bind(6, player.ban);
+        return put.run();
     });
 }
 
 void SqliteRecords::changePlayer(game::PlayerId id, const PlayerChange& change) {
     file_->write([id, change](Database& database) -> base::Result<void> {
-        auto put = database.prepare(
-            "UPDATE players SET name = coalesce(?2, name), role = coalesce(?3, role), "
-            "pose = coalesce(?4, pose), ban = coalesce(?5, ban) WHERE id = ?1");
-        if (!put) return tl::unexpected(put.error());
-        put->bind(1, std::int64_t{id});
-        if (change.name) put->bind(2, *change.name);
-        if (change.role) put->bind(3, static_cast<std::int64_t>(*change.role));
-        if (change.pose) put->bind(4, game::textOf(*change.pose));
-        if (change.ban) put->bind(5, *change.ban);
-        return put->run();
+        auto put = TERRANE_TRY(
+            database.prepare("UPDATE players SET name = coalesce(?2, name), role = coalesce(?3, role), "
+                             "pose = coalesce(?4, pose), ban = coalesce(?5, ban) WHERE id = ?1"));
+        put.bind(1, std::int64_t{id});
+        if (change.name) put.bind(2, *change.name);
+        if (change.role) put.bind(3, static_cast<std::int64_t>(*change.role));
+        if (change.pose) put.bind(4, game::textOf(*change.pose));
+        if (change.ban) put.bind(5, *change.ban);
+        return put.run();
     });
 }
 
 void SqliteRecords::addClaim(const game::Claim& claim) {
     file_->write([claim](store::Database& database) -> base::Result<void> {
-        auto put = database.prepare(
-            "INSERT INTO claims (name, x0, y0, x1, y1, owner, members) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)");
-        if (!put) return tl::unexpected(put.error());
-        put->bind(1, claim.name);
+        auto put = TERRANE_TRY(database.prepare(
+            "INSERT INTO claims (name, x0, y0, x1, y1, owner, members) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)"));
+        put.bind(1, claim.name);
         int column = 2;
         for (const std::int32_t v : {claim.area.x0, claim.area.y0, claim.area.x1, claim.area.y1})
-            put->bind(column++, std::int64_t{v});
-        put->bind(6, std::int64_t{claim.owner});
-        put->bind(7, membersText(claim.members));
-        return put->run();
+            put.bind(column++, std::int64_t{v});
+        put.bind(6, std::int64_t{claim.owner});
+        put.bind(7, membersText(claim.members));
+        return put.run();
     });
 }
 
 void SqliteRecords::removeClaim(const std::string& name) {
     file_->write([name](store::Database& database) -> base::Result<void> {
-        auto erase = database.prepare("DELETE FROM claims WHERE name = ?1");
-        if (!erase) return tl::unexpected(erase.error());
-        erase->bind(1, name);
-        return erase->run();
+        auto erase = TERRANE_TRY(database.prepare("DELETE FROM claims WHERE name = ?1"));
+        erase.bind(1, name);
+        return erase.run();
     });
 }
 
 void SqliteRecords::setText(const std::string& name, const std::string& text) {
     file_->write([name, text](Database& database) -> base::Result<void> {
-        auto put = database.prepare("INSERT OR REPLACE INTO texts (name, value) VALUES (?1, ?2)");
-        if (!put) return tl::unexpected(put.error());
-        put->bind(1, name);
-        put->bind(2, text);
-        return put->run();
+        auto put =
+            TERRANE_TRY(database.prepare("INSERT OR REPLACE INTO texts (name, value) VALUES (?1, ?2)"));
+        put.bind(1, name);
+        put.bind(2, text);
+        return put.run();
     });
 }
 
@@ -161,16 +153,15 @@ struct EncodedEdit {
 };
 
 base::Result<void> insertEdits(Database& database, const std::vector<EncodedEdit>& edits) {
-    auto insert = database.prepare(
-        "INSERT INTO edits (number, time, player, chunk, blocks) VALUES (?1, ?2, ?3, ?4, ?5)");
-    if (!insert) return tl::unexpected(insert.error());
+    auto insert = TERRANE_TRY(database.prepare(
+        "INSERT INTO edits (number, time, player, chunk, blocks) VALUES (?1, ?2, ?3, ?4, ?5)"));
     for (const EncodedEdit& edit : edits) {
-        insert->bind(1, edit.number);
-        insert->bind(2, edit.timeMs);
-        insert->bind(3, edit.player);
-        insert->bind(4, edit.chunk);
-        insert->bind(5, ByteView(edit.blocks));
-        if (auto done = insert->run(); !done) return done;
+        insert.bind(1, edit.number);
+        insert.bind(2, edit.timeMs);
+        insert.bind(3, edit.player);
+        insert.bind(4, edit.chunk);
+        insert.bind(5, ByteView(edit.blocks));
+        TERRANE_TRY(insert.run());
     }
     return {};
 }

@@ -79,8 +79,7 @@ void prepareContext(ssl::context& context) {
 
 base::Result<ssl::context> serverContext(const std::filesystem::path& keyFile) {
     std::error_code error;
-    if (!std::filesystem::exists(keyFile, error))
-        if (auto made = makeKeyFile(keyFile); !made) return tl::unexpected(made.error());
+    if (!std::filesystem::exists(keyFile, error)) TERRANE_TRY(makeKeyFile(keyFile));
     ssl::context context(ssl::context::tls_server);
     prepareContext(context);
     boost::system::error_code failed;

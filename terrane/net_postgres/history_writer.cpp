@@ -55,20 +55,17 @@ void HistoryWriter::readRow(const Rows& rows, int row, const std::string& shown,
 
 base::Result<void> HistoryWriter::readOthers(Connection& connection, Heard& heard) {
     while (true) {
-        const auto rows = connection.run(kOthers, Parameters().number(seen_).number(kEditsAtOnce));
-        if (!rows) return tl::unexpected(rows.error());
-        for (int row = 0; row < rows->count(); ++row) readRow(*rows, row, connection.shown(), heard);
-        if (rows->count() < kEditsAtOnce) return {};
+        const auto rows =
+            TERRANE_TRY(connection.run(kOthers, Parameters().number(seen_).number(kEditsAtOnce)));
+        for (int row = 0; row < rows.count(); ++row) readRow(rows, row, connection.shown(), heard);
+        if (rows.count() < kEditsAtOnce) return {};
     }
 }
 
 base::Result<std::int64_t> HistoryWriter::lockHistory(Connection& connection) {
-    const auto locked =
-        store_postgres::lockForTransaction(connection, address_, store_postgres::WorldLock::History);
-    if (!locked) return tl::unexpected(locked.error());
-    const auto newest = connection.run(kNewest);
-    if (!newest) return tl::unexpected(newest.error());
-    return newest->number(0, 0);
+    TERRANE_TRY(store_postgres::lockForTransaction(connection, address_, store_postgres::WorldLock::History));
+    const auto newest = TERRANE_TRY(connection.run(kNewest));
+    return newest.number(0, 0);
 }
 
 HistoryWriter::Attempt HistoryWriter::decide(const std::vector<QueuedWrite>& batch, std::int64_t newest) {
@@ -127,10 +124,9 @@ base::Result<void> HistoryWriter::send(Connection& connection, const std::vector
         commands.push_back(notifyCommand(channel_, server_, EditsNote{}));
     }
     if (commands.empty()) return {};
-    const auto rows = connection.runAll(commands);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.runAll(commands));
     for (const auto& [command, player] : added)
-        if ((*rows)[command].number(0, 0) == 0) attempt.refused.push_back(player);
+        if (rows[command].number(0, 0) == 0) attempt.refused.push_back(player);
     return {};
 }
 
@@ -152,7 +148,7 @@ void HistoryWriter::refuse(const QueuedWrite& write, Heard& heard) {
 // An earlier transaction that was cut off and still runs holds the lock until it ends.
 base::Result<void> HistoryWriter::write(Connection& connection, const std::vector<QueuedWrite>& batch,
                                         Heard& heard) {
-    if (auto begun = connection.execute(kBegin); !begun) return begun;
+    TERRANE_TRY(connection.execute(kBegin));
     const auto newest = lockHistory(connection);
     auto done = newest ? readOthers(connection, heard) : tl::unexpected(newest.error());
     if (done && !heard.isWritten) {

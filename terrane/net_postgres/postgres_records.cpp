@@ -25,13 +25,11 @@ constexpr std::size_t kMaxNotes = 4096;
 
 base::Result<net::History> readHistory(const store_postgres::Address& address,
                                        const world::BlockRegistry& blocks) {
-    auto world = store_postgres::openToRead(address, blocks);
-    if (!world) return tl::unexpected(world.error());
-    const auto players = readPlayers(world->connection);
-    if (!players) return tl::unexpected(players.error());
+    auto world = TERRANE_TRY(store_postgres::openToRead(address, blocks));
+    const auto players = TERRANE_TRY(readPlayers(world.connection));
     net::History history;
-    for (const net::KnownPlayer& player : *players) history.names[player.id] = player.name;
-    const auto kept = std::make_shared<store_postgres::WorldConnection>(std::move(*world));
+    for (const net::KnownPlayer& player : players) history.names[player.id] = player.name;
+    const auto kept = std::make_shared<store_postgres::WorldConnection>(std::move(world));
     history.forEachEdit = [kept](const net::EditFilter& filter, net::EditOrder order,
                                  const net::UseEdit& use) {
         return net_postgres::forEachEdit(
@@ -45,33 +43,29 @@ base::Result<net::History> readHistory(const store_postgres::Address& address,
 
 base::Result<std::unique_ptr<PostgresRecords>> PostgresRecords::openToRead(
     const store_postgres::Address& address, const world::BlockRegistry& blocks, const ServerName& name) {
-    auto world = store_postgres::openToRead(address, blocks);
-    if (!world) return tl::unexpected(world.error());
-    std::unique_ptr<PostgresRecords> records(new PostgresRecords(address, std::move(world->contents), name));
-    records->connection_ = std::move(world->connection);
+    auto world = TERRANE_TRY(store_postgres::openToRead(address, blocks));
+    std::unique_ptr<PostgresRecords> records(new PostgresRecords(address, std::move(world.contents), name));
+    records->connection_ = std::move(world.connection);
     return records;
 }
 
 base::Result<std::unique_ptr<PostgresRecords>> PostgresRecords::open(const store_postgres::Address& address,
                                                                      const world::BlockRegistry& blocks,
                                                                      const ServerName& name) {
-    auto opened = openToRead(address, blocks, name);
-    if (!opened) return opened;
-    std::unique_ptr<PostgresRecords> records = std::move(*opened);
-    if (auto listening = records->listen(); !listening) return tl::unexpected(listening.error());
+    auto opened = TERRANE_TRY(openToRead(address, blocks, name));
+    std::unique_ptr<PostgresRecords> records = std::move(opened);
+    TERRANE_TRY(records->listen());
     const auto server = addServer(*records->connection_, name);
     if (!server) return tl::unexpected(server.error());
-    const auto openings = store_postgres::readOpenings(*records->connection_);
-    if (!openings) return tl::unexpected(openings.error());
-    records->contents_.openings = *openings;
-    const auto ends = records->historyEnds();
-    if (!ends) return tl::unexpected(ends.error());
+    const auto openings = TERRANE_TRY(store_postgres::readOpenings(*records->connection_));
+    records->contents_.openings = openings;
+    const auto ends = TERRANE_TRY(records->historyEnds());
     records->server_ = *server;
-    records->state_ = {*server, ends->newest, 0, {}};
-    records->news_.newest = ends->newest;
-    records->news_.saved = ends->saved;
+    records->state_ = {*server, ends.newest, 0, {}};
+    records->news_.newest = ends.newest;
+    records->news_.saved = ends.saved;
     records->writer_ = std::make_unique<HistoryWriter>(records->pool_.address(), records->contents_.ids,
-                                                       records->channel_, *server, ends->newest);
+                                                       records->channel_, *server, ends.newest);
     records->thread_ = std::thread([self = records.get()] { self->run(); });
     return records;
 }

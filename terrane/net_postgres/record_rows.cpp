@@ -84,11 +84,10 @@ std::vector<std::string> textIfGiven(const std::optional<std::string>& text) {
 }  // namespace
 
 base::Result<std::vector<net::KnownPlayer>> readPlayers(Connection& connection) {
-    const auto rows = connection.run(kPlayers);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kPlayers));
     std::vector<net::KnownPlayer> players;
-    for (int row = 0; row < rows->count(); ++row) {
-        auto player = playerOf(*rows, row);
+    for (int row = 0; row < rows.count(); ++row) {
+        auto player = playerOf(rows, row);
         if (!player) return damaged(connection, "a player");
         players.push_back(std::move(*player));
     }
@@ -96,21 +95,19 @@ base::Result<std::vector<net::KnownPlayer>> readPlayers(Connection& connection) 
 }
 
 base::Result<std::optional<net::KnownPlayer>> readPlayer(Connection& connection, game::PlayerId id) {
-    const auto rows = connection.run(kPlayer, Parameters().number(std::int64_t{id}));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->count() == 1 ? playerOf(*rows, 0) : std::nullopt;
+    const auto rows = TERRANE_TRY(connection.run(kPlayer, Parameters().number(std::int64_t{id})));
+    return rows.count() == 1 ? playerOf(rows, 0) : std::nullopt;
 }
 
 base::Result<std::vector<game::Claim>> readClaims(Connection& connection) {
-    const auto rows = connection.run(kClaims);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kClaims));
     std::vector<game::Claim> claims;
-    for (int row = 0; row < rows->count(); ++row) {
+    for (int row = 0; row < rows.count(); ++row) {
         auto claim = net::claimOf(
-            {rows->text(row, 0),
-             {rows->number(row, 1), rows->number(row, 2), rows->number(row, 3), rows->number(row, 4)},
-             rows->number(row, 5),
-             rows->text(row, 6)});
+            {rows.text(row, 0),
+             {rows.number(row, 1), rows.number(row, 2), rows.number(row, 3), rows.number(row, 4)},
+             rows.number(row, 5),
+             rows.text(row, 6)});
         if (!claim) return damaged(connection, "a claim");
         claims.push_back(std::move(*claim));
     }
@@ -118,34 +115,29 @@ base::Result<std::vector<game::Claim>> readClaims(Connection& connection) {
 }
 
 base::Result<std::string> readText(Connection& connection, const std::string& name) {
-    const auto rows = connection.run(kText, Parameters().text(name));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->count() == 1 ? std::string(rows->text(0, 0)) : std::string();
+    const auto rows = TERRANE_TRY(connection.run(kText, Parameters().text(name)));
+    return rows.count() == 1 ? std::string(rows.text(0, 0)) : std::string();
 }
 
 base::Result<std::vector<game::Place>> readPlaces(Connection& connection) {
-    const auto rows = connection.run(kPlaces, Parameters().text(game::kPlacesMetadata));
-    if (!rows) return tl::unexpected(rows.error());
-    return game::placesFrom(rows->count() == 1 ? rows->text(0, 0) : std::string_view());
+    const auto rows = TERRANE_TRY(connection.run(kPlaces, Parameters().text(game::kPlacesMetadata)));
+    return game::placesFrom(rows.count() == 1 ? rows.text(0, 0) : std::string_view());
 }
 
 base::Result<net::HistoryEnds> readEnds(Connection& connection) {
-    const auto rows = connection.run(kEnds);
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->count() != 1) return damaged(connection, "the table history does not have exactly one row");
-    return net::HistoryEnds{rows->number(0, 0), rows->number(0, 1)};
+    const auto rows = TERRANE_TRY(connection.run(kEnds));
+    if (rows.count() != 1) return damaged(connection, "the table history does not have exactly one row");
+    return net::HistoryEnds{rows.number(0, 0), rows.number(0, 1)};
 }
 
 base::Result<std::vector<game::PlayerId>> readElsewhere(Connection& connection, std::int64_t server) {
-    const auto rows = connection.run(kElsewhere, Parameters().number(server));
-    if (!rows) return tl::unexpected(rows.error());
-    return playersOf(*rows);
+    const auto rows = TERRANE_TRY(connection.run(kElsewhere, Parameters().number(server)));
+    return playersOf(rows);
 }
 
 base::Result<std::optional<std::int64_t>> readServerOf(Connection& connection, game::PlayerId player) {
-    const auto rows = connection.run(kServerOf, Parameters().number(std::int64_t{player}));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->count() == 1 ? std::optional(rows->number(0, 0)) : std::nullopt;
+    const auto rows = TERRANE_TRY(connection.run(kServerOf, Parameters().number(std::int64_t{player})));
+    return rows.count() == 1 ? std::optional(rows.number(0, 0)) : std::nullopt;
 }
 
 base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap& ids,
@@ -154,37 +146,34 @@ base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap
     const bool isUp = order == net::EditOrder::OldestFirst;
     const net::KeyRange chunks =
         filter.area ? net::chunkKeys(*filter.area) : net::KeyRange{kLowest, kHighest};
-    const auto rows = connection.run(isUp ? kEditsUp : kEditsDown,
-                                     Parameters()
-                                         .number(isUp && last ? *last : filter.afterNumber)
-                                         .number(!isUp && last ? *last : kHighest)
-                                         .number(filter.player ? std::int64_t{*filter.player} : -1)
-                                         .number(filter.sinceMs.value_or(kLowest))
-                                         .number(filter.untilMs.value_or(kHighest))
-                                         .number(chunks.first)
-                                         .number(chunks.last)
-                                         .number(kEditsInPage));
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(
+        isUp ? kEditsUp : kEditsDown, Parameters()
+                                          .number(isUp && last ? *last : filter.afterNumber)
+                                          .number(!isUp && last ? *last : kHighest)
+                                          .number(filter.player ? std::int64_t{*filter.player} : -1)
+                                          .number(filter.sinceMs.value_or(kLowest))
+                                          .number(filter.untilMs.value_or(kHighest))
+                                          .number(chunks.first)
+                                          .number(chunks.last)
+                                          .number(kEditsInPage)));
     EditPage page;
-    for (int row = 0; row < rows->count(); ++row) {
-        auto edit = net::decodeEdit({rows->number(row, 0), rows->number(row, 1), rows->number(row, 2),
-                                     rows->number(row, 3), rows->bytes(row, 4)},
-                                    ids);
-        if (!edit) return tl::unexpected(edit.error());
-        if (net::isInArea(*edit, filter)) page.edits.push_back(std::move(*edit));
+    for (int row = 0; row < rows.count(); ++row) {
+        auto edit =
+            TERRANE_TRY(net::decodeEdit({rows.number(row, 0), rows.number(row, 1), rows.number(row, 2),
+                                         rows.number(row, 3), rows.bytes(row, 4)},
+                                        ids));
+        if (net::isInArea(edit, filter)) page.edits.push_back(std::move(edit));
     }
-    if (rows->count() == kEditsInPage) page.last = rows->number(rows->count() - 1, 0);
+    if (rows.count() == kEditsInPage) page.last = rows.number(rows.count() - 1, 0);
     return page;
 }
 
 base::Result<void> forEachEdit(const ReadEditPage& read, const net::UseEdit& use) {
     std::optional<std::int64_t> last;
     do {
-        const auto page = read(last);
-        if (!page) return tl::unexpected(page.error());
-        for (const net::LoggedEdit& edit : page->edits)
-            if (auto used = use(edit); !used) return used;
-        last = page->last;
+        const auto page = TERRANE_TRY(read(last));
+        for (const net::LoggedEdit& edit : page.edits) TERRANE_TRY(use(edit));
+        last = page.last;
     } while (last);
     return {};
 }
@@ -243,9 +232,9 @@ Command skipPlayerNumberCommand(game::PlayerId player) {
 }
 
 base::Result<std::vector<game::PlayerId>> takePlayerNumbers(Connection& connection, std::size_t count) {
-    const auto rows = connection.run(kNumbers, Parameters().integer(static_cast<std::int32_t>(count)));
-    if (!rows) return tl::unexpected(rows.error());
-    return playersOf(*rows);
+    const auto rows =
+        TERRANE_TRY(connection.run(kNumbers, Parameters().integer(static_cast<std::int32_t>(count))));
+    return playersOf(rows);
 }
 
 }  // namespace terrane::net_postgres

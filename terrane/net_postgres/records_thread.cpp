@@ -71,26 +71,26 @@ void PostgresRecords::waitForWork() {
 }
 
 base::Result<void> PostgresRecords::work() {
-    if (auto connected = connect(); !connected) return connected;
+    TERRANE_TRY(connect());
     Heard heard;
     auto done = takeNotes(heard);
     if (done) done = writeQueued(heard);
     hand(std::move(heard));  // also events before an error
     if (!done) return done;
-    if (auto reserved = reservePlayerNumbers(); !reserved) return reserved;
-    if (auto sent = sendNotes(); !sent) return sent;
+    TERRANE_TRY(reservePlayerNumbers());
+    TERRANE_TRY(sendNotes());
     return beatIfDue();
 }
 
 // Takes the locks of a server: until it ends, programs that play alone or regenerate the world get Busy.
 base::Result<void> PostgresRecords::connect() {
     if (!connection_ || !connection_->isUsable()) {
-        auto connection = store_postgres::reconnect(pool_.address(), store::WorldSharing::Servers, contents_);
-        if (!connection) return tl::unexpected(connection.error());
-        connection_ = std::move(*connection);
+        auto connection =
+            TERRANE_TRY(store_postgres::reconnect(pool_.address(), store::WorldSharing::Servers, contents_));
+        connection_ = std::move(connection);
         nextLook_ = nextBeat_ = {};
         mustLookUp_ = true;
-        if (auto listening = listen(); !listening) return listening;
+        TERRANE_TRY(listen());
     }
     return mustLookUp_ ? lookUp() : base::Result<void>();
 }
@@ -98,24 +98,19 @@ base::Result<void> PostgresRecords::connect() {
 // Reads all players, claims, places, the password, and who plays elsewhere, since notes may have been missed.
 // Changes queued here are newer: their own notes report them again.
 base::Result<void> PostgresRecords::lookUp() {
-    auto players = readPlayers(*connection_);
-    if (!players) return tl::unexpected(players.error());
-    auto claims = readClaims(*connection_);
-    if (!claims) return tl::unexpected(claims.error());
-    auto hash = readText(*connection_, net::kPasswordText);
-    if (!hash) return tl::unexpected(hash.error());
-    auto places = readPlaces(*connection_);
-    if (!places) return tl::unexpected(places.error());
-    auto elsewhere = readElsewhere(*connection_, server_);
-    if (!elsewhere) return tl::unexpected(elsewhere.error());
+    auto players = TERRANE_TRY(readPlayers(*connection_));
+    auto claims = TERRANE_TRY(readClaims(*connection_));
+    auto hash = TERRANE_TRY(readText(*connection_, net::kPasswordText));
+    auto places = TERRANE_TRY(readPlaces(*connection_));
+    auto elsewhere = TERRANE_TRY(readElsewhere(*connection_, server_));
     mustLookUp_ = false;
     const std::lock_guard lock(mutex_);
-    std::move(players->begin(), players->end(), std::back_inserter(news_.players));
-    news_.claims = std::move(*claims);
-    news_.passwordHash = std::move(*hash);
-    news_.allPlaces = std::move(*places);
+    std::move(players.begin(), players.end(), std::back_inserter(news_.players));
+    news_.claims = std::move(claims);
+    news_.passwordHash = std::move(hash);
+    news_.allPlaces = std::move(places);
     news_.places.clear();  // older than allPlaces
-    for (const game::PlayerId player : *elsewhere)
+    for (const game::PlayerId player : elsewhere)
         if (!joinsHere(player)) news_.joined.push_back(player);
     return {};
 }
@@ -159,29 +154,25 @@ base::Result<void> PostgresRecords::takeNotes(Heard& heard) {
 base::Result<void> PostgresRecords::takeNote(const Note& note, bool& hasEdits) {
     if (std::holds_alternative<EditsNote>(note)) hasEdits = true;
     if (const auto* changed = std::get_if<PlayerNote>(&note)) {
-        auto player = readPlayer(*connection_, changed->player);
-        if (!player) return tl::unexpected(player.error());
+        auto player = TERRANE_TRY(readPlayer(*connection_, changed->player));
         const std::lock_guard lock(mutex_);
-        if (*player) news_.players.push_back(std::move(**player));
+        if (player) news_.players.push_back(std::move(*player));
     }
     if (std::holds_alternative<PasswordNote>(note)) {
-        auto hash = readText(*connection_, net::kPasswordText);
-        if (!hash) return tl::unexpected(hash.error());
+        auto hash = TERRANE_TRY(readText(*connection_, net::kPasswordText));
         const std::lock_guard lock(mutex_);
-        news_.passwordHash = std::move(*hash);
+        news_.passwordHash = std::move(hash);
     }
     if (std::holds_alternative<ClaimsNote>(note)) {
-        auto claims = readClaims(*connection_);
-        if (!claims) return tl::unexpected(claims.error());
+        auto claims = TERRANE_TRY(readClaims(*connection_));
         const std::lock_guard lock(mutex_);
-        news_.claims = std::move(*claims);
+        news_.claims = std::move(claims);
     }
     if (const auto* joined = std::get_if<JoinedNote>(&note)) {
         // The player may have joined here since.
-        const auto server = readServerOf(*connection_, joined->player);
-        if (!server) return tl::unexpected(server.error());
+        const auto server = TERRANE_TRY(readServerOf(*connection_, joined->player));
         const std::lock_guard lock(mutex_);
-        if (*server != server_ && !joinsHere(joined->player)) news_.joined.push_back(joined->player);
+        if (server != server_ && !joinsHere(joined->player)) news_.joined.push_back(joined->player);
     }
     const std::lock_guard lock(mutex_);
     if (const auto* left = std::get_if<LeftNote>(&note)) news_.left.push_back(left->player);
@@ -253,7 +244,7 @@ base::Result<void> PostgresRecords::sendNotes() {
         }
     }
     if (commands.empty()) return {};
-    if (auto sent = connection_->changeAll(commands); !sent) return sent;
+    TERRANE_TRY(connection_->changeAll(commands));
     const std::lock_guard lock(mutex_);
     notes_.erase(notes_.begin(), notes_.begin() + static_cast<std::ptrdiff_t>(commands.size()));
     return {};
@@ -270,14 +261,13 @@ base::Result<void> PostgresRecords::beatIfDue() {
         name = name_;
         state.regions = {requestedRegions_.begin(), requestedRegions_.end()};
     }
-    auto answer = beat(*connection_, name, state);
-    if (!answer) return tl::unexpected(answer.error());
+    auto answer = TERRANE_TRY(beat(*connection_, name, state));
     nextBeat_ = now + kBeatEvery;
-    if (auto found = findUnsaved(answer->others); !found) return found;
+    TERRANE_TRY(findUnsaved(answer.others));
     const std::lock_guard lock(mutex_);
-    news_.saved = std::max(news_.saved, answer->saved);
-    news_.servers = std::move(answer->others);
-    leased_ = {answer->regions.begin(), answer->regions.end()};
+    news_.saved = std::max(news_.saved, answer.saved);
+    news_.servers = std::move(answer.others);
+    leased_ = {answer.regions.begin(), answer.regions.end()};
     leasedUntil_ = now + kLeaseUsed;
     return {};
 }
@@ -309,11 +299,10 @@ base::Result<void> PostgresRecords::reservePlayerNumbers() {
         const std::lock_guard lock(mutex_);
         if (numbers_.size() >= kPlayerNumbers / 2) return {};
     }
-    auto numbers = takePlayerNumbers(*connection_, kPlayerNumbers);
-    if (!numbers) return tl::unexpected(numbers.error());
+    auto numbers = TERRANE_TRY(takePlayerNumbers(*connection_, kPlayerNumbers));
     const std::lock_guard lock(mutex_);
     // Numbers are taken from the back, the lowest first.
-    numbers_.insert(numbers_.begin(), numbers->rbegin(), numbers->rend());
+    numbers_.insert(numbers_.begin(), numbers.rbegin(), numbers.rend());
     return {};
 }
 

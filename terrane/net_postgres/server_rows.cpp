@@ -46,10 +46,9 @@ constexpr Statement kUnsaved = {
 }  // namespace
 
 base::Result<std::int64_t> addServer(Connection& connection, const ServerName& name) {
-    const auto rows =
-        connection.run(kAddServer, Parameters().text(name.name).text(name.address).text(name.key));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->number(0, 0);
+    const auto rows = TERRANE_TRY(
+        connection.run(kAddServer, Parameters().text(name.name).text(name.address).text(name.key)));
+    return rows.number(0, 0);
 }
 
 base::Result<void> removeServer(Connection& connection, std::int64_t server, std::int64_t saved) {
@@ -77,24 +76,22 @@ base::Result<BeatAnswer> beat(Connection& connection, const ServerName& name, co
         {&kSaved},
         {&kOtherServers, Parameters().number(state.server).number(kGoneSeconds)},
         {&kLeased, Parameters().number(state.server)}};
-    const auto rows = connection.runAll(commands);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.runAll(commands));
     BeatAnswer answer;
-    answer.saved = (*rows)[3].number(0, 0);
-    const store_postgres::Rows& others = (*rows)[4];
+    answer.saved = rows[3].number(0, 0);
+    const store_postgres::Rows& others = rows[4];
     for (int row = 0; row < others.count(); ++row)
         answer.others.push_back({others.number(row, 0), std::string(others.text(row, 1)),
                                  std::string(others.text(row, 2)), std::string(others.text(row, 3)),
                                  others.number(row, 4) != 0});
-    for (int row = 0; row < (*rows)[5].count(); ++row) answer.regions.push_back((*rows)[5].number(row, 0));
+    for (int row = 0; row < rows[5].count(); ++row) answer.regions.push_back(rows[5].number(row, 0));
     return answer;
 }
 
 base::Result<std::vector<world::ChunkPos>> unsavedChunks(Connection& connection, std::int64_t server) {
-    const auto rows = connection.run(kUnsaved, Parameters().number(server));
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kUnsaved, Parameters().number(server)));
     std::vector<world::ChunkPos> chunks;
-    for (int row = 0; row < rows->count(); ++row) chunks.push_back(store::posOf(rows->number(row, 0)));
+    for (int row = 0; row < rows.count(); ++row) chunks.push_back(store::posOf(rows.number(row, 0)));
     return chunks;
 }
 

@@ -40,10 +40,8 @@ base::Result<void> qualifyTextures(const Pack& pack, const Pack& builtIn, world:
         face.texture = std::move(name);
         return {};
     };
-    for (world::FaceLook& face : block.faces)
-        if (auto done = qualify(face); !done) return done;
-    for (world::FaceLook& face : block.growth)
-        if (auto done = qualify(face); !done) return done;
+    for (world::FaceLook& face : block.faces) TERRANE_TRY(qualify(face));
+    for (world::FaceLook& face : block.growth) TERRANE_TRY(qualify(face));
     return {};
 }
 
@@ -69,14 +67,12 @@ void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& block
 base::Result<void> readBlocks(const Pack& pack, const Pack& builtIn, BlockCollector& collector) {
     const std::string* text = fileOf(pack, "blocks.toml");
     if (!text) return {};
-    auto read =
-        world::parseBlocks(*text, placeOf(pack, "blocks.toml"), collector.behaviors, collector.builtInShapes);
-    if (!read) return tl::unexpected(read.error());
-    for (world::BlockDescription& block : read->blocks)
-        if (auto done = qualifyTextures(pack, builtIn, block); !done) return done;
-    qualifyBlocks(pack, read->blocks);
-    std::ranges::move(read->blocks, std::back_inserter(collector.blocks));
-    if (&pack == &builtIn) collector.builtInShapes = std::move(read->shapes);
+    auto read = TERRANE_TRY(world::parseBlocks(*text, placeOf(pack, "blocks.toml"), collector.behaviors,
+                                               collector.builtInShapes));
+    for (world::BlockDescription& block : read.blocks) TERRANE_TRY(qualifyTextures(pack, builtIn, block));
+    qualifyBlocks(pack, read.blocks);
+    std::ranges::move(read.blocks, std::back_inserter(collector.blocks));
+    if (&pack == &builtIn) collector.builtInShapes = std::move(read.shapes);
     return {};
 }
 
@@ -103,12 +99,12 @@ base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t cou
         if (pack.info.name == kBuiltInPack) continue;
         for (const auto& [path, data] : pack.files) {
             if (!path.starts_with("textures/")) continue;
-            const auto image = base::decodePng(
-                data, placeOf(pack, path), std::int64_t{content::kMaxTextureSide} * content::kMaxTextureSide);
-            if (!image) return tl::unexpected(image.error());
-            if (auto checked = content::checkTexture(*image, placeOf(pack, path)); !checked) return checked;
-            widest = std::max(widest, static_cast<std::size_t>(image->width));
-            pixelBytes += image->rgba.size();
+            const auto image = TERRANE_TRY(
+                base::decodePng(data, placeOf(pack, path),
+                                std::int64_t{content::kMaxTextureSide} * content::kMaxTextureSide));
+            TERRANE_TRY(content::checkTexture(image, placeOf(pack, path)));
+            widest = std::max(widest, static_cast<std::size_t>(image.width));
+            pixelBytes += image.rgba.size();
             if (pixelBytes > kMaxTextureBytes)
                 return base::fail(base::ErrorCode::BadInput,
                                   "the textures of the packs have more than {} MiB", kMaxTextureBytes >> 20);
@@ -124,8 +120,7 @@ base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t cou
 base::Result<void> checkLanguages(const Pack& pack) {
     for (const auto& [path, text] : pack.files)
         if (path.starts_with("languages/"))
-            if (const auto read = content::parseLanguage(text, placeOf(pack, path)); !read)
-                return tl::unexpected(read.error());
+            (void)TERRANE_TRY(content::parseLanguage(text, placeOf(pack, path)));
     return {};
 }
 
@@ -148,12 +143,11 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
         if (std::chrono::steady_clock::now() > until)
             return base::fail(base::ErrorCode::BadInput, "{}: the scripts of the packs take more than {} s",
                               placeOf(pack, path), kLongestRecording.count());
-        const auto version = lua::scriptVersion(*script, names, blocks);
-        if (!version) return tl::unexpected(version.error());
+        const auto version = TERRANE_TRY(lua::scriptVersion(*script, names, blocks));
         const auto record = [script, names](const world::BlockRegistry& registry, int level) {
             return lua::recordScript(*script, names, registry, level);
         };
-        generators.push_back({name, *version, record});
+        generators.push_back({name, version, record});
     }
     return {};
 }
@@ -161,30 +155,23 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
 }  // namespace
 
 base::Result<Content> loadContent(std::vector<Pack> packs, const world::BehaviorTable& behaviors) {
-    auto builtIn = builtInPack();
-    if (!builtIn) return tl::unexpected(builtIn.error());
-    auto ordered = inOrder(std::move(*builtIn), std::move(packs));
-    if (!ordered) return tl::unexpected(ordered.error());
+    auto builtIn = TERRANE_TRY(builtInPack());
+    auto ordered = TERRANE_TRY(inOrder(std::move(builtIn), std::move(packs)));
     Content content;
-    content.packs = std::make_shared<const std::vector<Pack>>(std::move(*ordered));
+    content.packs = std::make_shared<const std::vector<Pack>>(std::move(ordered));
 
     BlockCollector collector{behaviors, {}, {}};
-    for (const Pack& pack : *content.packs)
-        if (auto read = readBlocks(pack, content.packs->front(), collector); !read)
-            return tl::unexpected(read.error());
-    auto blocks = world::BlockRegistry::fromDescriptions(std::move(collector.blocks), "blocks.toml");
-    if (!blocks) return tl::unexpected(blocks.error());
-    content.blocks = std::make_shared<const world::BlockRegistry>(std::move(*blocks));
-    if (auto checked = checkTextures(*content.packs, content.blocks->textures().size()); !checked)
-        return tl::unexpected(checked.error());
+    for (const Pack& pack : *content.packs) TERRANE_TRY(readBlocks(pack, content.packs->front(), collector));
+    auto blocks =
+        TERRANE_TRY(world::BlockRegistry::fromDescriptions(std::move(collector.blocks), "blocks.toml"));
+    content.blocks = std::make_shared<const world::BlockRegistry>(std::move(blocks));
+    TERRANE_TRY(checkTextures(*content.packs, content.blocks->textures().size()));
     content.textures = texturesOf(content.packs);
     content.generators = gen::builtInGenerators();
     const auto until = std::chrono::steady_clock::now() + kLongestRecording;
+    for (const Pack& pack : *content.packs) TERRANE_TRY(checkLanguages(pack));
     for (const Pack& pack : *content.packs)
-        if (auto checked = checkLanguages(pack); !checked) return tl::unexpected(checked.error());
-    for (const Pack& pack : *content.packs)
-        if (auto added = addGenerators(pack, *content.blocks, until, content.generators); !added)
-            return tl::unexpected(added.error());
+        TERRANE_TRY(addGenerators(pack, *content.blocks, until, content.generators));
     return content;
 }
 
@@ -195,9 +182,8 @@ base::Result<void> addBlockNames(content::Language& language, const Content& con
         const std::string path = fileOf(pack, wanted) ? wanted : "languages/en.toml";
         const std::string* text = fileOf(pack, path);
         if (!text) continue;
-        auto read = content::parseLanguage(*text, placeOf(pack, path));
-        if (!read) return tl::unexpected(read.error());
-        for (auto& [name, shown] : read->blocks) language.blocks[qualified(pack, name)] = std::move(shown);
+        auto read = TERRANE_TRY(content::parseLanguage(*text, placeOf(pack, path)));
+        for (auto& [name, shown] : read.blocks) language.blocks[qualified(pack, name)] = std::move(shown);
     }
     return {};
 }

@@ -13,15 +13,14 @@ constexpr std::size_t kMaxRequired = 256;
 
 // A pack that is found by its name must have that name: worlds and other packs refer to it.
 base::Result<Pack> readNamed(const std::string& nameOrPath) {
-    const auto path = findPack(nameOrPath, packFolders());
-    if (!path) return tl::unexpected(path.error());
-    auto read = readPack(*path);
-    const bool isNamed = isPackName(nameOrPath) && *path != std::filesystem::path(nameOrPath);
+    const auto path = TERRANE_TRY(findPack(nameOrPath, packFolders()));
+    auto read = readPack(path);
+    const bool isNamed = isPackName(nameOrPath) && path != std::filesystem::path(nameOrPath);
     if (read && isNamed && read->info.name != nameOrPath)
         return base::fail(
             base::ErrorCode::BadInput,
             "{}: this pack is called \"{}\": in the packs folder, give its folder or file that name",
-            path->string(), read->info.name);
+            path.string(), read->info.name);
     return read;
 }
 
@@ -36,9 +35,8 @@ base::Result<std::vector<Pack>> readPacks(const std::vector<std::string>& namesO
     std::vector<Pack> packs;
     for (const std::string& nameOrPath : namesOrPaths) {
         if (hasPack(packs, nameOrPath)) continue;  // its path was given before
-        auto read = readNamed(nameOrPath);
-        if (!read) return tl::unexpected(read.error());
-        packs.push_back(std::move(*read));
+        auto read = TERRANE_TRY(readNamed(nameOrPath));
+        packs.push_back(std::move(read));
     }
     return packs;
 }
@@ -78,10 +76,9 @@ base::Result<Content> loadAgain(const Content& content) {
     std::vector<std::string> paths;
     for (const Pack& pack : *content.packs)
         if (pack.info.name != kBuiltInPack) paths.push_back(pack.where);
-    auto packs = readPacks(paths);
-    if (!packs) return tl::unexpected(packs.error());
-    if (auto added = addRequired(*packs); !added) return tl::unexpected(added.error());
-    return loadContent(std::move(*packs));
+    auto packs = TERRANE_TRY(readPacks(paths));
+    TERRANE_TRY(addRequired(packs));
+    return loadContent(std::move(packs));
 }
 
 }  // namespace terrane::pack

@@ -115,7 +115,7 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
     const auto info = files.find(kInfoFile);
     if (info == files.end())
         return base::fail(base::ErrorCode::BadInput, "{}: not a content pack: there is no pack.toml", where);
-    if (auto checked = checkSizes(files, where); !checked) return tl::unexpected(checked.error());
+    TERRANE_TRY(checkSizes(files, where));
     Pack pack{{}, {}, std::move(where)};
     const std::string file = pack.where + "/pack.toml";
     try {

@@ -91,9 +91,8 @@ base::Result<Pack> packOf(store::ByteView archive, const std::string& where) {
     if (auto done = store::decompress(reader.rest(), raw); !done)
         return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack: {}", where,
                           done.error().message);
-    auto files = filesOf(raw, where);
-    if (!files) return tl::unexpected(files.error());
-    return makePack(std::move(*files), where);
+    auto files = TERRANE_TRY(filesOf(raw, where));
+    return makePack(std::move(files), where);
 }
 
 }  // namespace terrane::pack

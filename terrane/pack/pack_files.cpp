@@ -17,10 +17,9 @@ base::Result<void> addFile(PackFiles& files, std::size_t& bytes, const fs::path&
     if (files.size() == kMaxFiles)
         return base::fail(base::ErrorCode::BadInput, "{}: more than {} files", file.parent_path().string(),
                           kMaxFiles);
-    auto data = base::readFile(file, kMaxPackBytes - bytes);
-    if (!data) return tl::unexpected(data.error());
-    bytes += data->size();
-    files.emplace(std::move(path), std::move(*data));
+    auto data = TERRANE_TRY(base::readFile(file, kMaxPackBytes - bytes));
+    bytes += data.size();
+    files.emplace(std::move(path), std::move(data));
     return {};
 }
 
@@ -31,7 +30,7 @@ base::Result<void> addFolder(PackFiles& files, std::size_t& bytes, const fs::pat
     for (fs::directory_iterator it(folder, error), end; !error && it != end; it.increment(error)) {
         const std::string path = inside + it->path().filename().string();
         if (!isPackPath(path)) continue;
-        if (auto added = addFile(files, bytes, it->path(), path); !added) return added;
+        TERRANE_TRY(addFile(files, bytes, it->path(), path));
     }
     if (error == std::errc::no_such_file_or_directory && !inside.empty()) return {};
     if (error)
@@ -43,8 +42,7 @@ base::Result<Pack> readFolder(const fs::path& folder) {
     PackFiles files;
     std::size_t bytes = 0;
     for (const char* inside : {"", "textures/", "generators/", "languages/"})
-        if (auto added = addFolder(files, bytes, folder / inside, inside); !added)
-            return tl::unexpected(added.error());
+        TERRANE_TRY(addFolder(files, bytes, folder / inside, inside));
     return makePack(std::move(files), folder.string());
 }
 
@@ -53,9 +51,8 @@ base::Result<Pack> readFolder(const fs::path& folder) {
 base::Result<Pack> readPack(const fs::path& path) {
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) return readFolder(path);
-    auto files = readZip(path);
-    if (!files) return tl::unexpected(files.error());
-    return makePack(std::move(*files), path.string());
+    auto files = TERRANE_TRY(readZip(path));
+    return makePack(std::move(files), path.string());
 }
 
 base::Result<fs::path> findPack(std::string_view nameOrPath, std::span<const fs::path> folders) {

@@ -24,7 +24,7 @@ base::Result<void> checkRequired(const std::vector<Pack>& packs) {
 }  // namespace
 
 base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs) {
-    if (auto checked = checkRequired(packs); !checked) return tl::unexpected(checked.error());
+    TERRANE_TRY(checkRequired(packs));
     std::vector<Pack> ordered;
     std::set<std::string> done{std::string(kBuiltInPack)};
     ordered.push_back(std::move(builtIn));

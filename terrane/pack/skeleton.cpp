@@ -46,9 +46,7 @@ base::Result<void> writeSkeleton(const fs::path& folder) {
         if (!file.path.starts_with(kFolder)) continue;
         const fs::path path = folder / file.path.substr(kFolder.size());
         const bool isText = path.extension() != ".png";
-        if (auto written = base::writeFile(path, isText ? withName(file.data, name) : std::string(file.data));
-            !written)
-            return written;
+        TERRANE_TRY(base::writeFile(path, isText ? withName(file.data, name) : std::string(file.data)));
     }
     return {};
 }

@@ -78,35 +78,32 @@ base::Result<std::string> readEntry(zip_t* zip, zip_uint64_t index, std::size_t 
 }  // namespace
 
 base::Result<PackFiles> readZipBytes(std::string_view bytes, const std::string& where) {
-    auto zip = openZip(bytes, where);
-    if (!zip) return tl::unexpected(zip.error());
-    const zip_int64_t count = zip_get_num_entries(zip->get(), 0);
+    auto zip = TERRANE_TRY(openZip(bytes, where));
+    const zip_int64_t count = zip_get_num_entries(zip.get(), 0);
     if (count > kMaxEntries)
         return base::fail(base::ErrorCode::BadInput, "{}: more than {} files", where, kMaxEntries);
-    const std::string folder = folderOf(zip->get(), count);
+    const std::string folder = folderOf(zip.get(), count);
     PackFiles files;
     std::size_t total = 0;
     for (zip_int64_t k = 0; k < count; ++k) {
         const auto index = static_cast<zip_uint64_t>(k);
-        const char* name = zip_get_name(zip->get(), index, 0);
+        const char* name = zip_get_name(zip.get(), index, 0);
         std::string path = name ? name : "";
         if (!path.starts_with(folder)) continue;
         path.erase(0, folder.size());
         if (!isPackPath(path) || files.contains(path)) continue;
         if (files.size() == kMaxFiles)
             return base::fail(base::ErrorCode::BadInput, "{}: more than {} files", where, kMaxFiles);
-        auto data = readEntry(zip->get(), index, kMaxPackBytes - total, where + "/" + path);
-        if (!data) return tl::unexpected(data.error());
-        total += data->size();
-        files.emplace(std::move(path), std::move(*data));
+        auto data = TERRANE_TRY(readEntry(zip.get(), index, kMaxPackBytes - total, where + "/" + path));
+        total += data.size();
+        files.emplace(std::move(path), std::move(data));
     }
     return files;
 }
 
 base::Result<PackFiles> readZip(const std::filesystem::path& path) {
-    const auto bytes = base::readFile(path, kMaxPackBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    return readZipBytes(*bytes, path.string());
+    const auto bytes = TERRANE_TRY(base::readFile(path, kMaxPackBytes));
+    return readZipBytes(bytes, path.string());
 }
 
 }  // namespace terrane::pack

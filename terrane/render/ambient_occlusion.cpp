@@ -34,12 +34,10 @@ base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool
     between_ = {};
     size_ = {0, 0};
     if (!isOn) return {};
-    auto visibility = ColorTarget::create(wanted, GL_R8, "ambient occlusion");
-    if (!visibility) return tl::unexpected(visibility.error());
-    auto between = ColorTarget::create(wanted, GL_R8, "occlusion between");
-    if (!between) return tl::unexpected(between.error());
-    visibility_ = std::move(*visibility);
-    between_ = std::move(*between);
+    auto visibility = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "ambient occlusion"));
+    auto between = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "occlusion between"));
+    visibility_ = std::move(visibility);
+    between_ = std::move(between);
     size_ = wanted;
     return {};
 }

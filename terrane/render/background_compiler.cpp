@@ -116,24 +116,22 @@ std::optional<BackgroundCompiler::State::Request> BackgroundCompiler::State::tak
 }
 
 base::Result<void> BackgroundCompiler::State::compileUntilIdle() {
-    auto context = gpu::HeadlessContext::create({});
-    if (!context) return tl::unexpected(context.error());
-    auto renderer = Renderer::create(shaders, blocks, takeTextures(), gpu::queryDevice());
-    if (!renderer) return tl::unexpected(renderer.error());
-    renderer->setViewDistance(1);
-    renderer->setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
-    renderer->setLight({0, 0}, light::ChunkLight());
+    const auto context = TERRANE_TRY(gpu::HeadlessContext::create({}));
+    auto renderer = TERRANE_TRY(Renderer::create(shaders, blocks, takeTextures(), gpu::queryDevice()));
+    renderer.setViewDistance(1);
+    renderer.setChunk({0, 0}, mesh::meshAlone(sampleChunk(blocks), blocks));
+    renderer.setLight({0, 0}, light::ChunkLight());
     while (const std::optional<Request> request = takeNext()) {
         TERRANE_ZONE("compile shaders");
         const auto configure = [&]() -> base::Result<void> {
-            if (auto used = renderer->useLand(request->features.hasLand); !used) return used;
-            if (auto used = renderer->useTint(request->features.hasTint); !used) return used;
-            return renderer->configure(request->size, request->options);
+            TERRANE_TRY(renderer.useLand(request->features.hasLand));
+            TERRANE_TRY(renderer.useTint(request->features.hasTint));
+            return renderer.configure(request->size, request->options);
         };
         if (configure()) {
             // All quads count as hidden before the first frame, so its late pass draws them; in the second
             // the early pass does.
-            for (int frame = 0; frame < 2; ++frame) renderer->draw(sampleInput());
+            for (int frame = 0; frame < 2; ++frame) renderer.draw(sampleInput());
             glFinish();
         }
         // The renderer reports options that the driver does not support.

@@ -31,13 +31,12 @@ base::Result<std::vector<base::Image>> readImages(std::span<const std::string> n
                                                   const TextureSource& source) {
     std::vector<base::Image> images;
     for (const std::string& name : names) {
-        base::Result<base::Image> image = source(name);
-        if (!image) return tl::unexpected(image.error());
-        if (image->width != image->height || !std::has_single_bit(static_cast<unsigned>(image->width))) {
-            return base::fail("texture \"{}\": {}×{} is not square with a power of two", name, image->width,
-                              image->height);
+        base::Image image = TERRANE_TRY(source(name));
+        if (image.width != image.height || !std::has_single_bit(static_cast<unsigned>(image.width))) {
+            return base::fail("texture \"{}\": {}×{} is not square with a power of two", name, image.width,
+                              image.height);
         }
-        images.push_back(std::move(*image));
+        images.push_back(std::move(image));
     }
     return images;
 }
@@ -76,15 +75,14 @@ base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& regist
     const int count = static_cast<int>(names.size());
     const int most = std::min(static_cast<int>(shared::kMaxBlockTextures), limits.layers);
     if (count > most) return base::fail("the blocks have {} textures: at most {} can be drawn", count, most);
-    const auto images = readImages(names, source);
-    if (!images) return tl::unexpected(images.error());
-    const int largest = std::ranges::max(*images, {}, &base::Image::width).width;
+    const auto images = TERRANE_TRY(readImages(names, source));
+    const int largest = std::ranges::max(images, {}, &base::Image::width).width;
     const int side = std::min(largest, limits.side);
     BlockTextures textures;
     textures.array =
         gpu::Texture2DArray({{side, side}, count, gpu::fullLevels({side, side})}, GL_RGBA8, "block textures");
-    for (std::size_t layer = 0; layer < images->size(); ++layer) {
-        auto mips = mipmaps((*images)[layer], textureAlpha(registry, layer), textureWrap(registry, layer));
+    for (std::size_t layer = 0; layer < images.size(); ++layer) {
+        auto mips = mipmaps(images[layer], textureAlpha(registry, layer), textureWrap(registry, layer));
         std::erase_if(mips, [&](const base::Image& mip) { return mip.width > side; });
         const auto times = static_cast<unsigned>(side / mips.front().width);
         const auto levels = levelsInArray(std::move(mips), side);

@@ -58,18 +58,15 @@ std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
 
 base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device) {
     CullPass pass;
-    auto cull = gpu::Program::compute(shaders, "terrane/render/cull.comp.glsl", {}, "cull");
-    if (!cull) return tl::unexpected(cull.error());
-    auto compact = gpu::Program::compute(shaders, "terrane/render/compact.comp.glsl", {}, "compact");
-    if (!compact) return tl::unexpected(compact.error());
-    auto quadCull = QuadCull::create(shaders);
-    if (!quadCull) return tl::unexpected(quadCull.error());
-    auto quadList = QuadList::create(shaders);
-    if (!quadList) return tl::unexpected(quadList.error());
-    pass.quadCull_ = std::move(*quadCull);
-    pass.quadList_ = std::move(*quadList);
-    pass.cull_ = std::move(*cull);
-    pass.compact_ = std::move(*compact);
+    auto cull = TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/cull.comp.glsl", {}, "cull"));
+    auto compact =
+        TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/compact.comp.glsl", {}, "compact"));
+    auto quadCull = TERRANE_TRY(QuadCull::create(shaders));
+    auto quadList = TERRANE_TRY(QuadList::create(shaders));
+    pass.quadCull_ = std::move(quadCull);
+    pass.quadList_ = std::move(quadList);
+    pass.cull_ = std::move(cull);
+    pass.compact_ = std::move(compact);
     pass.hasIndirectCount_ = device.indirectCount;
     const std::array<TwoCounts, shared::kMaxArenas> none{};  // 3.3 KB
     pass.countBuffer_ = gpu::Buffer(std::as_bytes(std::span(none)), GL_DYNAMIC_STORAGE_BIT, "draw counts");

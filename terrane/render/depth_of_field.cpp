@@ -20,12 +20,10 @@ base::Result<void> DepthOfField::configure(const FrameTargets& targets, bool isO
     result_ = {};
     size_ = {0, 0};
     if (!isOn) return {};
-    auto between = ColorTarget::create(wanted, GL_RGBA16F, "blurred along x");
-    if (!between) return tl::unexpected(between.error());
-    auto result = ColorTarget::create(wanted, GL_RGBA16F, "blurred");
-    if (!result) return tl::unexpected(result.error());
-    between_ = std::move(*between);
-    result_ = std::move(*result);
+    auto between = TERRANE_TRY(ColorTarget::create(wanted, GL_RGBA16F, "blurred along x"));
+    auto result = TERRANE_TRY(ColorTarget::create(wanted, GL_RGBA16F, "blurred"));
+    between_ = std::move(between);
+    result_ = std::move(result);
     size_ = wanted;
     return {};
 }

@@ -27,9 +27,8 @@ bool readsLand(const RenderOptions& options) {
 
 base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                                               const gpu::DeviceInfo& device) {
-    auto cull = CullPass::create(shaders, device);
-    if (!cull) return tl::unexpected(cull.error());
-    return FramePasses{.cull = std::move(*cull),
+    auto cull = TERRANE_TRY(CullPass::create(shaders, device));
+    return FramePasses{.cull = std::move(cull),
                        .hiZ = HiZ(shaders),
                        .shadowMap = ShadowMap(shaders),
                        .gbuffer = GBufferPass(shaders),

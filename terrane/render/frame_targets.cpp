@@ -19,9 +19,8 @@ MsaaTexture::MsaaTexture(glm::ivec2 size, GLenum format, int samples, std::strin
 base::Result<ColorTarget> ColorTarget::create(glm::ivec2 size, GLenum format, std::string_view label) {
     ColorTarget target;
     target.texture = gpu::Texture2D(size, format, 1, label);
-    auto framebuffer = gpu::Framebuffer::create({{target.texture}, {}}, label);
-    if (!framebuffer) return tl::unexpected(framebuffer.error());
-    target.framebuffer = std::move(*framebuffer);
+    auto framebuffer = TERRANE_TRY(gpu::Framebuffer::create({{target.texture}, {}}, label));
+    target.framebuffer = std::move(framebuffer);
     return target;
 }
 
@@ -35,32 +34,28 @@ base::Result<FrameTargets> FrameTargets::create(glm::ivec2 size, int samples) {
     t.msaaSamples = t.gbufferColor.samples();
     t.sceneColor = gpu::Texture2D(size, GL_RGBA16F, 1, "scene");
     t.ldrColor = gpu::Texture2D(size, GL_RGBA8, 1, "LDR");
-    auto gbuffer =
-        gpu::Framebuffer::create({{t.gbufferColor.attachment()}, t.depth.attachment()}, "G-buffer");
-    if (!gbuffer) return tl::unexpected(gbuffer.error());
+    auto gbuffer = TERRANE_TRY(
+        gpu::Framebuffer::create({{t.gbufferColor.attachment()}, t.depth.attachment()}, "G-buffer"));
     gpu::FramebufferOptions sceneOptions{{t.sceneColor}, t.depth.attachment()};
     if (t.msaaSamples > 1) {
         t.maskDepth = gpu::Texture2D(size, GL_DEPTH_COMPONENT16, 1, "mask");
-        auto mask = gpu::Framebuffer::create({{}, t.maskDepth}, "mask");
-        if (!mask) return tl::unexpected(mask.error());
-        t.mask = std::move(*mask);
+        auto mask = TERRANE_TRY(gpu::Framebuffer::create({{}, t.maskDepth}, "mask"));
+        t.mask = std::move(mask);
         sceneOptions.depth = t.maskDepth;
     }
-    auto scene = gpu::Framebuffer::create(sceneOptions, "scene");
-    if (!scene) return tl::unexpected(scene.error());
-    auto ldr = gpu::Framebuffer::create({{t.ldrColor}, {}}, "LDR");
-    if (!ldr) return tl::unexpected(ldr.error());
+    auto scene = TERRANE_TRY(gpu::Framebuffer::create(sceneOptions, "scene"));
+    auto ldr = TERRANE_TRY(gpu::Framebuffer::create({{t.ldrColor}, {}}, "LDR"));
     if (t.msaaSamples == 1) {
-        auto direct = gpu::Framebuffer::create({{t.ldrColor}, t.depth.attachment()}, "direct image");
-        if (!direct) return tl::unexpected(direct.error());
-        t.direct = std::move(*direct);
+        auto direct =
+            TERRANE_TRY(gpu::Framebuffer::create({{t.ldrColor}, t.depth.attachment()}, "direct image"));
+        t.direct = std::move(direct);
     }
     // No sky is drawn behind near surfaces. The scene is blended there with 0 of its previous color, which
     // must be a number.
-    scene->clearColor(0, glm::vec4(0));
-    t.gbuffer = std::move(*gbuffer);
-    t.scene = std::move(*scene);
-    t.ldr = std::move(*ldr);
+    scene.clearColor(0, glm::vec4(0));
+    t.gbuffer = std::move(gbuffer);
+    t.scene = std::move(scene);
+    t.ldr = std::move(ldr);
     return t;
 }
 

@@ -23,8 +23,7 @@ base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, const Qu
                         {"FACE_SAMPLING", features.hasFaceSampling},
                         {"TINT", features.hasTint}});
     };
-    auto selected = opaque_.select(variant(0, 1));
-    if (!selected) return selected;
+    TERRANE_TRY(opaque_.select(variant(0, 1)));
     return tested_.select(variant(1, alphaSamples));
 }
 

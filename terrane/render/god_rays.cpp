@@ -17,12 +17,10 @@ base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
     smoothed_ = {};
     size_ = {0, 0};
     if (!isOn) return {};
-    for (FullscreenPass* pass : {&sample_, &smooth_})
-        if (auto selected = pass->select({}); !selected) return selected;
+    for (FullscreenPass* pass : {&sample_, &smooth_}) TERRANE_TRY(pass->select({}));
     for (ColorTarget* target : {&sampled_, &smoothed_}) {
-        auto made = ColorTarget::create(wanted, GL_R8, "god rays");
-        if (!made) return tl::unexpected(made.error());
-        *target = std::move(*made);
+        auto made = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "god rays"));
+        *target = std::move(made);
     }
     size_ = wanted;
     return {};

@@ -39,14 +39,13 @@ base::Result<void> HiZ::configure(const FrameTargets& targets, bool isOn) {
     }
     const char* name = "terrane/render/hi_z.comp.glsl";
     if (samples_ != targets.msaaSamples) {
-        auto finest = gpu::Program::compute(
+        auto finest = TERRANE_TRY(gpu::Program::compute(
             *shaders_, name, {{"LEVEL_0", "1"}, {"MSAA_SAMPLES", std::to_string(targets.msaaSamples)}},
-            "Hi-Z");
-        if (!finest) return tl::unexpected(finest.error());
-        auto next = gpu::Program::compute(*shaders_, name, {{"LEVEL_0", "0"}, {"MSAA_SAMPLES", "1"}}, "Hi-Z");
-        if (!next) return tl::unexpected(next.error());
-        finest_ = std::move(*finest);
-        next_ = std::move(*next);
+            "Hi-Z"));
+        auto next = TERRANE_TRY(
+            gpu::Program::compute(*shaders_, name, {{"LEVEL_0", "0"}, {"MSAA_SAMPLES", "1"}}, "Hi-Z"));
+        finest_ = std::move(finest);
+        next_ = std::move(next);
         samples_ = targets.msaaSamples;
     }
     const glm::ivec2 size = finestSize(targets.size);

@@ -20,8 +20,7 @@ base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
         depth_ = {};
         return {};
     }
-    if (auto selected = fill_.select(defined({{"MSAA_SAMPLES", targets.msaaSamples}})); !selected)
-        return selected;
+    TERRANE_TRY(fill_.select(defined({{"MSAA_SAMPLES", targets.msaaSamples}})));
     if (this->isOn() && size_ == targets.size && surface_.samples() == targets.msaaSamples) return {};
     surface_ = MsaaTexture(targets.size, GL_RGBA8, targets.msaaSamples, "G-buffer with holes");
     depth_ = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "depth with holes");

@@ -10,9 +10,9 @@ namespace terrane::render {
 
 base::Result<QuadCull> QuadCull::create(const gpu::ShaderLoader& shaders) {
     QuadCull cull;
-    auto program = gpu::Program::compute(shaders, "terrane/render/quad_cull.comp.glsl", {}, "cull quads");
-    if (!program) return tl::unexpected(program.error());
-    cull.program_ = std::move(*program);
+    auto program =
+        TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/quad_cull.comp.glsl", {}, "cull quads"));
+    cull.program_ = std::move(program);
     return cull;
 }
 

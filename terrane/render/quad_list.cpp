@@ -18,9 +18,9 @@ constexpr GLuint kGroups = 16;  // a list's commands are distributed over them
 
 base::Result<QuadList> QuadList::create(const gpu::ShaderLoader& shaders) {
     QuadList list;
-    auto program = gpu::Program::compute(shaders, "terrane/render/quad_list.comp.glsl", {}, "list quads");
-    if (!program) return tl::unexpected(program.error());
-    list.program_ = std::move(*program);
+    auto program =
+        TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/quad_list.comp.glsl", {}, "list quads"));
+    list.program_ = std::move(program);
     list.reserve(0);
     return list;
 }

@@ -38,19 +38,16 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
                                         const TextureSource& textures, const gpu::DeviceInfo& device,
                                         const QuadStoreSizes& quads, int maxTextureSide) {
     const TextureLimits limits{device.maxArrayLayers, maxTextureSide};
-    auto blockTextures = loadBlockTextures(blocks, textures, limits);
-    if (!blockTextures) return tl::unexpected(blockTextures.error());
-    auto topColors = world::topColors(blocks, textures);
-    if (!topColors) return tl::unexpected(topColors.error());
-    auto passes = FramePasses::create(shaders, device);
-    if (!passes) return tl::unexpected(passes.error());
+    auto blockTextures = TERRANE_TRY(loadBlockTextures(blocks, textures, limits));
+    auto topColors = TERRANE_TRY(world::topColors(blocks, textures));
+    auto passes = TERRANE_TRY(FramePasses::create(shaders, device));
 
     Renderer renderer;
-    renderer.topColors_ = std::move(*topColors);
+    renderer.topColors_ = std::move(topColors);
     // Software renderers take time for each sample.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
-    renderer.resources_ = QuadResources(blocks, std::move(*blockTextures), anisotropy);
-    renderer.passes_ = std::move(*passes);
+    renderer.resources_ = QuadResources(blocks, std::move(blockTextures), anisotropy);
+    renderer.passes_ = std::move(passes);
     renderer.noise_ = SkyNoise::create();
     renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
@@ -67,18 +64,15 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 }
 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
-    auto loaded = loadBlockTextures(blocks, textures, textureLimits_);
-    if (!loaded) return tl::unexpected(loaded.error());
-    auto colors = world::topColors(blocks, textures);
-    if (!colors) return tl::unexpected(colors.error());
+    auto loaded = TERRANE_TRY(loadBlockTextures(blocks, textures, textureLimits_));
+    auto colors = TERRANE_TRY(world::topColors(blocks, textures));
     if (targets_.size.x > 0) {
-        auto done = configurePasses(targets_, options_,
-                                    {needsFaceSampling(blocks, *loaded), tints_.isUsed(), land_.isUsed()});
-        if (!done) return done;
+        TERRANE_TRY(configurePasses(targets_, options_,
+                                    {needsFaceSampling(blocks, loaded), tints_.isUsed(), land_.isUsed()}));
     }
-    topColors_ = std::move(*colors);
+    topColors_ = std::move(colors);
     if (land_.isUsed()) land_ = LandTextures::create(topColors_);  // its tiles come again, with these colors
-    resources_.setTextures(blocks, std::move(*loaded));
+    resources_.setTextures(blocks, std::move(loaded));
     passes_.shadowMap.forget();
     return {};
 }
@@ -108,32 +102,28 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
     }
     std::optional<FrameTargets> made;
     if (size != targets_.size || options.msaaSamples != targets_.requestedMsaaSamples) {
-        auto targets = FrameTargets::create(size, options.msaaSamples);
-        if (!targets) return tl::unexpected(targets.error());
-        made = std::move(*targets);
+        auto targets = TERRANE_TRY(FrameTargets::create(size, options.msaaSamples));
+        made = std::move(targets);
     }
-    auto done = configurePasses(made ? *made : targets_, options, features());
-    if (!done) return done;
+    TERRANE_TRY(configurePasses(made ? *made : targets_, options, features()));
     if (made) targets_ = std::move(*made);
     options_ = options;
     return {};
 }
 
 base::Result<void> Renderer::reloadShaders() {
-    auto passes = FramePasses::create(*shaders_, device_);
-    if (!passes) return tl::unexpected(passes.error());
+    auto passes = TERRANE_TRY(FramePasses::create(*shaders_, device_));
     if (targets_.size.x > 0) {
-        if (auto done = passes->configure(targets_, options_, features()); !done) return done;
+        TERRANE_TRY(passes.configure(targets_, options_, features()));
     }
-    passes_ = std::move(*passes);
+    passes_ = std::move(passes);
     return {};
 }
 
 base::Result<void> Renderer::useTint(bool isUsed) {
     if (targets_.size.x > 0 && isUsed != tints_.isUsed()) {
-        auto done =
-            configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed, land_.isUsed()});
-        if (!done) return done;
+        TERRANE_TRY(
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed, land_.isUsed()}));
     }
     tints_ = isUsed ? TintTextures::create() : TintTextures();
     return {};
@@ -141,9 +131,8 @@ base::Result<void> Renderer::useTint(bool isUsed) {
 
 base::Result<void> Renderer::useLand(bool isUsed) {
     if (targets_.size.x > 0 && isUsed != land_.isUsed()) {
-        auto done =
-            configurePasses(targets_, options_, {resources_.hasFaceSampling(), tints_.isUsed(), isUsed});
-        if (!done) return done;
+        TERRANE_TRY(
+            configurePasses(targets_, options_, {resources_.hasFaceSampling(), tints_.isUsed(), isUsed}));
     }
     land_ = isUsed ? LandTextures::create(topColors_) : LandTextures();
     return {};

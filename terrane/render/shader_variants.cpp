@@ -26,10 +26,10 @@ base::Result<void> ShaderVariants::select(const gpu::ShaderDefines& defines) {
         selected_ = static_cast<std::size_t>(found - variants_.begin());
         return {};
     }
-    auto program = gpu::Program::graphics(*shaders_, vertexName_, fragmentName_, defines, label_);
-    if (!program) return tl::unexpected(program.error());
+    auto program =
+        TERRANE_TRY(gpu::Program::graphics(*shaders_, vertexName_, fragmentName_, defines, label_));
     selected_ = variants_.size();
-    variants_.emplace_back(defines, std::move(*program));
+    variants_.emplace_back(defines, std::move(program));
     return {};
 }
 

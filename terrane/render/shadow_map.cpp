@@ -44,9 +44,8 @@ gpu::Texture2DArray mapsOf(int texels, int count) {
 base::Result<std::vector<gpu::Framebuffer>> layersOf(const gpu::Texture2DArray& maps) {
     std::vector<gpu::Framebuffer> layers;
     for (int layer = 0; layer < maps.shape().layers; ++layer) {
-        auto framebuffer = gpu::Framebuffer::create({{}, {maps, layer}}, "shadow map");
-        if (!framebuffer) return tl::unexpected(framebuffer.error());
-        layers.push_back(std::move(*framebuffer));
+        auto framebuffer = TERRANE_TRY(gpu::Framebuffer::create({{}, {maps, layer}}, "shadow map"));
+        layers.push_back(std::move(framebuffer));
     }
     return layers;
 }
@@ -88,10 +87,9 @@ base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling
     clipmap_ = ShadowClipmap(shape.cascades);
     if (shape.cascades == 0) return {};
     auto depths = mapsOf(shape.texels, clipmap_.layers());
-    auto layers = layersOf(depths);
-    if (!layers) return tl::unexpected(layers.error());
+    auto layers = TERRANE_TRY(layersOf(depths));
     depths_ = std::move(depths);
-    layers_ = std::move(*layers);
+    layers_ = std::move(layers);
     shape_ = shape;
     return {};
 }

@@ -28,11 +28,10 @@ base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameT
     Target target;
     target.color = MsaaTexture(targets.size, GL_RGBA16, targets.msaaSamples, "layer");
     target.depth = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "layer depth");
-    auto framebuffer =
-        gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer");
-    if (!framebuffer) return tl::unexpected(framebuffer.error());
-    framebuffer->clearColor(0, glm::vec4(0));  // once: pixels without a face are read, but never used
-    target.framebuffer = std::move(*framebuffer);
+    auto framebuffer = TERRANE_TRY(
+        gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer"));
+    framebuffer.clearColor(0, glm::vec4(0));  // once: pixels without a face are read, but never used
+    target.framebuffer = std::move(framebuffer);
     return target;
 }
 
@@ -83,8 +82,7 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     isBounded_ = options.singleTransparencyLayer == 0;
     hasWholeDepth_ = options.occlusion != Occlusion::Off || options.depthOfField;
     if (options.transparencyLayers > 0) {
-        if (auto selected = selectVariants(targets.msaaSamples, options, light, features); !selected)
-            return selected;
+        TERRANE_TRY(selectVariants(targets.msaaSamples, options, light, features));
     }
     const bool isMade =
         size_ == targets.size && samples_ == targets.msaaSamples && scene_ == targets.sceneColor.id();
@@ -94,9 +92,8 @@ base::Result<void> TransparencyPass::configure(const FrameTargets& targets, cons
     overQuadsDirect_ = {};
     layers_ = 0;
     for (int k = 0; k < options.transparencyLayers; ++k) {
-        auto target = makeTarget(targets);
-        if (!target) return tl::unexpected(target.error());
-        targets_[static_cast<std::size_t>(k)] = std::move(*target);
+        auto target = TERRANE_TRY(makeTarget(targets));
+        targets_[static_cast<std::size_t>(k)] = std::move(target);
     }
     if (options.transparencyLayers > 0 && targets.msaaSamples == 1) {
         const auto makeOver = [&](const gpu::Texture2D& color) {

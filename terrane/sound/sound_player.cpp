@@ -180,8 +180,8 @@ void SoundPlayer::Device::place(const Source& source) const {
 
 base::Result<SoundPlayer> SoundPlayer::create(const SoundSet& sounds, SoundOutput output) {
     auto device = std::make_unique<Device>();
-    if (auto done = device->open(output); !done) return tl::unexpected(done.error());
-    if (auto done = device->addBuffers(sounds); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(device->open(output));
+    TERRANE_TRY(device->addBuffers(sounds));
     return SoundPlayer(std::move(device));
 }
 

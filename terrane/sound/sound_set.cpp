@@ -11,9 +11,8 @@ namespace terrane::sound {
 base::Result<SoundSet> builtInSounds() {
     SoundSet sounds;
     for (const base::EmbeddedFile& file : embedded::sounds()) {
-        auto wave = parseWave(file.data, file.path);
-        if (!wave) return tl::unexpected(wave.error());
-        sounds[std::string(file.path.substr(0, file.path.rfind('_')))].push_back(std::move(*wave));
+        auto wave = TERRANE_TRY(parseWave(file.data, file.path));
+        sounds[std::string(file.path.substr(0, file.path.rfind('_')))].push_back(std::move(wave));
     }
     return sounds;
 }

@@ -184,9 +184,8 @@ base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, 
         if (index <= last)
             return base::fail(base::ErrorCode::Damaged, "block entity data of blocks is out of order");
         last = index;
-        auto data = holdData(reader.take(entries.number<std::uint32_t>()), budget);
-        if (!data) return tl::unexpected(data.error());
-        chunk.shareBlockEntityData(index, std::move(*data));
+        auto data = TERRANE_TRY(holdData(reader.take(entries.number<std::uint32_t>()), budget));
+        chunk.shareBlockEntityData(index, std::move(data));
     }
     return {};
 }
@@ -195,24 +194,22 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids, Enti
     ByteReader reader(bytes);
     std::array<SectionHead, 2 * world::kSectionsPerChunk> heads;
     for (SectionHead& head : heads) {
-        auto read = readHead(reader);
-        if (!read) return tl::unexpected(read.error());
-        head = std::move(*read);
+        auto read = TERRANE_TRY(readHead(reader));
+        head = std::move(read);
     }
     world::Chunk chunk;
     for (int n = 0; n < 2 * world::kSectionsPerChunk && !reader.isPastEnd(); ++n) {
         SectionHead& head = heads[static_cast<std::size_t>(n)];
         const bool isBlocks = n < world::kSectionsPerChunk;
-        auto section =
-            isBlocks ? readBlocks(reader, std::move(head), ids) : readSection(reader, std::move(head));
-        if (!section) return tl::unexpected(section.error());
+        auto section = TERRANE_TRY(isBlocks ? readBlocks(reader, std::move(head), ids)
+                                            : readSection(reader, std::move(head)));
         if (isBlocks) {
-            chunk.setSection(n, std::move(*section));
+            chunk.setSection(n, std::move(section));
         } else {
-            chunk.setBlockStateSection(n - world::kSectionsPerChunk, std::move(*section));
+            chunk.setBlockStateSection(n - world::kSectionsPerChunk, std::move(section));
         }
     }
-    if (auto read = readBlockEntityData(reader, chunk, budget); !read) return tl::unexpected(read.error());
+    TERRANE_TRY(readBlockEntityData(reader, chunk, budget));
     if (reader.isPastEnd()) return base::fail(base::ErrorCode::Damaged, "the chunk ends too early");
     if (!reader.rest().empty())
         return base::fail(base::ErrorCode::Damaged, "{} bytes too many", reader.rest().size());
@@ -224,7 +221,7 @@ base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids, Enti
 base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids, std::uint64_t seed) {
     Scratch scratch;
     Bytes& plain = scratch.bytes();
-    if (auto done = appendPlain(plain, chunk, ids); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(appendPlain(plain, chunk, ids));
     assert(plain.size() <= kMaxChunkBytes && "block entity data is limited");
 
     Bytes out;
@@ -258,7 +255,7 @@ base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed) {
 
 base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, std::uint64_t seed,
                                        EntityBudget* budget) {
-    if (auto good = verifyChunk(bytes, seed); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(verifyChunk(bytes, seed));
     ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxChunkBytes)
@@ -273,7 +270,7 @@ base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, st
     Scratch scratch;
     Bytes& plain = scratch.bytes();
     plain.resize(plainBytes);
-    if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(decompress(reader.rest(), plain));
     return readPlain(plain, ids, budget);
 }
 

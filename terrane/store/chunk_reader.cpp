@@ -62,9 +62,8 @@ StoredChunk storedChunk(const Statement& row, world::ChunkPos pos, std::int64_t 
 base::Result<bool> hasRow(Statement& count, world::ChunkPos pos) {
     const ResetAfter reset(count);
     count.bind(1, keyOf(pos));
-    const auto row = count.step();
-    if (!row) return tl::unexpected(row.error());
-    return *row && count.number(0) > 0;
+    const auto row = TERRANE_TRY(count.step());
+    return row && count.number(0) > 0;
 }
 
 }  // namespace
@@ -72,9 +71,8 @@ base::Result<bool> hasRow(Statement& count, world::ChunkPos pos) {
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
     const ResetAfter reset(select);
     select.bind(1, keyOf(pos));
-    const auto row = select.step();
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::optional(storedChunk(select, pos, format)) : std::nullopt;
+    const auto row = TERRANE_TRY(select.step());
+    return row ? std::optional(storedChunk(select, pos, format)) : std::nullopt;
 }
 
 base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) {
@@ -91,61 +89,52 @@ base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database) 
     const std::string sql =
         fmt::format("SELECT key FROM chunks WHERE origin = {} AND key >= 0 AND key < {} ORDER BY key",
                     static_cast<int>(Provenance::Edited), kFirstTileKey);
-    if (auto read = forEachRow(database, sql, take); !read) return tl::unexpected(read.error());
+    TERRANE_TRY(forEachRow(database, sql, take));
     return edited;
 }
 
 base::Result<std::vector<KeyedRow>> ChunkReader::readRowsAfter(Database& database, std::int64_t key,
                                                                std::size_t count) const {
-    auto select = database.prepare(
-        fmt::format("SELECT data, origin, key FROM chunks WHERE key > {} ORDER BY key LIMIT {}", key, count));
-    if (!select) return tl::unexpected(select.error());
+    auto select = TERRANE_TRY(database.prepare(fmt::format(
+        "SELECT data, origin, key FROM chunks WHERE key > {} ORDER BY key LIMIT {}", key, count)));
     std::vector<KeyedRow> rows;
     std::size_t bytes = 0;
     while (bytes < kBytesOfRows) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) break;
-        const std::int64_t next = select->number(2);
+        const auto row = TERRANE_TRY(select.step());
+        if (!row) break;
+        const std::int64_t next = select.number(2);
         if (next <= (rows.empty() ? key : rows.back().key))
             return base::fail(base::ErrorCode::Damaged, "{}: damaged: its chunks are out of order",
                               path_.string());
-        rows.push_back({next, storedChunk(*select, posOf(next), format_)});
+        rows.push_back({next, storedChunk(select, posOf(next), format_)});
         bytes += rows.back().row.data.size();
     }
     return rows;
 }
 
 base::Result<std::vector<KeyedRow>> ChunkReader::rowsAfter(std::int64_t key, std::size_t count) {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
-    auto rows = readRowsAfter((*connection)->database, key, count);
-    giveBack(std::move(*connection));
+    auto connection = TERRANE_TRY(takeConnection());
+    auto rows = readRowsAfter(connection->database, key, count);
+    giveBack(std::move(connection));
     return rows;
 }
 
 base::Result<std::uint64_t> ChunkReader::rowCount() {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
-    const auto count = (*connection)->database.queryNumber("SELECT count(*) FROM chunks");
-    giveBack(std::move(*connection));
+    auto connection = TERRANE_TRY(takeConnection());
+    const auto count = connection->database.queryNumber("SELECT count(*) FROM chunks");
+    giveBack(std::move(connection));
     if (!count) return tl::unexpected(count.error());
     return static_cast<std::uint64_t>(count->value_or(0));
 }
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const {
-    auto database = Database::open(path_, mode_);
-    if (!database) return tl::unexpected(database.error());
-    auto select = database->prepare("SELECT data, origin FROM chunks WHERE key = ?1");
-    if (!select) return tl::unexpected(select.error());
-    auto count = database->prepare("SELECT count(*) FROM chunks WHERE key = ?1");
-    if (!count) return tl::unexpected(count.error());
-    auto begin = database->prepare("BEGIN");
-    if (!begin) return tl::unexpected(begin.error());
-    auto end = database->prepare("COMMIT");
-    if (!end) return tl::unexpected(end.error());
-    return std::make_unique<Connection>(Connection{std::move(*database), std::move(*select),
-                                                   std::move(*count), std::move(*begin), std::move(*end)});
+    auto database = TERRANE_TRY(Database::open(path_, mode_));
+    auto select = TERRANE_TRY(database.prepare("SELECT data, origin FROM chunks WHERE key = ?1"));
+    auto count = TERRANE_TRY(database.prepare("SELECT count(*) FROM chunks WHERE key = ?1"));
+    auto begin = TERRANE_TRY(database.prepare("BEGIN"));
+    auto end = TERRANE_TRY(database.prepare("COMMIT"));
+    return std::make_unique<Connection>(Connection{std::move(database), std::move(select), std::move(count),
+                                                   std::move(begin), std::move(end)});
 }
 
 base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::takeConnection() {
@@ -166,10 +155,9 @@ void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
 }
 
 StoredRow ChunkReader::read(world::ChunkPos pos) {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
-    StoredRow row = readRow((*connection)->select, pos, format_);
-    giveBack(std::move(*connection));
+    auto connection = TERRANE_TRY(takeConnection());
+    StoredRow row = readRow(connection->select, pos, format_);
+    giveBack(std::move(connection));
     return row;
 }
 
@@ -190,18 +178,16 @@ void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
 }
 
 base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
-    const auto found = hasRow((*connection)->count, pos);
-    giveBack(std::move(*connection));
+    auto connection = TERRANE_TRY(takeConnection());
+    const auto found = hasRow(connection->count, pos);
+    giveBack(std::move(connection));
     return found;
 }
 
 base::Result<std::vector<world::ChunkPos>> ChunkReader::editedChunks() {
-    auto connection = takeConnection();
-    if (!connection) return tl::unexpected(connection.error());
-    auto edited = readEditedChunks((*connection)->database);
-    giveBack(std::move(*connection));
+    auto connection = TERRANE_TRY(takeConnection());
+    auto edited = readEditedChunks(connection->database);
+    giveBack(std::move(connection));
     return edited;
 }
 

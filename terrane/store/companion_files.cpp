@@ -88,7 +88,7 @@ std::string lostLog(const fs::path& path) {
 
 base::Result<void> checkCompanions(const fs::path& path) {
     for (const char* ending : {"-wal", "-shm", "-journal", "-lock"})
-        if (auto ordinary = checkOrdinary(beside(path, ending)); !ordinary) return ordinary;
+        TERRANE_TRY(checkOrdinary(beside(path, ending)));
     const fs::path journal = beside(path, "-journal");
     if (!namesAnother(journal)) return {};
     return base::fail(ErrorCode::Damaged, "{}: names another file, which would be deleted", journal.string());

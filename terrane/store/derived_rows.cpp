@@ -24,7 +24,7 @@ bool isBeforeOnCurve(world::ChunkPos a, world::ChunkPos b) {
 
 base::Result<bool> ensureDerivedRows(ChunkStore& store, std::string_view rules) {
     if (store.metadata(kDerivedRowsMark) == rules) return false;
-    if (auto done = store.deriveAll(rules); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(store.deriveAll(rules));
     return true;
 }
 
@@ -37,7 +37,7 @@ base::Result<void> deriveInGroups(const DerivedRows& rows, std::vector<world::Ch
         for (; next != edited.end() && group.size() < kDeriveGroup; ++next)
             if (world::ChunkPtr chunk = saved(*next)) group.push_back({*next, std::move(chunk)});
         if (group.empty()) continue;
-        if (auto done = write(rows.derive(group, saved)); !done) return done;
+        TERRANE_TRY(write(rows.derive(group, saved)));
     }
     return {};
 }

@@ -22,9 +22,8 @@ struct Row {
 base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
     const ResetAfter reset(select);
     select.bind(1, from);
-    const auto isThere = select.step();
-    if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere) return std::optional<Row>();
+    const auto isThere = TERRANE_TRY(select.step());
+    if (!isThere) return std::optional<Row>();
     Row row;
     row.key = select.number(0);
     const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row.key));
@@ -38,35 +37,30 @@ base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
 
 // Iterates by key, not by one statement over all rows, since rows change meanwhile.
 base::Result<void> sealChunks(Database& database) {
-    auto select =
-        database.prepare("SELECT key, origin, data FROM chunks WHERE key >= ?1 ORDER BY key LIMIT 1");
-    if (!select) return tl::unexpected(select.error());
-    auto update = database.prepare("UPDATE chunks SET data = ?2 WHERE key = ?1");
-    if (!update) return tl::unexpected(update.error());
+    auto select = TERRANE_TRY(
+        database.prepare("SELECT key, origin, data FROM chunks WHERE key >= ?1 ORDER BY key LIMIT 1"));
+    auto update = TERRANE_TRY(database.prepare("UPDATE chunks SET data = ?2 WHERE key = ?1"));
     std::int64_t next = std::numeric_limits<std::int64_t>::min();
     while (true) {
-        const auto row = nextRow(*select, next);
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return {};
-        if (!(*row)->data.empty()) {
-            update->bind(1, (*row)->key);
-            update->bind(2, ByteView((*row)->data));
-            if (auto done = update->run(); !done) return done;
+        const auto row = TERRANE_TRY(nextRow(select, next));
+        if (!row) return {};
+        if (!row->data.empty()) {
+            update.bind(1, row->key);
+            update.bind(2, ByteView(row->data));
+            TERRANE_TRY(update.run());
         }
-        if ((*row)->key == std::numeric_limits<std::int64_t>::max()) return {};
-        next = (*row)->key + 1;
+        if (row->key == std::numeric_limits<std::int64_t>::max()) return {};
+        next = row->key + 1;
     }
 }
 
 }  // namespace
 
 base::Result<void> addChecksums(Database& database) {
-    if (auto done = sealChunks(database); !done) return done;
-    const auto metadata = readMetadata(database);
-    if (!metadata) return tl::unexpected(metadata.error());
-    const auto names = readBlockNames(database);
-    if (!names) return tl::unexpected(names.error());
-    return writeChecksum(database, metadataChecksum(*metadata, *names));
+    TERRANE_TRY(sealChunks(database));
+    const auto metadata = TERRANE_TRY(readMetadata(database));
+    const auto names = TERRANE_TRY(readBlockNames(database));
+    return writeChecksum(database, metadataChecksum(metadata, names));
 }
 
 }  // namespace terrane::store

@@ -21,14 +21,13 @@ base::Result<std::string> textOf(const Metadata& metadata, const char* name, con
 
 template <class T>
 base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::string& where) {
-    const auto text = textOf(metadata, name, where);
-    if (!text) return tl::unexpected(text.error());
+    const auto text = TERRANE_TRY(textOf(metadata, name, where));
     T value{};
-    const char* end = text->data() + text->size();
-    const auto [next, error] = std::from_chars(text->data(), end, value);
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, value);
     if (error == std::errc() && next == end) return value;
     return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is \"{}\", expected a number", where,
-                      name, *text);
+                      name, text);
 }
 
 }  // namespace
@@ -55,13 +54,10 @@ Metadata metadataOf(const WorldIdentity& identity) {
 }
 
 base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where) {
-    const auto seed = numberOf<std::uint64_t>(metadata, kSeed, where);
-    if (!seed) return tl::unexpected(seed.error());
-    const auto version = numberOf<int>(metadata, kGeneratorVersion, where);
-    if (!version) return tl::unexpected(version.error());
-    const auto generator = textOf(metadata, kGenerator, where);
-    if (!generator) return tl::unexpected(generator.error());
-    return WorldIdentity{*seed, *generator, *version};
+    const auto seed = TERRANE_TRY(numberOf<std::uint64_t>(metadata, kSeed, where));
+    const auto version = TERRANE_TRY(numberOf<int>(metadata, kGeneratorVersion, where));
+    const auto generator = TERRANE_TRY(textOf(metadata, kGenerator, where));
+    return WorldIdentity{seed, generator, version};
 }
 
 }  // namespace terrane::store

@@ -54,38 +54,30 @@ base::Result<void> verifyMetadata(const Metadata& metadata, std::span<const Save
 }
 
 base::Result<void> writeChecksum(Database& database, std::uint64_t checksum) {
-    auto put = database.prepare(kPut);
-    if (!put) return tl::unexpected(put.error());
-    put->bind(1, kChecksum);
-    put->bind(2, std::string_view(std::to_string(checksum)));
-    return put->run();
+    auto put = TERRANE_TRY(database.prepare(kPut));
+    put.bind(1, kChecksum);
+    put.bind(2, std::string_view(std::to_string(checksum)));
+    return put.run();
 }
 
 base::Result<MetadataTable> MetadataTable::make(Database& database) {
-    auto select = database.prepare("SELECT value FROM settings WHERE name = ?1");
-    if (!select) return tl::unexpected(select.error());
-    auto put = database.prepare(kPut);
-    if (!put) return tl::unexpected(put.error());
-    auto remove = database.prepare("DELETE FROM settings WHERE name = ?1");
-    if (!remove) return tl::unexpected(remove.error());
-    auto addBlock = database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)");
-    if (!addBlock) return tl::unexpected(addBlock.error());
-    return MetadataTable(database, std::move(*select), std::move(*put), std::move(*remove),
-                         std::move(*addBlock));
+    auto select = TERRANE_TRY(database.prepare("SELECT value FROM settings WHERE name = ?1"));
+    auto put = TERRANE_TRY(database.prepare(kPut));
+    auto remove = TERRANE_TRY(database.prepare("DELETE FROM settings WHERE name = ?1"));
+    auto addBlock = TERRANE_TRY(database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)"));
+    return MetadataTable(database, std::move(select), std::move(put), std::move(remove), std::move(addBlock));
 }
 
 base::Result<std::optional<std::string>> MetadataTable::valueOf(std::string_view name) {
     const ResetAfter reset(select_);
     select_.bind(1, name);
-    const auto row = select_.step();
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::optional(std::string(select_.text(0))) : std::nullopt;
+    const auto row = TERRANE_TRY(select_.step());
+    return row ? std::optional(std::string(select_.text(0))) : std::nullopt;
 }
 
 base::Result<std::uint64_t> MetadataTable::hashOf(std::string_view name) {
-    const auto value = valueOf(name);
-    if (!value) return tl::unexpected(value.error());
-    return *value ? hashOfSetting(name, **value) : std::uint64_t{0};
+    const auto value = TERRANE_TRY(valueOf(name));
+    return value ? hashOfSetting(name, *value) : std::uint64_t{0};
 }
 
 base::Result<void> MetadataTable::putRow(std::string_view name, std::string_view value) {
@@ -95,35 +87,32 @@ base::Result<void> MetadataTable::putRow(std::string_view name, std::string_view
 }
 
 base::Result<void> MetadataTable::changeChecksum(std::uint64_t by) {
-    const auto text = valueOf(kChecksum);
-    if (!text) return tl::unexpected(text.error());
-    const auto sum = checksumFrom(text->value_or(""));
+    const auto text = TERRANE_TRY(valueOf(kChecksum));
+    const auto sum = checksumFrom(text.value_or(""));
     if (!sum)
         return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is \"{}\", expected a number",
-                          database_->path(), kChecksum, text->value_or(""));
+                          database_->path(), kChecksum, text.value_or(""));
     return putRow(kChecksum, std::to_string(*sum ^ by));
 }
 
 base::Result<void> MetadataTable::put(std::string_view name, std::string_view value) {
-    const auto before = hashOf(name);
-    if (!before) return tl::unexpected(before.error());
-    if (auto done = putRow(name, value); !done) return done;
-    return changeChecksum(*before ^ hashOfSetting(name, value));
+    const auto before = TERRANE_TRY(hashOf(name));
+    TERRANE_TRY(putRow(name, value));
+    return changeChecksum(before ^ hashOfSetting(name, value));
 }
 
 base::Result<void> MetadataTable::remove(std::string_view name) {
-    const auto before = hashOf(name);
-    if (!before) return tl::unexpected(before.error());
-    if (*before == 0) return {};
+    const auto before = TERRANE_TRY(hashOf(name));
+    if (before == 0) return {};
     remove_.bind(1, name);
-    if (auto done = remove_.run(); !done) return done;
-    return changeChecksum(*before);
+    TERRANE_TRY(remove_.run());
+    return changeChecksum(before);
 }
 
 base::Result<void> MetadataTable::add(const SavedName& block) {
     addBlock_.bind(1, std::int64_t{block.id});
     addBlock_.bind(2, std::string_view(block.name));
-    if (auto done = addBlock_.run(); !done) return done;
+    TERRANE_TRY(addBlock_.run());
     return changeChecksum(hashOfBlock(block));
 }
 

@@ -28,7 +28,7 @@ OpenFiles::OpenFiles(const std::filesystem::path& path)
       logIdentity_(identityOf(log_)) {}
 
 base::Result<void> OpenFiles::check() const {
-    if (auto same = checkSame(save_, saveIdentity_); !same) return same;
+    TERRANE_TRY(checkSame(save_, saveIdentity_));
     return checkSame(log_, logIdentity_);
 }
 

@@ -22,10 +22,9 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
     access.decide = [&](const WorldIdentity& saved) {
         return compareWorld(saved, request.world, request.versionOf, path.string());
     };
-    auto store = SqliteStore::open(path, blocks, access, request.limits);
-    if (!store) return tl::unexpected(store.error());
-    if (auto whole = requireWhole(**store, path.string()); !whole) return tl::unexpected(whole.error());
-    return std::move(*store);
+    auto store = TERRANE_TRY(SqliteStore::open(path, blocks, access, request.limits));
+    TERRANE_TRY(requireWhole(*store, path.string()));
+    return store;
 }
 
 // Up to version 0.1, named saves were in the working directory only.
@@ -47,16 +46,15 @@ base::Result<void> requireWhole(ReadableStore& world, const std::string& where) 
 
 StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,
                      const std::string& where) {
-    if (auto whole = requireWhole(*saved, where); !whole) return tl::unexpected(whole.error());
+    TERRANE_TRY(requireWhole(*saved, where));
     WorldIdentity identity = saved->identity();
-    const auto by = compareWorld(identity, request.world, request.versionOf, where);
-    if (!by) return tl::unexpected(by.error());
-    if (by->chunks == Regenerate::None)
+    const auto by = TERRANE_TRY(compareWorld(identity, request.world, request.versionOf, where));
+    if (by.chunks == Regenerate::None)
         return std::make_unique<OverlayStore>(std::move(saved), request.limits);
-    if (by->chunks == Regenerate::AllButEdited)
+    if (by.chunks == Regenerate::AllButEdited)
         return base::fail(base::ErrorCode::Unsupported,
                           "{}: cannot be written, so its edits cannot be kept in a regenerated world", where);
-    identity.generatorVersion = by->generatorVersion;
+    identity.generatorVersion = by.generatorVersion;
     return std::make_unique<MemoryStore>(std::move(identity), request.limits);
 }
 
@@ -65,15 +63,13 @@ StoreResult openWorld(const WorldLocation& location, const world::BlockRegistry&
     if (!request.versionOf)
         return base::fail(base::ErrorCode::BadInput, "{}: the request names no versions of generators",
                           location.text);
-    const auto path = fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    reportFormerPlace(location, *path);
+    const auto path = TERRANE_TRY(fileOf(location));
+    reportFormerPlace(location, path);
     if (request.access == WorldAccess::ReadOnly) {
-        auto saved = SqliteReader::open(*path, blocks, request.limits);
-        if (!saved) return tl::unexpected(saved.error());
-        return openOver(std::move(*saved), request, path->string());
+        auto saved = TERRANE_TRY(SqliteReader::open(path, blocks, request.limits));
+        return openOver(std::move(saved), request, path.string());
     }
-    return openFile(*path, blocks, request);
+    return openFile(path, blocks, request);
 }
 
 }  // namespace terrane::store

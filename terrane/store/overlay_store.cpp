@@ -60,15 +60,14 @@ bool OverlayStore::contains(world::ChunkPos pos) {
 }
 
 base::Result<std::vector<world::ChunkPos>> OverlayStore::editedChunks() {
-    auto edited = below_->editedChunks();
-    if (!edited) return edited;
+    auto edited = TERRANE_TRY(below_->editedChunks());
     {
         const std::lock_guard lock(mutex_);
         for (const auto& [pos, row] : rows_)
-            if (pos.level == 0 && row.chunk && row.provenance == Provenance::Edited) edited->push_back(pos);
+            if (pos.level == 0 && row.chunk && row.provenance == Provenance::Edited) edited.push_back(pos);
     }
-    std::sort(edited->begin(), edited->end());
-    edited->erase(std::unique(edited->begin(), edited->end()), edited->end());
+    std::sort(edited.begin(), edited.end());
+    edited.erase(std::unique(edited.begin(), edited.end()), edited.end());
     return edited;
 }
 
@@ -130,8 +129,7 @@ base::Result<void> OverlayStore::write(const SaveBatch& batch) {
 
 base::Result<void> OverlayStore::deriveAll(std::string_view rules) {
     const std::lock_guard writing(writeMutex_);
-    auto edited = editedChunks();
-    if (!edited) return tl::unexpected(edited.error());
+    auto edited = TERRANE_TRY(editedChunks());
     decltype(rows_) tiles;
     const auto saved = [&](world::ChunkPos pos) {
         if (pos.level == 0) return editedChunk(pos);
@@ -142,8 +140,7 @@ base::Result<void> OverlayStore::deriveAll(std::string_view rules) {
         for (const ChunkRow& row : rows) tiles.insert_or_assign(row.pos, Row{row.chunk, Provenance::Edited});
         return {};
     };
-    auto done = deriveInGroups(derivedRows_, std::move(*edited), saved, write);
-    if (!done) return done;
+    TERRANE_TRY(deriveInGroups(derivedRows_, std::move(edited), saved, write));
     const std::lock_guard lock(mutex_);
     std::erase_if(rows_, [](const auto& entry) { return entry.first.level > 0; });
     rows_.merge(tiles);

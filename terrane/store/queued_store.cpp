@@ -182,7 +182,7 @@ base::Result<void> QueuedStore::write(const SaveBatch& batch) {
 
 base::Result<void> QueuedStore::deriveAll(std::string_view rules) {
     const std::lock_guard writing(writeMutex_);
-    if (auto done = rows_->deriveAll(derivedRows_, rules, budget_); !done) return done;
+    TERRANE_TRY(rows_->deriveAll(derivedRows_, rules, budget_));
     const std::lock_guard lock(metadataMutex_);
     metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::string(rules));
     return {};

@@ -64,7 +64,7 @@ base::Result<bool> checkFile(const fs::path& path) {
     file.read(magic, sizeof magic);
     if (std::string_view(magic, sizeof magic) != kMagic)
         return base::fail(ErrorCode::Incompatible, "{}: not a save: not a SQLite file", path.string());
-    if (auto whole = checkLength(path, size); !whole) return tl::unexpected(whole.error());
+    TERRANE_TRY(checkLength(path, size));
     return true;
 }
 
@@ -85,29 +85,24 @@ fs::path backupPath(const fs::path& path, const std::string& word) {
 
 base::Result<void> addNames(Database& database, const std::vector<SavedName>& names) {
     if (names.empty()) return {};
-    auto transaction = Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    auto metadata = MetadataTable::make(database);
-    if (!metadata) return tl::unexpected(metadata.error());
-    for (const SavedName& name : names)
-        if (auto done = metadata->add(name); !done) return done;
-    return transaction->commit();
+    auto transaction = TERRANE_TRY(Transaction::begin(database));
+    auto metadata = TERRANE_TRY(MetadataTable::make(database));
+    for (const SavedName& name : names) TERRANE_TRY(metadata.add(name));
+    return transaction.commit();
 }
 
 base::Result<void> makeCurrent(SaveFile& file, const fs::path& path, const SaveAccess& access) {
-    auto kind = classify(file.database);
-    if (!kind) return tl::unexpected(kind.error());
-    if (*kind == SaveKind::Empty) {
+    auto kind = TERRANE_TRY(classify(file.database));
+    if (kind == SaveKind::Empty) {
         if (!access.create) return notASave(path);
         file.isNew = true;
-        if (auto made = createTables(file.database, *access.create); !made) return made;
+        TERRANE_TRY(createTables(file.database, *access.create));
         return addNames(file.database, access.blockNames);
     }
-    if (auto same = checkSchema(file.database); !same) return same;
-    if (*kind == SaveKind::Old) {
+    TERRANE_TRY(checkSchema(file.database));
+    if (kind == SaveKind::Old) {
         const fs::path backup = backupPath(path, "before-migration");
-        auto migrated = migrate(file.database, migrations(), kFormatVersion, backup);
-        if (!migrated) return migrated;
+        TERRANE_TRY(migrate(file.database, migrations(), kFormatVersion, backup));
         base::logInfo("{}: migrated to format {}; the old file is {}", path.string(), kFormatVersion,
                       backup.string());
     }
@@ -122,22 +117,19 @@ base::Result<void> deleteRegenerated(Database& database, const Regeneration& by)
                                 ? "DELETE FROM chunks WHERE true; DELETE FROM quarantine WHERE true;"
                                 : fmt::format("DELETE FROM chunks WHERE origin = {} OR key >= {};",
                                               static_cast<int>(Provenance::Generated), kFirstTileKey);
-    if (auto done = database.execute(sql); !done) return done;
-    auto metadata = MetadataTable::make(database);
-    if (!metadata) return tl::unexpected(metadata.error());
-    if (auto done = metadata->remove(kDerivedRowsMark); !done) return done;
-    return metadata->put("generator_version", std::to_string(by.generatorVersion));
+    TERRANE_TRY(database.execute(sql));
+    auto metadata = TERRANE_TRY(MetadataTable::make(database));
+    TERRANE_TRY(metadata.remove(kDerivedRowsMark));
+    return metadata.put("generator_version", std::to_string(by.generatorVersion));
 }
 
 // Makes the backup copy, if requested, before deleting anything.
 base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
     const fs::path backup = by.keepsCopy ? backupPath(path, "backup") : fs::path();
-    if (by.keepsCopy)
-        if (auto copied = file.database.backUpTo(backup); !copied) return copied;
-    auto transaction = Transaction::begin(file.database);
-    if (!transaction) return tl::unexpected(transaction.error());
-    if (auto done = deleteRegenerated(file.database, by); !done) return done;
-    if (auto done = transaction->commit(); !done) return done;
+    if (by.keepsCopy) TERRANE_TRY(file.database.backUpTo(backup));
+    auto transaction = TERRANE_TRY(Transaction::begin(file.database));
+    TERRANE_TRY(deleteRegenerated(file.database, by));
+    TERRANE_TRY(transaction.commit());
     base::logInfo("{}: regenerated{}{}{}", path.string(),
                   by.chunks == Regenerate::All ? "" : " except for chunks with edits",
                   by.keepsCopy ? "; the old world is " : "", backup.string());
@@ -146,31 +138,25 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
 
 // Reads settings and block names, and verifies their checksum.
 base::Result<std::vector<SavedName>> readNamed(SaveFile& file) {
-    auto metadata = readMetadata(file.database);
-    if (!metadata) return tl::unexpected(metadata.error());
-    auto names = readBlockNames(file.database);
-    if (!names) return names;
-    auto identity = identityFrom(*metadata, file.database.path());
-    if (!identity) return tl::unexpected(identity.error());
+    auto metadata = TERRANE_TRY(readMetadata(file.database));
+    auto names = TERRANE_TRY(readBlockNames(file.database));
+    auto identity = TERRANE_TRY(identityFrom(metadata, file.database.path()));
     if (file.format >= kFirstWithChecksums)
-        if (auto same = verifyMetadata(*metadata, *names, file.database.path()); !same)
-            return tl::unexpected(same.error());
-    file.metadata = std::move(*metadata);
-    file.identity = std::move(*identity);
+        TERRANE_TRY(verifyMetadata(metadata, names, file.database.path()));
+    file.metadata = std::move(metadata);
+    file.identity = std::move(identity);
     return names;
 }
 
 base::Result<void> regenerateIfAsked(SaveFile& file, const fs::path& path, const SaveAccess& access) {
     if (file.isNew || !access.decide) return {};
-    const auto by = access.decide(file.identity);
-    if (!by) return tl::unexpected(by.error());
-    return by->chunks == Regenerate::None ? base::Result<void>() : regenerate(file, path, *by);
+    const auto by = TERRANE_TRY(access.decide(file.identity));
+    return by.chunks == Regenerate::None ? base::Result<void>() : regenerate(file, path, by);
 }
 
 base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& registry) {
-    const auto names = readNamed(file);
-    if (!names) return tl::unexpected(names.error());
-    auto ids = BlockIdMap::make(registry, *names);
+    const auto names = TERRANE_TRY(readNamed(file));
+    auto ids = BlockIdMap::make(registry, names);
     if (!ids) return base::fail(ids.error().code, "{}: {}", file.database.path(), ids.error().message);
     file.ids = std::move(*ids);
     file.metadata.erase(std::string(kChecksum));
@@ -179,10 +165,9 @@ base::Result<void> readContents(SaveFile& file, const world::BlockRegistry& regi
 
 // Fills in the checksum if another program cleared it.
 base::Result<void> addMissingChecksum(SaveFile& file) {
-    const auto names = readNamed(file);
-    if (!names) return tl::unexpected(names.error());
+    const auto names = TERRANE_TRY(readNamed(file));
     if (!file.metadata.at(std::string(kChecksum)).empty()) return {};
-    return writeChecksum(file.database, metadataChecksum(file.metadata, *names));
+    return writeChecksum(file.database, metadataChecksum(file.metadata, names));
 }
 
 base::Result<void> makeFolder(const fs::path& path) {
@@ -203,9 +188,8 @@ void reportUnknown(const SaveFile& file) {
 
 // Reads the format of a save that is opened for reading.
 base::Result<void> readFormat(SaveFile& file) {
-    const auto version = file.database.queryNumber("PRAGMA user_version");
-    if (!version) return tl::unexpected(version.error());
-    file.format = version->value_or(0);
+    const auto version = TERRANE_TRY(file.database.queryNumber("PRAGMA user_version"));
+    file.format = version.value_or(0);
     if (file.format >= kOldestReadable) return {};
     return base::fail(ErrorCode::Incompatible, "{}: unknown format {}", file.database.path(), file.format);
 }
@@ -237,26 +221,21 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
 
 // Opens a save of a supported format for reading.
 base::Result<SaveFile> openReadable(const fs::path& name) {
-    const auto own = ownPath(name);
-    if (!own) return tl::unexpected(own.error());
-    const fs::path& path = *own;
-    auto isThere = checkFile(path);
-    if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere) return notASave(path);
-    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
-    auto lock = lockToRead(path);
-    if (!lock) return tl::unexpected(lock.error());
+    const auto own = TERRANE_TRY(ownPath(name));
+    const fs::path& path = own;
+    auto isThere = TERRANE_TRY(checkFile(path));
+    if (!isThere) return notASave(path);
+    TERRANE_TRY(checkCompanions(path));
+    auto lock = TERRANE_TRY(lockToRead(path));
     // Without a log no files have to be created beside the save, which may be impossible.
-    const OpenMode mode = hasLog(path) || !lock->inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
-    auto database = Database::open(path, mode);
-    if (!database) return tl::unexpected(database.error());
-    SaveFile file{std::move(lock->lock), std::move(*database), mode, false, std::move(lock->inUse)};
-    if (auto begun = file.database.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
-    auto kind = classify(file.database);
-    if (!kind) return tl::unexpected(kind.error());
-    if (*kind == SaveKind::Empty) return notASave(path);
-    if (auto same = checkSchema(file.database); !same) return tl::unexpected(same.error());
-    if (auto done = readFormat(file); !done) return tl::unexpected(done.error());
+    const OpenMode mode = hasLog(path) || !lock.inUse.empty() ? OpenMode::ReadOnly : OpenMode::Immutable;
+    auto database = TERRANE_TRY(Database::open(path, mode));
+    SaveFile file{std::move(lock.lock), std::move(database), mode, false, std::move(lock.inUse)};
+    TERRANE_TRY(file.database.execute("BEGIN"));
+    auto kind = TERRANE_TRY(classify(file.database));
+    if (kind == SaveKind::Empty) return notASave(path);
+    TERRANE_TRY(checkSchema(file.database));
+    TERRANE_TRY(readFormat(file));
     return file;
 }
 
@@ -264,49 +243,42 @@ base::Result<SaveFile> openReadable(const fs::path& name) {
 
 base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegistry& registry,
                                    const SaveAccess& access) {
-    const auto own = ownPath(name);
-    if (!own) return tl::unexpected(own.error());
-    const fs::path& path = *own;
-    auto isThere = checkFile(path);
-    if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere && !access.create) {
+    const auto own = TERRANE_TRY(ownPath(name));
+    const fs::path& path = own;
+    auto isThere = TERRANE_TRY(checkFile(path));
+    if (!isThere && !access.create) {
         return notASave(path);
     }
-    if (auto checked = checkCompanions(path); !checked) return tl::unexpected(checked.error());
-    if (auto made = makeFolder(path); !made) return tl::unexpected(made.error());
+    TERRANE_TRY(checkCompanions(path));
+    TERRANE_TRY(makeFolder(path));
     const std::string lost = lostLog(path);
-    auto lock = FileLock::acquire(path, FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
+    auto lock = TERRANE_TRY(FileLock::acquire(path, FileLock::Kind::Exclusive));
     if (!lost.empty()) base::logWarning("{}", lost);
-    auto database = Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite);
-    if (!database) return tl::unexpected(database.error());
+    auto database = TERRANE_TRY(Database::open(path, access.create ? OpenMode::Create : OpenMode::ReadWrite));
 
-    SaveFile file{std::move(*lock), std::move(*database)};
-    if (auto done = makeCurrent(file, path, access); !done) return tl::unexpected(done.error());
+    SaveFile file{std::move(lock), std::move(database)};
+    TERRANE_TRY(makeCurrent(file, path, access));
     // After the tables, so that a new file is never seen without them. Each commit waits for the disk.
-    const auto set = file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL");
-    if (!set) return tl::unexpected(set.error());
-    if (auto done = addMissingChecksum(file); !done) return tl::unexpected(done.error());
-    if (auto done = regenerateIfAsked(file, path, access); !done) return tl::unexpected(done.error());
-    if (auto done = readContents(file, registry); !done) return tl::unexpected(done.error());
-    if (auto done = addNames(file.database, file.ids.added()); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(file.database.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL"));
+    TERRANE_TRY(addMissingChecksum(file));
+    TERRANE_TRY(regenerateIfAsked(file, path, access));
+    TERRANE_TRY(readContents(file, registry));
+    TERRANE_TRY(addNames(file.database, file.ids.added()));
     reportUnknown(file);
     return file;
 }
 
 base::Result<SaveFile> openToRead(const fs::path& name, const world::BlockRegistry& registry) {
-    auto file = openReadable(name);
-    if (!file) return file;
-    if (auto done = readContents(*file, registry); !done) return tl::unexpected(done.error());
-    reportUnknown(*file);
+    auto file = TERRANE_TRY(openReadable(name));
+    TERRANE_TRY(readContents(file, registry));
+    reportUnknown(file);
     return file;
 }
 
 base::Result<Metadata> readSavedMetadata(const fs::path& name) {
-    auto file = openReadable(name);
-    if (!file) return tl::unexpected(file.error());
-    if (const auto names = readNamed(*file); !names) return tl::unexpected(names.error());
-    return std::move(file->metadata);
+    auto file = TERRANE_TRY(openReadable(name));
+    (void)TERRANE_TRY(readNamed(file));
+    return std::move(file.metadata);
 }
 
 }  // namespace terrane::store

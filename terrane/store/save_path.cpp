@@ -48,7 +48,7 @@ base::Result<fs::path> dataFolder(const SavePlaces& places) {
 }
 
 base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places) {
-    if (auto good = checkSaveName(name); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(checkSaveName(name));
     const auto folder = dataFolder(places);
     if (!folder) return base::fail(folder.error().code, "{:?}: {}", name, folder.error().message);
     const std::string file = std::string(name) + ".sqlite";

@@ -13,11 +13,9 @@ namespace {
 using base::ErrorCode;
 
 base::Result<void> writeMetadata(Database& database, const Metadata& metadata) {
-    if (auto done = writeChecksum(database, 0); !done) return done;
-    auto table = MetadataTable::make(database);
-    if (!table) return tl::unexpected(table.error());
-    for (const auto& [name, value] : metadata)
-        if (auto done = table->put(name, value); !done) return done;
+    TERRANE_TRY(writeChecksum(database, 0));
+    auto table = TERRANE_TRY(MetadataTable::make(database));
+    for (const auto& [name, value] : metadata) TERRANE_TRY(table.put(name, value));
     return {};
 }
 
@@ -33,10 +31,9 @@ base::Result<void> checkName(const Database& database, const Statement& row, int
 // The migrations from the save's format to `current`.
 base::Result<std::vector<Migration>> findWay(Database& database, std::span<const Migration> steps,
                                              std::int64_t current) {
-    const auto version = database.queryNumber("PRAGMA user_version");
-    if (!version) return tl::unexpected(version.error());
+    const auto version = TERRANE_TRY(database.queryNumber("PRAGMA user_version"));
     std::vector<Migration> way;
-    for (std::int64_t at = **version; at < current; ++at) {
+    for (std::int64_t at = *version; at < current; ++at) {
         const auto step =
             std::find_if(steps.begin(), steps.end(), [&](const Migration& m) { return m.from == at; });
         if (step == steps.end())
@@ -47,15 +44,14 @@ base::Result<std::vector<Migration>> findWay(Database& database, std::span<const
 }
 
 base::Result<void> runSteps(Database& database, const std::vector<Migration>& way, std::int64_t current) {
-    auto transaction = Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
+    auto transaction = TERRANE_TRY(Transaction::begin(database));
     for (const Migration& step : way) {
-        if (auto done = database.execute(step.sql); !done) return done;
+        TERRANE_TRY(database.execute(step.sql));
         if (!step.run) continue;
-        if (auto done = step.run(database); !done) return done;
+        TERRANE_TRY(step.run(database));
     }
-    if (auto done = database.execute(fmt::format("PRAGMA user_version = {}", current)); !done) return done;
-    return transaction->commit();
+    TERRANE_TRY(database.execute(fmt::format("PRAGMA user_version = {}", current)));
+    return transaction.commit();
 }
 
 }  // namespace
@@ -68,39 +64,34 @@ std::span<const Migration> migrations() {
 }
 
 base::Result<SaveKind> classify(Database& database, std::int64_t current) {
-    const auto tables = database.queryNumber("SELECT count(*) FROM sqlite_schema");
-    if (!tables) return tl::unexpected(tables.error());
-    const auto application = database.queryNumber("PRAGMA application_id");
-    if (!application) return tl::unexpected(application.error());
-    if (*tables == 0 && *application == 0) return SaveKind::Empty;
-    if (*application != kApplicationId)
+    const auto tables = TERRANE_TRY(database.queryNumber("SELECT count(*) FROM sqlite_schema"));
+    const auto application = TERRANE_TRY(database.queryNumber("PRAGMA application_id"));
+    if (tables == 0 && application == 0) return SaveKind::Empty;
+    if (application != kApplicationId)
         return base::fail(ErrorCode::Incompatible, "{}: a SQLite file of another program, not a save",
                           database.path());
-    const auto version = database.queryNumber("PRAGMA user_version");
-    if (!version) return tl::unexpected(version.error());
-    if (*version > current)
+    const auto version = TERRANE_TRY(database.queryNumber("PRAGMA user_version"));
+    if (version > current)
         return base::fail(ErrorCode::Incompatible,
                           "{}: in format {}, this program reads up to format {}: use a newer version",
-                          database.path(), **version, current);
-    return *version == current ? SaveKind::Current : SaveKind::Old;
+                          database.path(), *version, current);
+    return version == current ? SaveKind::Current : SaveKind::Old;
 }
 
 base::Result<void> createTables(Database& database, const WorldIdentity& identity) {
-    auto transaction = Transaction::begin(database);
-    if (!transaction) return tl::unexpected(transaction.error());
+    auto transaction = TERRANE_TRY(Transaction::begin(database));
     const std::string marks =
         fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
-    if (auto made = database.execute(std::string(kTables) + marks); !made) return made;
-    if (auto written = writeMetadata(database, metadataOf(identity)); !written) return written;
-    return transaction->commit();
+    TERRANE_TRY(database.execute(std::string(kTables) + marks));
+    TERRANE_TRY(writeMetadata(database, metadataOf(identity)));
+    return transaction.commit();
 }
 
 base::Result<void> migrate(Database& database, std::span<const Migration> steps, std::int64_t current,
                            const std::filesystem::path& backup) {
-    const auto way = findWay(database, steps, current);
-    if (!way) return tl::unexpected(way.error());
-    if (auto copied = database.backUpTo(backup); !copied) return copied;
-    auto migrated = runSteps(database, *way, current);
+    const auto way = TERRANE_TRY(findWay(database, steps, current));
+    TERRANE_TRY(database.backUpTo(backup));
+    auto migrated = runSteps(database, way, current);
     if (!migrated) {
         // The save is unchanged: remove the copy, or each attempt would leave another one.
         std::error_code ignored;
@@ -114,7 +105,7 @@ base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
     std::unordered_set<std::string> seen;
     const auto take = [&](const Statement& row) -> base::Result<void> {
         const std::int64_t id = row.number(0);
-        if (auto isName = checkName(database, row, 1); !isName) return isName;
+        TERRANE_TRY(checkName(database, row, 1));
         std::string name(row.text(1));
         if (id < 0 || id > 65535)
             return base::fail(ErrorCode::Damaged,
@@ -129,8 +120,7 @@ base::Result<std::vector<SavedName>> readBlockNames(Database& database) {
         names.push_back({static_cast<world::BlockId>(id), std::move(name)});
         return {};
     };
-    const auto read = forEachRow(database, "SELECT id, name FROM blocks ORDER BY id", take);
-    if (!read) return tl::unexpected(read.error());
+    TERRANE_TRY(forEachRow(database, "SELECT id, name FROM blocks ORDER BY id", take));
     return names;
 }
 
@@ -138,7 +128,7 @@ base::Result<Metadata> readMetadata(Database& database) {
     Metadata metadata;
     std::size_t totalBytes = 0;
     const auto take = [&](const Statement& row) -> base::Result<void> {
-        if (auto isName = checkName(database, row, 0); !isName) return isName;
+        TERRANE_TRY(checkName(database, row, 0));
         std::string name(row.text(0));
         if (row.type(1) != ColumnType::Text)
             return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is not a text",
@@ -153,8 +143,7 @@ base::Result<Metadata> readMetadata(Database& database) {
             return base::fail(ErrorCode::Damaged, "{}: damaged: a setting occurs twice", database.path());
         return {};
     };
-    const auto read = forEachRow(database, "SELECT name, value FROM settings", take);
-    if (!read) return tl::unexpected(read.error());
+    TERRANE_TRY(forEachRow(database, "SELECT name, value FROM settings", take));
     return metadata;
 }
 

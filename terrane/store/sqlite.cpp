@@ -192,7 +192,7 @@ base::Result<Database> Database::open(const std::filesystem::path& path, OpenMod
     sqlite3_extended_result_codes(handle, 1);
     sqlite3_busy_timeout(handle, kBusyMilliseconds);
     guardConnection(handle);
-    if (auto done = result.loadSchema(); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(result.loadSchema());
     return result;
 }
 
@@ -222,11 +222,9 @@ base::Result<Statement> Database::prepare(std::string_view sql) {
 }
 
 base::Result<std::optional<std::int64_t>> Database::queryNumber(std::string_view sql) {
-    auto statement = prepare(sql);
-    if (!statement) return tl::unexpected(statement.error());
-    const auto row = statement->step();
-    if (!row) return tl::unexpected(row.error());
-    return *row ? std::optional(statement->number(0)) : std::nullopt;
+    auto statement = TERRANE_TRY(prepare(sql));
+    const auto row = TERRANE_TRY(statement.step());
+    return row ? std::optional(statement.number(0)) : std::nullopt;
 }
 
 base::Result<void> Database::backUpTo(const std::filesystem::path& target, const CopyProgress& progress) {
@@ -242,26 +240,25 @@ base::Result<void> Database::backUpTo(const std::filesystem::path& target, const
 
 base::Result<void> Database::copyTo(const std::filesystem::path& target, const CopyProgress& progress) {
     constexpr int kPagesAStep = 1024;  // 4 MiB
-    auto copy = open(target, OpenMode::Create);
-    if (!copy) return tl::unexpected(copy.error());
-    sqlite3* to = copy->database_.get();
+    auto copy = TERRANE_TRY(open(target, OpenMode::Create));
+    sqlite3* to = copy.database_.get();
     sqlite3_backup* backup = sqlite3_backup_init(to, "main", database_.get(), "main");
-    if (!backup) return failure(copy->path(), to);
+    if (!backup) return failure(copy.path(), to);
     bool isWanted = true;
     while (isWanted && sqlite3_backup_step(backup, progress ? kPagesAStep : -1) == SQLITE_OK) {
         const int left = sqlite3_backup_remaining(backup), all = sqlite3_backup_pagecount(backup);
         isWanted = !progress || progress(1 - static_cast<double>(left) / std::max(all, 1));
     }
     // The result of finish() is that of the steps; the target has the reason.
-    if (sqlite3_backup_finish(backup) != SQLITE_OK) return failure(copy->path(), to);
-    if (!isWanted) return base::fail("{}: the copy was cancelled", copy->path());
+    if (sqlite3_backup_finish(backup) != SQLITE_OK) return failure(copy.path(), to);
+    if (!isWanted) return base::fail("{}: the copy was cancelled", copy.path());
     return {};
 }
 
 base::Result<Transaction> Transaction::begin(Database& database) {
     // Repeats a rollback that failed for lack of memory.
     if (sqlite3_get_autocommit(database.database_.get()) == 0) database.rollBack();
-    if (auto begun = database.execute("BEGIN IMMEDIATE"); !begun) return tl::unexpected(begun.error());
+    TERRANE_TRY(database.execute("BEGIN IMMEDIATE"));
     return Transaction(database);
 }
 

@@ -109,13 +109,11 @@ class Database {
 // Calls visit(const Statement&) for each row of a query, until visit() returns an error.
 template <class Visit>
 [[nodiscard]] base::Result<void> forEachRow(Database& database, std::string_view sql, Visit visit) {
-    auto select = database.prepare(sql);
-    if (!select) return tl::unexpected(select.error());
+    auto select = TERRANE_TRY(database.prepare(sql));
     while (true) {
-        const auto row = select->step();
-        if (!row) return tl::unexpected(row.error());
-        if (!*row) return {};
-        if (base::Result<void> visited = visit(std::as_const(*select)); !visited) return visited;
+        const auto row = TERRANE_TRY(select.step());
+        if (!row) return {};
+        if (base::Result<void> visited = visit(std::as_const(select)); !visited) return visited;
     }
 }
 

@@ -12,9 +12,8 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
   public:
     static base::Result<std::unique_ptr<SqliteRows>> make(SaveFile file) {
         auto rows = std::make_unique<SqliteRows>(std::move(file));
-        auto writer = SqliteWriter::make(rows->file_);
-        if (!writer) return tl::unexpected(writer.error());
-        rows->writer_ = std::move(*writer);
+        auto writer = TERRANE_TRY(SqliteWriter::make(rows->file_));
+        rows->writer_ = std::move(writer);
         return rows;
     }
     using SqliteReadRows::SqliteReadRows;
@@ -26,10 +25,9 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
     // Rows are derived before the transaction begins, from reads of the file through other connections.
     base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                              const DeriveBatch& derive) override {
-        const auto derived =
-            derive(editedOf(batch.chunks), [this](world::ChunkPos pos) { return reader_.read(pos); });
-        if (!derived) return tl::unexpected(derived.error());
-        return writer_->write(batch, unread, *derived);
+        const auto derived = TERRANE_TRY(
+            derive(editedOf(batch.chunks), [this](world::ChunkPos pos) { return reader_.read(pos); }));
+        return writer_->write(batch, unread, derived);
     }
     base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                  EntityBudget& budget) override {
@@ -46,19 +44,16 @@ class SqliteRows : public SqliteReadRows<ChunkRows> {
 base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
                                                         const world::BlockRegistry& registry,
                                                         const SaveAccess& access) {
-    auto file = openToWrite(path, registry, access);
-    if (!file) return tl::unexpected(file.error());
-    auto rows = SqliteRows::make(std::move(*file));
-    if (!rows) return tl::unexpected(rows.error());
-    return std::move(*rows);
+    auto file = TERRANE_TRY(openToWrite(path, registry, access));
+    auto rows = TERRANE_TRY(SqliteRows::make(std::move(file)));
+    return rows;
 }
 
 base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesystem::path& path,
                                                              const world::BlockRegistry& registry,
                                                              const SaveAccess& access, SaveLimits limits) {
-    auto rows = openSqliteRows(path, registry, access);
-    if (!rows) return tl::unexpected(rows.error());
-    return std::unique_ptr<SqliteStore>(new SqliteStore(std::move(*rows), limits));
+    auto rows = TERRANE_TRY(openSqliteRows(path, registry, access));
+    return std::unique_ptr<SqliteStore>(new SqliteStore(std::move(rows), limits));
 }
 
 }  // namespace terrane::store

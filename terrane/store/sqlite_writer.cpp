@@ -22,17 +22,15 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     static_assert(std::size(kStatements) == sizeof(Statements) / sizeof(Statement));
     std::vector<Statement> made;
     for (const char* sql : kStatements) {
-        auto statement = file.database.prepare(sql);
-        if (!statement) return tl::unexpected(statement.error());
-        made.push_back(std::move(*statement));
+        auto statement = TERRANE_TRY(file.database.prepare(sql));
+        made.push_back(std::move(statement));
     }
-    auto metadata = MetadataTable::make(file.database);
-    if (!metadata) return tl::unexpected(metadata.error());
+    auto metadata = TERRANE_TRY(MetadataTable::make(file.database));
     auto next = made.begin();
     const auto take = [&] { return std::move(*next++); };
     // Braces evaluate in order, which is that of kStatements.
     return std::unique_ptr<SqliteWriter>(
-        new SqliteWriter(file, Statements{take(), take(), take(), take(), take()}, std::move(*metadata)));
+        new SqliteWriter(file, Statements{take(), take(), take(), take(), take()}, std::move(metadata)));
 }
 
 // The log may still have frames of a failed transaction. After a smaller transaction they would look like
@@ -46,84 +44,71 @@ base::Result<Transaction> SqliteWriter::begin() {
 base::Result<bool> SqliteWriter::write(const SaveBatch& batch, const ChunkPosSet& unread,
                                        const DerivedBatch& derived) {
     TERRANE_ZONE("save batch");
-    auto transaction = begin();
-    if (!transaction) return tl::unexpected(transaction.error());
+    auto transaction = TERRANE_TRY(begin());
     isComplete_ = derived.isComplete;
-    if (auto done = writeBatch(batch, unread); !done) return tl::unexpected(done.error());
-    if (auto done = writeDerived(derived.rows); !done) return tl::unexpected(done.error());
-    if (!isComplete_)
-        if (auto done = metadata_.remove(kDerivedRowsMark); !done) return tl::unexpected(done.error());
-    if (auto done = commit(*transaction); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(writeBatch(batch, unread));
+    TERRANE_TRY(writeDerived(derived.rows));
+    if (!isComplete_) TERRANE_TRY(metadata_.remove(kDerivedRowsMark));
+    TERRANE_TRY(commit(transaction));
     return isComplete_;
 }
 
 base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_view rules,
                                            EntityBudget& budget) {
     TERRANE_ZONE("derive all rows");
-    auto transaction = begin();
-    if (!transaction) return tl::unexpected(transaction.error());
+    auto transaction = TERRANE_TRY(begin());
     const std::string deletion = fmt::format("DELETE FROM chunks WHERE key >= {}", kFirstTileKey);
-    if (auto done = file_.database.execute(deletion); !done) return done;
-    auto edited = readEditedChunks(file_.database);
-    if (!edited) return tl::unexpected(edited.error());
+    TERRANE_TRY(file_.database.execute(deletion));
+    auto edited = TERRANE_TRY(readEditedChunks(file_.database));
     // Reads through the writing connection, which sees the transaction's changes.
     SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
                     file_.ids, budget);
-    auto derived =
-        deriveInGroups(rows, std::move(*edited), saved.reader(), [&](std::span<const ChunkRow> group) {
-            return saved.result() ? writeDerived(group) : saved.result();
-        });
-    if (!derived) return derived;
+    TERRANE_TRY(deriveInGroups(rows, std::move(edited), saved.reader(), [&](std::span<const ChunkRow> group) {
+        return saved.result() ? writeDerived(group) : saved.result();
+    }));
     if (!saved.result()) return saved.result();
-    if (auto done = metadata_.put(kDerivedRowsMark, rules); !done) return done;
-    return commit(*transaction);
+    TERRANE_TRY(metadata_.put(kDerivedRowsMark, rules));
+    return commit(transaction);
 }
 
 base::Result<void> SqliteWriter::change(const RowChanges& changes) {
-    auto transaction = begin();
-    if (!transaction) return tl::unexpected(transaction.error());
-    auto replace =
-        file_.database.prepare("INSERT OR REPLACE INTO chunks (key, origin, data) VALUES (?1, ?2, ?3)");
-    if (!replace) return tl::unexpected(replace.error());
+    auto transaction = TERRANE_TRY(begin());
+    auto replace = TERRANE_TRY(
+        file_.database.prepare("INSERT OR REPLACE INTO chunks (key, origin, data) VALUES (?1, ?2, ?3)"));
     for (const KeyedRow& row : changes.rows) {
-        replace->bind(1, row.key);
-        replace->bind(2, std::int64_t{row.row.provenance == Provenance::Edited});
-        replace->bind(3, ByteView(row.row.data));
-        if (auto done = replace->run(); !done) return done;
+        replace.bind(1, row.key);
+        replace.bind(2, std::int64_t{row.row.provenance == Provenance::Edited});
+        replace.bind(3, ByteView(row.row.data));
+        TERRANE_TRY(replace.run());
     }
     for (const std::int64_t key : changes.deleted) {
         use_.deleteChunk.bind(1, key);
-        if (auto done = use_.deleteChunk.run(); !done) return done;
+        TERRANE_TRY(use_.deleteChunk.run());
     }
-    for (const auto& [name, value] : changes.metadata)
-        if (auto done = metadata_.put(name, value); !done) return done;
-    return commit(*transaction);
+    for (const auto& [name, value] : changes.metadata) TERRANE_TRY(metadata_.put(name, value));
+    return commit(transaction);
 }
 
 // Notes that the log has transactions, so that its loss is detected.
 base::Result<void> SqliteWriter::commit(Transaction& transaction) {
-    if (auto there = files_.check(); !there) return there;
-    auto done = transaction.commit();
-    if (!done) return done;
+    TERRANE_TRY(files_.check());
+    TERRANE_TRY(transaction.commit());
     hasFailed_ = false;
     if (file_.lock) file_.lock->setHasLog(true);
     return {};
 }
 
 base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkPosSet& unread) {
-    for (const DamagedRow& row : batch.damaged)
-        if (auto done = quarantine(row); !done) return done;
-    for (const auto& [name, value] : batch.metadata)
-        if (auto done = metadata_.put(name, value); !done) return done;
+    for (const DamagedRow& row : batch.damaged) TERRANE_TRY(quarantine(row));
+    for (const auto& [name, value] : batch.metadata) TERRANE_TRY(metadata_.put(name, value));
     for (const world::ChunkPos pos : unread)
-        if (auto done = quarantineRow(pos, "could not be read when it was replaced"); !done) return done;
-    for (const auto& [pos, chunk] : batch.chunks)
-        if (auto done = writeChunk(pos, chunk); !done) return done;
+        TERRANE_TRY(quarantineRow(pos, "could not be read when it was replaced"));
+    for (const auto& [pos, chunk] : batch.chunks) TERRANE_TRY(writeChunk(pos, chunk));
     return {};
 }
 
 base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingChunk& chunk) {
-    if (auto done = quarantineIfDamaged(pos); !done) return done;
+    TERRANE_TRY(quarantineIfDamaged(pos));
     const bool isEdited = chunk.provenance == Provenance::Edited;
     const auto bytes = encodeChunk(*chunk.chunk, file_.ids, checksumSeed(pos, isEdited));
     if (!bytes) {
@@ -162,7 +147,7 @@ base::Result<void> SqliteWriter::quarantineRow(world::ChunkPos pos, std::string_
     // Too long to be read by any program: only record that it existed.
     use_.noteQuarantine.bind(1, keyOf(pos));
     use_.noteQuarantine.bind(2, std::string_view(done.error().message));
-    if (auto noted = use_.noteQuarantine.run(); !noted) return noted;
+    TERRANE_TRY(use_.noteQuarantine.run());
     return deleteRow(pos);
 }
 
@@ -171,9 +156,8 @@ base::Result<std::optional<DamagedRow>> SqliteWriter::readDamaged(world::ChunkPo
     Statement& select = use_.selectChunk;
     const ResetAfter reset(select);
     select.bind(1, keyOf(pos));
-    const auto row = select.step();
-    if (!row) return tl::unexpected(row.error());
-    if (!*row) return std::optional<DamagedRow>();
+    const auto row = TERRANE_TRY(select.step());
+    if (!row) return std::optional<DamagedRow>();
     std::string problem = rowProblem(select, 0, 1);
     const ByteView data = select.blob(0);
     const std::uint64_t seed = seedOf(pos, select.number(1), kFormatVersion);
@@ -197,17 +181,15 @@ base::Result<void> SqliteWriter::quarantineIfDamaged(world::ChunkPos pos) {
 base::Result<bool> SqliteWriter::isSaved(const DamagedRow& row) {
     const ResetAfter reset(use_.selectChunk);
     use_.selectChunk.bind(1, keyOf(row.pos));
-    const auto isThere = use_.selectChunk.step();
-    if (!isThere) return tl::unexpected(isThere.error());
-    return *isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;
+    const auto isThere = TERRANE_TRY(use_.selectChunk.step());
+    return isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;
 }
 
 base::Result<void> SqliteWriter::quarantine(const DamagedRow& row) {
     isComplete_ = false;
-    const auto isThere = isSaved(row);
-    if (!isThere) return tl::unexpected(isThere.error());
-    if (!*isThere) return {};
-    if (auto done = quarantineRow(row.pos, row.reason); !done) return done;
+    const auto isThere = TERRANE_TRY(isSaved(row));
+    if (!isThere) return {};
+    TERRANE_TRY(quarantineRow(row.pos, row.reason));
     return deleteRow(row.pos);
 }
 

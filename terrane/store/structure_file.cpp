@@ -150,13 +150,12 @@ base::Result<Structure> readContent(ByteView bytes) {
     Structure structure;
     for (int axis = 0; axis < 3; ++axis) structure.size[axis] = reader.number<std::uint16_t>();
     if (reader.isPastEnd()) return damagedStructure("the structure ends too early");
-    if (auto good = checkLimits(structure); !good) return tl::unexpected(good.error());
-    if (auto read = readPalette(reader, structure); !read) return tl::unexpected(read.error());
+    TERRANE_TRY(checkLimits(structure));
+    TERRANE_TRY(readPalette(reader, structure));
     const bool isNarrow = structure.palette.size() <= 256;
-    auto cells =
-        isNarrow ? readCells<std::uint8_t>(reader, structure) : readCells<std::uint16_t>(reader, structure);
-    if (!cells) return tl::unexpected(cells.error());
-    if (auto read = readData(reader, structure); !read) return tl::unexpected(read.error());
+    TERRANE_TRY(isNarrow ? readCells<std::uint8_t>(reader, structure)
+                         : readCells<std::uint16_t>(reader, structure));
+    TERRANE_TRY(readData(reader, structure));
     if (reader.isPastEnd()) return damagedStructure("the structure ends too early");
     if (!reader.rest().empty())
         return damagedStructure(fmt::format("{} bytes too many", reader.rest().size()));
@@ -166,7 +165,7 @@ base::Result<Structure> readContent(ByteView bytes) {
 }  // namespace
 
 base::Result<Bytes> encodeStructure(const Structure& structure) {
-    if (auto good = checkLimits(structure); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(checkLimits(structure));
     if (structure.palette.size() > kMaxStructurePalette)
         return base::fail("the structure has {} different blocks, a file keeps at most {}",
                           structure.palette.size(), kMaxStructurePalette);
@@ -202,7 +201,7 @@ base::Result<Structure> decodeStructure(ByteView bytes) {
         return damagedStructure(fmt::format("the structure says it has {} bytes, expected at most {}",
                                             plainBytes, kMaxStructureBytes));
     Bytes plain(plainBytes);
-    if (auto done = decompress(reader.rest(), plain); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(decompress(reader.rest(), plain));
     return readContent(plain);
 }
 
@@ -224,9 +223,8 @@ base::Result<void> writeStructure(const fs::path& file, const Structure& structu
 }
 
 base::Result<Structure> readStructure(const fs::path& file) {
-    const auto bytes = base::readFile(file, kMaxFileBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    auto structure = decodeStructure(std::as_bytes(std::span(*bytes)));
+    const auto bytes = TERRANE_TRY(base::readFile(file, kMaxFileBytes));
+    auto structure = decodeStructure(std::as_bytes(std::span(bytes)));
     if (!structure)
         return base::fail(structure.error().code, "{}: {}", file.string(), structure.error().message);
     return structure;

@@ -45,16 +45,15 @@ std::string problemOf(const KeyedRow& row) {
 // Reads the next valid rows of a world; counts invalid ones.
 base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int64_t& key, bool& isEnd,
                                                   CopyReport& report) {
-    auto rows = world.rowsAfter(key, kRowsAtOnce);
-    if (!rows) return rows;
-    isEnd = rows->empty();
-    for (const KeyedRow& row : *rows)
+    auto rows = TERRANE_TRY(world.rowsAfter(key, kRowsAtOnce));
+    isEnd = rows.empty();
+    for (const KeyedRow& row : rows)
         if (row.row.seed != checksumSeed(posOf(row.key), row.row.provenance == Provenance::Edited))
             return base::fail(ErrorCode::Incompatible,
                               "{}: in an older format; it is migrated when it is opened for writing",
                               world.name());
-    if (!rows->empty()) key = rows->back().key;
-    std::erase_if(*rows, [&](const KeyedRow& row) {
+    if (!rows.empty()) key = rows.back().key;
+    std::erase_if(rows, [&](const KeyedRow& row) {
         const std::string problem = problemOf(row);
         if (problem.empty()) return false;
         if (report.damaged++ == 0)
@@ -72,9 +71,8 @@ class RowWalk {
     // Null at the end.
     base::Result<const KeyedRow*> current() {
         while (next_ == rows_.size() && !isEnd_) {
-            auto rows = goodRowsAfter(world_, key_, isEnd_, report_);
-            if (!rows) return tl::unexpected(rows.error());
-            rows_ = std::move(*rows);
+            auto rows = TERRANE_TRY(goodRowsAfter(world_, key_, isEnd_, report_));
+            rows_ = std::move(rows);
             next_ = 0;
         }
         return next_ < rows_.size() ? &rows_[next_] : nullptr;
@@ -107,12 +105,11 @@ class Copy {
         : from_(from), to_(to), progress_(progress) {}
 
     base::Result<CopyReport> run(std::int64_t lastKey) {
-        if (auto done = copyRows(lastKey); !done) return tl::unexpected(done.error());
+        TERRANE_TRY(copyRows(lastKey));
         for (int time = 0; time < kComparisons; ++time) {
-            const auto same = compare();
-            if (!same) return tl::unexpected(same.error());
-            if (!*same) continue;
-            if (auto done = to_.change(ending()); !done) return tl::unexpected(done.error());
+            const auto same = TERRANE_TRY(compare());
+            if (!same) continue;
+            TERRANE_TRY(to_.change(ending()));
             return report_;
         }
         return base::fail(ErrorCode::Busy,
@@ -128,14 +125,13 @@ class Copy {
 
     base::Result<void> copyRows(std::int64_t lastKey) {
         for (bool isEnd = false; !isEnd;) {
-            auto rows = goodRowsAfter(from_, lastKey, isEnd, report_);
-            if (!rows) return tl::unexpected(rows.error());
-            rows_ += rows->size();
-            report_.copied += rows->size();
-            RowChanges changes{std::move(*rows), {}, {}};
+            auto rows = TERRANE_TRY(goodRowsAfter(from_, lastKey, isEnd, report_));
+            rows_ += rows.size();
+            report_.copied += rows.size();
+            RowChanges changes{std::move(rows), {}, {}};
             changes.metadata.emplace(kCopyMark, unfinished(lastKey));
-            if (auto done = to_.change(changes); !done) return done;
-            if (auto going = goOn(); !going) return going;
+            TERRANE_TRY(to_.change(changes));
+            TERRANE_TRY(goOn());
         }
         return {};
     }
@@ -172,13 +168,12 @@ class Copy {
             if (changes.rows.size() + changes.deleted.size() >= kRowsAtOnce || changedBytes >= kBytesOfRows) {
                 isSame = false;
                 changedBytes = 0;
-                if (auto done = repair(changes); !done) return tl::unexpected(done.error());
+                TERRANE_TRY(repair(changes));
             }
-            if (report_.rows % kRowsAtOnce == 0)
-                if (auto going = goOn(); !going) return tl::unexpected(going.error());
+            if (report_.rows % kRowsAtOnce == 0) TERRANE_TRY(goOn());
         }
         isSame &= changes.rows.empty() && changes.deleted.empty();
-        if (auto done = repair(changes); !done) return tl::unexpected(done.error());
+        TERRANE_TRY(repair(changes));
         report_.digest = digest.hex();
         return isSame;
     }
@@ -228,15 +223,13 @@ base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     if (source != from.metadata().end() && lastKeyOf(source->second))
         return base::fail(ErrorCode::Incompatible, "{}: an unfinished copy; start it again", from.name());
     const auto mark = to.metadata().find(kCopyMark);
-    const auto first = to.rowsAfter(kBeforeAll, 1);
-    if (!first) return tl::unexpected(first.error());
-    const bool isEmpty = mark == to.metadata().end() && first->empty();
+    const auto first = TERRANE_TRY(to.rowsAfter(kBeforeAll, 1));
+    const bool isEmpty = mark == to.metadata().end() && first.empty();
     const auto lastKey = mark == to.metadata().end() ? std::nullopt : lastKeyOf(mark->second);
     if (!isEmpty && !lastKey)
         return base::fail(ErrorCode::Incompatible, "{}: there is a world already, {}", to.name(),
                           mark == to.metadata().end() ? "which is not a copy" : "a copy that was finished");
-    if (auto same = requireSame(to.identity(), from.identity(), to.name()); !same)
-        return tl::unexpected(same.error());
+    TERRANE_TRY(requireSame(to.identity(), from.identity(), to.name()));
     if (!hasNames(to.ids(), from.ids().names()))
         return base::fail(ErrorCode::Incompatible, "{}: its block names are not those of {}", to.name(),
                           from.name());
@@ -244,7 +237,7 @@ base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to) {
     if (isEmpty) {
         RowChanges begun;
         begun.metadata.emplace(kCopyMark, unfinished(kBeforeAll));
-        if (auto done = to.change(begun); !done) return tl::unexpected(done.error());
+        TERRANE_TRY(to.change(begun));
     }
     return lastKey.value_or(kBeforeAll);
 }

@@ -49,10 +49,8 @@ bool belongsToAWorld(const fs::path& path) {
 base::Result<void> checkFree(const fs::path& path) {
     if (isPresent(path))
         return base::fail(ErrorCode::BadInput, "there is a world \"{}\" already", path.stem().string());
-    for (const char* ending : {"-wal", "-journal"})
-        if (auto absent = checkAbsent(beside(path, ending)); !absent) return absent;
-    for (const char* ending : kDatabasesBeside)
-        if (auto absent = checkAbsent(withEnding(path, ending)); !absent) return absent;
+    for (const char* ending : {"-wal", "-journal"}) TERRANE_TRY(checkAbsent(beside(path, ending)));
+    for (const char* ending : kDatabasesBeside) TERRANE_TRY(checkAbsent(withEnding(path, ending)));
     return {};
 }
 
@@ -66,19 +64,17 @@ std::vector<fs::path> databasesOf(const fs::path& world) {
 base::Result<std::vector<FileLock>> lockAll(const std::vector<fs::path>& files) {
     std::vector<FileLock> locks;
     for (const fs::path& file : files) {
-        auto lock = FileLock::acquire(file, FileLock::Kind::Exclusive);
-        if (!lock) return tl::unexpected(lock.error());
-        locks.push_back(std::move(*lock));
+        auto lock = TERRANE_TRY(FileLock::acquire(file, FileLock::Kind::Exclusive));
+        locks.push_back(std::move(lock));
     }
     return locks;
 }
 
 base::Result<void> endLog(const fs::path& path) {
-    if (auto checked = checkCompanions(path); !checked) return checked;
+    TERRANE_TRY(checkCompanions(path));
     if (!hasLog(path) && !hasJournal(path)) return {};
-    auto database = Database::open(path, OpenMode::ReadWrite);
-    if (!database) return tl::unexpected(database.error());
-    if (auto done = database->execute("PRAGMA wal_checkpoint(TRUNCATE)"); !done) return done;
+    auto database = TERRANE_TRY(Database::open(path, OpenMode::ReadWrite));
+    TERRANE_TRY(database.execute("PRAGMA wal_checkpoint(TRUNCATE)"));
     if (!hasLog(path)) return {};
     return base::fail(ErrorCode::Busy, "{}: its log is in use", path.string());
 }
@@ -90,7 +86,7 @@ base::Result<Moves> movesOf(const fs::path& from, const fs::path& to) {
             moves.emplace_back(withEnding(from, ending), withEnding(to, ending));
     for (const char* ending : kFilesBeside) {
         if (!isPresent(withEnding(from, ending))) continue;
-        if (auto absent = checkAbsent(withEnding(to, ending)); !absent) return tl::unexpected(absent.error());
+        TERRANE_TRY(checkAbsent(withEnding(to, ending)));
         moves.emplace_back(withEnding(from, ending), withEnding(to, ending));
     }
     return moves;
@@ -116,8 +112,7 @@ base::Result<void> removeFile(const fs::path& file) {
 
 // Its file goes last: a log without its database would be applied to the next one of that name.
 base::Result<void> removeDatabase(const fs::path& file) {
-    for (const char* ending : {"-wal", "-shm", "-journal", ""})
-        if (auto removed = removeFile(beside(file, ending)); !removed) return removed;
+    for (const char* ending : {"-wal", "-shm", "-journal", ""}) TERRANE_TRY(removeFile(beside(file, ending)));
     return {};
 }
 

@@ -32,7 +32,7 @@ base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const Reques
     const bool takesAnyVersion = requested.regenerate != Regenerate::None || requested.followsGenerator;
     const WorldIdentity expected{requested.seed.value_or(saved.seed), generator,
                                  takesAnyVersion ? saved.generatorVersion : version};
-    if (auto same = requireSame(saved, expected, where); !same) return tl::unexpected(same.error());
+    TERRANE_TRY(requireSame(saved, expected, where));
     if (requested.regenerate != Regenerate::None || saved.generatorVersion == version)
         return Regeneration{requested.regenerate, version};
     return Regeneration{Regenerate::AllButEdited, version, false};

@@ -54,7 +54,7 @@ WorldEntry entryOf(const fs::path& path, const world::BlockRegistry& blocks) {
 
 // The regular file of a world; links are neither renamed nor deleted.
 base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
-    if (auto good = checkSaveName(name); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(checkSaveName(name));
     fs::path path = worldFile(folder, name);
     std::error_code ignored;
     const fs::file_status status = fs::symlink_status(path, ignored);
@@ -67,7 +67,7 @@ base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
 }
 
 base::Result<fs::path> newFile(const fs::path& folder, std::string_view name) {
-    if (auto good = checkNewWorld(folder, name); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(checkNewWorld(folder, name));
     return worldFile(folder, name);
 }
 
@@ -79,7 +79,7 @@ void moveThumbnail(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 base::Result<void> checkWorldName(std::string_view name) {
-    if (auto good = checkSaveName(name); !good) return good;
+    TERRANE_TRY(checkSaveName(name));
     if (name.ends_with(kSaveEnding) || name.back() == ' ' || name.back() == '.')
         return base::fail(ErrorCode::BadInput,
                           "{:?}: the name of a world ends with neither \".sqlite\" nor a space nor a dot",
@@ -91,7 +91,7 @@ base::Result<void> checkWorldName(std::string_view name) {
 }
 
 base::Result<void> checkNewWorld(const fs::path& folder, std::string_view name) {
-    if (auto good = checkWorldName(name); !good) return good;
+    TERRANE_TRY(checkWorldName(name));
     return checkFree(worldFile(folder, name));
 }
 
@@ -133,58 +133,46 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
 }
 
 base::Result<void> renameWorld(const fs::path& folder, std::string_view name, std::string_view newName) {
-    const auto from = ownFile(folder, name);
-    if (!from) return tl::unexpected(from.error());
+    const auto from = TERRANE_TRY(ownFile(folder, name));
     if (name == newName) return {};
-    const auto to = newFile(folder, newName);
-    if (!to) return tl::unexpected(to.error());
-    const auto moves = movesOf(*from, *to);
-    if (!moves) return tl::unexpected(moves.error());
-    if (const std::string lost = lostLog(*from); !lost.empty()) base::logWarning("{}", lost);
-    const auto locks = lockAll(databasesOf(*from));
-    if (!locks) return tl::unexpected(locks.error());
-    const auto newLock = FileLock::acquire(*to, FileLock::Kind::Exclusive);
-    if (!newLock) return tl::unexpected(newLock.error());
-    for (const fs::path& database : databasesOf(*from))
-        if (auto ended = endLog(database); !ended) return ended;
-    if (auto moved = moveAll(*moves); !moved) return moved;
-    moveThumbnail(*from, *to);
+    const auto to = TERRANE_TRY(newFile(folder, newName));
+    const auto moves = TERRANE_TRY(movesOf(from, to));
+    if (const std::string lost = lostLog(from); !lost.empty()) base::logWarning("{}", lost);
+    const auto locks = TERRANE_TRY(lockAll(databasesOf(from)));
+    const auto newLock = TERRANE_TRY(FileLock::acquire(to, FileLock::Kind::Exclusive));
+    for (const fs::path& database : databasesOf(from)) TERRANE_TRY(endLog(database));
+    TERRANE_TRY(moveAll(moves));
+    moveThumbnail(from, to);
     return {};
 }
 
 base::Result<void> deleteWorld(const fs::path& folder, std::string_view name) {
-    const auto path = ownFile(folder, name);
-    if (!path) return tl::unexpected(path.error());
-    std::vector<fs::path> databases = databasesOf(*path);
-    const auto locks = lockAll(databases);
-    if (!locks) return tl::unexpected(locks.error());
-    if (auto removed = removeFile(thumbnailOf(*path)); !removed) return removed;
+    const auto path = TERRANE_TRY(ownFile(folder, name));
+    std::vector<fs::path> databases = databasesOf(path);
+    const auto locks = TERRANE_TRY(lockAll(databases));
+    TERRANE_TRY(removeFile(thumbnailOf(path)));
     // The world itself goes last.
-    for (; !databases.empty(); databases.pop_back())
-        if (auto removed = removeDatabase(databases.back()); !removed) return removed;
+    for (; !databases.empty(); databases.pop_back()) TERRANE_TRY(removeDatabase(databases.back()));
     return {};
 }
 
 base::Result<void> copySave(const fs::path& folder, const SaveCopy& copy, const world::BlockRegistry& blocks,
                             const CopyProgress& progress) {
-    if (auto good = checkSaveName(copy.name); !good) return good;
+    TERRANE_TRY(checkSaveName(copy.name));
     const fs::path from = worldFile(folder, copy.name);
-    const auto to = newFile(folder, copy.newName);
-    if (!to) return tl::unexpected(to.error());
-    const auto lock = FileLock::acquire(*to, FileLock::Kind::Exclusive);
-    if (!lock) return tl::unexpected(lock.error());
-    auto source = openToRead(from, blocks);
-    if (!source) return tl::unexpected(source.error());
+    const auto to = TERRANE_TRY(newFile(folder, copy.newName));
+    const auto lock = TERRANE_TRY(FileLock::acquire(to, FileLock::Kind::Exclusive));
+    auto source = TERRANE_TRY(openToRead(from, blocks));
     // Under another name until it is complete, so that no list shows a partial copy.
-    const fs::path part = beside(*to, ".part");
+    const fs::path part = beside(to, ".part");
     std::error_code ignored;
     fs::remove(part, ignored);
-    if (auto copied = source->database.backUpTo(part, progress); !copied) return copied;
-    if (auto moved = moveAll({{part, *to}}); !moved) {
+    TERRANE_TRY(source.database.backUpTo(part, progress));
+    if (auto moved = moveAll({{part, to}}); !moved) {
         fs::remove(part, ignored);
         return moved;
     }
-    fs::copy_file(thumbnailOf(from), thumbnailOf(*to), ignored);
+    fs::copy_file(thumbnailOf(from), thumbnailOf(to), ignored);
     return {};
 }
 

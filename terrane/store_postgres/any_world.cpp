@@ -21,13 +21,11 @@ template <class OfDatabase, class OfFile>
 auto open(const store::WorldLocation& location, OfDatabase ofDatabase, OfFile ofFile)
     -> decltype(ofFile(std::filesystem::path())) {
     if (isPostgres(location)) {
-        const auto address = addressOf(location.text);
-        if (!address) return tl::unexpected(address.error());
-        return ofDatabase(*address);
+        const auto address = TERRANE_TRY(addressOf(location.text));
+        return ofDatabase(address);
     }
-    const auto path = store::fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    return ofFile(*path);
+    const auto path = TERRANE_TRY(store::fileOf(location));
+    return ofFile(path);
 }
 
 using StoreResult = base::Result<std::unique_ptr<store::ChunkStore>>;
@@ -35,9 +33,8 @@ using StoreResult = base::Result<std::unique_ptr<store::ChunkStore>>;
 StoreResult openDatabase(const Address& address, const world::BlockRegistry& blocks,
                          const store::WorldRequest& request) {
     if (request.access == store::WorldAccess::ReadOnly) {
-        auto saved = openReader(address, blocks, request.limits);
-        if (!saved) return tl::unexpected(saved.error());
-        return store::openOver(std::move(*saved), request, address.shown);
+        auto saved = TERRANE_TRY(openReader(address, blocks, request.limits));
+        return store::openOver(std::move(saved), request, address.shown);
     }
     store::SaveAccess access;
     access.create = request.create;
@@ -49,8 +46,7 @@ StoreResult openDatabase(const Address& address, const world::BlockRegistry& blo
     if (request.sharing != store::WorldSharing::Generating) times.reading = std::chrono::minutes(10);
     auto store = PostgresStore::open(address, blocks, access, request.sharing, request.limits, times);
     if (!store) return tl::unexpected(store.error());
-    if (auto whole = store::requireWhole(**store, address.shown); !whole)
-        return tl::unexpected(whole.error());
+    TERRANE_TRY(store::requireWhole(**store, address.shown));
     return std::move(*store);
 }
 
@@ -65,12 +61,11 @@ std::string shownOf(const store::WorldLocation& location) {
 StoreResult openAnyWorld(const store::WorldLocation& location, const world::BlockRegistry& blocks,
                          const store::WorldRequest& request) {
     if (!isPostgres(location)) return store::openWorld(location, blocks, request);
-    const auto address = addressOf(location.text);
-    if (!address) return tl::unexpected(address.error());
+    const auto address = TERRANE_TRY(addressOf(location.text));
     if (!request.versionOf)
         return base::fail(base::ErrorCode::BadInput, "{}: the request names no versions of generators",
-                          address->shown);
-    return openDatabase(*address, blocks, request);
+                          address.shown);
+    return openDatabase(address, blocks, request);
 }
 
 base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,

@@ -18,30 +18,26 @@ base::Result<std::unique_ptr<store::ChunkStore>> openAnyWorld(const store::World
 
 base::Result<store::CheckReport> checkAnyWorld(const store::WorldLocation& location,
                                                const world::BlockRegistry& blocks) {
-    const auto path = store::fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    return store::checkSave(*path, blocks);
+    const auto path = TERRANE_TRY(store::fileOf(location));
+    return store::checkSave(path, blocks);
 }
 
 base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(const store::WorldLocation& location,
                                                                      const world::BlockRegistry& blocks) {
-    const auto path = store::fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    return store::openSqliteToRead(*path, blocks);
+    const auto path = TERRANE_TRY(store::fileOf(location));
+    return store::openSqliteToRead(path, blocks);
 }
 
 base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location) {
-    const auto path = store::fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    return store::readSavedMetadata(*path);
+    const auto path = TERRANE_TRY(store::fileOf(location));
+    return store::readSavedMetadata(path);
 }
 
 base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(const store::WorldLocation& location,
                                                             const world::BlockRegistry& blocks,
                                                             const store::SaveAccess& access) {
-    const auto path = store::fileOf(location);
-    if (!path) return tl::unexpected(path.error());
-    return store::openSqliteRows(*path, blocks, access);
+    const auto path = TERRANE_TRY(store::fileOf(location));
+    return store::openSqliteRows(path, blocks, access);
 }
 
 }  // namespace terrane::store_postgres

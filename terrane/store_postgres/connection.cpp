@@ -143,11 +143,10 @@ base::Result<Connection> Connection::open(const Address& address) {
     PQsetNoticeReceiver(raw, ignoreNotice, nullptr);
     if (PQsetClientEncoding(raw, "UTF8") != 0) return tl::unexpected(connection.errorOf(nullptr));
     const std::string path = connection.quoted(address.schema);
-    auto rows = connection.run(kSetUp, Parameters().text(path));
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->text(0, 3) != "UTF8")
+    auto rows = TERRANE_TRY(connection.run(kSetUp, Parameters().text(path)));
+    if (rows.text(0, 3) != "UTF8")
         return base::fail(ErrorCode::Incompatible, "{}: its encoding is {}, expected UTF8", address.shown,
-                          rows->text(0, 3));
+                          rows.text(0, 3));
     return connection;
 }
 
@@ -274,9 +273,8 @@ base::Result<std::vector<Rows>> Connection::runAll(std::span<const Command> comm
 
 base::Result<Rows> Connection::run(const Statement& statement, const Parameters& parameters) {
     const Queued queued{&statement, &parameters};
-    auto rows = runQueued(std::span(&queued, 1));
-    if (!rows) return tl::unexpected(rows.error());
-    return std::move(rows->front());
+    auto rows = TERRANE_TRY(runQueued(std::span(&queued, 1)));
+    return std::move(rows.front());
 }
 
 base::Result<void> Connection::change(const Statement& statement, const Parameters& parameters) {

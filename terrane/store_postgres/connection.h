@@ -105,13 +105,13 @@ class Connection {
 // Runs `action`, which returns a base::Result, in a transaction; rolls back if it fails.
 template <class Do>
 [[nodiscard]] std::invoke_result_t<Do> inTransaction(Connection& connection, Do action) {
-    if (auto begun = connection.execute("BEGIN"); !begun) return tl::unexpected(begun.error());
+    TERRANE_TRY(connection.execute("BEGIN"));
     auto done = action();
     if (!done) {
         if (connection.isUsable()) (void)connection.execute("ROLLBACK");
         return done;
     }
-    if (auto committed = connection.execute("COMMIT"); !committed) return tl::unexpected(committed.error());
+    TERRANE_TRY(connection.execute("COMMIT"));
     return done;
 }
 

@@ -30,10 +30,9 @@ class ConnectionPool {
     template <class T>
     [[nodiscard]] base::Result<T> run(const std::function<base::Result<T>(Connection&)>& use) {
         return retryFor<T>(times_.reading, [&]() -> base::Result<T> {
-            auto connection = take();
-            if (!connection) return tl::unexpected(connection.error());
-            auto result = use(*connection);
-            giveBack(std::move(*connection));
+            auto connection = TERRANE_TRY(take());
+            auto result = use(connection);
+            giveBack(std::move(connection));
             return result;
         });
     }

@@ -36,11 +36,10 @@ void addRow(store::CheckReport& report, const store::KeyedRow& row, const store:
 base::Result<void> checkChunks(WorldConnection& world, store::CheckReport& report) {
     std::int64_t key = std::numeric_limits<std::int64_t>::min();
     while (true) {
-        const auto rows = readRowsAfter(world.connection, key, kRowsCheckedAtOnce);
-        if (!rows) return tl::unexpected(rows.error());
-        if (rows->empty()) return {};
-        for (const store::KeyedRow& row : *rows) addRow(report, row, world.contents.ids);
-        key = rows->back().key;
+        const auto rows = TERRANE_TRY(readRowsAfter(world.connection, key, kRowsCheckedAtOnce));
+        if (rows.empty()) return {};
+        for (const store::KeyedRow& row : rows) addRow(report, row, world.contents.ids);
+        key = rows.back().key;
     }
 }
 
@@ -57,11 +56,10 @@ base::Result<store::CheckReport> checkDatabase(const Address& address, const wor
     report.format = world->contents.format;
     report.identity = world->contents.identity;
     report.unknownBlocks = world->contents.ids.unknown();
-    if (auto checked = checkChunks(*world, report); !checked) return tl::unexpected(checked.error());
-    const auto sizes = world->connection.run(kSizes);
-    if (!sizes) return tl::unexpected(sizes.error());
-    report.quarantined = static_cast<std::size_t>(sizes->number(0, 0));
-    report.fileBytes = static_cast<std::uint64_t>(sizes->number(0, 1));
+    TERRANE_TRY(checkChunks(*world, report));
+    const auto sizes = TERRANE_TRY(world->connection.run(kSizes));
+    report.quarantined = static_cast<std::size_t>(sizes.number(0, 0));
+    report.fileBytes = static_cast<std::uint64_t>(sizes.number(0, 1));
     return report;
 }
 

@@ -65,37 +65,33 @@ std::vector<store::KeyedRow> keyedRows(const Rows& found) {
 }  // namespace
 
 StoredRow readRow(Connection& connection, ChunkPos pos) {
-    const auto rows = connection.run(kRead, Parameters().number(store::keyOf(pos)));
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->count() == 0) return std::optional<StoredChunk>();
-    return std::optional(storedChunk(*rows, 0, 0, pos));
+    const auto rows = TERRANE_TRY(connection.run(kRead, Parameters().number(store::keyOf(pos))));
+    if (rows.count() == 0) return std::optional<StoredChunk>();
+    return std::optional(storedChunk(rows, 0, 0, pos));
 }
 
 base::Result<std::vector<ChunkPos>> readEditedChunks(Connection& connection) {
-    const auto rows = connection.run(kEdited, Parameters().number(store::kFirstTileKey));
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kEdited, Parameters().number(store::kFirstTileKey)));
     std::vector<ChunkPos> edited;
-    edited.reserve(static_cast<std::size_t>(rows->count()));
-    for (int row = 0; row < rows->count(); ++row) edited.push_back(store::posOf(rows->number(row, 0)));
+    edited.reserve(static_cast<std::size_t>(rows.count()));
+    for (int row = 0; row < rows.count(); ++row) edited.push_back(store::posOf(rows.number(row, 0)));
     return edited;
 }
 
 base::Result<std::vector<store::KeyedRow>> readRows(Connection& connection,
                                                     std::span<const std::int64_t> keys) {
-    const auto found = connection.run(kReadMany, Parameters().numbers(keys));
-    if (!found) return tl::unexpected(found.error());
-    return keyedRows(*found);
+    const auto found = TERRANE_TRY(connection.run(kReadMany, Parameters().numbers(keys)));
+    return keyedRows(found);
 }
 
 base::Result<std::vector<store::KeyedRow>> readRowsAfter(Connection& connection, std::int64_t key,
                                                          std::size_t count) {
     const auto found =
-        connection.run(kRowsAfter, Parameters()
-                                       .number(key)
-                                       .number(static_cast<std::int64_t>(count))
-                                       .number(static_cast<std::int64_t>(store::kBytesOfRows)));
-    if (!found) return tl::unexpected(found.error());
-    return keyedRows(*found);
+        TERRANE_TRY(connection.run(kRowsAfter, Parameters()
+                                                   .number(key)
+                                                   .number(static_cast<std::int64_t>(count))
+                                                   .number(static_cast<std::int64_t>(store::kBytesOfRows))));
+    return keyedRows(found);
 }
 
 base::Result<std::vector<store::KeyedRow>> ChunkQueries::rowsAfter(std::int64_t key, std::size_t count) {
@@ -105,9 +101,8 @@ base::Result<std::vector<store::KeyedRow>> ChunkQueries::rowsAfter(std::int64_t 
 
 base::Result<std::uint64_t> ChunkQueries::rowCount() {
     return pool_.run<std::uint64_t>([](Connection& connection) -> base::Result<std::uint64_t> {
-        const auto rows = connection.run(kCount);
-        if (!rows) return tl::unexpected(rows.error());
-        return static_cast<std::uint64_t>(rows->number(0, 0));
+        const auto rows = TERRANE_TRY(connection.run(kCount));
+        return static_cast<std::uint64_t>(rows.number(0, 0));
     });
 }
 
@@ -143,9 +138,8 @@ void ChunkQueries::readMany(std::span<const ChunkPos> positions, const store::Re
 
 base::Result<bool> ChunkQueries::contains(ChunkPos pos) {
     return pool_.run<bool>([&](Connection& connection) -> base::Result<bool> {
-        const auto rows = connection.run(kContains, Parameters().number(store::keyOf(pos)));
-        if (!rows) return tl::unexpected(rows.error());
-        return rows->number(0, 0) != 0;
+        const auto rows = TERRANE_TRY(connection.run(kContains, Parameters().number(store::keyOf(pos))));
+        return rows.number(0, 0) != 0;
     });
 }
 

@@ -70,9 +70,8 @@ base::Result<std::unique_ptr<PostgresRows>> openPostgresRows(const Address& addr
                                                              const world::BlockRegistry& blocks,
                                                              const store::SaveAccess& access,
                                                              store::WorldSharing sharing, RetryTimes times) {
-    auto opened = openToWrite(address, blocks, access, sharing);
-    if (!opened) return tl::unexpected(opened.error());
-    return std::make_unique<PostgresRows>(address, times, std::move(*opened), sharing);
+    auto opened = TERRANE_TRY(openToWrite(address, blocks, access, sharing));
+    return std::make_unique<PostgresRows>(address, times, std::move(opened), sharing);
 }
 
 }  // namespace
@@ -81,27 +80,24 @@ base::Result<std::unique_ptr<store::ChunkRows>> openRows(const Address& address,
                                                          const world::BlockRegistry& blocks,
                                                          const store::SaveAccess& access,
                                                          store::WorldSharing sharing, RetryTimes times) {
-    auto rows = openPostgresRows(address, blocks, access, sharing, times);
-    if (!rows) return tl::unexpected(rows.error());
-    return std::move(*rows);
+    auto rows = TERRANE_TRY(openPostgresRows(address, blocks, access, sharing, times));
+    return rows;
 }
 
 base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(const Address& address,
                                                                   const world::BlockRegistry& blocks,
                                                                   RetryTimes times) {
-    auto opened = openToRead(address, blocks);
-    if (!opened) return tl::unexpected(opened.error());
+    auto opened = TERRANE_TRY(openToRead(address, blocks));
     return std::make_unique<PostgresReadRows<store::ReadableRows>>(address, times,
-                                                                   std::move(opened->contents));
+                                                                   std::move(opened.contents));
 }
 
 base::Result<std::unique_ptr<PostgresStore>> PostgresStore::open(
     const Address& address, const world::BlockRegistry& blocks, const store::SaveAccess& access,
     store::WorldSharing sharing, const store::SaveLimits& limits, RetryTimes times) {
-    auto rows = openPostgresRows(address, blocks, access, sharing, times);
-    if (!rows) return tl::unexpected(rows.error());
-    const std::int64_t version = (*rows)->newestEdit();
-    std::unique_ptr<PostgresStore> store(new PostgresStore(std::move(*rows), limits));
+    auto rows = TERRANE_TRY(openPostgresRows(address, blocks, access, sharing, times));
+    const std::int64_t version = rows->newestEdit();
+    std::unique_ptr<PostgresStore> store(new PostgresStore(std::move(rows), limits));
     store->setVersion(version);
     return store;
 }
@@ -110,9 +106,8 @@ base::Result<std::unique_ptr<store::ReadableStore>> openReader(const Address& ad
                                                                const world::BlockRegistry& blocks,
                                                                const store::SaveLimits& limits,
                                                                RetryTimes times) {
-    auto rows = openRowsToRead(address, blocks, times);
-    if (!rows) return tl::unexpected(rows.error());
-    return std::make_unique<store::RowsReader>(std::move(*rows), limits);
+    auto rows = TERRANE_TRY(openRowsToRead(address, blocks, times));
+    return std::make_unique<store::RowsReader>(std::move(rows), limits);
 }
 
 }  // namespace terrane::store_postgres

@@ -60,9 +60,8 @@ template <class T, class Do>
 base::Result<T> PostgresWriter::inTransaction(Do action) {
     return pool_.retry<T>([&]() -> base::Result<T> {
         if (!connection_.isUsable()) {
-            auto connection = reconnect(pool_.address(), sharing_, contents_);
-            if (!connection) return tl::unexpected(connection.error());
-            connection_ = std::move(*connection);
+            auto connection = TERRANE_TRY(reconnect(pool_.address(), sharing_, contents_));
+            connection_ = std::move(connection);
         }
         return store_postgres::inTransaction(connection_, action);
     });
@@ -86,43 +85,33 @@ base::Result<bool> PostgresWriter::writeBatch(const store::SaveBatch& batch, con
                                               const store::DeriveBatch& derive) {
     isComplete_ = true;
     if (!store::editedOf(batch.chunks).empty())
-        if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
-            return tl::unexpected(locked.error());
-    auto chunks = newestChunks(batch);
-    if (!chunks) return tl::unexpected(chunks.error());
-    const auto derived =
-        derive(store::editedOf(*chunks), [this](ChunkPos pos) { return readRow(connection_, pos); });
-    if (!derived) return tl::unexpected(derived.error());
-    isComplete_ = derived->isComplete;
-    for (const store::DamagedRow& row : batch.damaged)
-        if (auto done = quarantine(row); !done) return tl::unexpected(done.error());
+        TERRANE_TRY(lockForTransaction(connection_, pool_.address(), WorldLock::Tiles));
+    auto chunks = TERRANE_TRY(newestChunks(batch));
+    const auto derived = TERRANE_TRY(
+        derive(store::editedOf(chunks), [this](ChunkPos pos) { return readRow(connection_, pos); }));
+    isComplete_ = derived.isComplete;
+    for (const store::DamagedRow& row : batch.damaged) TERRANE_TRY(quarantine(row));
     // A newer row of another server stays, even if it could not be read before.
     for (const ChunkPos pos : unread)
-        if (chunks->contains(pos))
-            if (auto done = quarantineRow(pos, "could not be read when it was replaced"); !done)
-                return tl::unexpected(done.error());
-    if (auto done = writeChunks(*chunks); !done) return tl::unexpected(done.error());
-    if (auto done = writeDerived(derived->rows); !done) return tl::unexpected(done.error());
+        if (chunks.contains(pos)) TERRANE_TRY(quarantineRow(pos, "could not be read when it was replaced"));
+    TERRANE_TRY(writeChunks(chunks));
+    TERRANE_TRY(writeDerived(derived.rows));
     store::Metadata metadata(batch.metadata.begin(), batch.metadata.end());
-    if (auto done = writeMetadata(metadata); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(writeMetadata(metadata));
     return isComplete_;
 }
 
 base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, std::string_view rules,
                                               store::EntityBudget& budget) {
     isComplete_ = true;
-    if (auto locked = lockForTransaction(connection_, pool_.address(), WorldLock::Tiles); !locked)
-        return locked;
-    auto deleted = connection_.change(kDeleteTiles, Parameters().number(store::kFirstTileKey));
-    if (!deleted) return deleted;
-    auto edited = readEditedChunks(connection_);
-    if (!edited) return tl::unexpected(edited.error());
+    TERRANE_TRY(lockForTransaction(connection_, pool_.address(), WorldLock::Tiles));
+    TERRANE_TRY(connection_.change(kDeleteTiles, Parameters().number(store::kFirstTileKey)));
+    auto edited = TERRANE_TRY(readEditedChunks(connection_));
     store::SavedRows saved([this](ChunkPos pos) { return readRow(connection_, pos); }, contents_.ids, budget);
     const auto write = [&](std::span<const ChunkRow> group) {
         return saved.result() ? writeDerived(group) : saved.result();
     };
-    auto derived = store::deriveInGroups(rows, std::move(*edited), saved.reader(), write);
-    if (!derived) return derived;
+    TERRANE_TRY(store::deriveInGroups(rows, std::move(edited), saved.reader(), write));
     if (!saved.result()) return saved.result();
     return connection_.change(kPutSetting, Parameters().text(store::kDerivedRowsMark).text(rules));
 }
@@ -142,10 +131,9 @@ base::Result<void> PostgresWriter::changeRows(const store::RowChanges& changes) 
         data.push_back(row.row.data);
     }
     const auto rows = Parameters().numbers(keys).smallNumbers(origins).byteStrings(data);
-    if (auto done = connection_.change(kReplaceChunks, rows); !done) return done;
+    TERRANE_TRY(connection_.change(kReplaceChunks, rows));
     if (!changes.deleted.empty()) {
-        auto done = connection_.change(kDeleteChunks, Parameters().numbers(changes.deleted));
-        if (!done) return done;
+        TERRANE_TRY(connection_.change(kDeleteChunks, Parameters().numbers(changes.deleted)));
     }
     return writeMetadata(changes.metadata);
 }
@@ -172,9 +160,8 @@ base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch&
         versions.push_back(chunks.at(row.pos).version);
     }
     if (keys.empty()) return chunks;
-    const auto newer = connection_.run(kNewer, Parameters().numbers(keys).numbers(versions));
-    if (!newer) return tl::unexpected(newer.error());
-    for (int row = 0; row < newer->count(); ++row) chunks.erase(store::posOf(newer->number(row, 0)));
+    const auto newer = TERRANE_TRY(connection_.run(kNewer, Parameters().numbers(keys).numbers(versions)));
+    for (int row = 0; row < newer.count(); ++row) chunks.erase(store::posOf(newer.number(row, 0)));
     return chunks;
 }
 
@@ -182,7 +169,7 @@ base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch&
 base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
     std::vector<std::int64_t> keys, versions;
     for (const auto& [pos, chunk] : chunks) keys.push_back(store::keyOf(pos));
-    if (auto done = quarantineDamaged(keys); !done) return done;
+    TERRANE_TRY(quarantineDamaged(keys));
     keys.clear();
     std::vector<std::int16_t> origins;
     std::vector<store::Bytes> data;
@@ -212,7 +199,7 @@ base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
         bytes += encoded->size();
         data.push_back(std::move(*encoded));
         if (bytes < kBytesAtOnce) continue;
-        if (auto done = put(); !done) return done;
+        TERRANE_TRY(put());
     }
     return keys.empty() ? base::Result<void>() : put();
 }
@@ -266,16 +253,14 @@ base::Result<std::string> problemOf(Connection& connection, ChunkPos pos, const 
 // Checks rows before they are overwritten: damaged ones are quarantined even if nobody tried to load them.
 base::Result<void> PostgresWriter::quarantineDamaged(std::span<const std::int64_t> keys) {
     for (; !keys.empty(); keys = keys.subspan(std::min(kKeysAtOnce, keys.size()))) {
-        const auto rows = readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size())));
-        if (!rows) return tl::unexpected(rows.error());
-        for (const store::KeyedRow& row : *rows) {
+        const auto rows = TERRANE_TRY(readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size()))));
+        for (const store::KeyedRow& row : rows) {
             const ChunkPos pos = store::posOf(row.key);
-            const auto problem = problemOf(connection_, pos, row.row);
-            if (!problem) return tl::unexpected(problem.error());
-            if (problem->empty()) continue;
+            const auto problem = TERRANE_TRY(problemOf(connection_, pos, row.row));
+            if (problem.empty()) continue;
             base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", connection_.shown(),
-                             store::nameOf(pos), *problem);
-            if (auto done = quarantineRow(pos, *problem); !done) return done;
+                             store::nameOf(pos), problem);
+            TERRANE_TRY(quarantineRow(pos, problem));
         }
     }
     return {};

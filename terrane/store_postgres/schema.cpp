@@ -118,17 +118,15 @@ std::span<const char* const> formatSteps() {
 }
 
 base::Result<int> formatOf(Connection& connection, int newest) {
-    const auto tables = connection.run(kCountTables);
-    if (!tables) return tl::unexpected(tables.error());
-    if (tables->number(0, 2) != 0)
+    const auto tables = TERRANE_TRY(connection.run(kCountTables));
+    if (tables.number(0, 2) != 0)
         return base::fail(ErrorCode::Refused, "{}: this user may not use the schema", connection.shown());
-    if (tables->number(0, 0) == 0) return 0;
-    if (tables->number(0, 1) == 0)
+    if (tables.number(0, 0) == 0) return 0;
+    if (tables.number(0, 1) == 0)
         return base::fail(ErrorCode::Incompatible,
                           "{}: the schema holds tables of another program, not a world", connection.shown());
-    const auto format = connection.run(kFormat);
-    if (!format) return tl::unexpected(format.error());
-    const std::int64_t number = format->count() == 1 ? format->number(0, 0) : 0;
+    const auto format = TERRANE_TRY(connection.run(kFormat));
+    const std::int64_t number = format.count() == 1 ? format.number(0, 0) : 0;
     if (number < 1)
         return base::fail(ErrorCode::Damaged, "{}: damaged: its format is not one number above 0",
                           connection.shown());
@@ -141,11 +139,10 @@ base::Result<int> formatOf(Connection& connection, int newest) {
 
 base::Result<void> migrateInTransaction(Connection& connection, const std::string& schema, int from,
                                         std::span<const char* const> steps) {
-    const auto schemas = connection.run(kCountSchemas, Parameters().text(schema));
-    if (!schemas) return tl::unexpected(schemas.error());
+    const auto schemas = TERRANE_TRY(connection.run(kCountSchemas, Parameters().text(schema)));
     std::string sql;
     // Not "IF NOT EXISTS", which requires the privilege to create schemas.
-    if (schemas->number(0, 0) == 0) sql += fmt::format("CREATE SCHEMA {};", connection.quoted(schema));
+    if (schemas.number(0, 0) == 0) sql += fmt::format("CREATE SCHEMA {};", connection.quoted(schema));
     for (const char* step : steps.subspan(static_cast<std::size_t>(from))) sql += step;
     sql += fmt::format("DELETE FROM terrane_format; INSERT INTO terrane_format VALUES ({})", steps.size());
     return connection.execute(sql);
@@ -157,11 +154,10 @@ base::Result<void> migrate(Connection& connection, const std::string& schema, in
 }
 
 base::Result<void> checkColumns(Connection& connection) {
-    const auto rows = connection.run(kColumnTypes);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kColumnTypes));
     std::map<std::pair<std::string_view, std::string_view>, std::string_view> types;
-    for (int row = 0; row < rows->count(); ++row)
-        types[{rows->text(row, 0), rows->text(row, 1)}] = rows->text(row, 2);
+    for (int row = 0; row < rows.count(); ++row)
+        types[{rows.text(row, 0), rows.text(row, 1)}] = rows.text(row, 2);
     for (const auto& [table, column, type] : kColumns) {
         const auto found = types.find({table, column});
         if (found == types.end() || found->second != type)

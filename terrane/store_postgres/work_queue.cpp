@@ -91,16 +91,14 @@ JobColumns jobsOf(const world::ChunkArea& area, JobOrder order) {
 
 // Runs inside a transaction.
 base::Result<bool> addAreaLocked(Connection& connection, const world::ChunkArea& area, JobOrder order) {
-    if (auto locked = connection.change(kLockAreas); !locked) return tl::unexpected(locked.error());
-    const auto there = connection.run(kHasArea, parametersOf(area));
-    if (!there) return tl::unexpected(there.error());
-    if (there->number(0, 0) != 0) return false;
-    const auto added = connection.run(kAddArea, parametersOf(area));
-    if (!added) return tl::unexpected(added.error());
+    TERRANE_TRY(connection.change(kLockAreas));
+    const auto there = TERRANE_TRY(connection.run(kHasArea, parametersOf(area)));
+    if (there.number(0, 0) != 0) return false;
+    const auto added = TERRANE_TRY(connection.run(kAddArea, parametersOf(area)));
     const JobColumns jobs = jobsOf(area, order);
     return connection
         .change(kAddJobs, Parameters()
-                              .number(added->number(0, 0))
+                              .number(added.number(0, 0))
                               .numbers(jobs.place)
                               .numbers(jobs.x0)
                               .numbers(jobs.y0)
@@ -135,9 +133,8 @@ base::Result<bool> addArea(Connection& connection, const world::ChunkArea& area,
 }
 
 base::Result<std::int64_t> addWorker(Connection& connection, const std::string& name) {
-    const auto rows = connection.run(kAddWorker, Parameters().text(name));
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->number(0, 0);
+    const auto rows = TERRANE_TRY(connection.run(kAddWorker, Parameters().text(name)));
+    return rows.number(0, 0);
 }
 
 base::Result<void> removeWorker(Connection& connection, std::int64_t worker) {
@@ -147,10 +144,9 @@ base::Result<void> removeWorker(Connection& connection, std::int64_t worker) {
 }
 
 base::Result<std::optional<Job>> takeJob(Connection& connection, std::int64_t worker) {
-    const auto rows = connection.run(kTake, Parameters().number(worker).number(kLease.count()));
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->count() == 0) return std::optional<Job>();
-    return std::optional(Job{rows->number(0, 0), areaOf(*rows, 0, 1)});
+    const auto rows = TERRANE_TRY(connection.run(kTake, Parameters().number(worker).number(kLease.count())));
+    if (rows.count() == 0) return std::optional<Job>();
+    return std::optional(Job{rows.number(0, 0), areaOf(rows, 0, 1)});
 }
 
 base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const Job& job,
@@ -160,9 +156,8 @@ base::Result<bool> renewLease(Connection& connection, std::int64_t worker, const
         {&kRenew, Parameters().number(worker).number(job.number).number(kLease.count())},
         {&kTellWorking,
          Parameters().number(worker).number(chunks).number(perThousandSeconds).number(job.number)}};
-    const auto rows = connection.runAll(commands);
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->front().affected() == 1;
+    const auto rows = TERRANE_TRY(connection.runAll(commands));
+    return rows.front().affected() == 1;
 }
 
 base::Result<void> tellAlive(Connection& connection, std::int64_t worker, std::int64_t chunks) {
@@ -178,29 +173,26 @@ base::Result<void> setPaused(Connection& connection, bool isPaused) {
 }
 
 base::Result<std::int64_t> cancelJobs(Connection& connection) {
-    const auto rows = connection.run(kCancel);
-    if (!rows) return tl::unexpected(rows.error());
-    return rows->affected();
+    const auto rows = TERRANE_TRY(connection.run(kCancel));
+    return rows.affected();
 }
 
 base::Result<WorkStatus> workStatus(Connection& connection) {
-    const auto counts = connection.run(kJobCounts);
-    if (!counts) return tl::unexpected(counts.error());
+    const auto counts = TERRANE_TRY(connection.run(kJobCounts));
     WorkStatus status;
-    status.waiting = counts->number(0, 0);
-    status.working = counts->number(0, 1);
-    status.done = counts->number(0, 2);
-    status.cancelled = counts->number(0, 3);
-    status.chunks = counts->number(0, 4);
-    status.chunksDone = counts->number(0, 5);
-    status.isPaused = counts->number(0, 6) != 0;
-    const auto workers = connection.run(kWorkers);
-    if (!workers) return tl::unexpected(workers.error());
-    for (int row = 0; row < workers->count(); ++row) {
-        WorkerStatus worker{std::string(workers->text(row, 0)), workers->number(row, 1),
-                            static_cast<double>(workers->number(row, 2)) / 1000,
-                            static_cast<double>(workers->number(row, 3)) / 1000, std::nullopt};
-        if (!workers->isNull(row, 4)) worker.area = areaOf(*workers, row, 4);
+    status.waiting = counts.number(0, 0);
+    status.working = counts.number(0, 1);
+    status.done = counts.number(0, 2);
+    status.cancelled = counts.number(0, 3);
+    status.chunks = counts.number(0, 4);
+    status.chunksDone = counts.number(0, 5);
+    status.isPaused = counts.number(0, 6) != 0;
+    const auto workers = TERRANE_TRY(connection.run(kWorkers));
+    for (int row = 0; row < workers.count(); ++row) {
+        WorkerStatus worker{std::string(workers.text(row, 0)), workers.number(row, 1),
+                            static_cast<double>(workers.number(row, 2)) / 1000,
+                            static_cast<double>(workers.number(row, 3)) / 1000, std::nullopt};
+        if (!workers.isNull(row, 4)) worker.area = areaOf(workers, row, 4);
         // A killed worker is still listed, but no longer works.
         if (worker.silentSeconds < static_cast<double>(kLease.count())) status.rate += worker.rate;
         status.workers.push_back(std::move(worker));

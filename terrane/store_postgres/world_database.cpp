@@ -37,12 +37,11 @@ constexpr const char* kDeleteWork = "DELETE FROM jobs; DELETE FROM work_areas;";
 constexpr Statement kDeleteQuarantine = {"DELETE FROM quarantine"};
 
 base::Result<void> checkCanWrite(Connection& connection) {
-    const auto rows = connection.run(kCanWrite);
-    if (!rows) return tl::unexpected(rows.error());
-    if (rows->number(0, 1) != 0)
+    const auto rows = TERRANE_TRY(connection.run(kCanWrite));
+    if (rows.number(0, 1) != 0)
         return base::fail(ErrorCode::Refused, "{}: the database is read-only, as a replica is",
                           connection.shown());
-    if (rows->number(0, 0) != 0) return {};
+    if (rows.number(0, 0) != 0) return {};
     return base::fail(ErrorCode::Refused, "{}: this user may read the world, not write it",
                       connection.shown());
 }
@@ -60,40 +59,38 @@ base::Result<void> addNames(Connection& connection, const std::vector<SavedName>
 // In one transaction, since a world without a seed would be damaged.
 base::Result<void> createWorld(Connection& connection, const Address& address,
                                const store::SaveAccess& access) {
-    if (auto made = migrateInTransaction(connection, address.schema, 0); !made) return made;
+    TERRANE_TRY(migrateInTransaction(connection, address.schema, 0));
     std::vector<Command> commands;
     for (const auto& [name, value] : store::metadataOf(*access.create))
         commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
-    if (auto done = connection.changeAll(commands); !done) return done;
+    TERRANE_TRY(connection.changeAll(commands));
     return addNames(connection, access.blockNames);
 }
 
 base::Result<void> makeCurrent(Connection& connection, const Address& address,
                                const store::SaveAccess& access, WorldContents& contents) {
-    auto format = formatOf(connection);
-    if (!format) return tl::unexpected(format.error());
+    auto format = TERRANE_TRY(formatOf(connection));
     contents.format = newestFormat();
-    if (*format == 0) {
+    if (format == 0) {
         if (!access.create) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
         contents.isNew = true;
         return doAlone(connection, address, [&] {
             return inTransaction(connection, [&] { return createWorld(connection, address, access); });
         });
     }
-    if (*format == newestFormat()) return {};
-    auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, *format); });
-    if (done) base::logInfo("{}: migrated from format {} to {}", address.shown, *format, newestFormat());
+    if (format == newestFormat()) return {};
+    auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, format); });
+    if (done) base::logInfo("{}: migrated from format {} to {}", address.shown, format, newestFormat());
     return done;
 }
 
 base::Result<store::Metadata> readMetadata(Connection& connection) {
-    const auto rows = connection.run(kSettings);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kSettings));
     store::Metadata metadata;
     std::size_t bytes = 0;
-    for (int row = 0; row < rows->count(); ++row) {
-        bytes += rows->text(row, 0).size() + rows->text(row, 1).size();
-        metadata.emplace(rows->text(row, 0), rows->text(row, 1));
+    for (int row = 0; row < rows.count(); ++row) {
+        bytes += rows.text(row, 0).size() + rows.text(row, 1).size();
+        metadata.emplace(rows.text(row, 0), rows.text(row, 1));
     }
     if (bytes <= store::kMaxMetadataBytes && metadata.size() <= store::kMaxMetadata) return metadata;
     return base::fail(ErrorCode::Damaged, "{}: damaged: more than {} settings, or more than {} bytes of them",
@@ -101,13 +98,12 @@ base::Result<store::Metadata> readMetadata(Connection& connection) {
 }
 
 base::Result<std::vector<SavedName>> readBlockNames(Connection& connection) {
-    const auto rows = connection.run(kBlocks);
-    if (!rows) return tl::unexpected(rows.error());
+    const auto rows = TERRANE_TRY(connection.run(kBlocks));
     std::vector<SavedName> names;
     std::set<std::string_view> seen;
-    for (int row = 0; row < rows->count(); ++row) {
-        const std::int64_t id = rows->number(row, 0);
-        const std::string_view name = rows->text(row, 1);
+    for (int row = 0; row < rows.count(); ++row) {
+        const std::int64_t id = rows.number(row, 0);
+        const std::string_view name = rows.text(row, 1);
         if (id < 0 || id > 65535 || name.size() > store::kMaxNameBytes)
             return base::fail(ErrorCode::Damaged, "{}: damaged: the block {} has the id {}",
                               connection.shown(), name.substr(0, 64), id);
@@ -121,17 +117,14 @@ base::Result<std::vector<SavedName>> readBlockNames(Connection& connection) {
 
 base::Result<void> readContents(Connection& connection, const world::BlockRegistry& blocks,
                                 WorldContents& contents) {
-    if (auto same = checkColumns(connection); !same) return same;
-    auto metadata = readMetadata(connection);
-    if (!metadata) return tl::unexpected(metadata.error());
-    auto identity = store::identityFrom(*metadata, connection.shown());
-    if (!identity) return tl::unexpected(identity.error());
-    const auto names = readBlockNames(connection);
-    if (!names) return tl::unexpected(names.error());
-    auto ids = store::BlockIdMap::make(blocks, *names);
+    TERRANE_TRY(checkColumns(connection));
+    auto metadata = TERRANE_TRY(readMetadata(connection));
+    auto identity = TERRANE_TRY(store::identityFrom(metadata, connection.shown()));
+    const auto names = TERRANE_TRY(readBlockNames(connection));
+    auto ids = store::BlockIdMap::make(blocks, names);
     if (!ids) return base::fail(ids.error().code, "{}: {}", connection.shown(), ids.error().message);
-    contents.metadata = std::move(*metadata);
-    contents.identity = std::move(*identity);
+    contents.metadata = std::move(metadata);
+    contents.identity = std::move(identity);
     contents.ids = std::move(*ids);
     return {};
 }
@@ -151,9 +144,8 @@ base::Result<std::string> freeSchema(Connection& connection, const Address& addr
     const std::string start = address.schema.substr(0, length);
     for (int number = 1;; ++number) {
         std::string name = fmt::format("{}_backup_{}", start, number);
-        const auto found = connection.run(kSchemaExists, Parameters().text(name));
-        if (!found) return tl::unexpected(found.error());
-        if (found->number(0, 0) == 0) return name;
+        const auto found = TERRANE_TRY(connection.run(kSchemaExists, Parameters().text(name)));
+        if (found.number(0, 0) == 0) return name;
     }
 }
 
@@ -176,9 +168,8 @@ std::string copySql(Connection& connection, const Address& address, const std::s
 // `copy`: empty for none.
 base::Result<void> copyAndDelete(Connection& connection, const Address& address,
                                  const store::Regeneration& by, const std::string& copy) {
-    if (!copy.empty())
-        if (auto copied = connection.execute(copySql(connection, address, copy)); !copied) return copied;
-    if (auto deleted = connection.execute(kDeleteWork); !deleted) return deleted;
+    if (!copy.empty()) TERRANE_TRY(connection.execute(copySql(connection, address, copy)));
+    TERRANE_TRY(connection.execute(kDeleteWork));
     std::vector<Command> commands;
     if (by.chunks == Regenerate::All) {
         commands.push_back({&kDeleteAllChunks});
@@ -193,20 +184,17 @@ base::Result<void> copyAndDelete(Connection& connection, const Address& address,
 }
 
 base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
-    const auto copy = by.keepsCopy ? freeSchema(connection, address) : std::string();
-    if (!copy) return tl::unexpected(copy.error());
-    auto done = inTransaction(connection, [&] { return copyAndDelete(connection, address, by, *copy); });
-    if (!done) return done;
+    const auto copy = TERRANE_TRY(by.keepsCopy ? freeSchema(connection, address) : std::string());
+    TERRANE_TRY(inTransaction(connection, [&] { return copyAndDelete(connection, address, by, copy); }));
     base::logInfo("{}: regenerated{}{}{}", address.shown,
                   by.chunks == Regenerate::All ? "" : " except for chunks with edits",
-                  by.keepsCopy ? "; the old world is the schema " : "", *copy);
+                  by.keepsCopy ? "; the old world is the schema " : "", copy);
     return {};
 }
 
 base::Result<void> raiseOpenings(Connection& connection, WorldContents& contents) {
-    const auto raised = connection.run(kRaiseOpenings);
-    if (!raised) return tl::unexpected(raised.error());
-    contents.openings = raised->number(0, 0);
+    const auto raised = TERRANE_TRY(connection.run(kRaiseOpenings));
+    contents.openings = raised.number(0, 0);
     return {};
 }
 
@@ -214,25 +202,22 @@ base::Result<void> regenerateIfAsked(Connection& connection, const Address& addr
                                      const world::BlockRegistry& blocks, const store::SaveAccess& access,
                                      WorldContents& contents) {
     if (contents.isNew || !access.decide) return {};
-    const auto by = access.decide(contents.identity);
-    if (!by) return tl::unexpected(by.error());
-    if (by->chunks == Regenerate::None) return {};
-    auto done = doAlone(connection, address, [&] { return regenerate(connection, address, *by); });
-    if (!done) return done;
-    if (auto raised = raiseOpenings(connection, contents); !raised) return raised;
+    const auto by = TERRANE_TRY(access.decide(contents.identity));
+    if (by.chunks == Regenerate::None) return {};
+    TERRANE_TRY(doAlone(connection, address, [&] { return regenerate(connection, address, by); }));
+    TERRANE_TRY(raiseOpenings(connection, contents));
     return readContents(connection, blocks, contents);
 }
 
 // Edits of killed servers that are only in the history can only be saved by a server.
 base::Result<void> readHistory(Connection& connection, WorldSharing sharing, WorldContents& contents) {
-    const auto history = connection.run(kHistory);
-    if (!history) return tl::unexpected(history.error());
-    if (history->count() != 1)
+    const auto history = TERRANE_TRY(connection.run(kHistory));
+    if (history.count() != 1)
         return base::fail(ErrorCode::Damaged, "{}: damaged: the table history does not have exactly one row",
                           connection.shown());
-    contents.newestEdit = history->number(0, 0);
-    contents.openings = history->number(0, 2);
-    if (sharing != WorldSharing::Alone || history->number(0, 1) == 0) return {};
+    contents.newestEdit = history.number(0, 0);
+    contents.openings = history.number(0, 2);
+    if (sharing != WorldSharing::Alone || history.number(0, 1) == 0) return {};
     return base::fail(ErrorCode::Incompatible,
                       "{}: a server was killed, and its last edits are in the history alone: start and stop "
                       "`terrane serve` on this world once",
@@ -242,13 +227,12 @@ base::Result<void> readHistory(Connection& connection, WorldSharing sharing, Wor
 base::Result<void> openContents(Connection& connection, const Address& address,
                                 const world::BlockRegistry& blocks, const store::SaveAccess& access,
                                 WorldSharing sharing, WorldContents& contents) {
-    if (auto done = makeCurrent(connection, address, access, contents); !done) return done;
-    if (auto read = readContents(connection, blocks, contents); !read) return read;
-    if (auto can = checkCanWrite(connection); !can) return can;
-    if (auto read = readHistory(connection, sharing, contents); !read) return read;
-    if (auto done = regenerateIfAsked(connection, address, blocks, access, contents); !done) return done;
-    if (sharing == WorldSharing::Alone)
-        if (auto raised = raiseOpenings(connection, contents); !raised) return raised;
+    TERRANE_TRY(makeCurrent(connection, address, access, contents));
+    TERRANE_TRY(readContents(connection, blocks, contents));
+    TERRANE_TRY(checkCanWrite(connection));
+    TERRANE_TRY(readHistory(connection, sharing, contents));
+    TERRANE_TRY(regenerateIfAsked(connection, address, blocks, access, contents));
+    if (sharing == WorldSharing::Alone) TERRANE_TRY(raiseOpenings(connection, contents));
     const std::vector<SavedName>& added = contents.ids.added();
     if (added.empty()) return {};
     return doAlone(connection, address, [&] { return addNames(connection, added); });
@@ -258,8 +242,8 @@ base::Result<void> lockAndOpen(WorldConnection& opened, const Address& address,
                                const world::BlockRegistry& blocks, const store::SaveAccess& access,
                                WorldSharing sharing) {
     Connection& connection = opened.connection;
-    if (auto waited = waitForOpening(connection, address); !waited) return waited;
-    if (auto taken = takeSharedLocks(connection, address, sharing); !taken) return taken;
+    TERRANE_TRY(waitForOpening(connection, address));
+    TERRANE_TRY(takeSharedLocks(connection, address, sharing));
     auto done = openContents(connection, address, blocks, access, sharing, opened.contents);
     return done ? releaseLock(connection, address, WorldLock::Opening) : done;
 }
@@ -268,9 +252,8 @@ base::Result<void> lockAndOpen(WorldConnection& opened, const Address& address,
 
 base::Result<WorldConnection> openToWrite(const Address& address, const world::BlockRegistry& blocks,
                                           const store::SaveAccess& access, WorldSharing sharing) {
-    auto connection = Connection::open(address);
-    if (!connection) return tl::unexpected(connection.error());
-    WorldConnection opened{std::move(*connection), {}};
+    auto connection = TERRANE_TRY(Connection::open(address));
+    WorldConnection opened{std::move(connection), {}};
     if (auto done = lockAndOpen(opened, address, blocks, access, sharing); !done) {
         releaseAllLocks(opened.connection);
         return tl::unexpected(done.error());
@@ -281,57 +264,44 @@ base::Result<WorldConnection> openToWrite(const Address& address, const world::B
 
 base::Result<WorldConnection> openToRead(const Address& address, const world::BlockRegistry& blocks,
                                          ReadAs readAs) {
-    auto connection = Connection::open(address);
-    if (!connection) return tl::unexpected(connection.error());
-    if (readAs == ReadAs::Snapshot)
-        if (auto begun = connection->execute(kBeginSnapshot); !begun) return tl::unexpected(begun.error());
-    const auto format = formatOf(*connection);
-    if (!format) return tl::unexpected(format.error());
-    if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
-    if (*format < newestFormat())
+    auto connection = TERRANE_TRY(Connection::open(address));
+    if (readAs == ReadAs::Snapshot) TERRANE_TRY(connection.execute(kBeginSnapshot));
+    const auto format = TERRANE_TRY(formatOf(connection));
+    if (format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
+    if (format < newestFormat())
         return base::fail(ErrorCode::Incompatible,
                           "{}: in format {}; it is migrated to format {} when it is opened for writing",
-                          address.shown, *format, newestFormat());
-    WorldConnection opened{std::move(*connection), {}};
-    opened.contents.format = *format;
-    if (auto read = readContents(opened.connection, blocks, opened.contents); !read)
-        return tl::unexpected(read.error());
+                          address.shown, format, newestFormat());
+    WorldConnection opened{std::move(connection), {}};
+    opened.contents.format = format;
+    TERRANE_TRY(readContents(opened.connection, blocks, opened.contents));
     reportUnknown(opened.connection, opened.contents);
     return opened;
 }
 
 base::Result<store::Metadata> readDatabaseMetadata(const Address& address) {
-    auto connection = Connection::open(address);
-    if (!connection) return tl::unexpected(connection.error());
-    const auto format = formatOf(*connection);
-    if (!format) return tl::unexpected(format.error());
-    if (*format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
-    return readMetadata(*connection);
+    auto connection = TERRANE_TRY(Connection::open(address));
+    const auto format = TERRANE_TRY(formatOf(connection));
+    if (format == 0) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
+    return readMetadata(connection);
 }
 
 base::Result<std::int64_t> readOpenings(Connection& connection) {
-    const auto history = connection.run(kHistory);
-    if (!history) return tl::unexpected(history.error());
-    return history->count() == 1 ? history->number(0, 2) : -1;
+    const auto history = TERRANE_TRY(connection.run(kHistory));
+    return history.count() == 1 ? history.number(0, 2) : -1;
 }
 
 base::Result<Connection> reconnect(const Address& address, WorldSharing sharing,
                                    const WorldContents& contents) {
-    auto connection = Connection::open(address);
-    if (!connection) return connection;
-    if (auto taken = takeSharedLocks(*connection, address, sharing); !taken)
-        return tl::unexpected(taken.error());
-    const auto metadata = readMetadata(*connection);
-    if (!metadata) return tl::unexpected(metadata.error());
-    const auto saved = store::identityFrom(*metadata, address.shown);
-    if (!saved) return tl::unexpected(saved.error());
-    if (auto same = store::requireSame(*saved, contents.identity, address.shown); !same)
-        return tl::unexpected(same.error());
+    auto connection = TERRANE_TRY(Connection::open(address));
+    TERRANE_TRY(takeSharedLocks(connection, address, sharing));
+    const auto metadata = TERRANE_TRY(readMetadata(connection));
+    const auto saved = TERRANE_TRY(store::identityFrom(metadata, address.shown));
+    TERRANE_TRY(store::requireSame(saved, contents.identity, address.shown));
     // A generating program replaces no rows of others, who may play meanwhile.
     if (sharing == WorldSharing::Generating) return connection;
-    const auto openings = readOpenings(*connection);
-    if (!openings) return tl::unexpected(openings.error());
-    if (*openings == contents.openings) return connection;
+    const auto openings = TERRANE_TRY(readOpenings(connection));
+    if (openings == contents.openings) return connection;
     return base::fail(ErrorCode::Incompatible,
                       "{}: another program wrote the world while the connection was lost; unsaved changes do "
                       "not overwrite it",

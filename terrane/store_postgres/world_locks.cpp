@@ -46,9 +46,8 @@ std::string holderOf(Connection& connection, const Address& address, WorldLock l
 
 base::Result<void> tryLock(Connection& connection, const Address& address, WorldLock lock,
                            const Statement& how) {
-    const auto taken = connection.run(how, lockParameters(address, lock));
-    if (!taken) return tl::unexpected(taken.error());
-    if (taken->number(0, 0) != 0) return {};
+    const auto taken = TERRANE_TRY(connection.run(how, lockParameters(address, lock)));
+    if (taken.number(0, 0) != 0) return {};
     return base::fail(ErrorCode::Busy, "{}: open in {}", address.shown, holderOf(connection, address, lock));
 }
 
@@ -79,7 +78,7 @@ void releaseAllLocks(Connection& connection) {
 // Serializes the openings of a world.
 base::Result<void> waitForOpening(Connection& connection, const Address& address) {
     const std::string shortly = fmt::format("SET lock_timeout = '{}'", kWaitForOpening);
-    if (auto done = connection.execute(shortly); !done) return done;
+    TERRANE_TRY(connection.execute(shortly));
     const auto taken = connection.run(kLock, lockParameters(address, WorldLock::Opening));
     if (!taken && taken.error().code == ErrorCode::Busy)
         return base::fail(ErrorCode::Busy, "{}: being opened in {}", address.shown,

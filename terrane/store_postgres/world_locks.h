@@ -38,7 +38,7 @@ void releaseAllLocks(Connection& connection);
 // Runs `action`, which must not happen while others have the world open.
 template <class Do>
 base::Result<void> doAlone(Connection& connection, const Address& address, Do action) {
-    if (auto taken = takeLock(connection, address, WorldLock::Identity); !taken) return taken;
+    TERRANE_TRY(takeLock(connection, address, WorldLock::Identity));
     base::Result<void> done = action();
     if (connection.isUsable()) (void)releaseLock(connection, address, WorldLock::Identity);
     return done;

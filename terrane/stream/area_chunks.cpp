@@ -31,7 +31,7 @@ base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos
     std::vector<world::Chunk> chunks(positions.size());
     const std::size_t perJob = save ? kChunksOfJob : 1, jobCount = (positions.size() + perJob - 1) / perJob;
     std::vector<std::string> problems(jobCount);
-    auto done = base::parallelFor(jobs, jobCount, [&](std::size_t job) {
+    TERRANE_TRY(base::parallelFor(jobs, jobCount, [&](std::size_t job) {
         const std::size_t first = job * perJob;
         const auto part = positions.subspan(first, std::min(perJob, positions.size() - first));
         std::vector<store::LoadedChunk> stored = storedOf(part, save);
@@ -45,8 +45,7 @@ base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos
                 chunks[first + k] = generator.generate(part[k]);
             }
         }
-    });
-    if (!done) return tl::unexpected(done.error());
+    }));
     for (const std::string& problem : problems)
         if (!problem.empty()) return base::fail(base::ErrorCode::Io, "{}", problem);
     return chunks;

@@ -62,8 +62,7 @@ void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generato
 }
 
 base::Result<void> buildTileRows(store::ChunkStore& store) {
-    const auto built = store::ensureDerivedRows(store, kRules);
-    if (!built) return tl::unexpected(built.error());
+    (void)TERRANE_TRY(store::ensureDerivedRows(store, kRules));
     return {};
 }
 

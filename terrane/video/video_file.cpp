@@ -178,9 +178,8 @@ base::Result<std::unique_ptr<FrameSink>> openVideo(const std::filesystem::path& 
     std::filesystem::path unfinished = file;
     unfinished += fmt::format(".part{}", getpid());
     std::signal(SIGPIPE, SIG_IGN);  // so that writing to an ended ffmpeg returns an error
-    auto child = start(argumentsFor(unfinished, container, format));
-    if (!child) return tl::unexpected(child.error());
-    return std::make_unique<VideoFile>(std::move(*child), file, unfinished);
+    auto child = TERRANE_TRY(start(argumentsFor(unfinished, container, format)));
+    return std::make_unique<VideoFile>(std::move(child), file, unfinished);
 }
 
 }  // namespace terrane::video

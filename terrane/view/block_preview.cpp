@@ -43,13 +43,11 @@ base::Result<BlockPreview> BlockPreview::create(const gpu::ShaderLoader& shaders
                                                 const world::BlockRegistry& blocks,
                                                 const render::TextureSource& textures,
                                                 const gpu::DeviceInfo& device) {
-    auto renderer =
-        render::Renderer::create(shaders, blocks, textures, device, {.firstQuads = kQuads}, kTextureSide);
-    if (!renderer) return tl::unexpected(renderer.error());
-    if (auto done = renderer->configure({kSize, kSize}, options()); !done)
-        return tl::unexpected(done.error());
-    renderer->setViewDistance(1);
-    return BlockPreview(blocks, std::move(*renderer));
+    auto renderer = TERRANE_TRY(
+        render::Renderer::create(shaders, blocks, textures, device, {.firstQuads = kQuads}, kTextureSide));
+    TERRANE_TRY(renderer.configure({kSize, kSize}, options()));
+    renderer.setViewDistance(1);
+    return BlockPreview(blocks, std::move(renderer));
 }
 
 base::Result<void> BlockPreview::setTextures(const render::TextureSource& textures) {

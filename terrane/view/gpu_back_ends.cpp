@@ -10,12 +10,10 @@ base::Result<std::unique_ptr<GpuBackEnds>> makeGpuBackEnds(const gpu::ShaderLoad
                                                            std::uint64_t seed,
                                                            const world::BlockRegistry& blocks) {
     auto made = std::make_unique<GpuBackEnds>(GpuBackEnds{light::LightTable(blocks), nullptr, nullptr});
-    auto generator = gen_gpu::GpuGenerator::create(shaders, graph, seed);
-    if (!generator) return tl::unexpected(generator.error());
-    made->generator = std::make_unique<gen_gpu::GpuGenerator>(std::move(*generator));
-    auto lighter = light_gpu::GpuBatchLighter::create(shaders, made->lights);
-    if (!lighter) return tl::unexpected(lighter.error());
-    made->lighter = std::make_unique<light_gpu::GpuBatchLighter>(std::move(*lighter));
+    auto generator = TERRANE_TRY(gen_gpu::GpuGenerator::create(shaders, graph, seed));
+    made->generator = std::make_unique<gen_gpu::GpuGenerator>(std::move(generator));
+    auto lighter = TERRANE_TRY(light_gpu::GpuBatchLighter::create(shaders, made->lights));
+    made->lighter = std::make_unique<light_gpu::GpuBatchLighter>(std::move(lighter));
     return made;
 }
 

@@ -58,9 +58,8 @@ void WorldView::setHorizon(const Horizon& horizon) {
 }
 
 base::Result<void> WorldView::meshOnGpu(const gpu::ShaderLoader& shaders, double budgetMilliseconds) {
-    auto mesher = mesh_gpu::GpuMesher::create(shaders, session_.blocks());
-    if (!mesher) return tl::unexpected(mesher.error());
-    queue_.emplace(std::move(*mesher), budgetMilliseconds);
+    auto mesher = TERRANE_TRY(mesh_gpu::GpuMesher::create(shaders, session_.blocks()));
+    queue_.emplace(std::move(mesher), budgetMilliseconds);
     return {};
 }
 

@@ -23,9 +23,9 @@ base::Result<void> checkAxis(char axis, std::int64_t first, std::int64_t end, st
 }  // namespace
 
 base::Result<void> checkArea(const BlockArea& area) {
-    if (auto x = checkAxis('x', area.x0, area.x1, kFirstBlock, kEndBlock); !x) return x;
-    if (auto y = checkAxis('y', area.y0, area.y1, kFirstBlock, kEndBlock); !y) return y;
-    if (auto z = checkAxis('z', area.z0, area.z1, 0, world::kChunkHeight); !z) return z;
+    TERRANE_TRY(checkAxis('x', area.x0, area.x1, kFirstBlock, kEndBlock));
+    TERRANE_TRY(checkAxis('y', area.y0, area.y1, kFirstBlock, kEndBlock));
+    TERRANE_TRY(checkAxis('z', area.z0, area.z1, 0, world::kChunkHeight));
     // Sides are at most 2^32: products are compared by division.
     if (area.width() > kMaxAreaBlocks / area.depth() / area.height())
         return base::fail(base::ErrorCode::BadInput, "area: {} × {} × {} blocks are more than {}",

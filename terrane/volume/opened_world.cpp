@@ -20,7 +20,7 @@ OpenedWorld::OpenedWorld(WorldParts parts)
 base::Result<std::unique_ptr<OpenedWorld>> OpenedWorld::create(WorldParts parts) {
     std::unique_ptr<OpenedWorld> world(new OpenedWorld(std::move(parts)));
     stream::keepTileRows(*world->store_, world->generators_, *world->blocks_, {});
-    if (auto built = stream::buildTileRows(*world->store_); !built) return tl::unexpected(built.error());
+    TERRANE_TRY(stream::buildTileRows(*world->store_));
     return world;
 }
 
@@ -45,11 +45,10 @@ base::Result<std::vector<map::EditedChunk>> OpenedWorld::editedAmong(
     const std::lock_guard lock(editedMutex_);
     if (!edited_) {
         // The list lacks chunks that wait to be saved.
-        if (auto flushed = store_->flush(); !flushed) return tl::unexpected(flushed.error());
-        const auto all = store_->editedChunks();
-        if (!all) return tl::unexpected(all.error());
+        TERRANE_TRY(store_->flush());
+        const auto all = TERRANE_TRY(store_->editedChunks());
         edited_.emplace();
-        for (const world::ChunkPos chunk : *all) edited_->add(chunk);
+        for (const world::ChunkPos chunk : all) edited_->add(chunk);
     }
     return edited_->among(chunks);
 }

@@ -37,8 +37,7 @@ base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::Ch
     for (const world::ChunkPos pos : chunks)
         if (!world::isInWorld(pos))
             return base::fail(base::ErrorCode::BadInput, "{}: outside the world", store::nameOf(pos));
-    if (hasHigherLevel(chunks))
-        if (auto settled = world.settleTiles(); !settled) return settled;
+    if (hasHigherLevel(chunks)) TERRANE_TRY(world.settleTiles());
     const ChunkList list{static_cast<std::int64_t>(chunks.size()),
                          [&](std::int64_t number) { return chunks[static_cast<std::size_t>(number)]; }};
     return readChunks(world, list, goesOn, [&](std::int64_t number, const world::Chunk& chunk) {
@@ -56,10 +55,9 @@ base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& a
         const ChunkList list{std::min(kChunksOfDigest, area.chunkCount() - first),
                              [&](std::int64_t number) { return chunkIn(area, first + number); }};
         chunks.resize(static_cast<std::size_t>(list.count));
-        auto read = readChunks(world, list, goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
+        TERRANE_TRY(readChunks(world, list, goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
             chunks[static_cast<std::size_t>(number)] = std::move(chunk);
-        });
-        if (!read) return tl::unexpected(read.error());
+        }));
         for (const world::Chunk& chunk : chunks) world::addToDigest(digest, chunk);
     }
     return digest.hex();

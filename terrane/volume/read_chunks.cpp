@@ -44,9 +44,8 @@ base::Result<world::Chunk> chunkFrom(store::LoadedChunk& stored, world::ChunkPos
     if (stored.isUnread && !stored.isOverBudget)
         return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(pos), stored.problem);
     if (stored.chunk) return std::move(*stored.chunk);
-    const auto generator = world.generator(pos.level);
-    if (!generator) return tl::unexpected(generator.error());
-    return (*generator)->generate(pos);
+    const auto generator = TERRANE_TRY(world.generator(pos.level));
+    return generator->generate(pos);
 }
 
 }  // namespace
@@ -60,7 +59,7 @@ base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const Goe
     const auto caller = std::this_thread::get_id();
     FirstError first;
     std::atomic<bool> isStopped{false};
-    const auto ran = base::parallelFor(world.jobs(), static_cast<std::size_t>(count), [&](std::size_t k) {
+    TERRANE_TRY(base::parallelFor(world.jobs(), static_cast<std::size_t>(count), [&](std::size_t k) {
         const auto number = static_cast<std::int64_t>(k);
         if (isStopped || first.isBelow(number)) return;
         if (goesOn && std::this_thread::get_id() == caller && !goesOn()) {
@@ -68,8 +67,7 @@ base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const Goe
             return;
         }
         if (auto done = work(number); !done) first.note(number, std::move(done.error()));
-    });
-    if (!ran) return ran;
+    }));
     if (first.isSet()) return tl::unexpected(first.error());
     if (isStopped) return base::fail(kStopped);
     return {};
@@ -85,9 +83,8 @@ base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list, const G
             positions.push_back(list.at(k));
         std::vector<store::LoadedChunk> stored = world.store().loadMany(positions);
         for (std::size_t k = 0; k < positions.size(); ++k) {
-            auto chunk = chunkFrom(stored[k], positions[k], world);
-            if (!chunk) return tl::unexpected(chunk.error());
-            use(first + static_cast<std::int64_t>(k), std::move(*chunk));
+            auto chunk = TERRANE_TRY(chunkFrom(stored[k], positions[k], world));
+            use(first + static_cast<std::int64_t>(k), std::move(chunk));
         }
         return {};
     });

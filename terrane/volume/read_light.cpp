@@ -69,8 +69,8 @@ base::Result<void> readLight(OpenedWorld& world, const BlockArea& area, std::spa
         for (std::int32_t x = chunks.x0; x < chunks.x1; x += kSquareChunks) {
             LitSquare square(world, {x, y, std::min(x + kSquareChunks, chunks.x1),
                                      std::min(y + kSquareChunks, chunks.y1)});
-            if (auto loaded = square.load(goesOn); !loaded) return loaded;
-            if (auto copied = square.copyTo(area, levels, goesOn); !copied) return copied;
+            TERRANE_TRY(square.load(goesOn));
+            TERRANE_TRY(square.copyTo(area, levels, goesOn));
         }
     }
     return {};

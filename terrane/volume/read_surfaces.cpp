@@ -63,15 +63,12 @@ base::Result<ColumnArea> columnsOver(int level, std::int64_t x0, std::int64_t y0
 
 base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer,
                                 const SurfaceArrays& arrays, const GoesOn& goesOn) {
-    if (area.level > 0)
-        if (auto settled = world.settleTiles(); !settled) return settled;
+    if (area.level > 0) TERRANE_TRY(world.settleTiles());
     return forEachPart(world, pieceCount(area), goesOn, [&](std::int64_t number) -> base::Result<void> {
         const map::ColumnRect rect = pieceOf(area, number);
-        const auto edited = world.editedAmong(map::chunksTouching(rect));
-        if (!edited) return tl::unexpected(edited.error());
-        const auto piece = world.surfaces().area(rect, *edited);
-        if (!piece) return tl::unexpected(piece.error());
-        copyPiece(*piece, area, layer, arrays);
+        const auto edited = TERRANE_TRY(world.editedAmong(map::chunksTouching(rect)));
+        const auto piece = TERRANE_TRY(world.surfaces().area(rect, edited));
+        copyPiece(piece, area, layer, arrays);
         return {};
     });
 }

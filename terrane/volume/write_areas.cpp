@@ -20,17 +20,15 @@ base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
     const std::lock_guard lock(world.editMutex());
     const world::ChunkArea chunks = chunksOver(area);
     std::atomic<std::int64_t> changed{0};
-    const auto done =
-        readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
-            const world::ChunkPos pos = chunkIn(chunks, number);
-            const std::int64_t count = writeBlocks(blocks, area, pos, chunk);
-            if (count == 0) return;
-            changed += count;
-            world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
-                               store::Provenance::Edited);
-            world.noteEdited(std::span(&pos, 1));
-        });
-    if (!done) return tl::unexpected(done.error());
+    TERRANE_TRY(readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
+        const world::ChunkPos pos = chunkIn(chunks, number);
+        const std::int64_t count = writeBlocks(blocks, area, pos, chunk);
+        if (count == 0) return;
+        changed += count;
+        world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
+                           store::Provenance::Edited);
+        world.noteEdited(std::span(&pos, 1));
+    }));
     return changed.load();
 }
 

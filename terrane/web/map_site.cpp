@@ -248,12 +248,11 @@ void MapSite::Impl::tellList(const char* name, PlaceList& list) {
 base::Result<std::unique_ptr<MapSite>> MapSite::open(boost::asio::io_context& context, MapSiteParts parts,
                                                      const WebAddress& address, const WebLimits& limits) {
     const store::WorldIdentity& identity = parts.store.identity();
-    auto painter =
+    auto painter = TERRANE_TRY(
         map::MapPainter::create({parts.generators, parts.blocks, parts.textures, &parts.store, parts.cache,
-                                 gen::Biomes::create(identity.generator, parts.blocks, identity.seed)});
-    if (!painter) return tl::unexpected(painter.error());
+                                 gen::Biomes::create(identity.generator, parts.blocks, identity.seed)}));
     const std::vector<world::ChunkPos> edited = std::move(parts.edited);
-    auto impl = std::make_unique<Impl>(context, std::move(parts), std::move(*painter));
+    auto impl = std::make_unique<Impl>(context, std::move(parts), std::move(painter));
     impl->tiles.addEdited(edited);
     impl->events.tell("edits", editEvent(impl->edits, {}), true);
     auto server = WebServer::open(

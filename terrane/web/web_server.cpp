@@ -13,7 +13,7 @@ namespace terrane::web {
 namespace asio = boost::asio;
 
 base::Result<void> WebServer::Impl::listen(const WebAddress& address) {
-    if (auto listens = base::listenAt(acceptor, address.address, address.port); !listens) return listens;
+    TERRANE_TRY(base::listenAt(acceptor, address.address, address.port));
     accept();
     return {};
 }
@@ -102,7 +102,7 @@ base::Result<std::unique_ptr<WebServer>> WebServer::open(asio::io_context& conte
                                                          AnswerRoute answer, EventHub& events,
                                                          const WebLimits& limits) {
     auto impl = std::make_shared<Impl>(context, std::move(answer), events, limits);
-    if (auto listening = impl->listen(address); !listening) return tl::unexpected(listening.error());
+    TERRANE_TRY(impl->listen(address));
     return std::unique_ptr<WebServer>(new WebServer(std::move(impl)));
 }
 

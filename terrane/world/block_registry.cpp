@@ -131,9 +131,8 @@ base::Result<void> checkNames(std::span<const BlockDescription> blocks) {
 
 base::Result<BlockRegistry> BlockRegistry::parse(std::string_view toml, std::string_view name,
                                                  const BehaviorTable& behaviors) {
-    auto file = parseBlocks(toml, name, behaviors);
-    if (!file) return tl::unexpected(file.error());
-    return fromDescriptions(std::move(file->blocks), name);
+    auto file = TERRANE_TRY(parseBlocks(toml, name, behaviors));
+    return fromDescriptions(std::move(file.blocks), name);
 }
 
 base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDescription> blocks,
@@ -141,7 +140,7 @@ base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDes
     if (blocks.size() > kMaxDescribedBlocks)
         return base::fail(base::ErrorCode::BadInput, "{}: expected at most {} blocks, got {}", name,
                           kMaxDescribedBlocks, blocks.size());
-    if (auto checked = checkNames(blocks); !checked) return tl::unexpected(checked.error());
+    TERRANE_TRY(checkNames(blocks));
     blocks.push_back(describeMissing());
 
     BlockRegistry registry;

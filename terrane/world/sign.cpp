@@ -79,7 +79,7 @@ base::Result<SignText> decodeSign(const BlockEntityData& data) {
     }
     if (line + 1 != kSignLines)
         return base::fail(base::ErrorCode::Damaged, "a sign has {} lines, expected {}", line + 1, kSignLines);
-    if (auto good = checkSign(text); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(checkSign(text));
     return text;
 }
 

@@ -27,12 +27,11 @@ base::Result<TopColors> topColors(const BlockRegistry& blocks, const TextureSour
             continue;
         }
         const Material& material = blocks.materials()[type.material[kFacePosZ]];
-        auto image = textures(blocks.textures()[material.texture]);
-        if (!image) return tl::unexpected(image.error());
+        auto image = TERRANE_TRY(textures(blocks.textures()[material.texture]));
         if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::Tint) {
-            for (std::size_t k = 3; k < image->rgba.size(); k += 4) image->rgba[k] = 255;
+            for (std::size_t k = 3; k < image.rgba.size(); k += 4) image.rgba[k] = 255;
         }
-        palette.push_back({meanColor(*image), material.tinted});
+        palette.push_back({meanColor(image), material.tinted});
     }
     return palette;
 }

@@ -52,7 +52,7 @@ base::Result<void> BenchRunner::measure(const Cell& cell, int runs) {
 base::Result<void> BenchRunner::prepare(const Cell& cell) {
     const std::string key = keyOf({cell.before});
     if (cell.before.empty() || prepared_.contains(key)) return {};
-    if (auto done = runOnce(cell.before); !done) return tl::unexpected(done.error());
+    (void)TERRANE_TRY(runOnce(cell.before));
     prepared_.insert(key);
     return {};
 }
@@ -71,17 +71,14 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
                                      .environment = {{"XDG_DATA_HOME", work_.string()}},
                                      .mostRuns = kMostRuns};
     const double load = base::loadAverage();
-    const auto end = base::runChild(command, options);
-    if (!end) return tl::unexpected(end.error());
-    if (end->crashes > 0) base::logWarning("{}: crashed {} times", keyOf({arguments}), end->crashes);
-    if (end->tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
-    if (end->exitCode != 0)
-        return base::fail("exit code {}: {}", end->exitCode, lastLine(options.errorOutput));
-    json result = json::parse(end->output, nullptr, false);
+    const auto end = TERRANE_TRY(base::runChild(command, options));
+    if (end.crashes > 0) base::logWarning("{}: crashed {} times", keyOf({arguments}), end.crashes);
+    if (end.tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
+    if (end.exitCode != 0) return base::fail("exit code {}: {}", end.exitCode, lastLine(options.errorOutput));
+    json result = json::parse(end.output, nullptr, false);
     if (!result.is_object()) return base::fail("printed no JSON object");
-    result["run"] = {
-        {"seconds", end->seconds}, {"processor_seconds", end->cpuSeconds}, {"load_average", load}};
-    if (end->crashes > 0) result["run"]["crashes"] = end->crashes;
+    result["run"] = {{"seconds", end.seconds}, {"processor_seconds", end.cpuSeconds}, {"load_average", load}};
+    if (end.crashes > 0) result["run"]["crashes"] = end.crashes;
     return result;
 }
 

@@ -31,16 +31,15 @@ base::Result<ResultFile> ResultFile::create(const fs::path& path, const json& se
                           path.string());
     }
     ResultFile file(path);
-    if (auto written = file.append({{kSettings, settings}}); !written) return tl::unexpected(written.error());
+    TERRANE_TRY(file.append({{kSettings, settings}}));
     return file;
 }
 
 base::Result<ResultFile> ResultFile::resume(const fs::path& path, const json& settings) {
-    auto text = base::readFile(path);
-    if (!text) return tl::unexpected(text.error());
-    const std::size_t whole = text->rfind('\n') == std::string::npos ? 0 : text->rfind('\n') + 1;
+    auto text = TERRANE_TRY(base::readFile(path));
+    const std::size_t whole = text.rfind('\n') == std::string::npos ? 0 : text.rfind('\n') + 1;
     ResultFile file(path);
-    std::istringstream lines(text->substr(0, whole));
+    std::istringstream lines(text.substr(0, whole));
     std::string line;
     for (std::size_t number = 1; std::getline(lines, line); ++number) {
         const json value = json::parse(line, nullptr, false);
@@ -56,7 +55,7 @@ base::Result<ResultFile> ResultFile::resume(const fs::path& path, const json& se
     }
     if (whole == 0) return base::fail("{}:1: not results of terrane bench", path.string());
     std::error_code error;
-    if (whole < text->size()) fs::resize_file(path, whole, error);
+    if (whole < text.size()) fs::resize_file(path, whole, error);
     if (error) return base::fail("{}: cannot be written: {}", path.string(), error.message());
     return file;
 }

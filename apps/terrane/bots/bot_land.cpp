@@ -8,12 +8,10 @@ base::Result<net::SampleDigests> BotLand::prove(const net::WorldOffer& offer) {
     if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples &&
         offer.packs == offer_.packs)
         return digests_;
-    auto content = contentOf(packs, offer);
-    if (!content) return tl::unexpected(content.error());
-    content_ = std::move(*content);
-    auto generator = net::offeredGenerator(offer, *content_.blocks, content_.generators);
-    if (!generator) return tl::unexpected(generator.error());
-    generator_ = std::make_unique<gen::Generator>(std::move(*generator));
+    auto content = TERRANE_TRY(contentOf(packs, offer));
+    content_ = std::move(content);
+    auto generator = TERRANE_TRY(net::offeredGenerator(offer, *content_.blocks, content_.generators));
+    generator_ = std::make_unique<gen::Generator>(std::move(generator));
     offer_ = offer;
     digests_ = net::sampleDigests(*generator_, offer.samples);
     heights_.clear();

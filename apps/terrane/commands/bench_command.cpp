@@ -45,10 +45,10 @@ std::vector<std::string> tableNames() {
 
 // Facts about the program and the graphics driver, from `terrane info` in its own process.
 base::Result<json> programInfo(const fs::path& program, const fs::path& work) {
-    auto end = base::runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"});
-    if (!end) return tl::unexpected(end.error());
-    json info = json::parse(end->output, nullptr, false);
-    if (end->exitCode != 0 || !info.is_object()) return base::fail("terrane info --json failed");
+    auto end =
+        TERRANE_TRY(base::runChild({program.string(), "info", "--json"}, {work, work / "messages.txt"}));
+    json info = json::parse(end.output, nullptr, false);
+    if (end.exitCode != 0 || !info.is_object()) return base::fail("terrane info --json failed");
     if (info["graphics"].contains("error"))
         return base::fail("{}", info["graphics"]["error"].get<std::string>());
     return info;
@@ -126,7 +126,7 @@ base::Result<void> measureAll(const std::vector<Cell>& cells, int rounds, BenchR
         for (const Cell& cell : cells) {
             bar.set(++done);
             if (!results.failureOf(cell).empty()) continue;
-            if (auto measured = runner.measure(cell, round); !measured) return measured;
+            TERRANE_TRY(runner.measure(cell, round));
             if (const std::string_view failure = results.failureOf(cell); !failure.empty())
                 base::logWarning("{}: {}", keyOf(cell), failure);
         }
@@ -144,35 +144,30 @@ base::Result<fs::path> outputFolder(const std::string& output) {
 base::Result<void> bench(BenchOptions& options) {
     // By process id: if the file is replaced meanwhile, all runs still use the same program.
     const fs::path program = fmt::format("/proc/{}/exe", ::getpid());
-    auto folder = options.lists ? fs::temp_directory_path() : outputFolder(options.output);
-    if (!folder) return tl::unexpected(folder.error());
-    const auto work = base::TemporaryFolder::make(*folder, ".terrane-bench-");
-    if (!work) return tl::unexpected(work.error());
-    auto info = programInfo(program, work->path());
-    if (!info) return tl::unexpected(info.error());
-    const BenchSettings settings = settingsOf(options, (*info)["graphics"]);
+    auto folder = TERRANE_TRY(options.lists ? fs::temp_directory_path() : outputFolder(options.output));
+    const auto work = TERRANE_TRY(base::TemporaryFolder::make(folder, ".terrane-bench-"));
+    auto info = TERRANE_TRY(programInfo(program, work.path()));
+    const BenchSettings settings = settingsOf(options, info["graphics"]);
     const std::vector<CellGroup> groups = chosenGroups(settings, options.only);
-    auto about = aboutRun(settings, *info, program);
-    if (!about) return tl::unexpected(about.error());
-    if (options.gpuMemory) (*about)["gpu_memory"] = *options.gpuMemory;
+    auto about = TERRANE_TRY(aboutRun(settings, info, program));
+    if (options.gpuMemory) about["gpu_memory"] = *options.gpuMemory;
     if (options.lists) {
-        printPlan(*about, groups);
+        printPlan(about, groups);
         return {};
     }
 
-    const fs::path path = *folder / "results.jsonl";
-    auto results = options.resumes && fs::exists(path) ? ResultFile::resume(path, *about)
-                                                       : ResultFile::create(path, *about);
-    if (!results) return tl::unexpected(results.error());
+    const fs::path path = folder / "results.jsonl";
+    auto results = TERRANE_TRY(options.resumes && fs::exists(path) ? ResultFile::resume(path, about)
+                                                                   : ResultFile::create(path, about));
     const std::vector<Cell> cells = uniqueCells(groups);
     base::logInfo("{} tables, {} measurements of {} runs each", groups.size(), cells.size(), settings.runs);
     Arguments drawOptions = {"--horizon", "0"};  // the thesis measured chunks only
     if (options.gpuMemory)
         drawOptions.insert(drawOptions.end(), {"--gpu-memory", std::to_string(*options.gpuMemory)});
-    BenchRunner runner(program, work->path(), drawOptions, *results);
-    if (auto done = measureAll(cells, settings.runs, runner, *results); !done) return done;
-    options.anyFailed = results->failureCount() > 0;
-    base::logInfo("{} measurements, {} failed: {}", cells.size(), results->failureCount(), path.string());
+    BenchRunner runner(program, work.path(), drawOptions, results);
+    TERRANE_TRY(measureAll(cells, settings.runs, runner, results));
+    options.anyFailed = results.failureCount() > 0;
+    base::logInfo("{} measurements, {} failed: {}", cells.size(), results.failureCount(), path.string());
     return {};
 }
 

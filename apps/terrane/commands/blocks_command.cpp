@@ -62,13 +62,11 @@ base::Result<void> listBlocks(const WorldOptions& options, bool asJson) {
     const auto content = loadContent(options);
     if (!content) return tl::unexpected(content.error());
     const auto& blocks = content->blocks;
-    auto english = content::loadLanguage("en");
-    if (!english) return tl::unexpected(english.error());
-    if (auto added = pack::addBlockNames(*english, *content, "en"); !added) return added;
+    auto english = TERRANE_TRY(content::loadLanguage("en"));
+    TERRANE_TRY(pack::addBlockNames(english, *content, "en"));
     if (asJson) {
         nlohmann::json list = nlohmann::json::array();
-        for (const world::BlockType& type : blocks->types())
-            list.push_back(typeJson(*blocks, *english, type));
+        for (const world::BlockType& type : blocks->types()) list.push_back(typeJson(*blocks, english, type));
         std::cout << list.dump() << '\n';
         return {};
     }
@@ -76,7 +74,7 @@ base::Result<void> listBlocks(const WorldOptions& options, bool asJson) {
     fmt::print(kRow, "id", "name", "shown name", "shape", "opacity", "emission", "collides");
     for (const world::BlockType& type : blocks->types()) {
         const auto& e = type.emission;
-        fmt::print(kRow, type.id, type.name, content::blockName(*english, type), shapeName(type.shape),
+        fmt::print(kRow, type.id, type.name, content::blockName(english, type), shapeName(type.shape),
                    type.opacity, fmt::format("{},{},{}", e[0], e[1], e[2]),
                    type.collision.empty() ? "no" : "yes");
     }

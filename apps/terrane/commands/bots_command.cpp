@@ -101,17 +101,15 @@ base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, c
 base::Result<void> addBot(std::deque<Bot>& bots, boost::asio::io_context& context, BotWorld& world,
                           const BotSettings& settings) {
     const int number = static_cast<int>(bots.size());
-    const auto key = botKey(settings, number);
-    if (!key) return tl::unexpected(key.error());
-    bots.emplace_back(context, world, settings, number, *key);
+    const auto key = TERRANE_TRY(botKey(settings, number));
+    bots.emplace_back(context, world, settings, number, key);
     return {};
 }
 
 base::Result<void> runBots(BotsOptions& options) {
     for (const std::string& server : options.servers) {
-        auto address = net::serverAddress(server);
-        if (!address) return tl::unexpected(address.error());
-        options.bots.servers.push_back(*address);
+        auto address = TERRANE_TRY(net::serverAddress(server));
+        options.bots.servers.push_back(address);
     }
     raiseOpenFileLimit();
     BotWorld world(ClientPacks{.cache = {}, .acceptsAll = true, .accepted = {}, .packs = {}, .missing = {}});
@@ -125,10 +123,9 @@ base::Result<void> runBots(BotsOptions& options) {
         const std::chrono::duration<double> passed = now - start;
         const int due =
             std::min(options.count, 1 + static_cast<int>(passed.count() * options.joinsPerSecond));
-        while (static_cast<int>(bots.size()) < due)
-            if (auto added = addBot(bots, context, world, options.bots); !added) return added;
+        while (static_cast<int>(bots.size()) < due) TERRANE_TRY(addBot(bots, context, world, options.bots));
         for (Bot& bot : bots) bot.update(now);
-        if (auto checked = checkEnded(bots); !checked) return checked;
+        TERRANE_TRY(checkEnded(bots));
         if (!since && joinedCount(bots) == static_cast<std::size_t>(options.count)) {
             since = Since{now, receivedBytes(bots), sentBytes(bots)};
             world.seenMs.clear();
@@ -141,7 +138,7 @@ base::Result<void> runBots(BotsOptions& options) {
     }
     const BotTime end = std::chrono::steady_clock::now();
     printReport(world, bots, since.value_or(Since{end, 0, 0}), end);
-    if (auto written = writeAcknowledged(options.acknowledged, world, bots); !written) return written;
+    TERRANE_TRY(writeAcknowledged(options.acknowledged, world, bots));
     for (Bot& bot : bots) bot.leave();
     context.restart();
     context.run_for(std::chrono::milliseconds(200));

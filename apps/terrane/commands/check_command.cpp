@@ -61,17 +61,16 @@ void printText(const std::string& file, const store::CheckReport& report) {
 }
 
 base::Result<void> check(CheckOptions& options) {
-    const auto content = loadContent({}, {.world = options.file, .storeGenerated = {}});
-    if (!content) return tl::unexpected(content.error());
-    const auto report = store_postgres::checkAnyWorld(store::worldLocation(options.file), *content->blocks);
-    if (!report) return tl::unexpected(report.error());
-    options.foundDamage = report->isDamaged();
+    const auto content = TERRANE_TRY(loadContent({}, {.world = options.file, .storeGenerated = {}}));
+    const auto report =
+        TERRANE_TRY(store_postgres::checkAnyWorld(store::worldLocation(options.file), *content.blocks));
+    options.foundDamage = report.isDamaged();
     if (options.json) {
         // SQLite's messages about broken pages and names of blocks may be invalid UTF-8; everything but ASCII
         // is escaped.
-        std::cout << toJson(*report).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
+        std::cout << toJson(report).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     } else {
-        printText(store_postgres::shownOf(store::worldLocation(options.file)), *report);
+        printText(store_postgres::shownOf(store::worldLocation(options.file)), report);
     }
     return {};
 }

@@ -46,14 +46,11 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
     const store::WorldLocation from = store::worldLocation(options.from),
                                to = store::worldLocation(options.to);
     if (!hasRecords(from)) return {};
-    const auto source = openRecordsToRead(from, blocks);
-    if (!source) return tl::unexpected(source.error());
-    const auto players = (*source)->players();
-    if (!players) return tl::unexpected(players.error());
-    if (players->empty()) return {};
-    const auto target = openRecords(to, blocks);
-    if (!target) return tl::unexpected(target.error());
-    const auto copied = net::copyRecords(**source, *target->records);
+    const auto source = TERRANE_TRY(openRecordsToRead(from, blocks));
+    const auto players = TERRANE_TRY(source->players());
+    if (players.empty()) return {};
+    const auto target = TERRANE_TRY(openRecords(to, blocks));
+    const auto copied = net::copyRecords(*source, *target.records);
     if (!copied)
         return base::fail(copied.error().code, "{}: {}", store_postgres::shownOf(from),
                           copied.error().message);
@@ -65,29 +62,23 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
 // The records of servers are copied first: if a running server prevents it, the copy is unfinished and can
 // continue later.
 base::Result<void> copy(CopyOptions& options) {
-    const auto content = loadContent({}, {.world = options.from, .storeGenerated = {}});
-    if (!content) return tl::unexpected(content.error());
-    const world::BlockRegistry& blocks = *content->blocks;
-    auto from = store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks);
-    if (!from) return tl::unexpected(from.error());
-    const auto total = (*from)->rowCount();
-    if (!total) return tl::unexpected(total.error());
-    auto to =
-        store_postgres::openAnyRows(store::worldLocation(options.to), blocks, store::accessOfCopy(**from));
-    if (!to) return tl::unexpected(to.error());
-    const auto lastKey = store::beginCopy(**from, **to);
-    if (!lastKey) return tl::unexpected(lastKey.error());
-    if (auto copied = copyServers(options, blocks); !copied) return copied;
+    const auto content = TERRANE_TRY(loadContent({}, {.world = options.from, .storeGenerated = {}}));
+    const world::BlockRegistry& blocks = *content.blocks;
+    auto from = TERRANE_TRY(store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks));
+    const auto total = TERRANE_TRY(from->rowCount());
+    auto to = TERRANE_TRY(
+        store_postgres::openAnyRows(store::worldLocation(options.to), blocks, store::accessOfCopy(*from)));
+    const auto lastKey = TERRANE_TRY(store::beginCopy(*from, *to));
+    TERRANE_TRY(copyServers(options, blocks));
     const base::StopSignals signals;
     // Rows are copied, then compared.
-    base::ProgressBar bar("copying", static_cast<std::size_t>(2 * *total));
-    const auto report = store::copyWorld(**from, **to, *lastKey, [&](std::uint64_t rows) {
-        bar.set(static_cast<std::size_t>(std::min(rows, 2 * *total)));
+    base::ProgressBar bar("copying", static_cast<std::size_t>(2 * total));
+    const auto report = TERRANE_TRY(store::copyWorld(*from, *to, lastKey, [&](std::uint64_t rows) {
+        bar.set(static_cast<std::size_t>(std::min(rows, 2 * total)));
         return !signals.stopAsked();
-    });
-    if (!report) return tl::unexpected(report.error());
-    options.foundDamage = report->damaged > 0;
-    print(options, *report);
+    }));
+    options.foundDamage = report.damaged > 0;
+    print(options, report);
     return {};
 }
 

@@ -37,13 +37,10 @@ struct Sources {
 };
 
 base::Result<Sources> openSources(DumpOptions& options, const base::StopSignals& signals) {
-    const auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content);
-    if (!save) return tl::unexpected(save.error());
-    auto generator = makeGenerator(options.world, *content);
-    if (!generator) return tl::unexpected(generator.error());
-    return Sources{content->blocks, std::move(*save), std::move(*generator), signals};
+    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadOnly, content));
+    auto generator = TERRANE_TRY(makeGenerator(options.world, content));
+    return Sources{content.blocks, std::move(save), std::move(generator), signals};
 }
 
 // Calls `take` for each loaded square until it fails or a signal stops the program.
@@ -55,8 +52,8 @@ base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sour
     std::int64_t done = 0;
     for (std::int64_t k = 0; k < squareCount(area); ++k) {
         LoadedSquare square(squareOf(area, k));
-        if (auto loaded = square.load(sources.save.get(), sources.generator, jobs); !loaded) return loaded;
-        if (auto taken = take(square); !taken) return taken;
+        TERRANE_TRY(square.load(sources.save.get(), sources.generator, jobs));
+        TERRANE_TRY(take(square));
         done += square.area().chunkCount();
         bar.set(static_cast<std::size_t>(done));
         if (sources.signals.stopAsked())
@@ -66,16 +63,15 @@ base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sour
 }
 
 base::Result<void> dumpBlocks(const DumpOptions& options, const Sources& sources) {
-    auto file = VolumeFile::create(options.output, *options.area);
-    if (!file) return tl::unexpected(file.error());
+    auto file = TERRANE_TRY(VolumeFile::create(options.output, *options.area));
     const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
-        return file->write(square.area(), [&](int x, int y, auto values) {
+        return file.write(square.area(), [&](int x, int y, auto values) {
             const world::Chunk& chunk = square.chunk(x / world::kChunkSize, y / world::kChunkSize);
             for (int z = 0; z < world::kChunkHeight; ++z)
                 values[static_cast<std::size_t>(z)] = chunk.block(world::blockIndex(x & 15, y & 15, z));
         });
     });
-    return written ? file->finish() : written;
+    return written ? file.finish() : written;
 }
 
 std::vector<light::ChunkLight> lightOf(const LoadedSquare& square, light::AreaSolver& solver) {
@@ -87,21 +83,19 @@ std::vector<light::ChunkLight> lightOf(const LoadedSquare& square, light::AreaSo
 
 base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources) {
     const light::LightTable table(*sources.blocks);
-    const auto solver = makeLightSolver(options.backend, table);
-    if (!solver) return tl::unexpected(solver.error());
-    auto file = VolumeFile::create(options.output, *options.area);
-    if (!file) return tl::unexpected(file.error());
+    const auto solver = TERRANE_TRY(makeLightSolver(options.backend, table));
+    auto file = TERRANE_TRY(VolumeFile::create(options.output, *options.area));
     const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
-        const std::vector<light::ChunkLight> lights = lightOf(square, *solver->worker);
+        const std::vector<light::ChunkLight> lights = lightOf(square, *solver.worker);
         const int width = square.chunksX() + 2;
-        return file->write(square.area(), [&](int x, int y, auto values) {
+        return file.write(square.area(), [&](int x, int y, auto values) {
             const int chunk = x / world::kChunkSize + 1 + width * (y / world::kChunkSize + 1);
             const light::ChunkLight& light = lights[static_cast<std::size_t>(chunk)];
             for (int z = 0; z < world::kChunkHeight; ++z)
                 values[static_cast<std::size_t>(z)] = light.get(x & 15, y & 15, z);
         });
     });
-    return written ? file->finish() : written;
+    return written ? file.finish() : written;
 }
 
 base::Result<void> appendQuads(QuadFile& file, const LoadedSquare& square, mesh::BatchMesher& mesher,
@@ -120,30 +114,26 @@ base::Result<void> appendQuads(QuadFile& file, const LoadedSquare& square, mesh:
     for (std::size_t k = 0; k < meshes.size(); ++k) {
         const int x = static_cast<int>(k) % square.chunksX(), y = static_cast<int>(k) / square.chunksX();
         const world::ChunkPos pos{square.area().x0 + x, square.area().y0 + y};
-        if (auto appended = file.append(pos, meshes[k]); !appended) return appended;
+        TERRANE_TRY(file.append(pos, meshes[k]));
     }
     return {};
 }
 
 base::Result<void> dumpQuads(const DumpOptions& options, const Sources& sources) {
-    const auto mesher = makeBatchMesher(options.backend, *sources.blocks);
-    if (!mesher) return tl::unexpected(mesher.error());
-    auto file = QuadFile::create(options.output);
-    if (!file) return tl::unexpected(file.error());
+    const auto mesher = TERRANE_TRY(makeBatchMesher(options.backend, *sources.blocks));
+    auto file = TERRANE_TRY(QuadFile::create(options.output));
     const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
-        return appendQuads(*file, square, *mesher->worker, options.mesh, *sources.blocks);
+        return appendQuads(file, square, *mesher.worker, options.mesh, *sources.blocks);
     });
-    return written ? file->finish() : written;
+    return written ? file.finish() : written;
 }
 
 base::Result<void> dump(DumpOptions& options) {
     const base::StopSignals signals;  // the writer removes an unfinished file
-    const auto sources = openSources(options, signals);
-    if (!sources) return tl::unexpected(sources.error());
-    const auto written = options.what == What::Blocks  ? dumpBlocks(options, *sources)
-                         : options.what == What::Light ? dumpLight(options, *sources)
-                                                       : dumpQuads(options, *sources);
-    if (!written) return written;
+    const auto sources = TERRANE_TRY(openSources(options, signals));
+    TERRANE_TRY(options.what == What::Blocks  ? dumpBlocks(options, sources)
+                : options.what == What::Light ? dumpLight(options, sources)
+                                              : dumpQuads(options, sources));
     base::logInfo("{}: {} chunks", options.output, options.area->chunkCount());
     return {};
 }

@@ -38,7 +38,7 @@ base::Result<void> runExport(const std::string& name, ExportOptions& options, co
     const auto format = std::ranges::find(formats, name, &ExportFormat::name);
     if (format == formats.end())
         return base::fail(base::ErrorCode::BadInput, "export: {}", base::notOneOf(exportNames(), name));
-    if (auto checked = checkFormatOptions(command, formats, *format); !checked) return checked;
+    TERRANE_TRY(checkFormatOptions(command, formats, *format));
     if (!CLI::detail::to_lower(options.output).ends_with(format->ending))
         return base::fail(base::ErrorCode::BadInput, "-o: \"{}\" does not end in {}", options.output,
                           format->ending);

@@ -30,12 +30,11 @@ struct FlightBenchOptions {
 
 // The flight; its view distance is set later.
 base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
-    auto place = placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f});
-    if (!place) return tl::unexpected(place.error());
+    auto place = TERRANE_TRY(placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f}));
     // Scenes look down on the ground; the flight looks straight ahead.
-    if (!options.place.look) place->pose.pitch = 0;
+    if (!options.place.look) place.pose.pitch = 0;
     return view::Flight{
-        .start = view::cameraOf(place->pose), .seconds = options.seconds, .timeDay = place->timeDay};
+        .start = view::cameraOf(place.pose), .seconds = options.seconds, .timeDay = place.timeDay};
 }
 
 void report(const view::FlightLog& log) {
@@ -88,23 +87,20 @@ nlohmann::json jsonOf(const view::FlightLog& log) {
 
 base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
-    auto flight = flightOf(options);
-    if (!flight) return tl::unexpected(flight.error());
-    auto world = Offscreen::create({.world = worldOf(options.place, options.world),
-                                    .save = options.save,
-                                    .graphics = options.graphics,
-                                    .backend = options.backend,
-                                    .access = store::WorldAccess::ReadWrite,
-                                    .meshMilliseconds = view::WorldView::kFrameMilliseconds});
-    if (!world) return tl::unexpected(world.error());
-    flight->viewDistance = (*world)->graphics.viewDistance;
-    const view::FlightLog log = view::fly(*(*world)->session, *(*world)->view, (*world)->renderer, *flight);
+    auto flight = TERRANE_TRY(flightOf(options));
+    auto world = TERRANE_TRY(Offscreen::create({.world = worldOf(options.place, options.world),
+                                                .save = options.save,
+                                                .graphics = options.graphics,
+                                                .backend = options.backend,
+                                                .access = store::WorldAccess::ReadWrite,
+                                                .meshMilliseconds = view::WorldView::kFrameMilliseconds}));
+    flight.viewDistance = world->graphics.viewDistance;
+    const view::FlightLog log = view::fly(*world->session, *world->view, world->renderer, flight);
     if (!options.output.empty()) {
-        if (auto written = view::writeFrames(options.output, view::framesInFlight(log)); !written)
-            return written;
+        TERRANE_TRY(view::writeFrames(options.output, view::framesInFlight(log)));
     }
-    if (auto saved = (*world)->session->save(); !saved) return saved;
-    if (auto finished = (*world)->finish(); !finished) return finished;
+    TERRANE_TRY(world->session->save());
+    TERRANE_TRY(world->finish());
     report(log);
     if (options.json) std::cout << nlohmann::json{{"flight", jsonOf(log)}}.dump() << '\n';
     return {};

@@ -64,7 +64,7 @@ class AreaGenerator {
                 positions.push_back({static_cast<std::int32_t>(area.x0 + n % width),
                                      static_cast<std::int32_t>(area.y0 + n / width)});
             }
-            if (auto done = batch(positions); !done) return tl::unexpected(done.error());
+            TERRANE_TRY(batch(positions));
             bar.set(static_cast<std::size_t>(first) + positions.size());
         }
         result_.digest = digest_.hex();
@@ -76,12 +76,10 @@ class AreaGenerator {
         // A damaged chunk is not stored; loading reports it and sets it aside.
         std::vector<store::LoadedChunk> stored(positions.size());
         if (save_) stored = save_->loadMany(positions);
-        const auto found = store::missingOf(positions, stored);
-        if (!found) return tl::unexpected(found.error());
-        const std::vector<world::ChunkPos>& missing = *found;
-        auto chunks = gen::generateAll(generator_, missing);
-        if (!chunks) return tl::unexpected(chunks.error());
-        chunks_ = std::move(*chunks);
+        const auto found = TERRANE_TRY(store::missingOf(positions, stored));
+        const std::vector<world::ChunkPos>& missing = found;
+        auto chunks = TERRANE_TRY(gen::generateAll(generator_, missing));
+        chunks_ = std::move(chunks);
         result_.chunks += missing.size();
         result_.skipped += positions.size() - missing.size();
         if (wantsDigest_) addBatchToDigest(stored);
@@ -147,19 +145,18 @@ void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::C
 
 // Prints the passes, the fields that they read and write, and their GLSL.
 base::Result<void> explain(const WorldOptions& options, const pack::Content& content, world::ChunkPos chunk) {
-    auto graph = makeGraph(options, content);
-    if (!graph) return tl::unexpected(graph.error());
-    for (std::size_t k = 0; k < graph->passes.size(); ++k) {
-        const gen::PassGraph& pass = graph->passes[k];
+    auto graph = TERRANE_TRY(makeGraph(options, content));
+    for (std::size_t k = 0; k < graph.passes.size(); ++k) {
+        const gen::PassGraph& pass = graph.passes[k];
         fmt::print("// pass {}: {}, {}, {} nodes\n", k, pass.name, pass.is3D ? "3D" : "2D",
                    pass.graph.size());
         for (const gen::FieldOutput& f : pass.fields)
-            fmt::print("// writes field {}\n", graph->fields[f.field].name);
+            fmt::print("// writes field {}\n", graph.fields[f.field].name);
         for (const std::uint32_t f : pass.readsAt)
-            fmt::print("// reads around field {}\n", graph->fields[f].name);
-        fmt::print("{}\n", gen::emitGlsl(*graph, k));
+            fmt::print("// reads around field {}\n", graph.fields[f].name);
+        fmt::print("{}\n", gen::emitGlsl(graph, k));
     }
-    explainChunk(*graph, options.effectiveSeed(), chunk);
+    explainChunk(graph, options.effectiveSeed(), chunk);
     return {};
 }
 
@@ -192,29 +189,25 @@ base::Result<void> generate(GenerateOptions& options) {
         return base::fail("generate needs --radius, --area or --explain");
     }
     const world::ChunkArea area = chosen.value_or(world::ChunkArea{0, 0, 1, 1});
-    const auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
+    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
     if (options.explain) {
         // The first chunk of the area, if one is given.
         const world::ChunkPos chunk =
             options.chunks.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
-        return explain(options.world, *content, chunk);
+        return explain(options.world, content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
         return base::fail("--simd: this machine does not have {}, only {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *content,
-                         store::WorldSharing::Generating);
-    if (!save) return tl::unexpected(save.error());
-    auto generator = makeBatchGenerator(options.world, options.backend, *content);
-    if (!generator) return tl::unexpected(generator.error());
+    auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
+                                     store::WorldSharing::Generating));
+    auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content));
 
     const auto start = std::chrono::steady_clock::now();
-    auto result = AreaGenerator(*generator->worker, save->get(), options.digest).run(area);
-    if (!result) return tl::unexpected(result.error());
+    auto result = TERRANE_TRY(AreaGenerator(*generator.worker, save.get(), options.digest).run(area));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    report(options, *result, seconds, generator->worker->backend());
+    report(options, result, seconds, generator.worker->backend());
     return {};
 }
 

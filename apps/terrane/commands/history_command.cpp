@@ -58,14 +58,12 @@ void printEdit(const net::LoggedEdit& edit, const std::string& player, const wor
 }
 
 base::Result<void> printHistory(const HistoryOptions& options) {
-    const auto content = loadContent({}, options.save);
-    if (!content) return tl::unexpected(content.error());
-    const auto& blocks = content->blocks;
-    const auto history = openHistory(store::worldLocation(options.save.world), *blocks);
-    if (!history) return tl::unexpected(history.error());
+    const auto content = TERRANE_TRY(loadContent({}, options.save));
+    const auto& blocks = content.blocks;
+    const auto history = TERRANE_TRY(openHistory(store::worldLocation(options.save.world), *blocks));
     net::EditFilter filter;
     if (!options.player.empty()) {
-        filter.player = net::playerCalled(*history, options.player);
+        filter.player = net::playerCalled(history, options.player);
         if (!filter.player)
             return base::fail(base::ErrorCode::NotFound, "no player called {} has ever joined",
                               options.player);
@@ -85,10 +83,10 @@ base::Result<void> printHistory(const HistoryOptions& options) {
             isCut = true;
             return base::fail("more");
         }
-        printEdit(edit, net::nameOf(*history, edit.player), *blocks, options.showsEachBlock);
+        printEdit(edit, net::nameOf(history, edit.player), *blocks, options.showsEachBlock);
         return {};
     };
-    const auto done = history->forEachEdit(filter, net::EditOrder::NewestFirst, print);
+    const auto done = history.forEachEdit(filter, net::EditOrder::NewestFirst, print);
     if (isCut) return {};
     return done;
 }

@@ -36,7 +36,7 @@ base::Result<void> runImport(const std::string& name, ImportOptions& options, co
     const auto format = std::ranges::find(formats, name, &ImportFormat::name);
     if (format == formats.end())
         return base::fail(base::ErrorCode::BadInput, "import: {}", base::notOneOf(formatNames(), name));
-    if (auto checked = checkFormatOptions(command, formats, *format); !checked) return checked;
+    TERRANE_TRY(checkFormatOptions(command, formats, *format));
     return format->run(options);
 }
 

@@ -34,17 +34,15 @@ base::Result<world::ChunkArea> chosenArea(const MapOptions& options) {
 }
 
 base::Result<void> writeMap(MapOptions& options) {
-    const auto chosen = chosenArea(options);
-    if (!chosen) return tl::unexpected(chosen.error());
-    const world::ChunkArea area = world::areaOver(*chosen, options.level);
+    const auto chosen = TERRANE_TRY(chosenArea(options));
+    const world::ChunkArea area = world::areaOver(chosen, options.level);
     if (area.chunkCount() > kMaxChunksInMap) {
         return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
                           area.chunkCount(), kMaxChunksInMap);
     }
     const auto world = openMapWorld(options.world, options.save, options.resourcePack);
     if (!world) return tl::unexpected(world.error());
-    auto painter = painterOf(**world);
-    if (!painter) return tl::unexpected(painter.error());
+    auto painter = TERRANE_TRY(painterOf(**world));
     map::EditedPositions edited;
     for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
     base::JobSystem jobs((*world)->parts.threads);
@@ -52,13 +50,13 @@ base::Result<void> writeMap(MapOptions& options) {
     {
         const map::ColumnRect rect = map::columnsOf(area, options.level);
         base::ProgressBar bar("mapping", static_cast<std::size_t>(rect.height));
-        image = map::drawArea(*painter, rect, edited, jobs, [&](int rows) {
+        image = map::drawArea(painter, rect, edited, jobs, [&](int rows) {
             bar.set(static_cast<std::size_t>(rows));
             return true;
         });
     }
     if (!image) return tl::unexpected(image.error());
-    if (auto written = base::writePng(options.output, *image); !written) return written;
+    TERRANE_TRY(base::writePng(options.output, *image));
     base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(),
                   std::int64_t{image->width} << options.level, std::int64_t{image->height} << options.level);
     return {};
@@ -89,14 +87,13 @@ base::Result<void> checkOptions(const MapOptions& options, const CLI::App& comma
 }
 
 base::Result<void> runMap(MapOptions& options, const CLI::App& command) {
-    if (auto checked = checkOptions(options, command); !checked) return checked;
+    TERRANE_TRY(checkOptions(options, command));
     if (!options.output.empty()) return writeMap(options);
     if (!options.site.http.empty())
         return showMap(options.world, options.save, options.resourcePack, options.site);
-    const auto area = chosenArea(options);
-    if (!area) return tl::unexpected(area.error());
+    const auto area = TERRANE_TRY(chosenArea(options));
     options.files.places = options.site.places;
-    return writeStaticMap(options.world, options.save, options.resourcePack, *area, options.files);
+    return writeStaticMap(options.world, options.save, options.resourcePack, area, options.files);
 }
 
 }  // namespace

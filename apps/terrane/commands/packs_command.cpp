@@ -62,9 +62,8 @@ void printPack(const pack::Pack& pack) {
 
 base::Result<void> listPacks(const PacksOptions& options) {
     std::vector<pack::Pack> packs;
-    auto builtIn = pack::builtInPack();
-    if (!builtIn) return tl::unexpected(builtIn.error());
-    packs.push_back(std::move(*builtIn));
+    auto builtIn = TERRANE_TRY(pack::builtInPack());
+    packs.push_back(std::move(builtIn));
     for (const std::filesystem::path& folder : pack::packFolders())
         for (const std::filesystem::path& path : pack::packsIn(folder)) {
             auto read = pack::readPack(path);
@@ -111,16 +110,14 @@ base::Result<void> checkPacks(const PacksOptions& options) {
     for (const std::string& name : options.names) {
         WorldOptions world;
         world.content = {name};
-        const auto content = loadContent(world);
-        if (!content) return tl::unexpected(content.error());
-        const auto read = pack::readPacks({name});
-        if (!read) return tl::unexpected(read.error());
-        const pack::Pack& pack = read->front();
-        warnOfSlips(pack, *content->blocks);
+        const auto content = TERRANE_TRY(loadContent(world));
+        const auto read = TERRANE_TRY(pack::readPacks({name}));
+        const pack::Pack& pack = read.front();
+        warnOfSlips(pack, *content.blocks);
         const auto isOwn = [&](const world::BlockType& type) {
             return type.name.starts_with(pack.info.name + ":");
         };
-        const auto blocks = std::ranges::count_if(content->blocks->types(), isOwn);
+        const auto blocks = std::ranges::count_if(content.blocks->types(), isOwn);
         base::printLine("{}: good: {}, {}, {}", name, counted(static_cast<std::size_t>(blocks), "block"),
                         counted(generatorsOf(pack).size(), "generator"), counted(pack.files.size(), "file"));
     }
@@ -145,12 +142,11 @@ base::Result<std::filesystem::path> newFolder(const std::string& nameOrPath) {
 base::Result<void> initPack(const PacksOptions& options) {
     if (options.names.size() != 1)
         return base::fail(base::ErrorCode::BadInput, "packs init: expected one name");
-    const auto folder = newFolder(options.names.front());
-    if (!folder) return tl::unexpected(folder.error());
-    if (auto made = pack::writeSkeleton(*folder); !made) return made;
-    const std::string name = folder->filename().string();
-    const std::string given = options.names.front().find('/') == std::string::npos ? name : folder->string();
-    base::printLine("{}", folder->string());
+    const auto folder = TERRANE_TRY(newFolder(options.names.front()));
+    TERRANE_TRY(pack::writeSkeleton(folder));
+    const std::string name = folder.filename().string();
+    const std::string given = options.names.front().find('/') == std::string::npos ? name : folder.string();
+    base::printLine("{}", folder.string());
     base::printLine("terrane play --content {} --generator {}:{} --watch", given, name,
                     pack::kSkeletonGenerator);
     return {};

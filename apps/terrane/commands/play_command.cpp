@@ -52,14 +52,12 @@ base::Result<void> play(const PlayOptions& options, CLI::App& command, PlayHost&
     GivenOptions given{.namesWorld = namesWorld(command),
                        .movement = isGiven(command, "movement"),
                        .resourcePack = isGiven(command, "resource-pack")};
-    if (auto read = applySettings(options.settingsFile, command, render::namesOfPreset()); !read) return read;
+    TERRANE_TRY(applySettings(options.settingsFile, command, render::namesOfPreset()));
     given.graphics = namesGraphics(command);
     // The window first: if it cannot open, no world is created.
-    const auto window = openWindow(options, host);
-    if (!window) return tl::unexpected(window.error());
-    const auto played = PlayFlow(options, given, **window, host).run();
-    if (!played) return played;
-    const gpu::DebugLog* log = (*window)->debugLog();
+    const auto window = TERRANE_TRY(openWindow(options, host));
+    TERRANE_TRY(PlayFlow(options, given, *window, host).run());
+    const gpu::DebugLog* log = window->debugLog();
     if (log && log->errorCount() > 0) return base::fail("the graphics driver reported errors, see above");
     return {};
 }

@@ -34,14 +34,12 @@ struct FrameRange {
 };
 
 base::Result<Script> readScript(const RecordOptions& options, const CLI::App& command) {
-    auto text = base::readFile(options.path);
-    if (!text) return tl::unexpected(text.error());
-    const auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
+    auto text = TERRANE_TRY(base::readFile(options.path));
+    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
     ScriptDefaults defaults{options.world, options.graphics, {}};
     for (const CLI::Option* option : command.get_options())
         if (option->count() > 0) defaults.given.push_back(option->get_single_name());
-    return parseScript(*text, options.path, defaults, *content->blocks);
+    return parseScript(text, options.path, defaults, *content.blocks);
 }
 
 base::Result<FrameRange> framesOf(const RecordOptions& options, const Script& script) {
@@ -62,9 +60,8 @@ base::Result<void> drawFrames(Recorder& recorder, video::FrameSink& sink, const 
                               int framesPerSecond, const base::StopSignals& signals) {
     base::ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
     for (std::int64_t k = range.first; k < range.end; ++k) {
-        auto image = recorder.frame(static_cast<double>(k) / framesPerSecond);
-        if (!image) return tl::unexpected(image.error());
-        if (auto added = sink.add(*image); !added) return added;
+        auto image = TERRANE_TRY(recorder.frame(static_cast<double>(k) / framesPerSecond));
+        TERRANE_TRY(sink.add(image));
         bar.set(static_cast<std::size_t>(k + 1 - range.first));
         if (signals.stopAsked())
             return base::fail("stopped after {} of {} frames", k + 1 - range.first, range.end - range.first);
@@ -75,30 +72,25 @@ base::Result<void> drawFrames(Recorder& recorder, video::FrameSink& sink, const 
 base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& command) {
     if (options.output.empty() && options.framesFolder.empty())
         return base::fail("record needs --output or --frames-dir");
-    auto script = readScript(options, command);
-    if (!script) return tl::unexpected(script.error());
-    const auto range = framesOf(options, *script);
-    if (!range) return tl::unexpected(range.error());
+    auto script = TERRANE_TRY(readScript(options, command));
+    const auto range = TERRANE_TRY(framesOf(options, script));
     const TitlePainter titles(options.graphics.size.y);
 
     // Edits of the path are not saved: the world is opened read-only.
-    auto world = Offscreen::create({.world = script->world,
-                                    .save = options.save,
-                                    .graphics = optionsAt(shotAt(*script, options.from), 0),
-                                    .backend = options.backend});
-    if (!world) return tl::unexpected(world.error());
+    auto world = TERRANE_TRY(Offscreen::create({.world = script.world,
+                                                .save = options.save,
+                                                .graphics = optionsAt(shotAt(script, options.from), 0),
+                                                .backend = options.backend}));
     const base::StopSignals signals;  // until the file is finished; the sink removes an unfinished one
-    auto sink = openSink(options);
-    if (!sink) return tl::unexpected(sink.error());
+    auto sink = TERRANE_TRY(openSink(options));
 
     const auto start = std::chrono::steady_clock::now();
-    Recorder recorder({*script, **world, titles, options.graphics.size});
-    auto drawn = drawFrames(recorder, **sink, *range, options.framesPerSecond, signals);
-    if (!drawn) return drawn;
-    if (auto finished = (*world)->finish(); !finished) return finished;
-    if (auto finished = (*sink)->finish(); !finished) return finished;
+    Recorder recorder({script, *world, titles, options.graphics.size});
+    TERRANE_TRY(drawFrames(recorder, *sink, range, options.framesPerSecond, signals));
+    TERRANE_TRY(world->finish());
+    TERRANE_TRY(sink->finish());
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const std::int64_t frames = range->end - range->first;
+    const std::int64_t frames = range.end - range.first;
     base::logInfo("{}: {} frames, {:.1f} s of video in {:.1f} s",
                   options.output.empty() ? options.framesFolder : options.output, frames,
                   static_cast<double>(frames) / options.framesPerSecond, seconds);

@@ -127,8 +127,7 @@ nlohmann::json imageJson(const RenderCommandOptions& options, const RenderTiming
 base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
-    const auto place = placeOf(options.place, {"", {}, content::scenes().front().timeDay});
-    if (!place) return tl::unexpected(place.error());
+    const auto place = TERRANE_TRY(placeOf(options.place, {"", {}, content::scenes().front().timeDay}));
     auto world = Offscreen::create({.world = worldOf(options.place, options.world),
                                     .save = options.save,
                                     .graphics = options.graphics,
@@ -140,7 +139,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     RenderTimings timings;
     timings.setUp = millisecondsSince(start);
 
-    const render::Camera camera = view::cameraOf(place->pose);
+    const render::Camera camera = view::cameraOf(place.pose);
     const auto loadStart = Clock::now();
     timings.upload = view::loadAll(session, *(*world)->view, camera, viewDistance, loadStart);
     timings.load = millisecondsSince(loadStart);
@@ -148,7 +147,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
 
     const auto drawStart = Clock::now();
     const render::FrameInput input{camera,
-                                   world::environmentAt(place->timeDay),
+                                   world::environmentAt(place.timeDay),
                                    view::fogDistance((*world)->view->sightDistance()),
                                    options.seconds,
                                    options.graphics.view,
@@ -157,8 +156,8 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     const base::Image image = renderer.readImage();
     timings.draw = millisecondsSince(drawStart);
     timings.frames = view::measureFrames(renderer, input, options.frames);
-    if (auto written = base::writePng(options.output, image); !written) return written;
-    if (auto finished = (*world)->finish(); !finished) return finished;
+    TERRANE_TRY(base::writePng(options.output, image));
+    TERRANE_TRY((*world)->finish());
 
     timings.all = millisecondsSince(start);
     tell(options, timings, session, renderer.statistics());

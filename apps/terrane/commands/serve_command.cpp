@@ -48,45 +48,36 @@ std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
 
 base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     const store::WorldLocation world = store::worldLocation(options.save.world);
-    const auto files = serverFilesOf(world, options.listen.port);
-    if (!files) return tl::unexpected(files.error());
-    if (auto read = readSettings(options, *files, command); !read) return read;
+    const auto files = TERRANE_TRY(serverFilesOf(world, options.listen.port));
+    TERRANE_TRY(readSettings(options, files, command));
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
-    if (auto checked = checkMapSite(options.map); !checked) return checked;
-    auto statistics = ServerStatistics::open(options.statistics);
-    if (!statistics) return tl::unexpected(statistics.error());
-    auto opened = openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
-                                   store::WorldSharing::Servers);
-    if (!opened) return tl::unexpected(opened.error());
-    game::SessionParts& parts = opened->parts;
-    const auto content = serverContent(opened->content);
-    if (!content) return tl::unexpected(content.error());
+    TERRANE_TRY(checkMapSite(options.map));
+    auto statistics = TERRANE_TRY(ServerStatistics::open(options.statistics));
+    auto opened = TERRANE_TRY(openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
+                                               store::WorldSharing::Servers));
+    game::SessionParts& parts = opened.parts;
+    const auto content = TERRANE_TRY(serverContent(opened.content));
     // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.
     parts.storesGenerated = false;
-    auto records = openRecords(world, *parts.blocks);
-    if (!records) return tl::unexpected(records.error());
-    auto host = net::openServerHost(std::move(parts), std::move(records->records), options.server,
-                                    fmt::format("terrane {}", TERRANE_VERSION), *content);
-    if (!host) return tl::unexpected(host.error());
+    auto records = TERRANE_TRY(openRecords(world, *parts.blocks));
+    auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
+                                                fmt::format("terrane {}", TERRANE_VERSION), content));
     raiseOpenFileLimit();
     boost::asio::io_context context;
-    auto sockets =
-        net::ServerSockets::open(context, *host->state, options.listen, withEnding(*files, ".server.pem"));
-    if (!sockets) return tl::unexpected(sockets.error());
-    if (records->tellAddress)
-        records->tellAddress(publicAddress(options, (*sockets)->port()), (*sockets)->key());
+    auto sockets = TERRANE_TRY(
+        net::ServerSockets::open(context, *host.state, options.listen, withEnding(files, ".server.pem")));
+    if (records.tellAddress) records.tellAddress(publicAddress(options, sockets->port()), sockets->key());
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
-                  (*sockets)->port(), host->state->world.identity.seed, host->state->world.identity.generator,
-                  (*sockets)->key());
-    const auto map = ServerMap::open(context, *host->state, options.save.world, options.map, *files,
-                                     opened->content.textures);
-    if (!map) return tl::unexpected(map.error());
+                  sockets->port(), host.state->world.identity.seed, host.state->world.identity.generator,
+                  sockets->key());
+    const auto map = TERRANE_TRY(ServerMap::open(context, *host.state, options.save.world, options.map, files,
+                                                 opened.content.textures));
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) {
-        statistics->addTick(*host->state, milliseconds);
-        if (*map) (*map)->tick(milliseconds);
+        statistics.addTick(*host.state, milliseconds);
+        if (map) map->tick(milliseconds);
     };
-    return net::runServer(context, *host->state, **sockets, loop);
+    return net::runServer(context, *host.state, *sockets, loop);
 }
 
 }  // namespace

@@ -71,50 +71,47 @@ void print(const WorkStatus& status) {
 }
 
 base::Result<void> printStatus(store_postgres::ConnectionPool& pool, bool asJson) {
-    const auto status = pool.run<WorkStatus>([](Connection& connection) { return workStatus(connection); });
-    if (!status) return tl::unexpected(status.error());
+    const auto status =
+        TERRANE_TRY(pool.run<WorkStatus>([](Connection& connection) { return workStatus(connection); }));
     if (asJson)
-        std::cout << toJson(*status).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
+        std::cout << toJson(status).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace) << '\n';
     else
-        print(*status);
+        print(status);
     return {};
 }
 
 base::Result<void> addArea(store_postgres::ConnectionPool& pool, const WorkOptions& options) {
     const auto area = areaOf(options.chunks);
     if (!area) return {};
-    const auto added = pool.run<bool>(
-        [&](Connection& connection) { return store_postgres::addArea(connection, *area, options.order); });
-    if (!added) return tl::unexpected(added.error());
-    if (!*added)
+    const auto added = TERRANE_TRY(pool.run<bool>(
+        [&](Connection& connection) { return store_postgres::addArea(connection, *area, options.order); }));
+    if (!added)
         base::logInfo("the area {},{} to {},{} was added before", area->x0, area->y0, area->x1, area->y1);
     return {};
 }
 
 base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPool& pool,
                              store::ChunkStore& store, const pack::Content& content) {
-    auto generator = makeBatchGenerator(options.world, options.backend, content);
-    if (!generator) return tl::unexpected(generator.error());
+    auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content));
     const base::StopSignals signals;
     const auto start = std::chrono::steady_clock::now();
-    const auto result = work(
-        {*generator->worker, store, pool, processName(), options.waits, [&] { return signals.stopAsked(); }});
-    if (!result) return tl::unexpected(result.error());
+    const auto result = TERRANE_TRY(work(
+        {*generator.worker, store, pool, processName(), options.waits, [&] { return signals.stopAsked(); }}));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    const double rate = static_cast<double>(result->chunks) / std::max(seconds, 1e-3);
+    const double rate = static_cast<double>(result.chunks) / std::max(seconds, 1e-3);
     if (options.json) {
-        const nlohmann::json line = {{"jobs", result->jobs},
-                                     {"chunks", result->chunks},
-                                     {"skipped", result->skipped},
+        const nlohmann::json line = {{"jobs", result.jobs},
+                                     {"chunks", result.chunks},
+                                     {"skipped", result.skipped},
                                      {"seconds", seconds},
                                      {"chunks_per_second", rate},
                                      {"threads", threadCount(options.world)},
-                                     {"backend", generator->worker->backend()}};
+                                     {"backend", generator.worker->backend()}};
         std::cout << line.dump() << '\n';
         return {};
     }
     base::printLine("{} squares, {} chunks generated and {} already there, in {:.1f} s, {:.0f} chunks/s",
-                    result->jobs, result->chunks, result->skipped, seconds, rate);
+                    result.jobs, result.chunks, result.skipped, seconds, rate);
     return {};
 }
 
@@ -124,15 +121,13 @@ bool onlyManages(const WorkOptions& options) {
 
 base::Result<void> manage(const WorkOptions& options, store_postgres::ConnectionPool& pool) {
     if (options.pause || options.goOn) {
-        const auto done =
-            pool.run<void>([&](Connection& connection) { return setPaused(connection, options.pause); });
-        if (!done) return done;
+        TERRANE_TRY(
+            pool.run<void>([&](Connection& connection) { return setPaused(connection, options.pause); }));
     }
     if (options.cancel) {
-        const auto count =
-            pool.run<std::int64_t>([](Connection& connection) { return cancelJobs(connection); });
-        if (!count) return tl::unexpected(count.error());
-        base::logInfo("{} squares cancelled", *count);
+        const auto count = TERRANE_TRY(
+            pool.run<std::int64_t>([](Connection& connection) { return cancelJobs(connection); }));
+        base::logInfo("{} squares cancelled", count);
     }
     return options.status ? printStatus(pool, options.json) : base::Result<void>();
 }
@@ -143,22 +138,18 @@ base::Result<void> runWork(WorkOptions& options) {
             base::ErrorCode::BadInput,
             "work: the world is not in PostgreSQL (postgresql://host/database); `terrane generate` makes "
             "an area of a file");
-    const auto address = store_postgres::addressOf(options.save.world);
-    if (!address) return tl::unexpected(address.error());
-    store_postgres::ConnectionPool pool(*address);
-    const auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
+    const auto address = TERRANE_TRY(store_postgres::addressOf(options.save.world));
+    store_postgres::ConnectionPool pool(address);
+    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
     if (onlyManages(options)) {
         // Fails if the database holds no world.
-        const auto rows = store_postgres::openRowsToRead(*address, *content->blocks);
-        if (!rows) return tl::unexpected(rows.error());
+        (void)TERRANE_TRY(store_postgres::openRowsToRead(address, *content.blocks));
         return manage(options, pool);
     }
-    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, *content,
-                          store::WorldSharing::Generating);
-    if (!store) return tl::unexpected(store.error());
+    auto store = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
+                                      store::WorldSharing::Generating));
     if (auto added = addArea(pool, options); !added || options.addsOnly) return added;
-    return runWorker(options, pool, **store, *content);
+    return runWorker(options, pool, *store, content);
 }
 
 }  // namespace

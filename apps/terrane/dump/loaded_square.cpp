@@ -28,9 +28,8 @@ base::Result<void> LoadedSquare::load(store::ChunkStore* save, const gen::Genera
     std::vector<world::ChunkPos> positions;
     for (int k = 0; k < width_ * height_; ++k)
         positions.push_back({area_.x0 - 1 + k % width_, area_.y0 - 1 + k / width_});
-    auto chunks = stream::chunksAt(positions, save, generator, jobs);
-    if (!chunks) return tl::unexpected(chunks.error());
-    chunks_ = std::move(*chunks);
+    auto chunks = TERRANE_TRY(stream::chunksAt(positions, save, generator, jobs));
+    chunks_ = std::move(chunks);
     return {};
 }
 

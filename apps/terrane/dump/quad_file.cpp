@@ -43,9 +43,8 @@ QuadFile::QuadFile(base::OutputFile file)
       sizeBytes_(headerBytes_) {}
 
 base::Result<QuadFile> QuadFile::create(const std::filesystem::path& path) {
-    auto file = base::OutputFile::create(path);
-    if (!file) return tl::unexpected(file.error());
-    return QuadFile(std::move(*file));
+    auto file = TERRANE_TRY(base::OutputFile::create(path));
+    return QuadFile(std::move(file));
 }
 
 base::Result<void> QuadFile::append(world::ChunkPos pos, mesh::ChunkMesh& mesh) {
@@ -60,7 +59,7 @@ base::Result<void> QuadFile::append(world::ChunkPos pos, mesh::ChunkMesh& mesh) 
             }
         }
     }
-    if (auto written = file_.write(sizeBytes_, data); !written) return written;
+    TERRANE_TRY(file_.write(sizeBytes_, data));
     sizeBytes_ += data.size();
     quadCount_ += mesh.quads.size();
     return {};

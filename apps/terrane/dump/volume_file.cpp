@@ -25,13 +25,12 @@ base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, c
         return base::fail("--area: {} chunks are too many for a file", area.chunkCount());
     const std::string header = base::npyHeader(
         "<u2", {blocksOver(area.x0, area.x1), blocksOver(area.y0, area.y1), world::kChunkHeight});
-    auto file = base::OutputFile::create(path);
-    if (!file) return tl::unexpected(file.error());
+    auto file = TERRANE_TRY(base::OutputFile::create(path));
     const std::uint64_t sizeBytes =
         header.size() + static_cast<std::uint64_t>(area.chunkCount()) * kChunkBytes;
-    if (auto reserved = file->reserve(sizeBytes); !reserved) return tl::unexpected(reserved.error());
-    if (auto written = file->write(0, header); !written) return tl::unexpected(written.error());
-    return VolumeFile(std::move(*file), area, header.size());
+    TERRANE_TRY(file.reserve(sizeBytes));
+    TERRANE_TRY(file.write(0, header));
+    return VolumeFile(std::move(file), area, header.size());
 }
 
 // The columns of one x are contiguous in the file.
@@ -48,7 +47,7 @@ base::Result<void> VolumeFile::write(const world::ChunkArea& square, const Colum
         const std::uint64_t offset = headerBytes_ + ((firstX + x) * areaSizeY + firstY) * kColumnBytes;
         const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
                                      values.size() * sizeof(std::uint16_t));
-        if (auto written = file_.write(offset, bytes); !written) return written;
+        TERRANE_TRY(file_.write(offset, bytes));
     }
     return {};
 }

@@ -19,10 +19,9 @@ namespace {
 constexpr std::size_t kExportBatch = 64;
 
 base::Result<world::BlockBox> parseBox(const std::string& text) {
-    const auto numbers =
-        parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", INT32_MIN, INT32_MAX);
-    if (!numbers) return tl::unexpected(numbers.error());
-    const std::vector<std::int32_t>& n = *numbers;
+    const auto numbers = TERRANE_TRY(
+        parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", INT32_MIN, INT32_MAX));
+    const std::vector<std::int32_t>& n = numbers;
     if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
         return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
                           text);
@@ -75,11 +74,10 @@ base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, co
         if (x < 0 || x >= volume.size.x || y < 0 || y >= volume.size.y) continue;
         for (int z = 0; z < volume.size.z; ++z) {
             const auto index = static_cast<world::BlockIndex>(k + 256 * (box.low.z + z));
-            const auto entry = palette.entryOf({chunk.block(index), chunk.blockState(index)});
-            if (!entry) return tl::unexpected(entry.error());
+            const auto entry = TERRANE_TRY(palette.entryOf({chunk.block(index), chunk.blockState(index)}));
             volume
                 .cells[static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z))] =
-                *entry;
+                entry;
         }
     }
     return {};
@@ -88,17 +86,14 @@ base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, co
 }  // namespace
 
 base::Result<ExportSource> openExport(ExportOptions& options) {
-    const auto box = boxOf(options);
-    if (!box) return tl::unexpected(box.error());
+    const auto box = TERRANE_TRY(boxOf(options));
     const auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     auto textures = content::loadTextures(options.resourcePack, *content->blocks, content->textures);
     if (!textures) return tl::unexpected(textures.error());
-    auto save = openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content);
-    if (!save) return tl::unexpected(save.error());
-    auto generator = makeGenerator(options.world, *content);
-    if (!generator) return tl::unexpected(generator.error());
-    return ExportSource{content->blocks, std::move(*textures), std::move(*save), std::move(*generator), *box};
+    auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content));
+    auto generator = TERRANE_TRY(makeGenerator(options.world, *content));
+    return ExportSource{content->blocks, std::move(*textures), std::move(save), std::move(generator), box};
 }
 
 world::ChunkArea chunksOf(const world::BlockBox& box) {
@@ -120,10 +115,9 @@ base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource
         for (; next < count && positions.size() < kExportBatch; ++next)
             positions.push_back({static_cast<std::int32_t>(area.x0 + next % width),
                                  static_cast<std::int32_t>(area.y0 + next / width)});
-        const auto chunks = stream::chunksAt(positions, source.save.get(), source.generator, jobs);
-        if (!chunks) return tl::unexpected(chunks.error());
-        for (std::size_t k = 0; k < positions.size(); ++k)
-            if (auto taken = take(positions[k], (*chunks)[k]); !taken) return taken;
+        const auto chunks =
+            TERRANE_TRY(stream::chunksAt(positions, source.save.get(), source.generator, jobs));
+        for (std::size_t k = 0; k < positions.size(); ++k) TERRANE_TRY(take(positions[k], chunks[k]));
         bar.set(static_cast<std::size_t>(next));
     }
     return {};
@@ -134,14 +128,13 @@ base::Result<formats::BlockVolume> readVolume(const ExportOptions& options, cons
     const std::int64_t x = std::int64_t{box.high.x} - box.low.x + 1,
                        y = std::int64_t{box.high.y} - box.low.y + 1;
     const std::int64_t z = box.high.z - box.low.z + 1;
-    if (auto checked = formats::checkVolumeSize(x, y, z); !checked) return tl::unexpected(checked.error());
+    TERRANE_TRY(formats::checkVolumeSize(x, y, z));
     formats::BlockVolume volume{{x, y, z}, {}, {}};
     volume.cells.resize(static_cast<std::size_t>(x * y * z));
     VolumePalette palette;
-    auto read = forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+    TERRANE_TRY(forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
         return copyChunk(box, pos, chunk, palette, volume);
-    });
-    if (!read) return tl::unexpected(read.error());
+    }));
     volume.palette = std::move(palette.blocks);
     return volume;
 }

@@ -52,7 +52,7 @@ base::Result<void> addSquare(const LoadedSquare& square, const ExportSource& sou
             // Relative to the box's lowest corner, to keep precision far from the origin.
             const glm::ivec3 corner(std::int64_t{at.x} - source.box.low.x,
                                     std::int64_t{at.y} - source.box.low.y, -source.box.low.z);
-            if (auto added = mesh.add(mesh::meshChunk(input, scratch), corner); !added) return added;
+            TERRANE_TRY(mesh.add(mesh::meshChunk(input, scratch), corner));
         }
     }
     return {};
@@ -61,10 +61,9 @@ base::Result<void> addSquare(const LoadedSquare& square, const ExportSource& sou
 }  // namespace
 
 base::Result<void> exportGlb(ExportOptions& options) {
-    const auto source = openExport(options);
-    if (!source) return tl::unexpected(source.error());
-    const world::ChunkArea area = chunksOf(source->box);
-    formats::GlbMesh mesh(*source->blocks, source->textures);
+    const auto source = TERRANE_TRY(openExport(options));
+    const world::ChunkArea area = chunksOf(source.box);
+    formats::GlbMesh mesh(*source.blocks, source.textures);
     base::JobSystem jobs(threadCount(options.world));
     const base::StopSignals signals;
     {
@@ -73,18 +72,17 @@ base::Result<void> exportGlb(ExportOptions& options) {
             if (signals.stopAsked())
                 return base::fail("stopped after {} of {} squares", k, squareCount(area));
             LoadedSquare square(squareOf(area, k));
-            if (auto loaded = square.load(source->save.get(), source->generator, jobs); !loaded)
-                return loaded;
-            if (auto added = addSquare(square, *source, mesh); !added) return added;
+            TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
+            TERRANE_TRY(addSquare(square, source, mesh));
             bar.set(static_cast<std::size_t>(k) + 1);
         }
     }
-    const world::BlockPos low = source->box.low;
+    const world::BlockPos low = source.box.low;
     const auto model = mesh.finish(fmt::format("terrane {},{},{}", low.x, low.y, low.z));
     if (!model) return base::fail(model.error().code, "{}: {}", options.output, model.error().message);
     const auto bytes = formats::encodeGlb(*model);
     if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
-    if (auto written = base::writeFile(options.output, *bytes); !written) return written;
+    TERRANE_TRY(base::writeFile(options.output, *bytes));
     base::logInfo("{}: {} faces, {} materials, {} bytes", options.output, mesh.quadCount(),
                   model->parts.size(), bytes->size());
     return {};

@@ -11,13 +11,13 @@ base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content 
         return base::fail(base::ErrorCode::BadInput, "import needs --world NAME|FILE|URL");
     ImportWorld world;
     world.content = std::move(content);
-    auto store = openSave(options.world, options.save, store::WorldAccess::ReadWrite, world.content);
-    if (!store) return tl::unexpected(store.error());
-    auto generators = gen::makeLevelGenerators(options.world.effectiveGenerator(), *world.content.blocks,
-                                               options.world.effectiveSeed(), world.content.generators);
-    if (!generators) return tl::unexpected(generators.error());
-    world.generators = std::make_unique<gen::LevelGenerators>(std::move(*generators));
-    world.store = std::move(*store);
+    auto store =
+        TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, world.content));
+    auto generators =
+        TERRANE_TRY(gen::makeLevelGenerators(options.world.effectiveGenerator(), *world.content.blocks,
+                                             options.world.effectiveSeed(), world.content.generators));
+    world.generators = std::make_unique<gen::LevelGenerators>(std::move(generators));
+    world.store = std::move(store);
     stream::keepTileRows(*world.store, *world.generators, *world.content.blocks, {});
     return world;
 }

@@ -56,16 +56,14 @@ class MinecraftImporter {
 
     // Fails if the world cannot be written; unreadable chunks are noted in the report.
     base::Result<void> run(const std::vector<RegionSource>& regions) {
-        const auto edited = world_.store->editedChunks();
-        if (!edited) return tl::unexpected(edited.error());
-        edited_.insert(edited->begin(), edited->end());
+        const auto edited = TERRANE_TRY(world_.store->editedChunks());
+        edited_.insert(edited.begin(), edited.end());
         const base::StopSignals signals;
         base::ProgressBar bar("importing", regions.size() * formats::kRegionChunks);
         for (std::size_t k = 0; k < regions.size(); ++k) {
-            const auto done = importRegion(regions[k], signals, [&](std::size_t chunks) {
+            TERRANE_TRY(importRegion(regions[k], signals, [&](std::size_t chunks) {
                 bar.set(k * formats::kRegionChunks + chunks);
-            });
-            if (!done) return done;
+            }));
         }
         return {};
     }
@@ -89,7 +87,7 @@ class MinecraftImporter {
             if (signals.stopAsked())
                 return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
             const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
-            if (auto done = importBatch(region, *bytes, part); !done) return done;
+            TERRANE_TRY(importBatch(region, *bytes, part));
             progress(static_cast<std::size_t>(part.back()) + 1);
         }
         return {};
@@ -105,9 +103,8 @@ class MinecraftImporter {
     base::Result<void> importBatch(const RegionSource& region, std::string_view bytes,
                                    std::span<const int> numbers) {
         std::vector<DecodedChunk> decoded(numbers.size());
-        auto ran = base::parallelFor(jobs_, numbers.size(),
-                                     [&](std::size_t k) { decoded[k] = decode(region, bytes, numbers[k]); });
-        if (!ran) return ran;
+        TERRANE_TRY(base::parallelFor(
+            jobs_, numbers.size(), [&](std::size_t k) { decoded[k] = decode(region, bytes, numbers[k]); }));
         for (DecodedChunk& chunk : decoded) {
             if (!chunk.problem.empty()) noteDamage(report_, std::move(chunk.problem));
             if (chunk.isThere) ++report_.skipped;
@@ -166,20 +163,14 @@ class MinecraftImporter {
 }  // namespace
 
 base::Result<void> importMinecraft(ImportOptions& options) {
-    const auto by = movedBy(options.at);
-    if (!by) return tl::unexpected(by.error());
-    const auto regions = regionsOf(options.source, options.dimension);
-    if (!regions) return tl::unexpected(regions.error());
-    const auto ids = formats::builtInLegacyIds();
-    if (!ids) return tl::unexpected(ids.error());
-    auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
-    const auto mapping = formats::loadMapping(*content->blocks, options.mapping);
-    if (!mapping) return tl::unexpected(mapping.error());
-    auto world = openImportWorld(options, std::move(*content));
-    if (!world) return tl::unexpected(world.error());
-    MinecraftImporter importer(options, *world, *mapping, *ids, *by);
-    if (auto done = importer.run(*regions); !done) return done;
+    const auto by = TERRANE_TRY(movedBy(options.at));
+    const auto regions = TERRANE_TRY(regionsOf(options.source, options.dimension));
+    const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
+    auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
+    auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
+    MinecraftImporter importer(options, world, mapping, ids, by);
+    TERRANE_TRY(importer.run(regions));
     const ImportReport& report = importer.report();
     logReport(report);
     options.exitCode = report.damageCount > 0 ? 1 : 0;

@@ -20,7 +20,7 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 base::Result<void> writeResult(const ExportOptions& options, const base::Result<std::string>& bytes,
                                const std::string& what) {
     if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
-    if (auto written = base::writeFile(options.output, *bytes); !written) return written;
+    TERRANE_TRY(base::writeFile(options.output, *bytes));
     base::logInfo("{}: {}, {} bytes", options.output, what, bytes->size());
     return {};
 }
@@ -51,9 +51,8 @@ std::uint16_t heightOf(const world::Chunk& chunk, const world::BlockRegistry& bl
 }
 
 base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
-    const auto source = openExport(options);
-    if (!source) return tl::unexpected(source.error());
-    const world::BlockBox& box = source->box;
+    const auto source = TERRANE_TRY(openExport(options));
+    const world::BlockBox& box = source.box;
     const std::int64_t width = std::int64_t{box.high.x} - box.low.x + 1;
     const std::int64_t height = std::int64_t{box.high.y} - box.low.y + 1;
     if (width * height > base::kMaxImagePixels)
@@ -61,18 +60,16 @@ base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
                           base::kMaxImagePixels);
     SurfaceHeights heights{static_cast<int>(width), static_cast<int>(height), {}};
     heights.values.resize(static_cast<std::size_t>(width * height));
-    auto read = forEachChunk(options, *source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+    TERRANE_TRY(forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
         const world::BlockPos low = world::blockPos(pos, 0);
         for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
             const std::int64_t x = std::int64_t{low.x} + k % world::kChunkSize - box.low.x;
             const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - box.low.y;
             if (x < 0 || x >= width || y < 0 || y >= height) continue;
-            heights.values[static_cast<std::size_t>(x + width * y)] =
-                heightOf(chunk, *source->blocks, k, box);
+            heights.values[static_cast<std::size_t>(x + width * y)] = heightOf(chunk, *source.blocks, k, box);
         }
         return base::Result<void>();
-    });
-    if (!read) return tl::unexpected(read.error());
+    }));
     return heights;
 }
 
@@ -85,63 +82,52 @@ base::Result<void> writeNames(const ExportOptions& options, const world::BlockRe
 }  // namespace
 
 base::Result<void> exportSchematic(ExportOptions& options) {
-    const auto source = openExport(options);
-    if (!source) return tl::unexpected(source.error());
-    const auto mapping = formats::loadMapping(*source->blocks, options.mapping);
-    if (!mapping) return tl::unexpected(mapping.error());
-    const auto volume = readVolume(options, *source);
-    if (!volume) return tl::unexpected(volume.error());
-    return writeResult(options, formats::encodeSchematic(formats::toNames(*volume, *mapping)),
-                       describe(volume->size));
+    const auto source = TERRANE_TRY(openExport(options));
+    const auto mapping = TERRANE_TRY(formats::loadMapping(*source.blocks, options.mapping));
+    const auto volume = TERRANE_TRY(readVolume(options, source));
+    return writeResult(options, formats::encodeSchematic(formats::toNames(volume, mapping)),
+                       describe(volume.size));
 }
 
 base::Result<void> exportVox(ExportOptions& options) {
-    const auto source = openExport(options);
-    if (!source) return tl::unexpected(source.error());
-    const auto tops = world::topColors(*source->blocks, source->textures);
-    if (!tops) return tl::unexpected(tops.error());
-    const auto volume = readVolume(options, *source);
-    if (!volume) return tl::unexpected(volume.error());
-    const auto image = formats::toVox(*volume, *tops);
-    if (!image) return tl::unexpected(image.error());
-    return writeResult(options, formats::encodeVox(*image), describe(volume->size));
+    const auto source = TERRANE_TRY(openExport(options));
+    const auto tops = TERRANE_TRY(world::topColors(*source.blocks, source.textures));
+    const auto volume = TERRANE_TRY(readVolume(options, source));
+    const auto image = TERRANE_TRY(formats::toVox(volume, tops));
+    return writeResult(options, formats::encodeVox(image), describe(volume.size));
 }
 
 base::Result<void> exportNpy(ExportOptions& options) {
-    const auto source = openExport(options);
-    if (!source) return tl::unexpected(source.error());
-    auto volume = readVolume(options, *source);
-    if (!volume) return tl::unexpected(volume.error());
-    for (std::uint16_t& cell : volume->cells) cell = volume->palette[cell].id;
-    const auto side = [&](int axis) { return static_cast<std::size_t>(volume->size[axis]); };
-    if (auto written = writeNames(options, *source->blocks); !written) return written;
-    return writeResult(options, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume->cells)}),
-                       describe(volume->size));
+    const auto source = TERRANE_TRY(openExport(options));
+    auto volume = TERRANE_TRY(readVolume(options, source));
+    for (std::uint16_t& cell : volume.cells) cell = volume.palette[cell].id;
+    const auto side = [&](int axis) { return static_cast<std::size_t>(volume.size[axis]); };
+    TERRANE_TRY(writeNames(options, *source.blocks));
+    return writeResult(options, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)}),
+                       describe(volume.size));
 }
 
 base::Result<void> exportNpyHeights(ExportOptions& options) {
-    const auto heights = readHeights(options);
-    if (!heights) return tl::unexpected(heights.error());
-    const std::vector<std::size_t> shape{static_cast<std::size_t>(heights->height),
-                                         static_cast<std::size_t>(heights->width)};
-    return writeResult(options, base::encodeNpy({"<u2", shape, bytesOf(heights->values)}),
-                       fmt::format("{}×{} columns", heights->width, heights->height));
+    const auto heights = TERRANE_TRY(readHeights(options));
+    const std::vector<std::size_t> shape{static_cast<std::size_t>(heights.height),
+                                         static_cast<std::size_t>(heights.width)};
+    return writeResult(options, base::encodeNpy({"<u2", shape, bytesOf(heights.values)}),
+                       fmt::format("{}×{} columns", heights.width, heights.height));
 }
 
 base::Result<void> exportPngHeights(ExportOptions& options) {
-    const auto heights = readHeights(options);
-    if (!heights) return tl::unexpected(heights.error());
-    formats::GrayImage image{heights->width, heights->height, options.bits, {}};
-    const auto width = static_cast<std::size_t>(heights->width);
-    for (std::size_t row = 0; row < static_cast<std::size_t>(heights->height); ++row) {
+    const auto heights = TERRANE_TRY(readHeights(options));
+    formats::GrayImage image{heights.width, heights.height, options.bits, {}};
+    const auto width = static_cast<std::size_t>(heights.width);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(heights.height); ++row) {
         for (std::size_t x = width; x-- > 0;) {
             // Maps 255 to 65,535.
-            const std::uint16_t height = heights->values[row * width + x];
+            const std::uint16_t height = heights.values[row * width + x];
             image.values.push_back(options.bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
         }
     }
     return writeResult(options, formats::encodeGrayPng(image),
-                       fmt::format("{}×{} columns", heights->width, heights->height));
+                       fmt::format("{}×{} columns", heights.width, heights.height));
 }
 
 }  // namespace terrane::app

@@ -33,9 +33,9 @@ base::Result<world::BlockPos> cornerOf(const std::string& at) {
     if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
     // Leaves room for the size of a box, so that its corners do not overflow.
     constexpr std::int32_t kFarthest = 2'000'000'000;
-    const auto numbers = parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest);
-    if (!numbers) return tl::unexpected(numbers.error());
-    return world::BlockPos{(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+    const auto numbers =
+        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest));
+    return world::BlockPos{numbers[0], numbers[1], numbers[2]};
 }
 
 // Copies the blocks of the volume in one chunk; `corner` is the volume's lowest block.
@@ -83,8 +83,7 @@ std::vector<world::ChunkPos> chunksOver(const formats::BlockVolume& volume, worl
 
 base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
                                const formats::BlockVolume& volume, world::BlockPos corner) {
-    const auto generator = world.generators->at(0);
-    if (!generator) return tl::unexpected(generator.error());
+    const auto generator = TERRANE_TRY(world.generators->at(0));
     const std::vector<world::ChunkPos> positions = chunksOver(volume, corner);
     base::JobSystem jobs(threadCount(options.world));
     const base::StopSignals signals;
@@ -93,14 +92,13 @@ base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
         if (signals.stopAsked()) return base::fail("stopped after {} of {} chunks", first, positions.size());
         const auto part =
             std::span(positions).subspan(first, std::min(kPlacedBatch, positions.size() - first));
-        auto chunks = stream::chunksAt(part, world.store.get(), **generator, jobs);
-        if (!chunks) return tl::unexpected(chunks.error());
+        auto chunks = TERRANE_TRY(stream::chunksAt(part, world.store.get(), *generator, jobs));
         for (std::size_t k = 0; k < part.size(); ++k) {
-            putVolume(volume, corner, options.skipsAir, part[k], (*chunks)[k]);
-            world.store->save(part[k], std::make_shared<const world::Chunk>(std::move((*chunks)[k])),
+            putVolume(volume, corner, options.skipsAir, part[k], chunks[k]);
+            world.store->save(part[k], std::make_shared<const world::Chunk>(std::move(chunks[k])),
                               store::Provenance::Edited);
         }
-        if (auto flushed = world.store->flush(); !flushed) return flushed;
+        TERRANE_TRY(world.store->flush());
         bar.set(first + part.size());
     }
     return {};
@@ -108,11 +106,9 @@ base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
 
 base::Result<formats::BlockVolume> readSource(const ImportOptions& options, const pack::Content& content,
                                               VolumeReader reader, formats::ImportCounts& counts) {
-    const auto mapping = formats::loadMapping(*content.blocks, options.mapping);
-    if (!mapping) return tl::unexpected(mapping.error());
-    const auto bytes = base::readFile(options.source, formats::kMaxVolumeBytes);
-    if (!bytes) return tl::unexpected(bytes.error());
-    auto volume = reader(*bytes, content, *mapping, counts);
+    const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
+    const auto bytes = TERRANE_TRY(base::readFile(options.source, formats::kMaxVolumeBytes));
+    auto volume = reader(bytes, content, mapping, counts);
     if (!volume) return base::fail(volume.error().code, "{}: {}", options.source, volume.error().message);
     return volume;
 }
@@ -120,11 +116,9 @@ base::Result<formats::BlockVolume> readSource(const ImportOptions& options, cons
 base::Result<void> importStructure(const ImportOptions& options, VolumeReader reader, ImportReport& report) {
     if (!options.save.world.empty() || !options.at.empty())
         return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
-    const auto content = loadContent(options.world, options.save);
-    if (!content) return tl::unexpected(content.error());
-    const auto volume = readSource(options, *content, reader, report.counts);
-    if (!volume) return tl::unexpected(volume.error());
-    const auto structure = formats::toStructure(*volume, *content->blocks);
+    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto volume = TERRANE_TRY(readSource(options, content, reader, report.counts));
+    const auto structure = formats::toStructure(volume, *content.blocks);
     if (!structure)
         return base::fail(structure.error().code, "{}: {}", options.source, structure.error().message);
     return store::writeStructure(options.output, *structure);
@@ -133,20 +127,16 @@ base::Result<void> importStructure(const ImportOptions& options, VolumeReader re
 base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
     ImportReport report;
     if (!options.output.empty()) {
-        if (auto done = importStructure(options, reader, report); !done) return done;
+        TERRANE_TRY(importStructure(options, reader, report));
     } else {
-        const auto corner = cornerOf(options.at);
-        if (!corner) return tl::unexpected(corner.error());
+        const auto corner = TERRANE_TRY(cornerOf(options.at));
         // Read before a world is created.
-        auto content = loadContent(options.world, options.save);
-        if (!content) return tl::unexpected(content.error());
-        const auto volume = readSource(options, *content, reader, report.counts);
-        if (!volume) return tl::unexpected(volume.error());
-        auto world = openImportWorld(options, std::move(*content));
-        if (!world) return tl::unexpected(world.error());
-        if (auto placed = placeVolume(options, *world, *volume, *corner); !placed) return placed;
-        countOutside(*volume, corner->z, report.counts);
-        report.chunks = chunksOver(*volume, *corner).size();
+        auto content = TERRANE_TRY(loadContent(options.world, options.save));
+        const auto volume = TERRANE_TRY(readSource(options, content, reader, report.counts));
+        auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
+        TERRANE_TRY(placeVolume(options, world, volume, corner));
+        countOutside(volume, corner.z, report.counts);
+        report.chunks = chunksOver(volume, corner).size();
     }
     logReport(report);
     return options.report.empty() ? base::Result<void>() : writeReport(report, options.report);
@@ -158,11 +148,9 @@ base::Result<void> importSchematic(ImportOptions& options) {
     return importVolume(options,
                         [](std::string_view bytes, const pack::Content&, const formats::BlockMapping& mapping,
                            formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
-                            const auto ids = formats::builtInLegacyIds();
-                            if (!ids) return tl::unexpected(ids.error());
-                            const auto volume = formats::decodeSchematic(bytes, *ids);
-                            if (!volume) return tl::unexpected(volume.error());
-                            return formats::toBlocks(*volume, mapping, counts);
+                            const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
+                            const auto volume = TERRANE_TRY(formats::decodeSchematic(bytes, ids));
+                            return formats::toBlocks(volume, mapping, counts);
                         });
 }
 
@@ -171,15 +159,13 @@ base::Result<void> importVox(ImportOptions& options) {
         options,
         [](std::string_view bytes, const pack::Content& content, const formats::BlockMapping& mapping,
            formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
-            const auto image = formats::decodeVox(bytes);
-            if (!image) return tl::unexpected(image.error());
-            const auto tops = world::topColors(*content.blocks, content.textures);
-            if (!tops) return tl::unexpected(tops.error());
-            auto volume = formats::toBlocks(*image, mapping, *content.blocks, *tops);
+            const auto image = TERRANE_TRY(formats::decodeVox(bytes));
+            const auto tops = TERRANE_TRY(world::topColors(*content.blocks, content.textures));
+            auto volume = formats::toBlocks(image, mapping, *content.blocks, tops);
             std::array<std::uint64_t, 256> uses{};
-            for (const std::uint8_t cell : image->cells) ++uses[cell];
+            for (const std::uint8_t cell : image.cells) ++uses[cell];
             for (std::size_t k = 1; k < uses.size(); ++k)
-                if (uses[k] > 0) counts.blocks[fmt::format("#{:06x}", image->colors[k] >> 8)] += uses[k];
+                if (uses[k] > 0) counts.blocks[fmt::format("#{:06x}", image.colors[k] >> 8)] += uses[k];
             return volume;
         });
 }

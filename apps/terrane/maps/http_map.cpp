@@ -35,35 +35,30 @@ std::filesystem::path cacheFile(const SaveOptions& save, const std::string& orig
 
 base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
                            const std::string& resourcePack, const MapSiteOptions& options) {
-    const auto address = webAddressFrom(options.http);
-    if (!address) return tl::unexpected(address.error());
-    const auto places = readPlaceFile(options.places);
-    if (!places) return tl::unexpected(places.error());
-    const auto world = openMapWorld(worldOptions, save, resourcePack);
-    if (!world) return tl::unexpected(world.error());
-    const auto spawn = spawnOf(**world);
-    if (!spawn) return tl::unexpected(spawn.error());
-    const game::SessionParts& opened = (*world)->parts;
+    const auto address = TERRANE_TRY(webAddressFrom(options.http));
+    const auto places = TERRANE_TRY(readPlaceFile(options.places));
+    const auto world = TERRANE_TRY(openMapWorld(worldOptions, save, resourcePack));
+    const auto spawn = TERRANE_TRY(spawnOf(*world));
+    const game::SessionParts& opened = world->parts;
     const std::string origin = originOf(opened.store->identity(), *opened.blocks);
     const std::filesystem::path file = cacheFile(save, origin);
     const auto cache = openMapCache(file, origin, file.empty() ? 0 : options.diskMegabytes);
-    web::MapSiteParts parts{opened.generators, *opened.blocks,      (*world)->textures,
-                            *opened.store,     titleOf(save.world), *spawn};
+    web::MapSiteParts parts{opened.generators, *opened.blocks,      world->textures,
+                            *opened.store,     titleOf(save.world), spawn};
     parts.threads = opened.threads;
     parts.cache = cache.get();
     parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
-    parts.edited = (*world)->edited;
-    parts.places = [all = allPlaces(*opened.store, *places)] { return all; };
+    parts.edited = world->edited;
+    parts.places = [all = allPlaces(*opened.store, places)] { return all; };
     raiseOpenFileLimit();
     boost::asio::io_context context;
-    auto site = web::MapSite::open(context, std::move(parts), *address);
-    if (!site) return tl::unexpected(site.error());
-    base::logInfo("the map is at {}", urlOf(*address, (*site)->port()));
+    auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
+    base::logInfo("the map is at {}", urlOf(address, site->port()));
     const base::StopSignals signals;
     while (!signals.stopAsked()) {
         context.restart();
         context.run_for(kTick);
-        (*site)->tick();
+        site->tick();
     }
     return {};
 }

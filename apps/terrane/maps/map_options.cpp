@@ -53,8 +53,8 @@ void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer
 
 base::Result<void> checkMapSite(const MapSiteOptions& options) {
     if (options.http.empty()) return {};
-    if (const auto address = webAddressFrom(options.http); !address) return tl::unexpected(address.error());
-    if (const auto places = readPlaceFile(options.places); !places) return tl::unexpected(places.error());
+    (void)TERRANE_TRY(webAddressFrom(options.http));
+    (void)TERRANE_TRY(readPlaceFile(options.places));
     return {};
 }
 

@@ -10,16 +10,14 @@ namespace terrane::app {
 
 base::Result<std::unique_ptr<MapWorld>> openMapWorld(WorldOptions& options, const SaveOptions& save,
                                                      const std::string& resourcePack) {
-    auto opened = openSessionParts(options, save, store::WorldAccess::ReadOnly);
-    if (!opened) return tl::unexpected(opened.error());
-    auto world = std::make_unique<MapWorld>(MapWorld{std::move(opened->parts), {}, {}});
+    auto opened = TERRANE_TRY(openSessionParts(options, save, store::WorldAccess::ReadOnly));
+    auto world = std::make_unique<MapWorld>(MapWorld{std::move(opened.parts), {}, {}});
     store::ChunkStore& store = *world->parts.store;
     stream::keepTileRows(store, world->parts.generators, *world->parts.blocks, {});
-    if (auto built = stream::buildTileRows(store); !built) return tl::unexpected(built.error());
-    auto edited = store.editedChunks();
-    if (!edited) return tl::unexpected(edited.error());
-    world->edited = std::move(*edited);
-    auto textures = content::loadTextures(resourcePack, *world->parts.blocks, opened->content.textures);
+    TERRANE_TRY(stream::buildTileRows(store));
+    auto edited = TERRANE_TRY(store.editedChunks());
+    world->edited = std::move(edited);
+    auto textures = content::loadTextures(resourcePack, *world->parts.blocks, opened.content.textures);
     if (!textures) return tl::unexpected(textures.error());
     world->textures = std::move(*textures);
     return world;

@@ -17,9 +17,8 @@ constexpr std::size_t kMaxPlaces = 1000, kMaxBytes = std::size_t{1} << 20;
 base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file) {
     std::vector<game::Place> places;
     if (file.empty()) return places;
-    const auto text = base::readFile(file, kMaxBytes);
-    if (!text) return tl::unexpected(text.error());
-    std::istringstream in(*text);
+    const auto text = TERRANE_TRY(base::readFile(file, kMaxBytes));
+    std::istringstream in(text);
     int line = 0, unnamed = 0;
     for (std::string words; std::getline(in, words);) {
         ++line;

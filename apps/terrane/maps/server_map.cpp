@@ -41,10 +41,8 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
                                                          const std::filesystem::path& files,
                                                          const world::TextureSource& textures) {
     if (options.http.empty()) return nullptr;
-    const auto address = webAddressFrom(options.http);
-    if (!address) return tl::unexpected(address.error());
-    auto places = readPlaceFile(options.places);
-    if (!places) return tl::unexpected(places.error());
+    const auto address = TERRANE_TRY(webAddressFrom(options.http));
+    auto places = TERRANE_TRY(readPlaceFile(options.places));
     game::Session& session = server.session;
     auto impl = std::make_unique<Impl>(server);
     impl->cache = openMapCache(files.string() + kMapCacheEnding,
@@ -58,19 +56,18 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
     parts.edited.assign(edited.begin(), edited.end());
     parts.liveChunk = [&](world::ChunkPos pos) { return session.world().maybeChunkAt(pos); };
     parts.players = [list = PlayerList(server, options.players)]() mutable { return list.now(); };
-    parts.places = [&server, ofFile = std::move(*places)] {
+    parts.places = [&server, ofFile = std::move(places)] {
         return allPlaces(server.session.store(), ofFile);
     };
     parts.metrics = [&server, &ticks = impl->ticks](web::MetricsText& text) {
         addMetrics(text, server, ticks);
     };
-    auto site = web::MapSite::open(context, std::move(parts), *address);
-    if (!site) return tl::unexpected(site.error());
-    impl->site = std::move(*site);
+    auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
+    impl->site = std::move(site);
     server.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {
         shown.onChanged(chunks);
     };
-    base::logInfo("the map is at {}", urlOf(*address, impl->site->port()));
+    base::logInfo("the map is at {}", urlOf(address, impl->site->port()));
     return std::unique_ptr<ServerMap>(new ServerMap(std::move(impl)));
 }
 

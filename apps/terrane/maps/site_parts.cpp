@@ -94,9 +94,8 @@ std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::v
 }
 
 base::Result<web::NamedPlace> spawnOf(const MapWorld& world) {
-    const auto generator = world.parts.generators.at(0);
-    if (!generator) return tl::unexpected(generator.error());
-    return namedPlace("", game::findSpawn(**generator, *world.parts.blocks));
+    const auto generator = TERRANE_TRY(world.parts.generators.at(0));
+    return namedPlace("", game::findSpawn(*generator, *world.parts.blocks));
 }
 
 }  // namespace terrane::app

@@ -36,9 +36,8 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
         return base::fail(base::ErrorCode::Io, "{}: cannot be made: {}", folder.string(), error.message());
     const fs::path file = folder / kOriginFile;
     if (fs::exists(file, error)) {
-        const auto found = base::readFile(file);
-        if (!found) return tl::unexpected(found.error());
-        if (*found == origin + "\n") return {};
+        const auto found = TERRANE_TRY(base::readFile(file));
+        if (found == origin + "\n") return {};
         return base::fail(
             base::ErrorCode::Incompatible,
             "{}: has the map of another world, or one in other colors; empty it, or name another folder",
@@ -52,7 +51,7 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
 
 base::Result<void> writePage(const fs::path& folder, const web::PageFacts& facts) {
     for (const base::EmbeddedFile& file : web::pageFiles())
-        if (auto written = base::writeFile(folder / file.path, file.data); !written) return written;
+        TERRANE_TRY(base::writeFile(folder / file.path, file.data));
     return base::writeFile(folder / "world.js", web::scriptOf(facts));
 }
 
@@ -132,10 +131,8 @@ base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer
     for (std::size_t done = 0; done < tiles.size(); done += kAtATime) {
         if (signals.stopAsked()) return false;
         const auto some = tiles.subspan(done, std::min(kAtATime, tiles.size() - done));
-        if (auto ran = base::parallelFor(jobs, some.size(), [&](std::size_t k) { writer.write(some[k]); });
-            !ran)
-            return tl::unexpected(ran.error());
-        if (auto result = writer.result(); !result) return tl::unexpected(result.error());
+        TERRANE_TRY(base::parallelFor(jobs, some.size(), [&](std::size_t k) { writer.write(some[k]); }));
+        TERRANE_TRY(writer.result());
         bar.set(done + some.size());
     }
     return true;
@@ -146,45 +143,40 @@ base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer
 base::Result<void> writeStaticMap(WorldOptions& worldOptions, const SaveOptions& save,
                                   const std::string& resourcePack, const world::ChunkArea& chunks,
                                   const StaticMapOptions& options) {
-    const auto places = readPlaceFile(options.places);
-    if (!places) return tl::unexpected(places.error());
+    const auto places = TERRANE_TRY(readPlaceFile(options.places));
     const auto world = openMapWorld(worldOptions, save, resourcePack);
     if (!world) return tl::unexpected(world.error());
     const game::SessionParts& opened = (*world)->parts;
     const store::WorldIdentity& identity = opened.store->identity();
-    const auto spawn = spawnOf(**world);
-    if (!spawn) return tl::unexpected(spawn.error());
-    auto painter = painterOf(**world);
-    if (!painter) return tl::unexpected(painter.error());
-    const auto layers = layersOf(options.layers, *painter);
-    if (!layers) return tl::unexpected(layers.error());
+    const auto spawn = TERRANE_TRY(spawnOf(**world));
+    auto painter = TERRANE_TRY(painterOf(**world));
+    const auto layers = TERRANE_TRY(layersOf(options.layers, painter));
     const map::BlockRect area = map::blocksOf(chunks);
     const int minZoom = std::min(leastZoom(area), options.maxZoom);
-    if (map::countTiles(area, *layers, minZoom, options.maxZoom) > kMaxTiles)
+    if (map::countTiles(area, layers, minZoom, options.maxZoom) > kMaxTiles)
         return base::fail(base::ErrorCode::BadInput,
                           "a map has at most {} images; a lower --max-zoom needs fewer", kMaxTiles);
     const std::string origin =
-        fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter->colorDigest());
-    if (auto prepared = prepareFolder(options.folder, origin); !prepared) return prepared;
+        fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter.colorDigest());
+    TERRANE_TRY(prepareFolder(options.folder, origin));
 
-    web::PageFacts facts{.identity = identity, .name = titleOf(save.world), .spawn = *spawn};
-    facts.places = allPlaces(*opened.store, *places);
-    for (const Layer layer : *layers) facts.layers.emplace_back(map::nameOf(layer));
+    web::PageFacts facts{.identity = identity, .name = titleOf(save.world), .spawn = spawn};
+    facts.places = allPlaces(*opened.store, places);
+    for (const Layer layer : layers) facts.layers.emplace_back(map::nameOf(layer));
     facts.minZoom = minZoom;
     facts.maxZoom = options.maxZoom;
     facts.isLive = false;
     facts.area = area;
-    if (auto written = writePage(options.folder, facts); !written) return written;
+    TERRANE_TRY(writePage(options.folder, facts));
 
     map::EditedPositions edited;
     for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
-    TileWriter writer(*painter, edited, options.folder);
+    TileWriter writer(painter, edited, options.folder);
     base::JobSystem jobs(opened.threads);
-    const std::vector<MapTile> tiles = map::tilesOf(area, *layers, minZoom, options.maxZoom);
-    const auto isDone = writeTiles(tiles, writer, jobs);
-    if (!isDone) return tl::unexpected(isDone.error());
+    const std::vector<MapTile> tiles = map::tilesOf(area, layers, minZoom, options.maxZoom);
+    const auto isDone = TERRANE_TRY(writeTiles(tiles, writer, jobs));
     base::logInfo("{}: {} of {} images written{}", options.folder, writer.written(), tiles.size(),
-                  *isDone ? "; open index.html" : " before it was stopped: the same command continues");
+                  isDone ? "; open index.html" : " before it was stopped: the same command continues");
     return {};
 }
 

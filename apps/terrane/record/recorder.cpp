@@ -30,8 +30,7 @@ base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
     stream::ChunkPipeline& pipeline = parts_.world.session->pipeline();
     const auto settings = render::settingsOf(graphics.choices, parts_.world.device.software);
     if (parts_.size != renderer.size() || settings.render != renderer.options()) {
-        if (auto configured = renderer.configure(parts_.size, settings.render); !configured)
-            return configured;
+        TERRANE_TRY(renderer.configure(parts_.size, settings.render));
     }
     pipeline.setMeshOptions(settings.mesh);
     parts_.world.view->setHorizon({settings.horizon, settings.detail});
@@ -58,7 +57,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     const Shot& shot = shotAt(parts_.script, seconds);
     const double inShot = seconds - shot.start;
     const GraphicsOptions& graphics = optionsAt(shot, inShot);
-    if (auto applied = apply(graphics); !applied) return tl::unexpected(applied.error());
+    TERRANE_TRY(apply(graphics));
     const view::PathPoint point = shot.path.at(inShot);
     game::Session& session = *parts_.world.session;
     // Load the view first: an edit in it then updates only the chunks that it affects.

@@ -6,18 +6,15 @@ namespace terrane::app {
 
 base::Result<WorldRecords> openFileRecords(const store::WorldLocation& world,
                                            const world::BlockRegistry& blocks) {
-    const auto path = store::fileOf(world);
-    if (!path) return tl::unexpected(path.error());
-    auto records = net::SqliteRecords::open(net::serverFilePath(*path), blocks);
-    if (!records) return tl::unexpected(records.error());
-    return WorldRecords{std::move(*records), {}};
+    const auto path = TERRANE_TRY(store::fileOf(world));
+    auto records = TERRANE_TRY(net::SqliteRecords::open(net::serverFilePath(path), blocks));
+    return WorldRecords{std::move(records), {}};
 }
 
 base::Result<net::History> openFileHistory(const store::WorldLocation& world,
                                            const world::BlockRegistry& blocks) {
-    const auto path = store::fileOf(world);
-    if (!path) return tl::unexpected(path.error());
-    return net::readHistoryFile(net::serverFilePath(*path), blocks);
+    const auto path = TERRANE_TRY(store::fileOf(world));
+    return net::readHistoryFile(net::serverFilePath(path), blocks);
 }
 
 bool hasFileRecords(const store::WorldLocation& world) {

@@ -18,12 +18,10 @@ bool isInDatabase(const store::WorldLocation& world) {
 base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) return openFileRecords(world, blocks);
-    const auto address = store_postgres::addressOf(world.text);
-    if (!address) return tl::unexpected(address.error());
-    auto records = net_postgres::PostgresRecords::open(*address, blocks, {processName(), "", ""});
-    if (!records) return tl::unexpected(records.error());
-    net_postgres::PostgresRecords* shared = records->get();
-    return WorldRecords{std::move(*records), [shared](const std::string& at, const std::string& key) {
+    const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
+    auto records = TERRANE_TRY(net_postgres::PostgresRecords::open(address, blocks, {processName(), "", ""}));
+    net_postgres::PostgresRecords* shared = records.get();
+    return WorldRecords{std::move(records), [shared](const std::string& at, const std::string& key) {
                             shared->tellAddress(at, key);
                         }};
 }
@@ -31,23 +29,20 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
 base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store::WorldLocation& world,
                                                                     const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) {
-        auto records = openFileRecords(world, blocks);
-        if (!records) return tl::unexpected(records.error());
-        return std::move(records->records);
+        auto records = TERRANE_TRY(openFileRecords(world, blocks));
+        return std::move(records.records);
     }
-    const auto address = store_postgres::addressOf(world.text);
-    if (!address) return tl::unexpected(address.error());
-    auto records = net_postgres::PostgresRecords::openToRead(*address, blocks, {processName(), "", ""});
-    if (!records) return tl::unexpected(records.error());
-    return std::move(*records);
+    const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
+    auto records =
+        TERRANE_TRY(net_postgres::PostgresRecords::openToRead(address, blocks, {processName(), "", ""}));
+    return records;
 }
 
 base::Result<net::History> openHistory(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) return openFileHistory(world, blocks);
-    const auto address = store_postgres::addressOf(world.text);
-    if (!address) return tl::unexpected(address.error());
-    return net_postgres::readHistory(*address, blocks);
+    const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
+    return net_postgres::readHistory(address, blocks);
 }
 
 bool hasRecords(const store::WorldLocation& world) {
@@ -56,8 +51,7 @@ bool hasRecords(const store::WorldLocation& world) {
 
 base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t port) {
     if (!isInDatabase(world)) return filesBeside(world);
-    const auto address = store_postgres::addressOf(world.text);
-    if (!address) return tl::unexpected(address.error());
+    const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
     const auto folder = store::dataFolder(store::savePlaces());
     if (!folder)
         return base::fail(base::ErrorCode::NotFound,
@@ -66,7 +60,7 @@ base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& wo
     std::filesystem::create_directories(*folder, error);
     if (error)
         return base::fail(base::ErrorCode::Io, "{}: cannot be made: {}", folder->string(), error.message());
-    return *folder / fmt::format("database-{:016x}-{}", base::hash64(address->shown), port);
+    return *folder / fmt::format("database-{:016x}-{}", base::hash64(address.shown), port);
 }
 
 }  // namespace terrane::app

@@ -10,9 +10,8 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
 
 base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store::WorldLocation& world,
                                                                     const world::BlockRegistry& blocks) {
-    auto records = openFileRecords(world, blocks);
-    if (!records) return tl::unexpected(records.error());
-    return std::move(records->records);
+    auto records = TERRANE_TRY(openFileRecords(world, blocks));
+    return std::move(records.records);
 }
 
 base::Result<net::History> openHistory(const store::WorldLocation& world,

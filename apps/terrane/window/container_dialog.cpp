@@ -14,13 +14,12 @@ bool canUseContainer(const game::Session& session, world::BlockPos block, const 
 
 base::Result<void> drawOpenContainer(const Screen& screen, game::Session& session, world::BlockPos block,
                                      game::Hotbar& hotbar, const ItemLooks& looks, const Texts& tr) {
-    auto items = game::itemsOf(session.world(), session.blocks(), block);
-    if (!items) return tl::unexpected(items.error());
-    const auto click = drawContainer(screen, *items, looks, tr);
+    auto items = TERRANE_TRY(game::itemsOf(session.world(), session.blocks(), block));
+    const auto click = drawContainer(screen, items, looks, tr);
     world::BlockId inHand = hotbar.block();
-    if (!click || !game::clickSlot(*items, session.blocks(), *click, inHand)) return {};
+    if (!click || !game::clickSlot(items, session.blocks(), *click, inHand)) return {};
     game::takeInHand(hotbar, inHand);
-    game::putItems(session, game::kLocalPlayer, block, *items);
+    game::putItems(session, game::kLocalPlayer, block, items);
     return {};
 }
 

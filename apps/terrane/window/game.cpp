@@ -124,7 +124,7 @@ void reloadContent(GameState& game) {
 base::Result<void> drawFrame(GameState& game, double seconds) {
     const glm::ivec2 size = game.parts.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
-    if (auto drawn = drawImage(game, size, seconds); !drawn) return drawn;
+    TERRANE_TRY(drawImage(game, size, seconds));
     drawInterface(game, seconds);
     game.parts.window.swapBuffers();
     ++game.frames;
@@ -145,7 +145,7 @@ base::Result<void> drawFrames(GameState& game) {
         if (auto notice = game.shaders.reload(parts.renderer, parts.preview, game.seconds))
             game.notices.say(std::move(*notice));
         reloadContent(game);
-        if (auto drawn = drawFrame(game, seconds); !drawn) return drawn;
+        TERRANE_TRY(drawFrame(game, seconds));
         if (game.perfLog) game.perfLog->add(game.seconds, seconds, statisticsOf(game));
     }
     return {};
@@ -163,9 +163,8 @@ void begin(GameState& game) {
 
 base::Result<void> runGame(GameState& game) {
     if (!game.options.perfData.empty()) {
-        auto log = PerfLog::create(game.options.perfData);
-        if (!log) return tl::unexpected(log.error());
-        game.perfLog = std::move(*log);
+        auto log = TERRANE_TRY(PerfLog::create(game.options.perfData));
+        game.perfLog = std::move(log);
     }
     begin(game);
     base::Result<void> drawn, saved;

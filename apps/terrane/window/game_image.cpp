@@ -103,7 +103,7 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
 }  // namespace
 
 base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
-    if (auto configured = configureRenderer(game, size); !configured) return configured;
+    TERRANE_TRY(configureRenderer(game, size));
     if (hasWorldImage(game)) {
         drawWorld(game, size, seconds);
     } else {
@@ -114,11 +114,11 @@ base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
 }
 
 base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder) {
-    auto textures = content::loadTextures(folder, parts.session.blocks(), parts.content.textures);
-    if (!textures) return tl::unexpected(textures.error());
-    if (auto set = parts.preview.setTextures(*textures); !set) return set;
-    if (auto set = parts.renderer.setTextures(parts.session.blocks(), *textures); !set) return set;
-    parts.compiler.setTextures(*textures);
+    auto textures =
+        TERRANE_TRY(content::loadTextures(folder, parts.session.blocks(), parts.content.textures));
+    TERRANE_TRY(parts.preview.setTextures(textures));
+    TERRANE_TRY(parts.renderer.setTextures(parts.session.blocks(), textures));
+    parts.compiler.setTextures(textures);
     return {};
 }
 

@@ -16,9 +16,8 @@ constexpr double kAmbiencePause = 0.4;  // seconds
 constexpr float kStepVolume = 0.6f, kWindVolume = 0.5f, kWaterVolume = 0.6f, kBlockVolume = 0.8f;
 
 base::Result<sound::SoundPlayer> openPlayer() {
-    auto sounds = sound::builtInSounds();
-    if (!sounds) return tl::unexpected(sounds.error());
-    return sound::SoundPlayer::create(*sounds);
+    auto sounds = TERRANE_TRY(sound::builtInSounds());
+    return sound::SoundPlayer::create(sounds);
 }
 
 std::string nameOf(world::SoundMaterial material, std::string_view action) {

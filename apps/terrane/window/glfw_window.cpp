@@ -285,7 +285,7 @@ std::optional<Gamepad> GlfwWindow::gamepad() const {
 base::Result<std::unique_ptr<Window>> openGlfwWindow(const WindowOptions& options) {
     assert(options.width > 0 && options.height > 0 && "a window has a size");
     auto window = std::make_unique<GlfwWindow>(options);
-    if (auto opened = window->open(options); !opened) return tl::unexpected(opened.error());
+    TERRANE_TRY(window->open(options));
     return window;
 }
 

@@ -71,15 +71,14 @@ base::Result<std::unique_ptr<RemotePlay>> joinServer(Window& window, const base:
     const Texts tr = textsOf(language);
     const JoinWindow join{window, signals, tr};
     while (true) {
-        auto play = RemotePlay::connect(options, dataFolder);
-        if (!play) return play;
-        const auto joined = waitForServer(join, **play);
+        auto play = TERRANE_TRY(RemotePlay::connect(options, dataFolder));
+        const auto joined = waitForServer(join, *play);
         if (joined && *joined) return play;
         if (joined) return nullptr;
         // The player decides about the missing packs; then joins again.
-        if ((*play)->missingPacks().empty()) return tl::unexpected(joined.error());
-        if (!acceptsPacks(join, **play)) return nullptr;
-        for (const net::PackOffer& pack : (*play)->missingPacks()) options.acceptedPacks.push_back(pack.hash);
+        if (play->missingPacks().empty()) return tl::unexpected(joined.error());
+        if (!acceptsPacks(join, *play)) return nullptr;
+        for (const net::PackOffer& pack : play->missingPacks()) options.acceptedPacks.push_back(pack.hash);
     }
 }
 

@@ -32,7 +32,7 @@ base::Result<WrittenSeed> seedOf(const NewWorldForm& form) {
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {
     const std::string name(trimmed(form.name));
     if (name.empty()) return base::fail(base::ErrorCode::BadInput, "a world needs a name");
-    if (auto good = store::checkNewWorld(folder, name); !good) return tl::unexpected(good.error());
+    TERRANE_TRY(store::checkNewWorld(folder, name));
     auto seed = seedOf(form);
     if (!seed) return base::fail(base::ErrorCode::BadInput, "seed: {}", seed.error().message);
     return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator};

@@ -24,7 +24,7 @@ base::Result<std::filesystem::path> writeScreenshot(const std::filesystem::path&
     std::error_code ignored;  // writePng() reports errors
     std::filesystem::create_directories(folder, ignored);
     const std::filesystem::path file = freeScreenshot(folder);
-    if (const auto done = base::writePng(file, image); !done) return tl::unexpected(done.error());
+    TERRANE_TRY(base::writePng(file, image));
     return file;
 }
 

@@ -41,13 +41,12 @@ PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
 base::Result<world::Pose> startOf(const PlayOptions& options, const game::BookmarkFiles& files,
                                   const game::SavedPlayer& saved, game::Session& session) {
     if (options.bookmark) {
-        auto bookmarks = game::readBookmarks(files);
-        if (!bookmarks) return tl::unexpected(bookmarks.error());
+        auto bookmarks = TERRANE_TRY(game::readBookmarks(files));
         const auto number = static_cast<std::size_t>(*options.bookmark);
-        if (number > bookmarks->size()) {
-            return base::fail("--bookmark {}: {} has {}", number, files.file.string(), bookmarks->size());
+        if (number > bookmarks.size()) {
+            return base::fail("--bookmark {}: {} has {}", number, files.file.string(), bookmarks.size());
         }
-        return (*bookmarks)[number - 1];
+        return bookmarks[number - 1];
     }
     return saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
 }
@@ -147,12 +146,11 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
 }
 
 base::Result<std::optional<TitleChoice>> PlayFlow::showTitle() {
-    const auto content = loadInstalledContent(options_.world);
-    if (!content) return tl::unexpected(content.error());
-    TitleScreen title({window_, signals_, options_, screen_, *content, dataFolder()}, settings_,
+    const auto content = TERRANE_TRY(loadInstalledContent(options_.world));
+    TitleScreen title({window_, signals_, options_, screen_, content, dataFolder()}, settings_,
                       std::exchange(message_, {}));
     auto chosen = title.run();
-    if (auto written = keepSettings(); !written) return tl::unexpected(written.error());
+    TERRANE_TRY(keepSettings());
     return chosen;
 }
 
@@ -180,9 +178,8 @@ base::Result<void> PlayFlow::playWorld(const PlayOptions& asked) {
 
 base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     contentReadAt_ = std::filesystem::file_time_type::clock::now();
-    auto world = openWorld(options);
-    if (!world) return tl::unexpected(world.error());
-    const game::SessionParts& parts = world->parts;
+    auto world = TERRANE_TRY(openWorld(options));
+    const game::SessionParts& parts = world.parts;
     PlaySettings settings = settings_;
     // The world's own, or those of the command line.
     settings.movement = options_.settings.movement;
@@ -190,7 +187,7 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     takeFromWorld(settings, game::savedPlayer(*parts.store), given_);
     if (settings.resourcePack != options_.graphics.resourcePack) {
         const auto textures =
-            content::loadTextures(settings.resourcePack, *parts.blocks, world->content.textures);
+            content::loadTextures(settings.resourcePack, *parts.blocks, world.content.textures);
         if (!textures) {
             base::logInfo("{}; the world is shown without it", textures.error().message);
             settings.resourcePack.clear();
@@ -199,37 +196,34 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     settings_ = settings;
     ScreenOptions screen = screen_;
     screen.resourcePack = settings.resourcePack;
-    return playFrom(options, std::move(*world), std::move(screen));
+    return playFrom(options, std::move(world), std::move(screen));
 }
 
 base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
     PlayOptions options = asked;
     goesToTitle_ = false;
-    auto play = joinServer(window_, signals_, settings_.language, options.remote, dataFolder());
-    if (!play) return tl::unexpected(play.error());
-    if (!*play) {
+    auto play = TERRANE_TRY(joinServer(window_, signals_, settings_.language, options.remote, dataFolder()));
+    if (!play) {
         goesToTitle_ = options_.remote.server.empty();
         return {};
     }
-    if (auto kept = rememberServer(serverListFile(dataFolder()), {(*play)->address(), options.remote.name});
+    if (auto kept = rememberServer(serverListFile(dataFolder()), {play->address(), options.remote.name});
         !kept)
         base::logInfo("the server is not remembered: {}", kept.error().message);
-    const pack::Content& content = (*play)->content();
-    const store::WorldIdentity& identity = (*play)->offer()->world.identity;
-    auto parts =
-        net::remoteSessionParts(identity, content.blocks, threadCount(options.world), content.generators);
-    if (!parts) return tl::unexpected(parts.error());
+    const pack::Content& content = play->content();
+    const store::WorldIdentity& identity = play->offer()->world.identity;
+    auto parts = TERRANE_TRY(
+        net::remoteSessionParts(identity, content.blocks, threadCount(options.world), content.generators));
     options.world.seed = identity.seed;
     options.world.generator = identity.generator;
     settings_.movement = options_.settings.movement;
-    return playFrom(options, {content, std::move(parts->parts)}, screen_, {std::move(*play), parts->store});
+    return playFrom(options, {content, std::move(parts.parts)}, screen_, {std::move(play), parts.store});
 }
 
 base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
                                       ServersWorld given) {
-    auto made = WorldOnScreen::create(std::move(opened), screen);
-    if (!made) return tl::unexpected(made.error());
-    WorldOnScreen& world = **made;
+    auto made = TERRANE_TRY(WorldOnScreen::create(std::move(opened), screen));
+    WorldOnScreen& world = *made;
     game::Session& session = world.session();
     // Declared after the world: destroyed before the session, which it updates.
     const std::unique_ptr<RemotePlay> remote = std::move(given.play);
@@ -254,10 +248,9 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     if (options.watches && !remote) {
         game.contentChanged = [&] { return watch.hasChanged(std::chrono::steady_clock::now()); };
         game.checkContent = [&]() -> base::Result<void> {
-            const auto content = pack::loadAgain(world.content());
-            if (!content) return tl::unexpected(content.error());
-            const auto graph = gen::makeGenerator(session.store().identity().generator, *content->blocks, 0,
-                                                  content->generators);
+            const auto content = TERRANE_TRY(pack::loadAgain(world.content()));
+            const auto graph = gen::makeGenerator(session.store().identity().generator, *content.blocks, 0,
+                                                  content.generators);
             return graph ? base::Result<void>() : tl::unexpected(graph.error());
         };
     }

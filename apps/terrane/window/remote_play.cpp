@@ -23,12 +23,10 @@ RemotePlay::~RemotePlay() {
 
 base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOptions& options,
                                                               const std::filesystem::path& dataFolder) {
-    auto address = net::serverAddress(options.server);
-    if (!address) return tl::unexpected(address.error());
+    auto address = TERRANE_TRY(net::serverAddress(options.server));
     if (!net::isName(options.name))
         return base::fail(base::ErrorCode::BadInput, "--name {}: {}", options.name, net::nameRule());
-    auto key = net::loadPlayerKey(dataFolder / "player.key");
-    if (!key) return tl::unexpected(key.error());
+    auto key = TERRANE_TRY(net::loadPlayerKey(dataFolder / "player.key"));
     std::unique_ptr<RemotePlay> play(new RemotePlay(std::make_unique<Network>()));
     play->packs_.cache = packCacheFolder();
     play->packs_.acceptsAll = options.acceptsPacks;
@@ -36,8 +34,8 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
     play->knownServers_ = dataFolder / "known_servers.txt";
     RemotePlay& self = *play;
     play->link_ = std::make_unique<net::ClientLink>(
-        play->network_->context, *address,
-        net::ClientIdentity{options.name, *key, options.password, fmt::format("terrane {}", TERRANE_VERSION)},
+        play->network_->context, address,
+        net::ClientIdentity{options.name, key, options.password, fmt::format("terrane {}", TERRANE_VERSION)},
         net::LinkEvents{[&self](const std::string& serverKey) { return self.trusts(serverKey); },
                         [&self](const net::WorldOffer& offer) { return self.prove(offer); },
                         [&self](const net::ServerMessage& message) {
@@ -68,14 +66,12 @@ base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer)
     if (offer_ && !(offer.world == offer_->world && offer.packs == offer_->packs))
         return base::fail("the server has another world than before: join it again");
     if (!offer_) {
-        auto content = contentOf(packs_, offer);
-        if (!content) return tl::unexpected(content.error());
-        content_ = std::move(*content);
+        auto content = TERRANE_TRY(contentOf(packs_, offer));
+        content_ = std::move(content);
     }
-    const auto generator = net::offeredGenerator(offer, *content_.blocks, content_.generators);
-    if (!generator) return tl::unexpected(generator.error());
+    const auto generator = TERRANE_TRY(net::offeredGenerator(offer, *content_.blocks, content_.generators));
     offer_ = offer;
-    return net::sampleDigests(*generator, offer.samples);
+    return net::sampleDigests(generator, offer.samples);
 }
 
 world::Pose RemotePlay::start() const {

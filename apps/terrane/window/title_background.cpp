@@ -33,9 +33,8 @@ base::Result<std::unique_ptr<WorldOnScreen>> openWorld(const PlayOptions& option
                        .content = options.world.content,
                        .threads = options.world.threads};
     const SaveOptions from{.world = save.string(), .storeGenerated = {}};
-    auto opened = openSessionParts(world, from, store::WorldAccess::ReadOnly);
-    if (!opened) return tl::unexpected(opened.error());
-    return WorldOnScreen::create(std::move(*opened), screen);
+    auto opened = TERRANE_TRY(openSessionParts(world, from, store::WorldAccess::ReadOnly));
+    return WorldOnScreen::create(std::move(opened), screen);
 }
 
 int highestBlock(const world::Chunk& chunk) {
@@ -107,8 +106,7 @@ base::Result<bool> TitleBackground::configure(glm::ivec2 size) {
     if (renderer.size() == size) return true;
     if (!world_->compiler().isReady(size, render_, {renderer.hasTint(), renderer.hasLand()}))
         return hasImage();
-    if (auto configured = renderer.configure(size, render_); !configured)
-        return tl::unexpected(configured.error());
+    TERRANE_TRY(renderer.configure(size, render_));
     return true;
 }
 
@@ -118,9 +116,8 @@ base::Result<void> TitleBackground::draw(glm::ivec2 windowSize, double seconds, 
     const render::Camera camera = view::cameraOf(flightPose(center_, flightSeconds_));
     world_->view().follow(camera, viewDistance_);
     const world::Environment environment = world::environmentAt(static_cast<float>(kMorning));
-    const auto configured = configure(glm::max(windowSize / pixelsShare_, glm::ivec2(1)));
-    if (!configured) return tl::unexpected(configured.error());
-    if (!*configured) {
+    const auto configured = TERRANE_TRY(configure(glm::max(windowSize / pixelsShare_, glm::ivec2(1))));
+    if (!configured) {
         gpu::clearWindow(glm::pow(glm::min(environment.horizonColor, 1.0f), glm::vec3(1 / 2.2f)));
         std::this_thread::sleep_for(kPause);
         return {};

@@ -40,7 +40,7 @@ base::Result<std::optional<TitleChoice>> TitleScreen::run() {
         const double now = parts_.window.timeSeconds(), seconds = now - last;
         last = now;
         parts_.window.setFullScreen(settings_.fullScreen);
-        if (auto drawn = drawFrame(seconds); !drawn) return tl::unexpected(drawn.error());
+        TERRANE_TRY(drawFrame(seconds));
     }
     if (choice_ && std::holds_alternative<ChosenWorld>(*choice_)) drawOpening();
     return std::exchange(choice_, std::nullopt);
@@ -51,9 +51,8 @@ base::Result<void> TitleScreen::drawFrame(double seconds) {
     if (size.x == 0 || size.y == 0) return {};  // minimised
     if (!background_) {
         gpu::clearWindow({0.12f, 0.15f, 0.18f});
-    } else if (auto drawn = background_->draw(size, seconds, settings_.reducedMotion); !drawn) {
-        return drawn;
-    }
+    } else
+        TERRANE_TRY(background_->draw(size, seconds, settings_.reducedMotion));
     if (settings_.language != language_) tr_ = textsOf(language_ = settings_.language);
     imgui_.setTextSize(settings_.textSize);
     imgui_.beginFrame(false, true);

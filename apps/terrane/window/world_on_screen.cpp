@@ -20,21 +20,21 @@ base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(OpenedWorld w
     std::unique_ptr<WorldOnScreen> made(new WorldOnScreen);
     made->content_ = std::move(world.content);
     game::SessionParts& parts = world.parts;
-    auto textures = content::loadTextures(options.resourcePack, *parts.blocks, made->content_.textures);
-    if (!textures) return tl::unexpected(textures.error());
-    auto renderer = render::Renderer::create(*options.shaders, *parts.blocks, *textures, options.device);
-    if (!renderer) return tl::unexpected(renderer.error());
-    renderer->setMemoryBudget(view::gpuMemoryBudget(options.device, options.gpuMemory));
-    made->renderer_ = std::make_unique<render::Renderer>(std::move(*renderer));
-    auto preview = view::BlockPreview::create(*options.shaders, *parts.blocks, *textures, options.device);
-    if (!preview) return tl::unexpected(preview.error());
-    made->preview_ = std::make_unique<view::BlockPreview>(std::move(*preview));
+    auto textures =
+        TERRANE_TRY(content::loadTextures(options.resourcePack, *parts.blocks, made->content_.textures));
+    auto renderer =
+        TERRANE_TRY(render::Renderer::create(*options.shaders, *parts.blocks, textures, options.device));
+    renderer.setMemoryBudget(view::gpuMemoryBudget(options.device, options.gpuMemory));
+    made->renderer_ = std::make_unique<render::Renderer>(std::move(renderer));
+    auto preview =
+        TERRANE_TRY(view::BlockPreview::create(*options.shaders, *parts.blocks, textures, options.device));
+    made->preview_ = std::make_unique<view::BlockPreview>(std::move(preview));
     auto backEnds = chooseBackEnds(parts, made->content_.generators, options.backend);
     if (!backEnds) return tl::unexpected(backEnds.error());
     made->backEnds_ = std::move(*backEnds);
     made->session_ = std::make_unique<game::Session>(std::move(parts));
     made->compiler_ =
-        std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(), *textures);
+        std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(), textures);
     made->view_ = std::make_unique<view::WorldView>(*made->session_, *made->renderer_);
     if (!made->backEnds_) return made;
     const auto meshes = made->view_->meshOnGpu(gpu::builtInShaders(""), view::WorldView::kFrameMilliseconds);

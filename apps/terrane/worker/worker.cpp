@@ -32,10 +32,9 @@ class Worker {
     explicit Worker(const WorkerParts& parts) : parts_(parts) {}
 
     base::Result<WorkerResult> run() {
-        const auto number = parts_.pool.run<std::int64_t>(
-            [&](Connection& connection) { return addWorker(connection, parts_.name); });
-        if (!number) return tl::unexpected(number.error());
-        number_ = *number;
+        const auto number = TERRANE_TRY(parts_.pool.run<std::int64_t>(
+            [&](Connection& connection) { return addWorker(connection, parts_.name); }));
+        number_ = number;
         auto done = workUntilNoneIsLeft();
         const auto removed =
             parts_.pool.run<void>([&](Connection& connection) { return removeWorker(connection, number_); });
@@ -47,34 +46,30 @@ class Worker {
   private:
     base::Result<void> workUntilNoneIsLeft() {
         while (!parts_.stopAsked()) {
-            const auto job = parts_.pool.run<std::optional<Job>>(
-                [&](Connection& connection) { return takeJob(connection, number_); });
-            if (!job) return tl::unexpected(job.error());
-            if (*job) {
-                if (auto made = make(**job); !made) return made;
+            const auto job = TERRANE_TRY(parts_.pool.run<std::optional<Job>>(
+                [&](Connection& connection) { return takeJob(connection, number_); }));
+            if (job) {
+                TERRANE_TRY(make(*job));
                 continue;
             }
-            const auto isOver = waitForJob();
-            if (!isOver) return tl::unexpected(isOver.error());
-            if (*isOver) return {};
+            const auto isOver = TERRANE_TRY(waitForJob());
+            if (isOver) return {};
         }
         return {};
     }
 
     // True if no job is left; waits while another worker has one, since it may come back.
     base::Result<bool> waitForJob() {
-        const auto status = parts_.pool.run<store_postgres::WorkStatus>(
-            [](Connection& connection) { return workStatus(connection); });
-        if (!status) return tl::unexpected(status.error());
-        if (!parts_.waits && status->waiting + status->working == 0) return true;
-        if (status->isPaused && !std::exchange(saidPaused_, true))
+        const auto status = TERRANE_TRY(parts_.pool.run<store_postgres::WorkStatus>(
+            [](Connection& connection) { return workStatus(connection); }));
+        if (!parts_.waits && status.waiting + status.working == 0) return true;
+        if (status.isPaused && !std::exchange(saidPaused_, true))
             base::logInfo("the work is paused: `terrane work URL --continue` lets it go on");
-        if (!status->isPaused) saidPaused_ = false;
+        if (!status.isPaused) saidPaused_ = false;
         // The pool may run it again.
         const std::int64_t chunks = std::exchange(untold_, 0);
-        const auto told = parts_.pool.run<void>(
-            [&](Connection& connection) { return tellAlive(connection, number_, chunks); });
-        if (!told) return tl::unexpected(told.error());
+        TERRANE_TRY(parts_.pool.run<void>(
+            [&](Connection& connection) { return tellAlive(connection, number_, chunks); }));
         std::this_thread::sleep_for(kLookEvery);
         return false;
     }
@@ -83,13 +78,12 @@ class Worker {
         const std::vector<world::ChunkPos> positions = positionsOf(job.area);
         for (std::size_t first = 0; first < positions.size(); first += kBatch) {
             if (parts_.stopAsked()) return parts_.store.flush();
-            const auto isOurs = renewIfDue(job);
-            if (!isOurs) return tl::unexpected(isOurs.error());
-            if (!*isOurs) return {};
+            const auto isOurs = TERRANE_TRY(renewIfDue(job));
+            if (!isOurs) return {};
             const std::size_t count = std::min(kBatch, positions.size() - first);
-            if (auto made = makeBatch(std::span(positions).subspan(first, count)); !made) return made;
+            TERRANE_TRY(makeBatch(std::span(positions).subspan(first, count)));
         }
-        if (auto durable = flush(job); !durable) return durable;
+        TERRANE_TRY(flush(job));
         ++result_.jobs;
         return parts_.pool.run<void>([&](Connection& connection) { return finishJob(connection, job); });
     }
@@ -97,13 +91,11 @@ class Worker {
     // Chunks are written while the next ones are generated.
     base::Result<void> makeBatch(std::span<const world::ChunkPos> positions) {
         const std::vector<store::LoadedChunk> stored = parts_.store.loadMany(positions);
-        const auto missing = store::missingOf(positions, stored);
-        if (!missing) return tl::unexpected(missing.error());
-        auto chunks = gen::generateAll(parts_.generator, *missing);
-        if (!chunks) return tl::unexpected(chunks.error());
-        for (std::size_t k = 0; k < missing->size(); ++k)
-            parts_.store.save((*missing)[k], std::move((*chunks)[k]), store::Provenance::Generated);
-        const auto made = static_cast<std::int64_t>(missing->size());
+        const auto missing = TERRANE_TRY(store::missingOf(positions, stored));
+        auto chunks = TERRANE_TRY(gen::generateAll(parts_.generator, missing));
+        for (std::size_t k = 0; k < missing.size(); ++k)
+            parts_.store.save(missing[k], std::move(chunks[k]), store::Provenance::Generated);
+        const auto made = static_cast<std::int64_t>(missing.size());
         result_.chunks += made;
         result_.skipped += static_cast<std::int64_t>(positions.size()) - made;
         untold_ += made;

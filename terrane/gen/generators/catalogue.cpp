@@ -59,7 +59,7 @@ base::Result<LevelGenerators> makeLevelGenerators(std::string_view name, const w
     if (!entry) return tl::unexpected(makeGenerator(name, blocks, 0, catalogue).error());
     LevelGenerators made([record = entry->record, &blocks](int level) { return record(blocks, level); },
                          seed);
-    if (auto first = made.at(0); !first) return tl::unexpected(first.error());
+    (void)TERRANE_TRY(made.at(0));
     return made;
 }
 
