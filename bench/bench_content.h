@@ -8,7 +8,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/content/built_in.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::bench {
 

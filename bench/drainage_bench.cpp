@@ -7,10 +7,10 @@
 
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
-#include "terrane/gen/builder.h"
-#include "terrane/gen/drainage_curves.h"
-#include "terrane/gen/executor.h"
-#include "terrane/gen/program.h"
+#include "terrane/gen/compile/program.h"
+#include "terrane/gen/cpu/executor.h"
+#include "terrane/gen/drainage/drainage_curves.h"
+#include "terrane/gen/language/builder.h"
 
 namespace {
 

@@ -12,7 +12,7 @@
 #include "terrane/base/median.h"
 #include "terrane/game/session.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 
 namespace {
 

@@ -15,11 +15,11 @@
 #include "bench/bench_content.h"
 #include "bench/picture_figures.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
+#include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/store/memory_store.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/store/overlay_store.h"
+#include "terrane/view/camera_path.h"
 #include "terrane/view/world_view.h"
 
 namespace {

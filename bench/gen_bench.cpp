@@ -12,12 +12,12 @@
 
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
-#include "terrane/gen/builder.h"
-#include "terrane/gen/erosion.h"
-#include "terrane/gen/executor.h"
+#include "terrane/gen/compile/program.h"
+#include "terrane/gen/cpu/executor.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/program.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/gen/language/compounds.h"
 
 namespace {
 

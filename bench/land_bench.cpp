@@ -12,8 +12,8 @@
 #include <vector>
 
 #include "bench/bench_content.h"
-#include "terrane/gen/drainage_heights.h"
-#include "terrane/gen/drainage_network.h"
+#include "terrane/gen/drainage/drainage_heights.h"
+#include "terrane/gen/drainage/drainage_network.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/generators/continents.h"

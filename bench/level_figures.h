@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "terrane/gen/level_generators.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::bench {
 

@@ -3,9 +3,9 @@
 #include <benchmark/benchmark.h>
 
 #include "bench/scene_chunks.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
-#include "terrane/light_gpu/gpu_light_solver.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/light_gpu/gpu_batch_lighter.h"
 
 namespace {
 

@@ -10,7 +10,7 @@
 
 #include "bench/bench_content.h"
 #include "terrane/base/median.h"
-#include "terrane/world/random_ticks.h"
+#include "terrane/world/changes/random_ticks.h"
 #include "tests/world/dam.h"
 
 namespace {

@@ -8,10 +8,10 @@
 #include "bench/bench_content.h"
 #include "bench/mesh_inputs.h"
 #include "terrane/base/digest.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
+#include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/mesh_section_quads.h"
-#include "terrane/mesh_gpu/gpu_batch_mesher.h"
+#include "terrane/mesh_gpu/gpu_mesher.h"
 
 namespace {
 

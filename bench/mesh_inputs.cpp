@@ -4,10 +4,10 @@
 #include <cmath>
 
 #include "bench/bench_content.h"
-#include "terrane/content/scenes.h"
-#include "terrane/gen/builder.h"
+#include "terrane/content/built_in.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/shared/hash.h"
 
 namespace terrane::bench {

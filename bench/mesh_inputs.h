@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::bench {
 

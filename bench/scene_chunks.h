@@ -9,7 +9,7 @@
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/job_system.h"
-#include "terrane/content/scenes.h"
+#include "terrane/content/built_in.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/light/chunk_light.h"

@@ -9,12 +9,12 @@
 
 #include "bench/bench_content.h"
 #include "terrane/base/digest.h"
-#include "terrane/gen/builder.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/gen/kernels.h"
-#include "terrane/gen/scatter.h"
-#include "terrane/gen/stamp_tile.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/gen/language/compounds.h"
+#include "terrane/gen/noise/stamp_tile.h"
 
 namespace {
 

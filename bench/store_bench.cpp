@@ -15,8 +15,8 @@
 #include "terrane/base/digest.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 
 namespace {
 

@@ -11,15 +11,14 @@
 
 #include "bench/bench_content.h"
 #include "terrane/content/built_in.h"
-#include "terrane/content/scenes.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
-#include "terrane/render/background_compiler.h"
-#include "terrane/render/graphics_table.h"
-#include "terrane/render/renderer.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/frame/background_compiler.h"
+#include "terrane/render/frame/graphics_table.h"
+#include "terrane/render/frame/renderer.h"
 #include "terrane/stream/chunk_pipeline.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 #
 # Compiles files into a static library `target` that defines
 #   std::span<const terrane::base::EmbeddedFile> terrane::embedded::<function>();
-# Each FILES entry is "virtual/path=real/file". The header is terrane/base/embedded.h.
+# Each FILES entry is "virtual/path=real/file". The header is terrane/base/files.h.
 function(terrane_embed target)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "NAME" "FILES;DEPENDS")
   set(source ${CMAKE_BINARY_DIR}/embedded/${target}.cpp)

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "terrane/content/built_in.h"
-#include "terrane/gen/builder.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/gpu/built_in_shaders.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/gpu/context.h"
+#include "terrane/gpu/shader_loader.h"
 #include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 
 namespace {
 

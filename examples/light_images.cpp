@@ -12,11 +12,11 @@
 
 #include "examples/light_scenes.h"
 #include "terrane/content/built_in.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
+#include "terrane/gpu/shader_loader.h"
 #include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "terrane/shared/constants.h"
 
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "terrane/shared/hash.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace terrane::examples {
 namespace {

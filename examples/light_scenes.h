@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "terrane/render/camera.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/render/frame/camera.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/world.h"
 
 namespace terrane::examples {

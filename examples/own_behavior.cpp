@@ -4,8 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "terrane/world/block_behavior.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/world/blocks/block_behavior.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace {
 

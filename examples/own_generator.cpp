@@ -6,7 +6,7 @@
 
 #include "examples/tutorial_generators.h"
 #include "terrane/gen/generator.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace {
 

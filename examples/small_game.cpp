@@ -18,11 +18,11 @@
 #include "terrane/game/session.h"
 #include "terrane/game/spawn.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gpu/built_in_shaders.h"
-#include "terrane/render/graphics_table.h"
-#include "terrane/store/open_world.h"
-#include "terrane/view/camera_pose.h"
-#include "terrane/view/memory_budget.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/frame/graphics_table.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/view/camera_path.h"
+#include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
 
 namespace {

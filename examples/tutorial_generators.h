@@ -1,7 +1,7 @@
 // The generators of the tutorial in docs/worldgen.md, step by step.
 #pragma once
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 
 namespace terrane::examples {
 

@@ -10,8 +10,8 @@
 #include "terrane/content/built_in.h"
 #include "terrane/game/session.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/open_world.h"
-#include "terrane/world/block_model.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 """Writes a C++ file that holds other files as bytes.
 
 Usage: embed_files.py OUT.cpp FUNCTION virtual/path=real/file …
-The C++ file defines terrane::embedded::FUNCTION(), declared beside its use; see terrane/base/embedded.h.
+The C++ file defines terrane::embedded::FUNCTION(), declared beside its use; see terrane/base/files.h.
 """
 import pathlib
 import sys
@@ -10,7 +10,7 @@ import sys
 
 def main() -> None:
     out, function, *entries = sys.argv[1:]
-    lines = ['#include "terrane/base/embedded.h"', "", "#include <array>", "", "namespace terrane::embedded {", "namespace {"]
+    lines = ['#include "terrane/base/files.h"', "", "#include <array>", "", "namespace terrane::embedded {", "namespace {"]
     table = []
     for number, entry in enumerate(entries):
         virtual, _, real = entry.partition("=")

@@ -5,7 +5,7 @@
 
 Runs PROGRAM render --json for every preset, N times in turn, so that a slow minute affects all of them. A number is the
 median over runs of the median over frames, in milliseconds of the GPU. The last row is the sum of a preset's passes
-relative to low: `relativeCost` of terrane/render/render_options.cpp."""
+relative to low: `relativeCost` of terrane/render/frame/render_options.cpp."""
 import argparse
 import json
 import os

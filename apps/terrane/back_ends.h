@@ -4,12 +4,13 @@
 
 #include <memory>
 
-#include "apps/terrane/option_values.h"
+#include "apps/terrane/options.h"
 #include "terrane/gen/batch_generator.h"
-#include "terrane/light/area_solver.h"
-#include "terrane/mesh/batch_mesher.h"
+#include "terrane/light/light_area.h"
+#include "terrane/mesh/chunk_mesher.h"
 #include "terrane/pack/content.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/view/gpu_back_ends.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::app {
 
@@ -32,5 +33,16 @@ base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptio
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table);
 base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
                                                            const world::BlockRegistry& blocks);
+
+// --backend of commands that draw: whether workers or the GPU generate, light and mesh the world on screen.
+// True for Backend::Gpu; Auto is the CPU (back_ends.h).
+bool usesGpu(Backend backend);
+
+// Makes the GPU back ends and sets `parts` to use them; null if workers do the work. `generators` include the
+// world's generator. The OpenGL context is current. Always uses the built-in shaders, not those of
+// --shader-root.
+base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
+                                                                const gen::GeneratorCatalogue& generators,
+                                                                Backend backend);
 
 }  // namespace terrane::app

@@ -1,13 +1,12 @@
 #include "apps/terrane/back_ends.h"
-#include "apps/terrane/choose_back_ends.h"
 #include "apps/terrane/open_session.h"
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen_gpu/gpu_generator.h"
-#include "terrane/gpu/built_in_shaders.h"
 #include "terrane/gpu/context.h"
-#include "terrane/light_gpu/gpu_light_solver.h"
-#include "terrane/mesh_gpu/gpu_batch_mesher.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/light_gpu/gpu_batch_lighter.h"
+#include "terrane/mesh_gpu/gpu_mesher.h"
 
 namespace terrane::app {
 namespace {

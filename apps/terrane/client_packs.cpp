@@ -9,10 +9,9 @@
 
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
-#include "terrane/base/printable.h"
-#include "terrane/net/plain_text.h"
+#include "terrane/base/text.h"
+#include "terrane/net/wire/wire.h"
 #include "terrane/pack/installed_packs.h"
-#include "terrane/pack/pack_archive.h"
 #include "terrane/pack/pack_files.h"
 
 namespace terrane::app {

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "terrane/net/server_host.h"
-#include "terrane/net/server_message.h"
+#include "terrane/net/server/server_loop.h"
+#include "terrane/net/wire/server_message.h"
 #include "terrane/pack/content.h"
-#include "terrane/pack/pack_archive.h"
+#include "terrane/pack/pack_files.h"
 
 namespace terrane::app {
 

@@ -1,6 +1,5 @@
 #include "apps/terrane/graphics_info.h"
 #include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 
 namespace terrane::app {
 

@@ -1,8 +1,8 @@
 #include "apps/terrane/offscreen.h"
 
 #include "terrane/content/resource_pack.h"
-#include "terrane/gpu/built_in_shaders.h"
-#include "terrane/view/memory_budget.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/view/gpu_back_ends.h"
 
 namespace terrane::app {
 

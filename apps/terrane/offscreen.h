@@ -4,13 +4,12 @@
 #include <memory>
 #include <optional>
 
-#include "apps/terrane/choose_back_ends.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/open_session.h"
 #include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 #include "terrane/gpu/shader_loader.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
 

@@ -3,12 +3,22 @@
 
 #include <memory>
 
-#include "apps/terrane/option_values.h"
-#include "apps/terrane/world_content.h"
+#include "apps/terrane/options.h"
 #include "terrane/game/session.h"
-#include "terrane/store/open_world.h"
+#include "terrane/pack/content.h"
+#include "terrane/store/saves/open_world.h"
 
 namespace terrane::app {
+
+// The content packs of a command: those of --content, and those that an existing world was made with.
+// The built-in pack, the packs of `options.content`, and those that the world of `save` remembers. A
+// remembered pack that is not in the packs folder is skipped with a line in the log.
+[[nodiscard]] base::Result<pack::Content> loadContent(const WorldOptions& options,
+                                                      const SaveOptions& save = {});
+
+// The same with all usable packs of the packs folder, for the player to choose from. Others are skipped with
+// a line in the log.
+[[nodiscard]] base::Result<pack::Content> loadInstalledContent(const WorldOptions& options);
 
 // The identity of a new world made with these options.
 store::WorldIdentity identityOf(const WorldOptions& options, const pack::Content& content);

@@ -9,11 +9,77 @@
 #include <filesystem>
 #include <thread>
 
-#include "apps/terrane/seed_text.h"
+#include "terrane/base/digest.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/world_location.h"
+#include "terrane/store/saves/save_path.h"
 
 namespace terrane::app {
+
+namespace {
+
+struct Renamed {
+    std::string_view former, current;
+};
+
+constexpr std::array<Renamed, 1> kCommands = {{{"fly", "flight-bench"}}};
+constexpr std::array<Renamed, 7> kFlags = {{{"aggregation", "merging"},
+                                            {"atmosphere", "distance-fog"},
+                                            {"better-texturing", "sharp-filtering"},
+                                            {"for", "duration"},
+                                            {"position", "bookmark"},
+                                            {"region-height", "mesh-section-height"},
+                                            {"save-game", "world"}}};
+constexpr std::array<Renamed, 1> kValues = {{{"aggregation", "merging"}}};  // of --view
+
+std::string_view currentIn(std::span<const Renamed> names, std::string_view name) {
+    const auto found = std::ranges::find(names, name, &Renamed::former);
+    return found != names.end() ? found->current : name;
+}
+
+std::string withCurrentFlag(std::string_view argument) {
+    if (!argument.starts_with("--")) return std::string(argument);
+    const std::string_view name = argument.substr(2, argument.find('=') - 2);
+    return std::string("--").append(currentFlag(name)).append(argument.substr(2 + name.size()));
+}
+
+}  // namespace
+
+std::string_view currentFlag(std::string_view name) {
+    return currentIn(kFlags, name);
+}
+
+std::string_view currentValue(std::string_view value) {
+    return currentIn(kValues, value);
+}
+
+std::vector<std::string> withCurrentNames(std::span<const char* const> arguments) {
+    std::vector<std::string> current;
+    for (const char* argument : arguments) current.push_back(withCurrentFlag(argument));
+    if (current.size() > 1) current[1] = currentIn(kCommands, current[1]);
+    return current;
+}
+
+namespace {
+
+bool isWholeNumber(std::string_view text) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
+}  // namespace
+
+base::Result<WrittenSeed> seedFrom(std::string_view text) {
+    std::uint64_t seed = 0;
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, seed);
+    if (error == std::errc() && next == end) return WrittenSeed{seed, ""};
+    if (text.empty() || isWholeNumber(text))
+        return base::fail(base::ErrorCode::BadInput,
+                          "expected a whole number from 0 to {}, or another text, got \"{}\"", UINT64_MAX,
+                          text);
+    return WrittenSeed{base::hash64(text), std::string(text)};
+}
+
 namespace {
 
 void parseSeed(const std::string& text, WorldOptions& options) {

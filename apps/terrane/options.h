@@ -2,21 +2,87 @@
 #pragma once
 
 #include <fmt/ranges.h>
-
 #include <CLI/CLI.hpp>
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "apps/terrane/former_names.h"
-#include "apps/terrane/option_values.h"
-#include "terrane/base/nearest_name.h"
+#include "terrane/base/result.h"
+#include "terrane/base/text.h"
+#include "terrane/store/saves/world_identity.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::app {
+
+// Commands, flags and values that were renamed in 0.2. The old names are accepted for one version: on the
+// command line, in settings.toml and in path files. The help does not list them.
+// The current name of a flag without dashes, or of a value of an option. Other names are returned unchanged.
+std::string_view currentFlag(std::string_view name);
+std::string_view currentValue(std::string_view value);
+
+// The command line with current names: arguments[1] is the command, flags are --name or --name=value.
+std::vector<std::string> withCurrentNames(std::span<const char* const> arguments);
+
+}  // namespace terrane::app
+
+// Values of options that several commands share; options.h parses them. Free of CLI11, which is slow to
+// compile.
+namespace CLI {
+class App;
+}
+
+namespace terrane::app {
+
+struct WorldOptions {
+    // Defaults of a new world; an existing world keeps its own.
+    static constexpr std::uint64_t kDefaultSeed = 1;
+    static constexpr const char* kDefaultGenerator = "continents";
+
+    std::optional<std::uint64_t> seed;
+    std::string seedText;  // text that was hashed to the seed; empty for a number
+    std::optional<std::string> generator;
+    std::string otherwise = kDefaultGenerator;  // of the scene, for commands that draw one
+    std::vector<std::string> content;           // packs: names or paths
+    unsigned threads = 0;                       // 0: as many as the machine has
+
+    std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
+    std::string effectiveGenerator() const { return generator.value_or(otherwise); }
+};
+
+// --world, --recreate, --regenerate, --store-generated.
+struct SaveOptions {
+    std::string world;  // a store::WorldLocation; empty: none, edits are lost at exit
+    store::Regenerate regenerate = store::Regenerate::None;
+    bool followsGenerator = false;  // store::RequestedWorld
+    // Whether generated chunks are stored too. The world remembers it; by default they are.
+    std::optional<bool> storeGenerated;
+};
+
+unsigned threadCount(const WorldOptions& options);
+
+// The values of an option by name.
+template <class T>
+using EnumNames = std::span<const std::pair<std::string, T>>;
+
+}  // namespace terrane::app
+
+namespace terrane::app {
+
+// Parses a seed: a number or any text. Pure; any thread.
+struct WrittenSeed {
+    std::uint64_t seed = 0;
+    std::string text;  // the text whose base::hash64 is the seed; empty for a number
+};
+
+// A number from 0 to 2^64 − 1, or any other text. Fails for an empty text, and for a whole number out of
+// range: hashed as a text it would give a world that the number does not identify.
+[[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
 
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // Adds --content alone; addWorldOptions() includes it.

@@ -10,12 +10,11 @@
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/former_names.h"
 #include "apps/terrane/help/argument_errors.h"
 #include "apps/terrane/options.h"
-#include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/result.h"
 
 namespace terrane::app {
 namespace {

@@ -2,12 +2,30 @@
 // the same name: the file sets options that the command line does not.
 #pragma once
 
+#include <toml++/toml.h>
+
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "terrane/base/result.h"
+
+// Sets command line flags from values of a TOML file.
+namespace CLI {
+class Option;
+}
+
+namespace terrane::app {
+
+// Sets the flag as if the value followed it on the command line. Errors do not name the line.
+base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value);
+
+// Renames keys of the table and of nested tables from former to current flag names. If both exist, the former
+// one is dropped.
+void useCurrentNames(toml::table& table);
+
+}  // namespace terrane::app
 
 namespace CLI {
 class App;

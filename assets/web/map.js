@@ -36,7 +36,7 @@ const terrane = (() => {
   });
 
   // A server has tiles of the whole world, a folder of files only those of an area
-  // (terrane/map/tiles_of_area.h). Second argument: the tile's bounds in pixels of zoom 0.
+  // (terrane/map/map_tile.h). Second argument: the tile's bounds in pixels of zoom 0.
   const height = 256 * world.isometricHeight;
   const area = world.area ?? {x0: -2147483648, y0: -2147483648, x1: 2147483648, y1: 2147483648};
   const meet = (low, high, otherLow, otherHigh) => low < otherHigh && otherLow < high;

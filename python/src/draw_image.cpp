@@ -6,14 +6,14 @@
 #include <utility>
 
 #include "python/src/open_world.h"
-#include "terrane/base/exception_text.h"
-#include "terrane/gpu/built_in_shaders.h"
+#include "terrane/base/result.h"
 #include "terrane/gpu/context.h"
-#include "terrane/render/graphics_table.h"
-#include "terrane/render/renderer.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/frame/graphics_table.h"
+#include "terrane/render/frame/renderer.h"
 #include "terrane/store/overlay_store.h"
-#include "terrane/view/camera_pose.h"
-#include "terrane/view/memory_budget.h"
+#include "terrane/view/camera_path.h"
+#include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
 
 namespace terrane::python {

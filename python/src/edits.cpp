@@ -2,7 +2,7 @@
 #include "python/src/arrays.h"
 #include "python/src/errors.h"
 #include "python/src/world.h"
-#include "terrane/volume/write_areas.h"
+#include "terrane/volume/areas.h"
 
 namespace py = pybind11;
 

@@ -5,8 +5,7 @@
 #include <utility>
 
 #include "terrane/pack/installed_packs.h"
-#include "terrane/pack/world_packs.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::python {

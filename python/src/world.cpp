@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "python/src/errors.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace py = pybind11;
 

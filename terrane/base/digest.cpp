@@ -5,7 +5,7 @@
 
 #include <new>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::base {
 

@@ -7,7 +7,10 @@
 #include <array>
 #include <cerrno>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
+#include <string>
+#include <system_error>
 
 #include "terrane/base/output_file.h"
 
@@ -75,6 +78,17 @@ Result<void> writePrivateFile(const std::filesystem::path& path, std::string_vie
     if (error == 0) return {};
     if (descriptor >= 0) ::unlink(path.c_str());
     return fail(ErrorCode::Io, "{}: cannot be written: {}", path.string(), systemReason(error));
+}
+
+Result<TemporaryFolder> TemporaryFolder::make(const std::filesystem::path& parent, std::string_view prefix) {
+    std::string path = parent / (std::string(prefix) + "XXXXXX");
+    if (::mkdtemp(path.data())) return TemporaryFolder(path);
+    return fail("{}: no folder can be made in it: {}", parent.string(), systemReason(errno));
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    if (!path_.empty()) std::filesystem::remove_all(path_, ignored);
 }
 
 }  // namespace terrane::base

@@ -3,12 +3,20 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "terrane/base/result.h"
 
 namespace terrane::base {
+
+// Files compiled into the program (shaders, content, textures). tools/embed_files.py writes the tables.
+struct EmbeddedFile {
+    std::string_view path;  // as the CMake list names it, for example "terrane/render/sky/sky.frag.glsl"
+    std::string_view data;  // the whole file; lives as long as the program
+};
 
 // Default limit for files that are read whole.
 constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
@@ -24,5 +32,24 @@ constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 // Creates a file that only its owner may read, for keys. Fails if it exists; leaves no partial file. The
 // bytes are on the disk when it returns.
 [[nodiscard]] Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes);
+
+// A folder for temporary files. Any thread.
+// The destructor removes the folder and all its content.
+class TemporaryFolder {
+  public:
+    // Makes a folder with a new name in `parent`, which may hold files of the user.
+    [[nodiscard]] static Result<TemporaryFolder> make(const std::filesystem::path& parent,
+                                                      std::string_view prefix);
+    ~TemporaryFolder();
+    TemporaryFolder(TemporaryFolder&& other) noexcept : path_(std::exchange(other.path_, {})) {}
+    TemporaryFolder& operator=(TemporaryFolder&&) = delete;
+
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    explicit TemporaryFolder(std::filesystem::path path) : path_(std::move(path)) {}
+
+    std::filesystem::path path_;
+};
 
 }  // namespace terrane::base

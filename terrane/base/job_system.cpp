@@ -13,10 +13,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "terrane/base/exception_text.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::base {
 

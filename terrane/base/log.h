@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
+#include <string>
 #include <utility>
 
 namespace terrane::base {
@@ -37,5 +39,22 @@ template <class... Args>
 void logError(fmt::format_string<Args...> format, Args&&... args) {
     detail::writeLog(LogLevel::Error, format, fmt::make_format_args(args...));
 }
+
+// A progress bar on standard error; silent if that is not a terminal.
+class ProgressBar {
+  public:
+    ProgressBar(std::string what, std::size_t total);
+    ~ProgressBar();  // ends the line
+    ProgressBar(const ProgressBar&) = delete;
+    ProgressBar& operator=(const ProgressBar&) = delete;
+
+    void set(std::size_t done);
+
+  private:
+    std::string what_;
+    std::size_t total_;
+    int shownPercent_ = -1;
+    bool isTerminal_;
+};
 
 }  // namespace terrane::base

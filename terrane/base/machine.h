@@ -1,6 +1,7 @@
 // Describes the machine that measurements are made on.
 #pragma once
 
+#include <cstddef>
 #include <string>
 
 namespace terrane::base {
@@ -19,5 +20,14 @@ double loadAverage();
 
 // Bytes per second at which this thread copies a block that fits no cache; the best of several runs.
 double memoryCopySpeed();
+
+// Memory and CPU time used by this process. Any thread.
+std::size_t residentBytes();      // 0 if unknown
+std::size_t peakResidentBytes();  // so far
+double cpuSeconds();              // of all threads, so far
+
+constexpr double megabytes(std::size_t bytes) {
+    return static_cast<double>(bytes) / 1e6;
+}
 
 }  // namespace terrane::base

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::base {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <string_view>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::base {
 

@@ -3,14 +3,33 @@
 #pragma once
 
 #include <fmt/format.h>
+#include <tl/expected.hpp>
 
 #include <concepts>
 #include <cstdint>
+#include <exception>
+#include <stdexcept>
 #include <string>
 #include <system_error>
-#include <tl/expected.hpp>
 #include <type_traits>
 #include <utility>
+
+namespace terrane::base {
+
+// Checks of public functions for what a caller from outside can get wrong: argument and order of calls. They
+// stay in release builds; inner loops assert instead.
+// Throws std::invalid_argument with `rule`, which names the function, unless the rule holds.
+inline void require(bool holds, const char* rule) {
+    if (!holds) [[unlikely]]
+        throw std::invalid_argument(rule);
+}
+
+// Texts of exceptions for messages. Any thread.
+// A plain text if memory or threads ran out, otherwise what(). Allocates no memory; valid as long as the
+// exception.
+const char* textOf(const std::exception& exception) noexcept;
+
+}  // namespace terrane::base
 
 namespace terrane::base {
 

@@ -1,12 +1,14 @@
 // Block types and textures that are compiled into the program; for shaders see gpu/built_in_shaders.h.
 #pragma once
 
+#include <span>
 #include <string_view>
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/pose.h"
 
 namespace terrane::content {
 
@@ -21,5 +23,17 @@ struct BuiltInFile {
     std::string_view path, data;  // live as long as the program
 };
 std::vector<BuiltInFile> builtInFiles();
+
+// The reference scenes: fixed places in the overworld of seed 1, for measurements and images.
+struct Scene {
+    std::string_view name;
+    world::Pose pose;
+    float timeDay;
+};
+
+constexpr const char* kSceneGenerator = "overworld";
+
+std::span<const Scene> scenes();
+const Scene* findScene(std::string_view name);  // null if there is none
 
 }  // namespace terrane::content

@@ -7,11 +7,17 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/blocks/block_type.h"
 
 namespace terrane::content {
+
+// Format fields of texts: those of printf ("%d") and of fmt ("{:.1f}").
+// The fields in the order of the text. "%%", "{{" and "}}" are fields, too; a lone "{" or "}" is a field by
+// itself.
+std::vector<std::string> textFields(std::string_view text);
 
 // Languages that come with the program.
 constexpr std::array<std::string_view, 3> kLanguages{"en", "cs", "de"};

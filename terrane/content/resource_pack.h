@@ -5,8 +5,8 @@
 
 #include "terrane/base/result.h"
 #include "terrane/content/built_in.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::content {
 

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -13,11 +14,57 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/formats/legacy_ids.h"
-#include "terrane/formats/named_state.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/blocks/block_type.h"
 
 namespace terrane::formats {
+
+// A block as other programs name it: "minecraft:oak_stairs[facing=east,half=bottom]". Plain values; any
+// thread.
+struct NamedState {
+    std::string name;                                             // with its namespace
+    std::vector<std::pair<std::string, std::string>> properties;  // by name, each once
+
+    // The value of the property; null if there is none.
+    const std::string* property(std::string_view property) const;
+    // Sets the property; the order by name is kept.
+    void set(std::string_view property, std::string value);
+    bool operator==(const NamedState&) const = default;
+};
+
+// The text form of schematics. The reverse of namedState() if no name holds any of "[]=,".
+std::string textOf(const NamedState& state);
+// Parses the text form. A name without namespace gets "minecraft:". Nothing if the text is invalid: an empty
+// name, a bracket that does not close, a property without value.
+std::optional<NamedState> namedState(std::string_view text);
+
+// Block numbers of Minecraft 1.12 and older: an id (0…4095) and four bits of data for each block. A table
+// (assets/formats/minecraft_ids.toml) gives the names that replace them since 1.13. Any thread.
+class LegacyIds {
+  public:
+    // Reads the text of the table. Errors read "name:line: key: what is wrong". One table [ids]:
+    //   53 = "oak_stairs[half=bottom]"          for all data
+    //   5 = ["oak_planks", "spruce_planks", …]  by data; beyond the last: entry data - 8, else the first
+    [[nodiscard]] static base::Result<LegacyIds> parse(std::string_view toml, std::string_view name);
+
+    // "minecraft:id_7_1" for numbers that the table lacks.
+    NamedState stateOf(int id, int data) const;
+
+  private:
+    std::vector<std::vector<NamedState>> byId_;
+};
+
+// Converts properties of Minecraft's blocks to block states and back: facing, halves, open doors, arms of
+// fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
+//
+// Minecraft's x, y, z (east, up, south) are our -x, z, y, so that the sun rises in the same east and maps
+// have the same north, -y (game/places.h). Nothing is mirrored.
+// The bits of the state that the properties of `state` give a block of `type`; 0 if they give none.
+// `isOpposite`: the block faces against its property.
+std::uint16_t stateOfProperties(const world::BlockType& type, const NamedState& state, bool isOpposite);
+
+// Adds the properties that correspond to the block state. Properties that `named` already has stay.
+void addProperties(const world::BlockType& type, std::uint16_t state, bool isOpposite, NamedState& named);
 
 struct BlockAndState {
     world::BlockId id = world::kAir;

@@ -9,8 +9,7 @@
 #include "terrane/base/result.h"
 #include "terrane/formats/block_mapping.h"
 #include "terrane/formats/minecraft_chunk.h"
-#include "terrane/formats/named_state.h"
-#include "terrane/world/structure.h"
+#include "terrane/world/changes/structure.h"
 
 namespace terrane::formats {
 

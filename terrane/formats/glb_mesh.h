@@ -13,9 +13,9 @@
 
 #include "terrane/base/result.h"
 #include "terrane/formats/glb_file.h"
-#include "terrane/mesh/chunk_mesh.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::formats {
 

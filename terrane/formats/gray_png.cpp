@@ -5,7 +5,7 @@
 #include <new>
 #include <string_view>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::formats {
 namespace {

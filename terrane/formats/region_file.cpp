@@ -2,7 +2,7 @@
 
 #include <charconv>
 
-#include "terrane/formats/deflate.h"
+#include "terrane/formats/nbt.h"
 
 namespace terrane::formats {
 namespace {

@@ -4,7 +4,6 @@
 #include <array>
 #include <unordered_map>
 
-#include "terrane/formats/deflate.h"
 #include "terrane/formats/nbt.h"
 
 namespace terrane::formats {

@@ -9,8 +9,8 @@
 #include <string_view>
 
 #include "terrane/base/result.h"
+#include "terrane/formats/block_mapping.h"
 #include "terrane/formats/block_volume.h"
-#include "terrane/formats/legacy_ids.h"
 
 namespace terrane::formats {
 

@@ -1,11 +1,395 @@
 #include "terrane/formats/vox_file.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <unordered_map>
 
 #include "terrane/formats/block_volume.h"
-#include "terrane/formats/vox_scene_internal.h"
+#include "terrane/formats/vox_file_internal.h"
 
 namespace terrane::formats {
+
+namespace {
+
+// sRGB to linear, IEC 61966-2-1.
+float linear(float srgb) {
+    return srgb <= 0.04045f ? srgb / 12.92f : std::pow((srgb + 0.055f) / 1.055f, 2.4f);
+}
+
+// B. Ottosson, "A perceptual color space for image processing" (2020). `srgb` is 0…255.
+glm::vec3 oklabOf(glm::vec3 srgb) {
+    const float r = linear(srgb.x / 255), g = linear(srgb.y / 255), b = linear(srgb.z / 255);
+    const float l = std::cbrt(0.4122214708f * r + 0.5363325363f * g + 0.0514459929f * b);
+    const float m = std::cbrt(0.2119034982f * r + 0.6806995451f * g + 0.1073969566f * b);
+    const float s = std::cbrt(0.0883024619f * r + 0.2817188376f * g + 0.6299787005f * b);
+    return {0.2104542553f * l + 0.7936177850f * m - 0.0040720468f * s,
+            1.9779984951f * l - 2.4285922050f * m + 0.4505937099f * s,
+            0.0259040371f * l + 0.7827717662f * m - 0.8086757660f * s};
+}
+
+glm::vec3 channelsOf(std::uint32_t color) {
+    return {color >> 16 & 255, color >> 8 & 255, color & 255};
+}
+
+std::uint32_t colorOf(glm::vec3 mean) {
+    const auto channel = [](float value) { return static_cast<std::uint32_t>(std::lround(value)); };
+    return channel(mean.x) << 16 | channel(mean.y) << 8 | channel(mean.z);
+}
+
+}  // namespace
+
+world::BlockId nearestCube(std::uint32_t color, const world::BlockRegistry& blocks,
+                           const world::TopColors& tops) {
+    const glm::vec3 wanted = oklabOf(channelsOf(color));
+    world::BlockId nearest = blocks.missing();
+    float least = INFINITY;
+    for (const world::BlockType& type : blocks.types()) {
+        if (!type.opaqueCube || type.id == blocks.missing() || tops[type.id].tinted) continue;
+        const glm::vec3 away = oklabOf(tops[type.id].mean) - wanted;
+        const float distance = glm::dot(away, away);
+        if (distance >= least) continue;
+        least = distance;
+        nearest = type.id;
+    }
+    return nearest;
+}
+
+BlockVolume toBlocks(const VoxImage& image, const BlockMapping& mapping, const world::BlockRegistry& blocks,
+                     const world::TopColors& tops) {
+    BlockVolume volume{image.size, {}, {image.cells.begin(), image.cells.end()}};
+    std::vector<bool> isUsed(image.colors.size());
+    for (const std::uint8_t cell : image.cells) isUsed[cell] = true;
+    volume.palette.resize(image.colors.size());
+    for (std::size_t k = 1; k < image.colors.size(); ++k) {
+        if (!isUsed[k]) continue;
+        const std::uint32_t color = image.colors[k] >> 8;
+        const auto named = mapping.colors().find(color);
+        const bool isNamed = named != mapping.colors().end();
+        volume.palette[k].id = isNamed ? named->second : nearestCube(color, blocks, tops);
+    }
+    return volume;
+}
+
+base::Result<VoxImage> toVox(const BlockVolume& volume, const world::TopColors& tops) {
+    VoxImage image;
+    image.size = volume.size;
+    std::unordered_map<std::uint32_t, std::uint8_t> numbers;
+    std::vector<std::int16_t> numberOf(volume.palette.size(), -1);
+    image.cells.reserve(volume.cells.size());
+    for (const std::uint16_t cell : volume.cells) {
+        std::int16_t& number = numberOf[cell];
+        const world::BlockId id = volume.palette[cell].id;
+        if (number < 0 && id == world::kAir) number = 0;
+        if (number < 0) {
+            const std::uint32_t color = colorOf(tops[id < tops.size() ? id : 0].mean);
+            const auto [place, isNew] = numbers.emplace(color, static_cast<std::uint8_t>(numbers.size() + 1));
+            if (numbers.size() > 255) return base::fail("the blocks have more than 255 colors");
+            number = place->second;
+            if (isNew) image.colors[place->second] = color << 8 | 0xff;
+        }
+        image.cells.push_back(static_cast<std::uint8_t>(number));
+    }
+    return image;
+}
+
+// Places the models of a .vox file.
+
+namespace {
+
+constexpr int kMaxVoxDepth = 64;
+// Groups may be used several times, and so may groups in them: visits are limited, not nodes.
+constexpr std::size_t kMaxVoxVisits = 1'000'000;
+
+class SceneWalk {
+  public:
+    explicit SceneWalk(const VoxParts& parts) : parts_(parts) {}
+
+    base::Result<std::vector<PlacedModel>> run() {
+        visit(0, {}, 0);
+        if (!problem_.empty()) return base::fail(base::ErrorCode::Damaged, ".vox: {}", problem_);
+        if (models_.empty()) return base::fail(base::ErrorCode::Damaged, ".vox: its scene shows no model");
+        return std::move(models_);
+    }
+
+  private:
+    void visit(std::int32_t id, const VoxTransform& transform, int depth) {
+        if (depth > kMaxVoxDepth) problem_ = "its scene is too deep";
+        if (++visits_ > kMaxVoxVisits) problem_ = "its scene is too large";
+        const auto found = parts_.nodes.find(id);
+        if (found == parts_.nodes.end()) problem_ = "a node of its scene is missing";
+        if (!problem_.empty() || found->second.isHidden) return;
+        const VoxNode& node = found->second;
+        if (node.kind == VoxNode::Kind::Shape) return place(node, transform);
+        const VoxTransform inner =
+            node.kind == VoxNode::Kind::Transform ? combined(transform, node.transform) : transform;
+        for (const std::int32_t child : node.children) {
+            visit(child, inner, depth + 1);
+            if (!problem_.empty()) return;
+        }
+    }
+
+    // Takes the first model of an animation.
+    void place(const VoxNode& shape, const VoxTransform& transform) {
+        if (shape.children.empty()) return;
+        const auto model = static_cast<std::size_t>(shape.children[0]);
+        if (shape.children[0] < 0 || model >= parts_.models.size())
+            problem_ = "a model of its scene is missing";
+        else
+            models_.push_back({model, transform});
+    }
+
+    const VoxParts& parts_;
+    std::vector<PlacedModel> models_;
+    std::string problem_;
+    std::size_t visits_ = 0;
+};
+
+std::size_t at(int axis) {
+    return static_cast<std::size_t>(axis);
+}
+
+}  // namespace
+
+VoxTransform combined(const VoxTransform& outer, const VoxTransform& inner) {
+    VoxTransform result;
+    result.step = outer.step;
+    for (int row = 0; row < 3; ++row) {
+        const int axis = outer.axis[at(row)], sign = outer.sign[at(row)];
+        result.axis[at(row)] = inner.axis[at(axis)];
+        result.sign[at(row)] = sign * inner.sign[at(axis)];
+        result.step[row] += sign * inner.step[axis];
+    }
+    return result;
+}
+
+// Computes with twice the middle of the voxel, which is odd: half of one less is the voxel again.
+glm::ivec3 placed(const VoxTransform& transform, glm::ivec3 modelSize, glm::ivec3 voxel) {
+    const glm::ivec3 twice = 2 * (voxel - modelSize / 2) + 1;
+    glm::ivec3 result(0);
+    for (int row = 0; row < 3; ++row) {
+        const int turned = transform.sign[at(row)] * twice[transform.axis[at(row)]];
+        result[row] = (turned - 1) / 2 + ((turned - 1) % 2 < 0 ? -1 : 0) + transform.step[row];
+    }
+    return result;
+}
+
+base::Result<std::vector<PlacedModel>> placedModels(const VoxParts& parts) {
+    if (!parts.nodes.empty()) return SceneWalk(parts).run();
+    VoxTransform atOrigin;
+    atOrigin.step = parts.models[0].size / 2;
+    return std::vector<PlacedModel>{{0, atOrigin}};
+}
+
+// Reads the chunks of a .vox file.
+
+namespace {
+
+// Files with thousands of models exist.
+constexpr std::size_t kMaxVoxModels = 65536, kMaxVoxNodes = 262144;
+
+using VoxDictionary = std::map<std::string_view, std::string_view>;
+
+// Reads until data is missing or invalid; then it is bad and gives zeros.
+class VoxReader {
+  public:
+    explicit VoxReader(std::string_view bytes) : bytes_(bytes) {}
+
+    bool isBad() const { return isBad_; }
+    bool isAtEnd() const { return isBad_ || bytes_.empty(); }
+
+    std::string_view take(std::size_t count) {
+        if (isBad_ || count > bytes_.size()) {
+            isBad_ = true;
+            return {};
+        }
+        const std::string_view taken = bytes_.substr(0, count);
+        bytes_.remove_prefix(count);
+        return taken;
+    }
+
+    std::int32_t number() {
+        const std::string_view four = take(4);
+        std::uint32_t value = 0;
+        for (std::size_t k = four.size(); k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(four[k]);
+        return static_cast<std::int32_t>(value);
+    }
+
+    // A number of bytes or elements; bad below 0.
+    std::size_t count() {
+        const std::int32_t value = number();
+        if (value < 0) isBad_ = true;
+        return isBad_ ? 0 : static_cast<std::size_t>(value);
+    }
+
+    std::string_view text() { return take(count()); }
+
+    VoxDictionary dictionary() {
+        constexpr std::size_t kMaxEntries = 256;  // files have ten at most
+        VoxDictionary entries;
+        std::size_t left = count();
+        if (left > kMaxEntries) isBad_ = true;
+        for (; left > 0 && !isBad_; --left) {
+            const std::string_view key = text();
+            entries[key] = text();
+        }
+        return entries;
+    }
+
+  private:
+    std::string_view bytes_;
+    bool isBad_ = false;
+};
+
+std::string_view valueOf(const VoxDictionary& entries, std::string_view key) {
+    const auto found = entries.find(key);
+    return found == entries.end() ? std::string_view() : found->second;
+}
+
+// Reads "x y z", 0 for missing numbers. Steps are clamped to 2^20 blocks, so that sums of nested ones fit an
+// int.
+glm::ivec3 stepOf(std::string_view text) {
+    constexpr int kFarthest = 1 << 20;
+    glm::ivec3 step(0);
+    const char *at = text.data(), *end = text.data() + text.size();
+    for (int axis = 0; axis < 3; ++axis) {
+        while (at != end && *at == ' ') ++at;
+        int value = 0;
+        const auto [after, bad] = std::from_chars(at, end, value);
+        if (bad != std::errc()) break;
+        step[axis] = value < -kFarthest ? -kFarthest : value > kFarthest ? kFarthest : value;
+        at = after;
+    }
+    return step;
+}
+
+// Bits 0–1 and 2–3: the columns of the entries of rows 0 and 1; bits 4–6: which rows are negative.
+std::optional<VoxTransform> rotationOf(std::string_view text) {
+    VoxTransform transform;
+    if (text.empty()) return transform;
+    unsigned bits = 0;
+    const auto [end, bad] = std::from_chars(text.data(), text.data() + text.size(), bits);
+    const int first = static_cast<int>(bits & 3), second = static_cast<int>(bits >> 2 & 3);
+    if (bad != std::errc() || end != text.data() + text.size() || first == 3 || second == 3 ||
+        first == second)
+        return std::nullopt;
+    transform.axis = {first, second, 3 - first - second};
+    for (unsigned row = 0; row < 3; ++row) transform.sign[row] = (bits >> (4 + row) & 1) != 0 ? -1 : 1;
+    return transform;
+}
+
+void readChildren(VoxReader& reader, VoxNode& node, bool haveAttributes) {
+    for (std::size_t left = reader.count(); left > 0 && !reader.isBad(); --left) {
+        node.children.push_back(reader.number());
+        if (haveAttributes) reader.dictionary();
+    }
+}
+
+class VoxPartsReader {
+  public:
+    base::Result<VoxParts> read(std::string_view bytes) {
+        VoxReader reader(bytes);
+        if (reader.take(4) != "VOX ") return bad("its header is wrong");
+        reader.number();  // version
+        if (reader.take(4) != "MAIN") return bad("its part MAIN is missing");
+        const std::size_t own = reader.count();
+        reader.count();  // bytes of the parts inside; wrong in some files
+        reader.take(own);
+        parts_.colors = defaultVoxColors();
+        while (!reader.isAtEnd()) {
+            const std::string_view kind = reader.take(4);
+            const std::size_t size = reader.count(), inside = reader.count();
+            const std::string_view content = reader.take(size);
+            reader.take(inside);
+            if (!reader.isBad()) readPart(kind, content);
+            if (!problem_.empty()) return bad(problem_);
+        }
+        if (reader.isBad()) return bad("it is cut off");
+        if (parts_.models.empty()) return bad("it has no model");
+        return std::move(parts_);
+    }
+
+  private:
+    static tl::unexpected<base::Error> bad(std::string_view problem) {
+        return base::fail(base::ErrorCode::Damaged, ".vox: {}", problem);
+    }
+
+    void readPart(std::string_view kind, std::string_view content) {
+        VoxReader reader(content);
+        if (kind == "SIZE")
+            readSize(reader);
+        else if (kind == "XYZI")
+            readVoxels(reader);
+        else if (kind == "RGBA")
+            readColors(reader);
+        else if (kind == "nTRN" || kind == "nGRP" || kind == "nSHP")
+            readNode(kind, reader);
+        if (reader.isBad() && problem_.empty()) problem_ = fmt::format("a part {} is cut off", kind);
+    }
+
+    void readSize(VoxReader& reader) {
+        for (int axis = 0; axis < 3; ++axis) {
+            size_[axis] = reader.number();
+            if (size_[axis] < 1 || size_[axis] > kMaxVoxSide)
+                problem_ = fmt::format("a model has {} blocks per side", size_[axis]);
+        }
+    }
+
+    void readVoxels(VoxReader& reader) {
+        const std::size_t count = reader.count();
+        if (size_.x == 0) problem_ = "a model has no size";
+        if (parts_.models.size() == kMaxVoxModels) problem_ = "it has too many models";
+        parts_.models.push_back({size_, reader.take(count * 4)});
+        size_ = glm::ivec3(0);
+    }
+
+    // The file has the colors 1 to 255, then an unused one.
+    void readColors(VoxReader& reader) {
+        for (std::size_t k = 1; k <= parts_.colors.size(); ++k) {
+            std::uint32_t color = 0;
+            for (const char c : reader.take(4)) color = color << 8 | static_cast<std::uint8_t>(c);
+            if (k < parts_.colors.size()) parts_.colors[k] = color;
+        }
+    }
+
+    void readNode(std::string_view kind, VoxReader& reader) {
+        const std::int32_t id = reader.number();
+        const VoxDictionary attributes = reader.dictionary();
+        VoxNode node;
+        node.isHidden = valueOf(attributes, "_hidden") == "1";
+        if (kind == "nTRN") {
+            node.kind = VoxNode::Kind::Transform;
+            node.children.push_back(reader.number());
+            reader.take(8);  // reserved, layer
+            if (reader.count() > 0) {
+                const VoxDictionary frame = reader.dictionary();
+                const auto rotation = rotationOf(valueOf(frame, "_r"));
+                if (!rotation) problem_ = "a rotation is wrong";
+                if (rotation) node.transform = *rotation;
+                node.transform.step = stepOf(valueOf(frame, "_t"));
+            }
+        } else {
+            node.kind = kind == "nGRP" ? VoxNode::Kind::Group : VoxNode::Kind::Shape;
+            readChildren(reader, node, kind == "nSHP");
+        }
+        if (parts_.nodes.size() == kMaxVoxNodes) problem_ = "it has too many nodes";
+        parts_.nodes[id] = std::move(node);
+    }
+
+    VoxParts parts_;
+    glm::ivec3 size_{0};
+    std::string problem_;
+};
+
+}  // namespace
+
+base::Result<VoxParts> readVoxParts(std::string_view bytes) {
+    return VoxPartsReader().read(bytes);
+}
+
 namespace {
 
 // Models may be shown many times: 2^27 voxels take about a second.

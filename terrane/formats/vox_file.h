@@ -2,14 +2,17 @@
 // `terrane import` and `terrane export`. Plain functions; any thread.
 #pragma once
 
+#include <glm/vec3.hpp>
+
 #include <array>
 #include <cstdint>
-#include <glm/vec3.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/formats/block_volume.h"
+#include "terrane/world/tint.h"
 
 namespace terrane::formats {
 
@@ -36,5 +39,19 @@ struct VoxImage {
 
 // The palette of files that have none.
 [[nodiscard]] std::array<std::uint32_t, 256> defaultVoxColors();
+
+// Converts colors of .vox files to blocks and back. Called by `terrane import` and `terrane export`. Plain
+// functions; any thread.
+// The opaque cube without tint whose top is nearest to the color 0xRRGGBB, by the distance in Oklab.
+[[nodiscard]] world::BlockId nearestCube(std::uint32_t color, const world::BlockRegistry& blocks,
+                                         const world::TopColors& tops);
+
+// Colors that the mapping names become its blocks, others the nearest cube.
+[[nodiscard]] BlockVolume toBlocks(const VoxImage& image, const BlockMapping& mapping,
+                                   const world::BlockRegistry& blocks, const world::TopColors& tops);
+
+// Each block has the color of its top, whatever its state; air is empty. An error if there are more than 255
+// colors.
+[[nodiscard]] base::Result<VoxImage> toVox(const BlockVolume& volume, const world::TopColors& tops);
 
 }  // namespace terrane::formats

@@ -4,9 +4,9 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "terrane/world/block_model.h"
-#include "terrane/world/liquid_flow.h"
-#include "terrane/world/shape_behaviors.h"
+#include "terrane/world/blocks/block_behavior.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/changes/liquid_flow.h"
 
 namespace terrane::game {
 namespace {

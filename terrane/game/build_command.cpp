@@ -6,9 +6,9 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/game/session.h"
-#include "terrane/world/sign.h"
+#include "terrane/world/blocks/sign.h"
 
 namespace terrane::game {
 namespace {

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "terrane/game/edit_command.h"
-#include "terrane/world/structure.h"
+#include "terrane/world/changes/structure.h"
 
 namespace terrane::game {
 

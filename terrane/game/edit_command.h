@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace terrane::game {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "terrane/world/liquid_flow.h"
+#include "terrane/world/changes/liquid_flow.h"
 
 namespace terrane::game {
 namespace {

@@ -6,7 +6,6 @@
 #include <deque>
 #include <vector>
 
-#include "terrane/world/block_value.h"
 #include "terrane/world/world.h"
 
 namespace terrane::game {

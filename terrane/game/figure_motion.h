@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdint>
 
-#include "terrane/world/figure.h"
 #include "terrane/world/pose.h"
 
 namespace terrane::game {

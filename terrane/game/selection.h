@@ -1,11 +1,11 @@
 // A player's selection of blocks: two corners, and a clipboard that is turned and pasted. Independent of
-// world, window and keys; apps/terrane/window/selection_tool.h drives it. Plain value.
+// world, window and keys; apps/terrane/window/hud/selection_tool.h drives it. Plain value.
 #pragma once
 
 #include <memory>
 #include <optional>
 
-#include "terrane/world/structure.h"
+#include "terrane/world/changes/structure.h"
 
 namespace terrane::game {
 

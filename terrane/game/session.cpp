@@ -7,10 +7,10 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/stream/tile_rows.h"
-#include "terrane/world/liquid_flow.h"
-#include "terrane/world/random_ticks.h"
-#include "terrane/world/sign.h"
+#include "terrane/stream/edited_tiles.h"
+#include "terrane/world/blocks/sign.h"
+#include "terrane/world/changes/liquid_flow.h"
+#include "terrane/world/changes/random_ticks.h"
 
 namespace terrane::game {
 namespace {

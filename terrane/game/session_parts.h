@@ -14,7 +14,7 @@
 #include "terrane/store/chunk_store.h"
 #include "terrane/stream/pipeline_types.h"
 #include "terrane/stream/tile_pipeline.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::game {
 

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "terrane/gen/generator.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/pose.h"
 #include "terrane/world/world.h"
 

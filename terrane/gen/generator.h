@@ -6,19 +6,107 @@
 #pragma once
 
 #include <array>
+#include <atomic>
 #include <cstdint>
+#include <list>
 #include <memory>
+#include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/gen/down_passes.h"
-#include "terrane/gen/executor.h"
-#include "terrane/gen/generator_graph.h"
+#include "terrane/gen/compile/down_passes.h"
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/cpu/executor.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
+
+// The chunks that a pass may read from.
+// The 3×3 chunks around `pos` by y, then x; coordinates wrap at the world's edge as those of blocks do.
+inline std::array<world::ChunkPos, 9> chunksAround(world::ChunkPos pos) {
+    const int bits = 4 + pos.level;  // of a chunk's width in blocks
+    const auto wrap = [bits](std::int32_t v) {
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(v) << bits) >> bits;
+    };
+    std::array<world::ChunkPos, 9> around;
+    for (int n = 0; n < 9; ++n) {
+        around[static_cast<std::size_t>(n)] = {wrap(pos.x + n % 3 - 1), wrap(pos.y + n / 3 - 1), pos.level};
+    }
+    return around;
+}
+
+// Intermediate results of chunks, shared by the threads that generate. Keeps the most recently used ones.
+// One chunk on its way through the passes. Results of the first `passesDone` passes never change again.
+struct ChunkWork {
+    ChunkWork(std::size_t fieldCount, std::size_t passCount) : fields(fieldCount), blocks(passCount) {}
+
+    // Completes the first `passes` passes: calls run(pass) for each pass that no thread runs, and waits for a
+    // pass that another thread runs. Rethrows an exception of `run`; then any thread may run the pass.
+    template <class Run>
+    void advance(int passes, const Run& run);
+
+    int passesDone() const { return state_.load(std::memory_order_acquire) / 2; }
+
+    std::vector<ColumnValues> fields;                 // by field
+    std::vector<std::unique_ptr<BlockArray>> blocks;  // by pass; null for 2D passes
+
+  private:
+    void setState(int state) {
+        state_.store(state, std::memory_order_release);
+        state_.notify_all();
+    }
+
+    std::atomic<int> state_ = 0;  // 2 × passes done, + 1 while a thread runs the next one
+};
+
+template <class Run>
+void ChunkWork::advance(int passes, const Run& run) {
+    for (;;) {
+        int state = state_.load(std::memory_order_acquire);
+        if (state / 2 >= passes) return;
+        if (state % 2 != 0) {
+            state_.wait(state, std::memory_order_acquire);
+            continue;
+        }
+        if (!state_.compare_exchange_strong(state, state + 1)) continue;
+        try {
+            run(state / 2);
+        } catch (...) {
+            setState(state);  // wakes the threads that wait for this pass
+            throw;
+        }
+        setState(state + 2);
+    }
+}
+
+class PassCache {
+  public:
+    PassCache(std::size_t capacity, std::size_t fieldCount, std::size_t passCount)
+        : capacity_(capacity), fieldCount_(fieldCount), passCount_(passCount) {}
+
+    // The chunk's work, new if it is not kept. A work stays alive while a caller holds it.
+    std::shared_ptr<ChunkWork> get(world::ChunkPos pos);
+
+    std::size_t size() {
+        const std::lock_guard lock(mutex_);
+        return entries_.size();
+    }
+
+  private:
+    using Order = std::list<world::ChunkPos>;
+    struct Entry {
+        std::shared_ptr<ChunkWork> work;
+        Order::iterator order;
+    };
+
+    std::mutex mutex_;
+    std::size_t capacity_, fieldCount_, passCount_;
+    Order order_;  // most recently used first
+    std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;
+};
 
 // Size of the cache of results that neighbors need: 1 KiB per field and 128 KiB per 3D pass whose blocks they
 // read. Overworld: 15 KiB per chunk, so the default holds 4,350 chunks, more than the 4,225 of a view of 32.

@@ -5,7 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "terrane/gen/tint_graph.h"
+#include "terrane/gen/language/builder.h"
 
 namespace terrane::gen {
 

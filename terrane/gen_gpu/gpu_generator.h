@@ -5,11 +5,29 @@
 #pragma once
 
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "terrane/gen/batch_generator.h"
+#include "terrane/gen/drainage/drainage_maps.h"
+#include "terrane/gpu/buffer.h"
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::gen_gpu {
+
+// Rivers and lakes near the tiles of a dispatch as storage buffers (shared/drainage.h): made on the CPU from
+// the maps that it uses itself. On the context's thread.
+// Whether a pass reads drainage maps.
+bool readsDrainage(const gen::GeneratorGraph& generator, const gen::PassGraph& pass);
+
+struct DrainageBuffers {
+    gpu::Buffer lists, data;
+};
+
+// For tile jobs in the order of `chunks`: 48 bytes a segment near each, 16 a lake.
+DrainageBuffers uploadDrainage(gen::DrainageMaps& maps, std::size_t mapCount,
+                               std::span<const world::ChunkPos> chunks);
 
 // A batch of 8×8 neighboring overworld chunks needs four rings around it: (8 + 2 × 4)² = 256 slots. The
 // slots hold 640 / 256 = 2.5 such batches, so that neighboring ones share their rings.

@@ -3,6 +3,7 @@
 #include <cassert>
 
 namespace terrane::gpu {
+
 namespace {
 
 Handle<ObjectKind::Buffer> createBuffer(std::string_view label) {
@@ -56,6 +57,26 @@ void Buffer::bindRange(GLenum target, GLuint index, std::size_t offsetBytes, std
     assert(offsetBytes <= sizeBytes_ && sizeBytes <= sizeBytes_ - offsetBytes && "range past the end");
     glBindBufferRange(target, index, id(), static_cast<GLintptr>(offsetBytes),
                       static_cast<GLsizeiptr>(sizeBytes));
+}
+
+BufferTexture::BufferTexture(const Buffer& buffer, GLenum format, std::string_view label) {
+    assert(buffer.id() != 0 && "an empty buffer has nothing to show");
+    GLuint id = 0;
+    glCreateTextures(GL_TEXTURE_BUFFER, 1, &id);
+    handle_ = Handle<ObjectKind::Texture>(id);
+    handle_.label(label);
+    glTextureBuffer(id, format, buffer.id());
+}
+
+void BufferTexture::bind(GLuint unit) const {
+    assert(id() != 0 && "an empty texture cannot be bound");
+    glBindTextureUnit(unit, id());
+}
+
+std::size_t BufferTexture::maxElements() {
+    GLint most = 0;
+    glGetIntegerv(GL_MAX_TEXTURE_BUFFER_SIZE, &most);
+    return static_cast<std::size_t>(most);
 }
 
 }  // namespace terrane::gpu

@@ -10,9 +10,9 @@
 #include <span>
 #include <string_view>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/gpu/buffer.h"
-#include "terrane/gpu/fence.h"
+#include "terrane/gpu/readback_buffer.h"
 
 namespace terrane::gpu {
 

@@ -4,9 +4,10 @@
 // the memory of all texels, 0 for an empty texture; drivers may pad it.
 #pragma once
 
-#include <cstddef>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
+
+#include <cstddef>
 #include <span>
 #include <string_view>
 
@@ -110,6 +111,28 @@ class Texture2DMultisample {
     glm::ivec2 size_ = {0, 0};
     GLenum format_ = GL_NONE;
     int samples_ = 0;
+};
+
+// State by which a shader reads a texture: filters, wrapping, comparison. Used on the thread of its context.
+struct SamplerSettings {
+    GLenum minFilter = GL_LINEAR;
+    GLenum magFilter = GL_LINEAR;
+    GLenum wrapS = GL_CLAMP_TO_EDGE;
+    GLenum wrapT = GL_CLAMP_TO_EDGE;
+    GLenum compare = GL_NONE;    // GL_LEQUAL and so on for shadow samplers
+    float maxAnisotropy = 1.0F;  // up to DeviceInfo::maxAnisotropy
+};
+
+class Sampler {
+  public:
+    Sampler() = default;
+    Sampler(const SamplerSettings& settings, std::string_view label);
+
+    void bind(GLuint unit) const;
+    [[nodiscard]] GLuint id() const { return handle_.id(); }
+
+  private:
+    Handle<ObjectKind::Sampler> handle_;
 };
 
 }  // namespace terrane::gpu

@@ -9,7 +9,7 @@
 
 #include <hwy/highway.h>
 
-#include "terrane/light/light_value.h"
+#include "terrane/light/chunk_light.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {

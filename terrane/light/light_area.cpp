@@ -2,9 +2,10 @@
 
 #include <algorithm>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::light {
+
 namespace {
 
 // Results of stage 1 for the rows y − 1, y and y + 1 of chunks.
@@ -60,6 +61,25 @@ std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table
         for (int x = 0; x < area.chunksX; ++x) lights.push_back(lightChunk(rows.around(x, y), scratch));
     }
     return lights;
+}
+
+namespace {
+
+class CpuSolver : public AreaSolver {
+  public:
+    explicit CpuSolver(const LightTable& table) : table_(table) {}
+
+    std::vector<ChunkLight> solve(const LightArea& area) override { return lightArea(area, table_); }
+    std::string_view backend() const override { return "cpu"; }
+
+  private:
+    const LightTable& table_;
+};
+
+}  // namespace
+
+std::unique_ptr<AreaSolver> makeCpuSolver(const LightTable& table) {
+    return std::make_unique<CpuSolver>(table);
 }
 
 }  // namespace terrane::light

@@ -1,6 +1,8 @@
 // Lights a whole area of chunks at once, for tools and tests; the streaming pipeline uses light_chunk.h.
 #pragma once
 
+#include <memory>
+#include <string_view>
 #include <vector>
 
 #include "terrane/light/light_chunk.h"
@@ -23,5 +25,19 @@ void requireWhole(const LightArea& area);
 // Returns the light of all chunks, in the order of `area.chunks`; requireWhole(area). One thread; keeps three
 // rows of chunks unpacked (about 300 KiB for each chunk of a row).
 std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table);
+
+// Solves the light of areas from scratch. Back ends: the CPU here, compute shaders in terrane/light_gpu. They
+// give the same light, to the bit.
+class AreaSolver {
+  public:
+    virtual ~AreaSolver() = default;
+
+    // Returns the light of all chunks, in the order of `area.chunks`.
+    virtual std::vector<ChunkLight> solve(const LightArea& area) = 0;
+    virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
+};
+
+// Used on one thread, any. `table` outlives it.
+std::unique_ptr<AreaSolver> makeCpuSolver(const LightTable& table);
 
 }  // namespace terrane::light

@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "terrane/base/profile.h"
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/light/kernels_internal.h"
 
 namespace terrane::light {

@@ -1,10 +1,24 @@
 #include "terrane/light/light_sources.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "terrane/light/kernels_internal.h"
 
 namespace terrane::light {
+
+LightTable::LightTable(const world::BlockRegistry& blocks) : missing_(blocks.missing()) {
+    for (const world::BlockType& type : blocks.types()) {
+        LightValue emission = kDark;
+        for (int c = kRed; c <= kBlue; ++c) {
+            const int level = type.emission[static_cast<std::size_t>(c)];
+            assert(level <= kMaxLevel && "the registry checks levels");
+            emission = withLevel(emission, c, level);
+        }
+        entries_.push_back({allComponents(type.opacity), emission});
+    }
+}
+
 namespace {
 
 using world::Section;

@@ -7,10 +7,31 @@
 #include <vector>
 
 #include "terrane/light/brick.h"
-#include "terrane/light/light_table.h"
+#include "terrane/light/chunk_light.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::light {
+
+// Opacity and emission of block types, by id. Made once a session, immutable, shared by all threads.
+class LightTable {
+  public:
+    explicit LightTable(const world::BlockRegistry& blocks);
+
+    // Opacity 0…15 of the block in each of the four components; unknown ids have that of "missing".
+    LightValue opacity(world::BlockId id) const { return entry(id).opacity; }
+    // Red, green and blue; no daylight.
+    LightValue emission(world::BlockId id) const { return entry(id).emission; }
+
+  private:
+    struct Entry {
+        LightValue opacity, emission;
+    };
+    const Entry& entry(world::BlockId id) const { return entries_[id < entries_.size() ? id : missing_]; }
+
+    std::vector<Entry> entries_;
+    world::BlockId missing_;
+};
 
 // Sixteen bricks of a chunk. The function that fills it states who owns the values.
 struct ChunkBricks {

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "terrane/light/light_chunk.h"
-#include "terrane/light/light_table.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/light/light_sources.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace terrane::light {
 

@@ -8,6 +8,7 @@
 #include "terrane/base/result.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/light/batch_lighter.h"
+#include "terrane/light/light_area.h"
 
 namespace terrane::light_gpu {
 
@@ -35,6 +36,24 @@ class GpuBatchLighter : public light::BatchLighter {
     struct Impl;
     explicit GpuBatchLighter(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
+};
+
+// Lights whole areas in compute shaders: GpuBatchLighter behind the interface that both back ends have for
+// files, tests and benchmarks. Used on the context's thread.
+class GpuLightSolver : public light::AreaSolver {
+  public:
+    // `table` outlives it.
+    static base::Result<GpuLightSolver> create(const gpu::ShaderLoader& shaders,
+                                               const light::LightTable& table);
+
+    // Takes areas of any size, in parts of 16×16 chunks, one batch each. Waits for the GPU.
+    std::vector<light::ChunkLight> solve(const light::LightArea& area) override;
+    std::string_view backend() const override { return "gpu"; }
+
+  private:
+    explicit GpuLightSolver(GpuBatchLighter lighter) : lighter_(std::move(lighter)) {}
+
+    GpuBatchLighter lighter_;
 };
 
 }  // namespace terrane::light_gpu

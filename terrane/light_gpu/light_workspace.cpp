@@ -1,16 +1,142 @@
 #include "terrane/light_gpu/light_workspace_internal.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cassert>
 #include <cstring>
 #include <string>
+#include <unordered_map>
 #include <utility>
 
 #include "terrane/base/profile.h"
+#include "terrane/base/result.h"
 #include "terrane/gpu/debug.h"
+#include "terrane/shared/light_solver.h"
 
 namespace terrane::light_gpu {
+
+namespace {
+
+shared::uint propertyOf(world::BlockId id, const light::LightTable& table) {
+    return static_cast<shared::uint>(table.emission(id)) << 4 |
+           static_cast<shared::uint>(light::levelOf(table.opacity(id), light::kRed));
+}
+
+// Converts a dense section; 16 bits a block hold a property too.
+world::Section densePropertiesOf(const world::Section& section, const light::LightTable& table) {
+    constexpr int kValuesPerWord = 4;
+    std::vector<std::uint64_t> words(world::kBlocksPerSection / kValuesPerWord);
+    for (int k = 0; k < world::kBlocksPerSection; ++k) {
+        const std::uint64_t property = propertyOf(section.get(k), table);
+        words[static_cast<std::size_t>(k / kValuesPerWord)] |= property << 16 * (k % kValuesPerWord);
+    }
+    return *world::Section::fromPacked(static_cast<int>(shared::kDenseBits), {}, std::move(words));
+}
+
+}  // namespace
+
+void appendChunk(world::PackedSections& packed, const world::Chunk& chunk, const light::LightTable& table) {
+    const auto propertyOfId = [&](world::BlockId id) { return propertyOf(id, table); };
+    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+        const world::Section& section = chunk.section(n);
+        if (section.isDense()) {
+            appendSection(packed, densePropertiesOf(section, table), propertyOfId);
+        } else {
+            appendSection(packed, section, propertyOfId);
+        }
+    }
+}
+
+namespace {
+
+using light::LightRequest;
+using world::ChunkPos;
+using world::ChunkPtr;
+
+ChunkPos neighborOf(ChunkPos pos, int n) {
+    return world::offsetBy(pos, n % light::kFieldSide - 1, n / light::kFieldSide - 1);
+}
+
+// The chunks that the requests of a batch name.
+class KnownChunks {
+  public:
+    // False if the request conflicts with those before it, or there is no room. Then nothing changes.
+    bool add(const LightRequest& request) {
+        if (requested_ == kMaxRequests) return false;
+        std::size_t fresh = 0;
+        for (int n = 0; n < light::kFieldChunks; ++n) {
+            const ChunkPtr& chunk = request.chunks[static_cast<std::size_t>(n)];
+            const auto found = chunks_.find(neighborOf(request.pos, n));
+            if (found == chunks_.end()) {
+                fresh += chunk ? 1 : 0;
+            } else if (found->second.chunk != chunk ||
+                       (n == light::kCenterChunk && found->second.isRequested)) {
+                return false;
+            }
+        }
+        if (present_ + fresh > kMaxSolved) return false;
+        present_ += fresh;
+        ++requested_;
+        insert(request);
+        return true;
+    }
+    const std::vector<ChunkPos>& order() const { return order_; }  // of the chunks that exist
+    bool isRequested(ChunkPos pos) const { return chunks_.at(pos).isRequested; }
+    const ChunkPtr& chunk(ChunkPos pos) const { return chunks_.at(pos).chunk; }
+
+  private:
+    struct Known {
+        ChunkPtr chunk;  // null: known to be absent
+        bool isRequested = false;
+    };
+
+    void insert(const LightRequest& request) {
+        for (int n = 0; n < light::kFieldChunks; ++n) {
+            const ChunkPos pos = neighborOf(request.pos, n);
+            const ChunkPtr& chunk = request.chunks[static_cast<std::size_t>(n)];
+            if (chunks_.try_emplace(pos, Known{chunk}).second && chunk) order_.push_back(pos);
+        }
+        chunks_.at(request.pos).isRequested = true;
+    }
+
+    std::unordered_map<ChunkPos, Known, world::ChunkPosHash> chunks_;
+    std::vector<ChunkPos> order_;
+    std::size_t present_ = 0, requested_ = 0;
+};
+
+}  // namespace
+
+LightBatch gatherBatch(std::span<const LightRequest> requests) {
+    KnownChunks known;
+    LightBatch batch;
+    for (const LightRequest& request : requests) {
+        base::require(request.chunks[light::kCenterChunk] != nullptr,
+                      "LightRequest: the chunk to light is null");
+        if (!known.add(request)) break;
+        batch.requested.push_back(request.pos);
+    }
+    std::vector<ChunkPos> solved = batch.requested;
+    for (const ChunkPos pos : known.order()) {
+        if (!known.isRequested(pos)) solved.push_back(pos);
+    }
+    std::unordered_map<ChunkPos, shared::uint, world::ChunkPosHash> numbers;
+    for (const ChunkPos pos : solved) {
+        batch.chunks.push_back(known.chunk(pos));
+        numbers.emplace(pos, static_cast<shared::uint>(numbers.size()));
+    }
+    const auto numberAt = [&](ChunkPos pos) {
+        const auto found = numbers.find(pos);
+        return found == numbers.end() ? shared::kNoChunk : found->second;
+    };
+    for (const ChunkPos pos : solved) {
+        batch.beside.emplace_back(numberAt(world::offsetBy(pos, -1, 0)), numberAt(world::offsetBy(pos, 1, 0)),
+                                  numberAt(world::offsetBy(pos, 0, -1)),
+                                  numberAt(world::offsetBy(pos, 0, 1)));
+    }
+    return batch;
+}
+
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "words of two levels are read back as they are");

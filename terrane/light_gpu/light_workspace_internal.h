@@ -2,18 +2,42 @@
 // gpu_batch_lighter.cpp on the context's thread.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "terrane/base/result.h"
 #include "terrane/gpu/buffer.h"
-#include "terrane/gpu/fence.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/gpu/shader_loader.h"
-#include "terrane/light_gpu/light_batch_internal.h"
-#include "terrane/light_gpu/section_upload_internal.h"
+#include "terrane/light/batch_lighter.h"
+#include "terrane/light/light_sources.h"
+#include "terrane/shared/light_solver.h"
+#include "terrane/world/chunk.h"
+#include "terrane/world/section.h"
 
 namespace terrane::light_gpu {
+
+// Chunks as the shaders that solve light read them: sections in their packed form, with the opacity and
+// emission of blocks in place of their ids. Pure bookkeeping without OpenGL.
+// Appends the sixteen sections of a chunk, the lowest first.
+void appendChunk(world::PackedSections& packed, const world::Chunk& chunk, const light::LightTable& table);
+
+// Lists the chunks that are solved together, each once, and their neighbors. Pure bookkeeping without OpenGL.
+// Used by gpu_batch_lighter.cpp.
+// 16×16 neighboring chunks with one chunk around them, because light travels 15 blocks.
+constexpr std::size_t kMaxRequests = 16 * 16;
+constexpr std::size_t kMaxSolved = 18 * 18;
+
+struct LightBatch {
+    std::vector<world::ChunkPos> requested;
+    std::vector<world::ChunkPtr> chunks;  // the requested ones, in order, then their neighbors
+    std::vector<shared::uvec4> beside;  // by chunk: numbers of its neighbors at −x, +x, −y, +y, or kNoChunk
+};
+
+// Takes as many requests from the front as fit, at least one. A batch has one snapshot of a chunk, so it ends
+// before a request that has another one, or that asks for the same chunk again.
+LightBatch gatherBatch(std::span<const light::LightRequest> requests);
 
 struct LightPrograms {
     static base::Result<LightPrograms> create(const gpu::ShaderLoader& shaders);

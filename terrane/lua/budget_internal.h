@@ -4,12 +4,55 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
-#include "terrane/lua/limits_internal.h"
+#include "terrane/gen/compile/generator_graph.h"
 
 struct lua_State;
 
 namespace terrane::lua {
+
+// Limits of one run of a script. Steps are counted alike on every machine, so that a script stops at the same
+// place everywhere. Time is a second limit, for work that steps do not measure: comparing long strings,
+// colliding keys.
+// 64 KiB of zeros take 0.9 ms to compare: Lua calls strcoll for each. Between two readings of the clock, 200
+// instructions, stand some 45 comparisons.
+constexpr std::size_t kMaxTextBytes = std::size_t{64} << 10;
+
+struct Limits {
+    std::size_t memoryBytes = std::size_t{64} << 20;
+    // The array of a table: 2^18 elements of 16 bytes.
+    std::size_t blockBytes = std::size_t{4} << 20;
+    std::size_t textBytes = kMaxTextBytes;
+    // Instructions of Lua, about 5 ns each. Functions and memory count as the instructions that take as long.
+    std::int64_t steps = 4'000'000;
+    std::chrono::milliseconds time{100};  // thread time
+};
+
+// Limits of what a script records. The larger generators of the program have some 3,000 nodes a pass. All
+// passes together have at most 100,000 nodes: Limits::steps / 40, the steps of a node (call.cpp).
+constexpr std::size_t kMaxNodesInPass = 20'000;
+constexpr std::size_t kMaxPasses = 32;
+constexpr std::size_t kMaxFields = 128;
+constexpr std::size_t kMaxVariablesInPass = 256;
+constexpr std::size_t kMaxSeedNames = 512;  // noises and random numbers: the builder looks through them
+constexpr std::size_t kMaxNameBytes = 64;
+constexpr std::size_t kMaxDrainages = 4;
+constexpr std::size_t kMaxVoxels = 200'000;  // in all shapes together
+constexpr std::size_t kMaxLoopDepth = 2;
+
+// Work of the slowest chunk, in operations a voxel, where each loop runs 1,024 rounds. A node that does not
+// depend on z runs for 256 columns and counts 1/256. 65,536 voxels × 100,000 operations take some 2 s.
+constexpr double kMaxOperationsPerVoxel = 100'000;
+constexpr double kVoxelsOfChunk = 65'536;
+// Heights of one region of a drainage map: (128 + 2 · 88)² cells with 4 samples each
+// (gen/drainage_curves.cpp). A chunk at a corner needs four regions.
+constexpr double kColumnsOfRegion = 369'664;
+constexpr double kRegionsOfChunk = 4;
+// Rings of chunks around one that are made before it: (2 · 6 + 1)² = 169 chunks.
+constexpr int kMaxRings = 6;
+// 3D passes whose blocks are kept for neighbors: 128 KiB each, for 256 chunks and more of each level.
+constexpr std::ptrdiff_t kMaxKeptBlocks = 2;
 
 class Budget {
   public:
@@ -48,5 +91,10 @@ class Budget {
     lua_State* state_ = nullptr;
     int line_ = 0;
 };
+
+// Bounds the time that a chunk of a recorded generator takes. script.cpp checks each script's. Any thread.
+// Returns the reason if a chunk may take too long, else an empty string. The graph has no mistakes. Stamps
+// count once it has its table of shapes.
+std::string unboundedWork(const gen::GeneratorGraph& graph);
 
 }  // namespace terrane::lua

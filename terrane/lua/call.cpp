@@ -1,11 +1,14 @@
+#include "terrane/lua/call_internal.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <new>
 
-#include "terrane/lua/call_internal.h"
+#include "terrane/base/text.h"
 
 namespace terrane::lua {
+
 namespace {
 
 constexpr std::int64_t kStepsOfCall = 40;  // 200 ns
@@ -292,6 +295,60 @@ void Call::checkMistakes() {
             "a pass has more than {} operations: split it into several, or leave out what large steps do not "
             "show",
             kMaxNodesInPass);
+}
+
+void readOptions(Call& c, int argument, std::initializer_list<Option> options) {
+    c.table(argument);
+    int known = 0, given = 0;
+    std::vector<std::string> names;
+    for (const Option& option : options) {
+        names.emplace_back(option.name);
+        if (lua_getfield(c.L, argument, option.name) != LUA_TNIL) {
+            ++known;
+            const int value = lua_gettop(c.L);
+            if (!c.isNumber(value))
+                fail("{}: {}: expected a number, got {}", c.function, option.name, c.described(value));
+            if (auto* whole = std::get_if<int*>(&option.value)) **whole = c.integer(value);
+            if (auto* number = std::get_if<float*>(&option.value)) **number = c.number(value);
+        }
+        lua_pop(c.L, 1);
+    }
+    std::string unknown;
+    lua_pushnil(c.L);
+    while (lua_next(c.L, argument) != 0) {
+        lua_pop(c.L, 1);
+        ++given;
+        c.charge(10);
+        const bool isName = lua_type(c.L, -1) == LUA_TSTRING;
+        const std::string key = isName ? lua_tostring(c.L, -1) : "a list's item";
+        const bool isKnown = std::find(names.begin(), names.end(), key) != names.end();
+        // The least of the unknown: the order of keys differs from run to run.
+        if (!isKnown && (unknown.empty() || key < unknown)) unknown = key;
+    }
+    if (given > known)
+        fail("{}: there is no option {}{}", c.function, unknown, base::didYouMean(unknown, names));
+}
+
+// Blocks by the names that scripts use.
+
+std::string BlockNames::find(std::string_view name) {
+    if (name == "air") return std::string(name);
+    const std::string ofPack = pack_.empty() ? std::string() : fmt::format("{}:{}", pack_, name);
+    for (std::string candidate : {ofPack, std::string(name)}) {
+        if (const auto alias = aliases_.find(candidate); alias != aliases_.end()) candidate = alias->second;
+        if (candidate.empty() || blocks_.find(candidate) == nullptr) continue;
+        addUsed(candidate);
+        return candidate;
+    }
+    std::vector<std::string> known;
+    const std::string prefix = pack_ + ":";
+    for (const world::BlockType& type : blocks_.types())
+        known.push_back(type.name.starts_with(prefix) ? type.name.substr(prefix.size()) : type.name);
+    fail("unknown block \"{}\"{}", name, base::didYouMean(name, known));
+}
+
+void BlockNames::addUsed(std::string_view name) {
+    if (std::find(used_.begin(), used_.end(), name) == used_.end()) used_.emplace_back(name);
 }
 
 }  // namespace terrane::lua

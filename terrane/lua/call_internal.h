@@ -15,6 +15,7 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "terrane/lua/object_internal.h"
 #include "terrane/lua/recording_internal.h"
@@ -116,5 +117,14 @@ bool hasText(lua_State* L, int index);
 void pushFunction(lua_State* L, const Function& function, Tag self);
 // Gives them to the table on top of the stack, by their names.
 void addFunctions(lua_State* L, std::span<const Function> functions, Tag self);
+
+// Tables of named numbers, {size = 128, octaves = 5}, as arguments.
+struct Option {
+    const char* name;
+    std::variant<int*, float*> value;
+};
+
+// Sets the options that the table names. Throws on unknown names and on values that are not numbers.
+void readOptions(Call& c, int argument, std::initializer_list<Option> options);
 
 }  // namespace terrane::lua

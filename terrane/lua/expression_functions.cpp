@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/gen/noise.h"
+#include "terrane/gen/noise/noise.h"
 #include "terrane/lua/function_tables_internal.h"
 
 namespace terrane::lua {

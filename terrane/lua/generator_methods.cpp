@@ -1,8 +1,8 @@
 // Methods of the generator: fields, passes, tint, shapes, trees, drainage maps.
 
 #include "terrane/gen/generators/trees/trees.h"
+#include "terrane/lua/call_internal.h"
 #include "terrane/lua/function_tables_internal.h"
-#include "terrane/lua/options_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -1,8 +1,7 @@
 // Methods of passes: noise, random numbers, scatter, erosion.
-#include "terrane/gen/erosion.h"
-#include "terrane/gen/scatter.h"
+#include "terrane/gen/language/compounds.h"
+#include "terrane/lua/call_internal.h"
 #include "terrane/lua/function_tables_internal.h"
-#include "terrane/lua/options_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -2,7 +2,7 @@
 #include <new>
 #include <string>
 
-#include "terrane/base/nearest_name.h"
+#include "terrane/base/text.h"
 #include "terrane/lua/function_tables_internal.h"
 
 namespace terrane::lua {

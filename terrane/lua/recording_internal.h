@@ -10,10 +10,10 @@
 #include <string_view>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/lua/budget_internal.h"
-#include "terrane/lua/expression_internal.h"
 #include "terrane/lua/lua_internal.h"
+#include "terrane/lua/object_internal.h"
 #include "terrane/lua/script.h"
 
 namespace terrane::lua {

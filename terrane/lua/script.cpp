@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "terrane/base/digest.h"
-#include "terrane/gen/graph_hash.h"
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/lua/budget_internal.h"
 #include "terrane/lua/call_internal.h"
-#include "terrane/lua/graph_limits_internal.h"
 #include "terrane/lua/state_internal.h"
 
 namespace terrane::lua {

@@ -10,8 +10,8 @@
 #include <string>
 
 #include "terrane/base/result.h"
-#include "terrane/gen/generator_graph.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::lua {
 

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cstring>
 
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 #include "terrane/lua/function_tables_internal.h"
-#include "terrane/lua/names.h"
+#include "terrane/lua/state.h"
 
 namespace terrane::lua {
 namespace {

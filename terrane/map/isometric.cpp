@@ -5,8 +5,8 @@
 #include <glm/vec3.hpp>
 #include <unordered_map>
 
-#include "terrane/map/map_pixels.h"
 #include "terrane/map/map_tile.h"
+#include "terrane/map/paint.h"
 
 namespace terrane::map {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "terrane/base/image.h"
-#include "terrane/map/map_colors.h"
+#include "terrane/map/paint.h"
 #include "terrane/map/surface_source.h"
 #include "terrane/map/tint_field.h"
 

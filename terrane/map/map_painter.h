@@ -2,21 +2,35 @@
 // thread, several at a time.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "terrane/base/image.h"
 #include "terrane/base/result.h"
 #include "terrane/gen/generators/biomes.h"
-#include "terrane/map/edited_positions.h"
-#include "terrane/map/map_colors.h"
 #include "terrane/map/map_tile.h"
+#include "terrane/map/paint.h"
 #include "terrane/map/surface_source.h"
 #include "terrane/map/tint_field.h"
 
 namespace terrane::map {
+
+// Overlays of a map: images of heights and biomes as colors. Any thread. Rows and columns as in paint.h.
+// The color of ground at a height, 0…255: blue below the sea, then green, yellow, brown and white.
+Rgb heightColor(int z);
+// The color of a biome by its number (gen/generators/biomes.h).
+Rgb biomeColor(std::size_t number);
+
+// The height of the ground, under water too, with a darker line each 16 blocks. Under a crown over water the
+// height of the water, since surfaces do not have its depth. The margin is kReliefMargin.
+base::Image paintHeights(const PaintedArea& area);
+// `biomes`: numbers of the rectangle's columns, x + width · y. Each column is `scale`² pixels.
+base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes);
 
 // Facts of one column of level 0, shown for the column under the mouse pointer.
 struct ColumnFacts {

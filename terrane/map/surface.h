@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/gen/generator.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::map {

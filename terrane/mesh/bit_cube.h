@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "terrane/world/block_type.h"
+#include "terrane/world/blocks/block_type.h"
 
 namespace terrane::mesh {
 

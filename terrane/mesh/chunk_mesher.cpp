@@ -2,10 +2,11 @@
 
 #include <algorithm>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/mesh/section_faces.h"
 
 namespace terrane::mesh {
+
 namespace {
 
 SectionView viewSection(const MeshInput& input, int number) {
@@ -79,6 +80,28 @@ ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& block
     const world::Chunk air;
     MeshScratch scratch;
     return meshChunk({&chunk, {&air, &air, &air, &air}, &blocks, {}}, scratch);
+}
+
+namespace {
+
+class CpuMesher : public BatchMesher {
+  public:
+    std::vector<ChunkMesh> mesh(std::span<const MeshInput> chunks) override {
+        std::vector<ChunkMesh> meshes;
+        meshes.reserve(chunks.size());
+        for (const MeshInput& chunk : chunks) meshes.push_back(meshChunk(chunk, scratch_));
+        return meshes;
+    }
+    std::string_view backend() const override { return "cpu"; }
+
+  private:
+    MeshScratch scratch_;
+};
+
+}  // namespace
+
+std::unique_ptr<BatchMesher> makeCpuMesher() {
+    return std::make_unique<CpuMesher>();
 }
 
 }  // namespace terrane::mesh

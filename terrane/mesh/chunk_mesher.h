@@ -3,12 +3,15 @@
 #pragma once
 
 #include <array>
+#include <memory>
+#include <span>
+#include <string_view>
 #include <vector>
 
-#include "terrane/mesh/chunk_mesh.h"
 #include "terrane/mesh/mesh_options.h"
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/mesh/quad_collector.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::mesh {
@@ -49,5 +52,19 @@ ChunkMesh meshTile(const world::Chunk& chunk, const world::BlockRegistry& blocks
 // indices into `quads`.
 MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
                              std::vector<shared::Quad>& quads);
+
+// Meshes many chunks. Back ends: the CPU here, compute shaders in terrane/mesh_gpu. They give the same quads
+// and ranges; the order of quads within a range differs between back ends.
+class BatchMesher {
+  public:
+    virtual ~BatchMesher() = default;
+
+    // Returns meshes in the order of `chunks`, which have the same registry and options.
+    virtual std::vector<ChunkMesh> mesh(std::span<const MeshInput> chunks) = 0;
+    virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
+};
+
+// Used on one thread, any.
+std::unique_ptr<BatchMesher> makeCpuMesher();
 
 }  // namespace terrane::mesh

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include "terrane/mesh/shape_faces.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/blocks/block_type.h"
 
 namespace terrane::mesh {
 

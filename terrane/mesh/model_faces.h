@@ -7,7 +7,7 @@
 #include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/quad_collector.h"
 #include "terrane/mesh/section_faces.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace terrane::mesh {
 
@@ -28,5 +28,17 @@ void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::Mode
 // along y for -x and +x.
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,
                    QuadCollector& out);
+
+// Faces of flowing liquids, one quad a face. Used by section_faces.cpp on the meshing worker's thread;
+// terrane/mesh_gpu/liquids.glsl has the same rules.
+// Whether a liquid flows in the section or its neighbors.
+bool hasFlow(const SectionView& view);
+
+BitCube flowingBlocks(const ModelBlocks& liquid);
+
+// Adds all faces of flowing blocks, and those of still blocks toward flowing ones. `stillSurface`: the still
+// blocks whose top is visible, in rows along x. `uncovered` as in model_faces.h.
+void addFlowFaces(const ModelBlocks& liquid, const BitCube& stillSurface,
+                  const std::array<BitCube, world::kFaceCount>& uncovered, QuadCollector& out);
 
 }  // namespace terrane::mesh

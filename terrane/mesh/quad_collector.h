@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "terrane/mesh/chunk_mesh.h"
+#include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh {
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh {

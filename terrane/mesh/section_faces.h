@@ -3,13 +3,79 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
 
+#include "terrane/mesh/bit_cube.h"
 #include "terrane/mesh/face_writer.h"
 #include "terrane/mesh/quad_collector.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/mesh/shape_faces.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/section.h"
 
 namespace terrane::mesh {
+
+// The rules of block types that both back ends of the mesher follow. Pure functions; any thread.
+// Whether a face toward a block of the same type is left out. Blocks with inner faces have two at each shared
+// side. If both are two-sided they look the same, so only the block at the lower coordinate has one.
+inline bool hidesOwnKind(const world::BlockType& type, world::Face side, const world::BlockRegistry& blocks) {
+    if (!type.innerFaces || type.shape == world::Shape::Liquid) return true;
+    const bool isPositive = side % 2 == 1;
+    return !isPositive && blocks.materials()[type.material[oppositeSide(side)]].twoSided;
+}
+
+// Faces whose texture waves at the top only do not merge: a face taller than one block would wave only at its
+// top.
+inline bool mergesFaces(const world::BlockType& type, world::Face side, const world::BlockRegistry& blocks) {
+    return blocks.materials()[type.material[side]].animation != world::Animation::TopWaves;
+}
+
+// Blocks of one section as sets of bits, one set for each distinct id. Read from the packed form: the bits of
+// all indices are sorted into planes once, then the blocks of an id take a few ANDs. Used by
+// section_faces.cpp for one section at a time; any thread.
+class SectionBits {
+  public:
+    explicit SectionBits(const world::Section& section);
+
+    // Distinct ids; some may have no block.
+    std::span<const world::BlockId> ids() const { return ids_; }
+    // Blocks of ids()[number], in rows along x.
+    BitCube blocks(std::size_t number) const;
+
+  private:
+    static constexpr std::size_t kMaxBits = 16;  // of a block in the dense form
+    static constexpr std::size_t kGroups = 64;   // of 64 blocks
+
+    std::size_t bits_;
+    std::vector<world::BlockId> ids_;
+    std::array<std::uint64_t, kGroups * kMaxBits> planes_;  // as in bit_kernels.h
+};
+
+// The outermost layer of a section as bits, for the adjacent section. Used by section_faces.cpp for the six
+// neighbors of a section; any thread.
+// The layer of a section on one of its sides. Refers to the section.
+class SectionSide {
+  public:
+    SectionSide(const world::Section& section, world::Face side);
+
+    BitSlice opaqueCubes(const world::BlockRegistry& blocks) const;
+    BitSlice blocks(world::BlockId id) const;
+
+  private:
+    static constexpr std::size_t kGroups = 4;  // of 64 blocks
+
+    BitSlice blocksOfIndex(std::size_t index) const;
+    BitSlice denseOpaqueCubes(const world::BlockRegistry& blocks) const;
+
+    const world::Section& section_;
+    world::Face side_;
+    std::array<std::uint64_t, kGroups * 16> planes_;  // as in bit_kernels.h; 16 bits at most
+};
+
+// True if all blocks of the section are opaque cubes; may be false for some such sections.
+bool isAllOpaque(const world::Section& section, const world::BlockRegistry& blocks);
 
 // A section and its neighbors.
 struct SectionView {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "terrane/shared/shape_face.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::mesh {
 

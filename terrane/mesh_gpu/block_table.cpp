@@ -4,8 +4,8 @@
 #include <map>
 
 #include "terrane/mesh/draw_bucket.h"
-#include "terrane/mesh/face_rules.h"
-#include "terrane/world/block_model.h"
+#include "terrane/mesh/section_faces.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace terrane::mesh_gpu {
 namespace {

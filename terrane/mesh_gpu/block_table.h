@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "terrane/shared/mesher.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::mesh_gpu {
 

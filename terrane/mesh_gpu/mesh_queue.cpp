@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "terrane/base/profile.h"
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::mesh_gpu {
 namespace {

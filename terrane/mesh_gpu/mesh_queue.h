@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "terrane/gpu/arena_buffers.h"
+#include "terrane/gpu/arena_allocator.h"
 #include "terrane/mesh_gpu/gpu_mesher.h"
 
 namespace terrane::mesh_gpu {

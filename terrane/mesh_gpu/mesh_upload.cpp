@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "terrane/base/require.h"
-#include "terrane/mesh/section_side.h"
+#include "terrane/base/result.h"
+#include "terrane/mesh/section_faces.h"
 
 namespace terrane::mesh_gpu {
 namespace {

@@ -9,7 +9,7 @@
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/mesh_gpu/block_table.h"
 #include "terrane/shared/mesher.h"
-#include "terrane/world/packed_sections.h"
+#include "terrane/world/section.h"
 
 namespace terrane::mesh_gpu {
 

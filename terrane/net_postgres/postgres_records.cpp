@@ -9,7 +9,7 @@
 
 #include "terrane/base/digest.h"
 #include "terrane/net_postgres/record_rows.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 
 namespace terrane::net_postgres {
 namespace {

@@ -10,11 +10,11 @@
 #include <set>
 #include <thread>
 
-#include "terrane/net/history.h"
-#include "terrane/net/shared_world.h"
+#include "terrane/net/server/edit_log.h"
+#include "terrane/net/sharing/shared_world.h"
 #include "terrane/net_postgres/history_writer.h"
 #include "terrane/net_postgres/server_rows.h"
-#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/connection.h"
 #include "terrane/store_postgres/world_database.h"
 
 namespace terrane::net_postgres {

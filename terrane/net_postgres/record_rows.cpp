@@ -3,8 +3,8 @@
 #include <limits>
 #include <utility>
 
-#include "terrane/game/pose_text.h"
-#include "terrane/net/record_values.h"
+#include "terrane/game/player_state.h"
+#include "terrane/net/server/server_records.h"
 
 namespace terrane::net_postgres {
 namespace {

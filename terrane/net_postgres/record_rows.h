@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/game/places.h"
-#include "terrane/net/server_records.h"
+#include "terrane/net/server/server_records.h"
 #include "terrane/store_postgres/connection.h"
 
 namespace terrane::net_postgres {

@@ -1,6 +1,6 @@
 #include "terrane/net_postgres/server_rows.h"
 
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 
 namespace terrane::net_postgres {
 namespace {

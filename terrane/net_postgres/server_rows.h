@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terrane/net/shared_world.h"
+#include "terrane/net/sharing/shared_world.h"
 #include "terrane/store_postgres/connection.h"
 
 namespace terrane::net_postgres {

@@ -2,10 +2,10 @@
 
 #include <charconv>
 
-#include "terrane/base/hex.h"
+#include "terrane/base/text.h"
 #include "terrane/game/places.h"
-#include "terrane/net/message_types.h"
-#include "terrane/net/wire.h"
+#include "terrane/net/wire/message_codec.h"
+#include "terrane/net/wire/wire.h"
 
 namespace terrane::net_postgres {
 namespace {

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "terrane/net/shared_world.h"
+#include "terrane/net/sharing/shared_world.h"
 
 namespace terrane::net_postgres {
 

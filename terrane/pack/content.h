@@ -9,10 +9,15 @@
 #include "terrane/content/language.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/pack/pack.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::pack {
+
+// The order in which packs are loaded. Any thread.
+// `builtIn` first, then each pack after those that it requires, otherwise as given. An error if a pack is
+// given twice, requires a missing one, or requires itself through others.
+[[nodiscard]] base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs);
 
 struct Content {
     // In the order of loading, the built-in one first. Textures are read from their files.

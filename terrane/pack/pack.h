@@ -3,6 +3,7 @@
 // any thread.
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <string>
 #include <string_view>
@@ -60,5 +61,13 @@ std::string placeOf(const Pack& pack, std::string_view path);
 std::string qualified(const Pack& pack, std::string_view name);
 
 [[nodiscard]] base::Result<Pack> builtInPack();
+
+// The template that new packs start from. Any thread.
+// The name of the skeleton's generator, within the pack.
+constexpr std::string_view kSkeletonGenerator = "hills";
+
+// Writes a pack that works as it is: a glowing block with its texture, a generator that uses it, names of
+// blocks, all with comments. The pack has the folder's name. An error if the folder exists.
+[[nodiscard]] base::Result<void> writeSkeleton(const std::filesystem::path& folder);
 
 }  // namespace terrane::pack

@@ -1,12 +1,117 @@
 #include "terrane/pack/pack_files.h"
 
+#include <sodium.h>
+#include <zip.h>
+
 #include <algorithm>
+#include <memory>
+#include <string>
 #include <system_error>
+#include <utility>
 
 #include "terrane/base/files.h"
-#include "terrane/pack/zip_file.h"
+#include "terrane/store/chunks/bytes.h"
 
 namespace terrane::pack {
+
+namespace {
+
+constexpr zip_int64_t kMaxEntries = 65536;
+
+struct CloseZip {
+    void operator()(zip_t* zip) const { zip_discard(zip); }
+};
+struct CloseFile {
+    void operator()(zip_file_t* file) const { zip_fclose(file); }
+};
+using Zip = std::unique_ptr<zip_t, CloseZip>;
+
+std::string textOf(int code) {
+    zip_error_t error;
+    zip_error_init_with_code(&error, code);
+    std::string text = zip_error_strerror(&error);
+    zip_error_fini(&error);
+    return text;
+}
+
+base::Result<Zip> openZip(std::string_view bytes, const std::string& where) {
+    zip_error_t error;
+    zip_error_init(&error);
+    zip_source_t* source = zip_source_buffer_create(bytes.data(), bytes.size(), 0, &error);
+    zip_t* zip = source ? zip_open_from_source(source, ZIP_RDONLY, &error) : nullptr;
+    if (!zip && source) zip_source_free(source);
+    const int code = zip_error_code_zip(&error);
+    zip_error_fini(&error);
+    if (!zip)
+        return base::fail(base::ErrorCode::BadInput, "{}: not a zip file of a content pack: {}", where,
+                          textOf(code));
+    return Zip(zip);
+}
+
+// "isles/" if pack.toml is in a folder of the zip file, else empty.
+std::string folderOf(zip_t* zip, zip_int64_t count) {
+    for (zip_int64_t k = 0; k < count; ++k) {
+        const char* name = zip_get_name(zip, static_cast<zip_uint64_t>(k), 0);
+        const std::string path = name ? name : "";
+        if (path == "pack.toml") return {};
+        const auto slash = path.find('/');
+        if (slash != std::string::npos && path.substr(slash + 1) == "pack.toml")
+            return path.substr(0, slash + 1);
+    }
+    return {};
+}
+
+base::Result<std::string> readEntry(zip_t* zip, zip_uint64_t index, std::size_t maxBytes,
+                                    const std::string& where) {
+    const std::unique_ptr<zip_file_t, CloseFile> file(zip_fopen_index(zip, index, 0));
+    if (!file)
+        return base::fail(base::ErrorCode::BadInput, "{}: cannot be read: {}", where, zip_strerror(zip));
+    std::string data;
+    char buffer[16384];
+    while (true) {
+        const zip_int64_t read = zip_fread(file.get(), buffer, sizeof(buffer));
+        if (read < 0)
+            return base::fail(base::ErrorCode::BadInput, "{}: cannot be read: {}", where,
+                              zip_file_strerror(file.get()));
+        if (read == 0) return data;
+        if (data.size() + static_cast<std::size_t>(read) > maxBytes)
+            return base::fail(base::ErrorCode::BadInput, "{}: the pack has more than {} MiB", where,
+                              kMaxPackBytes >> 20);
+        data.append(buffer, static_cast<std::size_t>(read));
+    }
+}
+
+}  // namespace
+
+base::Result<PackFiles> readZipBytes(std::string_view bytes, const std::string& where) {
+    auto zip = TERRANE_TRY(openZip(bytes, where));
+    const zip_int64_t count = zip_get_num_entries(zip.get(), 0);
+    if (count > kMaxEntries)
+        return base::fail(base::ErrorCode::BadInput, "{}: more than {} files", where, kMaxEntries);
+    const std::string folder = folderOf(zip.get(), count);
+    PackFiles files;
+    std::size_t total = 0;
+    for (zip_int64_t k = 0; k < count; ++k) {
+        const auto index = static_cast<zip_uint64_t>(k);
+        const char* name = zip_get_name(zip.get(), index, 0);
+        std::string path = name ? name : "";
+        if (!path.starts_with(folder)) continue;
+        path.erase(0, folder.size());
+        if (!isPackPath(path) || files.contains(path)) continue;
+        if (files.size() == kMaxFiles)
+            return base::fail(base::ErrorCode::BadInput, "{}: more than {} files", where, kMaxFiles);
+        auto data = TERRANE_TRY(readEntry(zip.get(), index, kMaxPackBytes - total, where + "/" + path));
+        total += data.size();
+        files.emplace(std::move(path), std::move(data));
+    }
+    return files;
+}
+
+base::Result<PackFiles> readZip(const std::filesystem::path& path) {
+    const auto bytes = TERRANE_TRY(base::readFile(path, kMaxPackBytes));
+    return readZipBytes(bytes, path.string());
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -91,6 +196,94 @@ std::vector<fs::path> packsIn(const fs::path& folder) {
     }
     std::ranges::sort(packs);
     return packs;
+}
+
+namespace {
+
+constexpr std::uint32_t kMagic = 0x314B5054;  // "TPK1"
+// The contents, and paths and lengths of kMaxFiles files.
+constexpr std::size_t kMaxRawBytes = kMaxPackBytes + kMaxFiles * 256;
+
+// A count, then for each file the length of its path, the length of its contents, path and contents; in order
+// of paths.
+store::Bytes rawBytes(const PackFiles& files) {
+    store::Bytes bytes;
+    store::appendNumber(bytes, static_cast<std::uint32_t>(files.size()));
+    for (const auto& [path, data] : files) {
+        store::appendNumber(bytes, static_cast<std::uint16_t>(path.size()));
+        store::appendNumber(bytes, static_cast<std::uint32_t>(data.size()));
+        store::append(bytes, std::as_bytes(std::span(path)));
+        store::append(bytes, std::as_bytes(std::span(data)));
+    }
+    return bytes;
+}
+
+std::string textOf(store::ByteView bytes) {
+    return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+base::Result<PackFiles> filesOf(store::ByteView raw, const std::string& where) {
+    const auto wrong = [&](std::string_view what) {
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack: {}", where, what);
+    };
+    store::ByteReader reader(raw);
+    PackFiles files;
+    const auto count = reader.number<std::uint32_t>();
+    if (count > kMaxFiles) return wrong("too many files");
+    for (std::uint32_t k = 0; k < count; ++k) {
+        const auto pathLength = reader.number<std::uint16_t>();
+        const auto dataLength = reader.number<std::uint32_t>();
+        std::string path = textOf(reader.take(pathLength));
+        std::string data = textOf(reader.take(dataLength));
+        if (reader.isPastEnd()) return wrong("it ends too early");
+        if (!isPackPath(path)) return wrong("a file that packs do not have");
+        if (!files.empty() && path <= files.rbegin()->first) return wrong("files out of order");
+        files.emplace_hint(files.end(), std::move(path), std::move(data));
+    }
+    if (!reader.rest().empty()) return wrong("bytes after its end");
+    return files;
+}
+
+}  // namespace
+
+PackHash hashOf(const Pack& pack) {
+    const store::Bytes raw = rawBytes(pack.files);
+    PackHash hash{};
+    crypto_hash_sha256(reinterpret_cast<unsigned char*>(hash.data()),
+                       reinterpret_cast<const unsigned char*>(raw.data()), raw.size());
+    return hash;
+}
+
+std::string hexOf(const PackHash& hash) {
+    std::string text;
+    for (const std::byte byte : hash) text += fmt::format("{:02x}", std::to_integer<int>(byte));
+    return text;
+}
+
+store::Bytes archiveOf(const Pack& pack) {
+    const store::Bytes raw = rawBytes(pack.files);
+    store::Bytes archive;
+    store::appendNumber(archive, kMagic);
+    store::appendNumber(archive, static_cast<std::uint32_t>(raw.size()));
+    store::appendCompressed(archive, raw);
+    return archive;
+}
+
+base::Result<Pack> packOf(store::ByteView archive, const std::string& where) {
+    store::ByteReader reader(archive);
+    const auto magic = reader.number<std::uint32_t>();
+    const auto size = reader.number<std::uint32_t>();
+    if (magic != kMagic || reader.isPastEnd())
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack", where);
+    if (size > kMaxRawBytes)
+        return base::fail(base::ErrorCode::BadInput, "{}: the pack has more than {} MiB", where,
+                          kMaxPackBytes >> 20);
+    store::Bytes raw(size);
+    if (auto done = store::decompress(reader.rest(), raw); !done)
+        return base::fail(base::ErrorCode::BadInput, "{}: not an archive of a content pack: {}", where,
+                          done.error().message);
+    auto files = TERRANE_TRY(filesOf(raw, where));
+    return makePack(std::move(files), where);
 }
 
 }  // namespace terrane::pack

@@ -3,8 +3,10 @@
 // device.
 #pragma once
 
-#include <cstddef>
 #include <glm/vec3.hpp>
+
+#include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string_view>
@@ -14,6 +16,12 @@
 #include "terrane/sound/sound_set.h"
 
 namespace terrane::sound {
+
+// Finds out whether the system can play sounds.
+// False if it surely cannot: opening a device would then make libraries of the system print errors. A sound
+// card is a file in `devices`; a sound server has a socket in the user's runtime folder or is named by a
+// variable, as are the drivers of OpenAL.
+bool hasSoundCard(const std::filesystem::path& devices = "/dev/snd");
 
 constexpr int kMaxSources = 24;            // sounds at once, loops not counted
 constexpr double kHearingDistance = 48;    // blocks; farther sounds are not played

@@ -15,7 +15,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/store/derived_rows.h"
-#include "terrane/store/world_identity.h"
+#include "terrane/store/saves/world_identity.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/store/metadata.h"
+#include "terrane/store/saves/world_identity.h"
 
 namespace terrane::store {
 
@@ -148,5 +148,26 @@ base::Result<void> OverlayStore::deriveAll(std::string_view rules) {
     metadata_.insert_or_assign(std::string(kDerivedRowsMark), std::string(rules));
     return {};
 }
+
+namespace {
+
+class EmptyStore : public ReadableStore {
+  public:
+    explicit EmptyStore(WorldIdentity identity) : identity_(std::move(identity)) {}
+
+    LoadedChunk load(world::ChunkPos) override { return {}; }
+    bool contains(world::ChunkPos) override { return false; }
+    base::Result<std::vector<world::ChunkPos>> editedChunks() override { return {}; }
+    std::optional<std::string> metadata(std::string_view) override { return std::nullopt; }
+    const WorldIdentity& identity() const override { return identity_; }
+
+  private:
+    WorldIdentity identity_;
+};
+
+}  // namespace
+
+MemoryStore::MemoryStore(WorldIdentity identity, SaveLimits limits)
+    : OverlayStore(std::make_unique<EmptyStore>(std::move(identity)), limits) {}
 
 }  // namespace terrane::store

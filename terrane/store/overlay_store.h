@@ -52,4 +52,10 @@ class OverlayStore : public ChunkStore {
     std::unique_ptr<SaveQueue> queue_;                                         // destroyed first
 };
 
+// A store in memory, kept until the program ends.
+class MemoryStore : public OverlayStore {
+  public:
+    explicit MemoryStore(WorldIdentity identity, SaveLimits limits = {});
+};
+
 }  // namespace terrane::store

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "terrane/store/chunk_reader.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/store/metadata.h"
 #include "terrane/store/save_queue.h"
+#include "terrane/store/saves/world_identity.h"
+#include "terrane/store/sqlite/chunk_reader.h"
 
 namespace terrane::store {
 
@@ -138,6 +138,28 @@ class QueuedStore : public ChunkStore {
     std::mutex writeMutex_;  // held while a batch is derived and written
     DerivedRows derivedRows_;
     std::unique_ptr<SaveQueue> queue_;  // destroyed first
+};
+
+// A read-only store of a world in a database.
+class RowsReader : public ReadableStore {
+  public:
+    RowsReader(std::unique_ptr<ReadableRows> rows, const SaveLimits& limits)
+        : rows_(std::move(rows)), budget_(limits.entityBytes) {}
+
+    LoadedChunk load(world::ChunkPos pos) override;
+    std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
+    bool contains(world::ChunkPos pos) override;
+    [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
+        return rows_->editedChunks();
+    }
+    std::optional<std::string> metadata(std::string_view name) override;
+    const WorldIdentity& identity() const override { return rows_->identity(); }
+
+  private:
+    LoadedChunk decode(const StoredRow& row, world::ChunkPos pos);
+
+    std::unique_ptr<ReadableRows> rows_;
+    EntityBudget budget_;
 };
 
 }  // namespace terrane::store

@@ -16,9 +16,9 @@
 #include <tuple>
 #include <vector>
 
-#include "terrane/store/bytes.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/store/entity_budget.h"
+#include "terrane/store/chunks/bytes.h"
+#include "terrane/store/chunks/entity_budget.h"
 
 namespace terrane::store {
 

@@ -5,8 +5,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "terrane/base/hex.h"
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 
 namespace terrane::store_postgres {
 namespace {

@@ -2,10 +2,8 @@
 
 #include <utility>
 
-#include "terrane/store/save_file.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
-#include "terrane/store_postgres/postgres_check.h"
+#include "terrane/store/saves/save_file.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "terrane/store_postgres/postgres_store.h"
 #include "terrane/store_postgres/world_database.h"
 

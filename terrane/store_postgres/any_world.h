@@ -4,9 +4,9 @@
 
 #include <memory>
 
-#include "terrane/store/open_world.h"
 #include "terrane/store/queued_store.h"
-#include "terrane/store/save_check.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/store/saves/save_check.h"
 
 namespace terrane::store_postgres {
 

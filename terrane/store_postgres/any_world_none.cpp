@@ -1,7 +1,6 @@
 // For builds without libpq.
-#include "terrane/store/save_file.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/saves/save_file.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::store_postgres {

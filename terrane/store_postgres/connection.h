@@ -3,24 +3,52 @@
 // password.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
 #include <string_view>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/store/bytes.h"
+#include "terrane/store/chunks/bytes.h"
 #include "terrane/store_postgres/address.h"
-#include "terrane/store_postgres/parameters.h"
 
 struct pg_conn;
 struct pg_result;
 
 namespace terrane::store_postgres {
+
+// Parameters of statements in PostgreSQL's binary formats. Plain values; any thread.
+using store::Bytes;
+using store::ByteView;
+
+// Values of $1, $2, … in binary format.
+class Parameters {
+  public:
+    Parameters& number(std::int64_t value);   // bigint
+    Parameters& integer(std::int32_t value);  // integer
+    Parameters& text(std::string_view value);
+    Parameters& bytes(ByteView value);  // copied
+    // One-dimensional arrays.
+    Parameters& numbers(std::span<const std::int64_t> values);  // bigint[]
+    Parameters& smallNumbers(std::span<const std::int16_t> values);
+    Parameters& texts(std::span<const std::string> values);
+    Parameters& byteStrings(std::span<const Bytes> values);  // bytea[]
+
+  private:
+    friend class Connection;
+    void add(std::uint32_t type, std::string bytes);
+    std::vector<std::uint32_t> types_;
+    std::vector<std::string> values_;
+};
 
 // SQL with static storage duration and a stable address: a connection prepares each statement once.
 struct Statement {
@@ -117,5 +145,59 @@ template <class Do>
 
 // Whether a retry with a new connection makes sense: the server restarts, or the network broke.
 bool isPassing(const base::Error& error);
+
+// A pool of connections to one database for many threads. Operations that fail because the server restarts or
+// the network breaks are retried with growing pauses.
+// Pauses between attempts, which double, and the total time of attempts: `total` for writing, which a queue
+// retries later, `reading` for reads, whose result is needed now.
+struct RetryTimes {
+    std::chrono::milliseconds first{50}, longest{2000}, total{30000}, reading = total;
+};
+
+class ConnectionPool {
+  public:
+    explicit ConnectionPool(Address address, RetryTimes times = {})
+        : address_(std::move(address)), times_(times) {}
+
+    const Address& address() const { return address_; }
+
+    // Runs `use`, which reads, with its own connection, again while isPassing(). Any thread.
+    template <class T>
+    [[nodiscard]] base::Result<T> run(const std::function<base::Result<T>(Connection&)>& use) {
+        return retryFor<T>(times_.reading, [&]() -> base::Result<T> {
+            auto connection = TERRANE_TRY(take());
+            auto result = use(connection);
+            giveBack(std::move(connection));
+            return result;
+        });
+    }
+
+    // Retries an attempt to write, which has its own connection.
+    template <class T>
+    [[nodiscard]] base::Result<T> retry(const std::function<base::Result<T>()>& attempt) {
+        return retryFor<T>(times_.total, attempt);
+    }
+
+  private:
+    template <class T>
+    base::Result<T> retryFor(std::chrono::milliseconds total,
+                             const std::function<base::Result<T>()>& attempt) {
+        const auto end = std::chrono::steady_clock::now() + total;
+        for (auto pause = times_.first;; pause = std::min(2 * pause, times_.longest)) {
+            auto result = attempt();
+            if (result || !isPassing(result.error()) || std::chrono::steady_clock::now() + pause > end)
+                return result;
+            std::this_thread::sleep_for(pause);
+        }
+    }
+
+    base::Result<Connection> take();
+    void giveBack(Connection connection);  // a broken one drops the idle ones, which are as old
+
+    Address address_;
+    RetryTimes times_;
+    std::mutex mutex_;
+    std::vector<Connection> idle_;
+};
 
 }  // namespace terrane::store_postgres

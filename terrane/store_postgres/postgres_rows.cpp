@@ -2,8 +2,8 @@
 
 #include <unordered_map>
 
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/chunks/chunk_key.h"
 
 namespace terrane::store_postgres {
 namespace {

@@ -5,8 +5,9 @@
 #include <memory>
 
 #include "terrane/store/queued_store.h"
-#include "terrane/store/rows_reader.h"
-#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store_postgres/address.h"
+#include "terrane/store_postgres/connection.h"
 #include "terrane/store_postgres/world_database.h"
 
 namespace terrane::store_postgres {
@@ -34,5 +35,11 @@ class PostgresStore : public store::QueuedStore {
     store::WorldSharing sharing = store::WorldSharing::Alone, RetryTimes times = {});
 [[nodiscard]] base::Result<std::unique_ptr<store::ReadableRows>> openRowsToRead(
     const Address& address, const world::BlockRegistry& blocks, RetryTimes times = {});
+
+// Checks a whole world in PostgreSQL for damage, as of one moment, without changing it. Any thread; takes as
+// long as reading all of it.
+// See store::checkSave(). If the settings are damaged, the report only has that problem.
+[[nodiscard]] base::Result<store::CheckReport> checkDatabase(const Address& address,
+                                                             const world::BlockRegistry& blocks);
 
 }  // namespace terrane::store_postgres

@@ -5,9 +5,9 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
-#include "terrane/base/utf8.h"
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/base/text.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "terrane/store_postgres/postgres_rows.h"
 #include "terrane/store_postgres/schema.h"
 #include "terrane/store_postgres/world_locks.h"

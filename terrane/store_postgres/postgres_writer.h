@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "terrane/store/queued_store.h"
-#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/connection.h"
 #include "terrane/store_postgres/world_database.h"
 
 namespace terrane::store_postgres {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "terrane/store/derived_rows.h"
 #include "terrane/store_postgres/schema.h"
 #include "terrane/store_postgres/world_locks.h"

@@ -10,9 +10,9 @@
 #include <optional>
 #include <string>
 
-#include "terrane/store/block_id_map.h"
-#include "terrane/store/metadata.h"
-#include "terrane/store/open_world.h"
+#include "terrane/store/chunks/block_id_map.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/store/saves/world_identity.h"
 #include "terrane/store_postgres/connection.h"
 
 namespace terrane::store_postgres {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include "terrane/store/open_world.h"
+#include "terrane/store/saves/open_world.h"
 #include "terrane/store_postgres/connection.h"
 
 namespace terrane::store_postgres {

@@ -8,7 +8,7 @@
 #include "terrane/light/light_chunk.h"
 #include "terrane/mesh/remesh.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::stream {
 

@@ -7,12 +7,10 @@
 #include <utility>
 
 #include "terrane/base/profile.h"
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 #include "terrane/mesh/remesh.h"
 #include "terrane/stream/lighting.h"
 #include "terrane/stream/meshing.h"
-#include "terrane/stream/neighborhood.h"
-#include "terrane/stream/relight_edits.h"
 #include "terrane/stream/residency.h"
 
 namespace terrane::stream {

@@ -16,10 +16,10 @@
 #include "terrane/stream/change_queue.h"
 #include "terrane/stream/chunk_table.h"
 #include "terrane/stream/chunk_workers.h"
-#include "terrane/stream/pending_edits.h"
+#include "terrane/stream/meshing.h"
 #include "terrane/stream/pipeline_types.h"
-#include "terrane/stream/tile_borders.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/stream/residency.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace terrane::stream {
 

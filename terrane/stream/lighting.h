@@ -2,12 +2,28 @@
 // (chunk_table.h).
 #pragma once
 
+#include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
+#include "terrane/light/relight.h"
 #include "terrane/stream/chunk_table.h"
+#include "terrane/world/changes/block_edit.h"
+#include "terrane/world/coords.h"
+#include "terrane/world/world.h"
 
 namespace terrane::stream {
+
+// A chunk and the eight around it.
+// By y, then x: index x + 3 y, the chunk itself is 4. Some may lie beyond the world.
+inline std::array<world::ChunkPos, 9> neighborhood(world::ChunkPos pos) {
+    std::array<world::ChunkPos, 9> around;
+    for (int n = 0; n < 9; ++n) {
+        around[static_cast<std::size_t>(n)] = world::offsetBy(pos, n % 3 - 1, n / 3 - 1);
+    }
+    return around;
+}
 
 // Takes up to `limit` Loaded chunks in view whose neighbors are loaded, most urgent first, and makes them
 // Lighting.
@@ -23,5 +39,19 @@ void outdateLighting(ChunkTable& table, world::ChunkPos pos);
 
 // Called when the chunk or a neighbor was loaded: it may be ready to be lit.
 void considerLighting(ChunkTable& table, world::ChunkPos pos);
+
+// Brings the light of visible chunks up to date after edits, on the world's thread.
+constexpr std::uint16_t kAllBricks = 0xFFFF;  // of a chunk, a bit each
+
+// The chunk and its neighbors with the local light that is known.
+ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& world, world::ChunkPos pos);
+
+// `world` has the new blocks; each block is in `edits` once, with the id it had at first. Replaces
+// ChunkRecord::light where it changes and returns the changed bricks. Chunks whose neighbors are all lit are
+// relit incrementally; if a neighbor is not lit yet, so that light from beyond is not known, only the visible
+// chunks around that edit are lit from scratch. The result equals that of lighting everything from scratch.
+std::vector<light::LightChange> relightEdits(ChunkTable& table, const world::World& world,
+                                             std::span<const world::BlockEdit> edits,
+                                             const light::LightTable& lights);
 
 }  // namespace terrane::stream

@@ -4,7 +4,6 @@
 #include <cassert>
 
 #include "terrane/stream/lighting.h"
-#include "terrane/stream/neighborhood.h"
 
 namespace terrane::stream {
 namespace {

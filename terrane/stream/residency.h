@@ -5,8 +5,19 @@
 #include <vector>
 
 #include "terrane/stream/chunk_table.h"
+#include "terrane/world/changes/block_edit.h"
 
 namespace terrane::stream {
+
+// Edits that are not relit yet: each block once, as it was before the first of its edits.
+struct PendingEdits {
+    std::vector<world::BlockEdit> edits;
+    world::BlockSet blocks;
+
+    void add(const world::BlockEdit& edit) {
+        if (blocks.insert(edit.pos)) edits.push_back(edit);
+    }
+};
 
 constexpr std::chrono::seconds kUnloadAfter{5};
 

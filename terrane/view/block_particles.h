@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/world.h"
 
 namespace terrane::view {

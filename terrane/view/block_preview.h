@@ -7,9 +7,9 @@
 
 #include "terrane/base/image.h"
 #include "terrane/gpu/texture.h"
-#include "terrane/mesh/chunk_mesh.h"
-#include "terrane/render/renderer.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/render/frame/renderer.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::view {
 

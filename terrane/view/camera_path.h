@@ -2,13 +2,41 @@
 #pragma once
 
 #include <glm/vec3.hpp>
+
 #include <optional>
 #include <vector>
 
-#include "terrane/render/camera.h"
-#include "terrane/view/monotone_curve.h"
+#include "terrane/render/frame/camera.h"
+#include "terrane/world/pose.h"
 
 namespace terrane::view {
+
+// Conversions between the pose of a player and a camera.
+inline render::Camera cameraOf(const world::Pose& pose, float fieldOfView = render::Camera().fieldOfView) {
+    return {pose.position, pose.yaw, pose.pitch, fieldOfView};
+}
+inline world::Pose poseOf(const render::Camera& camera) {
+    return {camera.position, camera.yaw, camera.pitch};
+}
+
+// Distance in blocks at which the fog is complete.
+inline float fogDistance(int viewDistance) {
+    return static_cast<float>(viewDistance) * static_cast<float>(world::kChunkSize);
+}
+
+// A smooth curve through values at given times. Between two values it stays between them, without overshoot.
+// Any thread.
+class MonotoneCurve {
+  public:
+    // As many times as values, at least one; times ascend strictly.
+    MonotoneCurve(std::vector<double> times, std::vector<double> values);
+
+    // The first value before the first time, the last one after the last.
+    double at(double time) const;
+
+  private:
+    std::vector<double> times_, values_, slopes_;
+};
 
 struct CameraKey {
     double time = 0;  // seconds from the start of the shot

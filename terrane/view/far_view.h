@@ -5,7 +5,7 @@
 #include <chrono>
 
 #include "terrane/game/session.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 
 namespace terrane::view {
 

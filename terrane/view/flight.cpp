@@ -10,7 +10,7 @@
 
 #include "terrane/base/median.h"
 #include "terrane/game/player.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 
 namespace terrane::view {
 namespace {

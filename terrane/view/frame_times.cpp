@@ -2,8 +2,8 @@
 
 #include <chrono>
 
+#include "terrane/base/machine.h"
 #include "terrane/base/median.h"
-#include "terrane/base/process_statistics.h"
 
 namespace terrane::view {
 

@@ -9,7 +9,7 @@
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/mesh/mesh_section_quads.h"
-#include "terrane/view/memory_budget.h"
+#include "terrane/view/gpu_back_ends.h"
 
 namespace terrane::view {
 namespace {

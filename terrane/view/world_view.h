@@ -14,10 +14,9 @@
 
 #include "terrane/game/session.h"
 #include "terrane/mesh_gpu/mesh_queue.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "terrane/view/far_view.h"
 #include "terrane/view/land_view.h"
-#include "terrane/view/tint_view.h"
 
 namespace terrane::view {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "terrane/stream/tile_rows.h"
+#include "terrane/stream/edited_tiles.h"
 
 namespace terrane::volume {
 

@@ -14,11 +14,10 @@
 
 #include "terrane/base/job_system.h"
 #include "terrane/gen/level_generators.h"
-#include "terrane/light/light_table.h"
-#include "terrane/map/edited_positions.h"
+#include "terrane/light/light_sources.h"
 #include "terrane/map/surface_source.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::volume {
 

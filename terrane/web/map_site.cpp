@@ -8,9 +8,8 @@
 
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
-#include "terrane/base/process_statistics.h"
+#include "terrane/base/machine.h"
 #include "terrane/gen/generators/biomes.h"
-#include "terrane/web/edit_event.h"
 #include "terrane/web/place_list.h"
 #include "terrane/web/seen_changes.h"
 #include "terrane/web/tile_service.h"

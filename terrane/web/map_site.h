@@ -18,8 +18,8 @@
 #include "terrane/web/metrics.h"
 #include "terrane/web/page.h"
 #include "terrane/web/web_server.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::web {
 

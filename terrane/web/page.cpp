@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-#include "terrane/gen/generators/sea_level.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/isometric.h"
 
 namespace terrane::embedded {

@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "terrane/base/embedded.h"
-#include "terrane/map/tiles_of_area.h"
-#include "terrane/store/world_identity.h"
+#include "terrane/base/files.h"
+#include "terrane/map/map_tile.h"
+#include "terrane/store/saves/world_identity.h"
 
 namespace terrane::web {
 

@@ -6,15 +6,23 @@
 #include <functional>
 #include <memory>
 #include <set>
+#include <span>
+#include <string>
 #include <unordered_map>
 #include <unordered_set>
 #include <vector>
 
 #include "terrane/base/job_system.h"
-#include "terrane/map/edited_positions.h"
 #include "terrane/map/map_painter.h"
+#include "terrane/map/surface_source.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::web {
+
+// The event that tells browsers about edits. Plain values; any thread.
+// JSON: the event's number, and boxes of blocks with inclusive bounds, each with the level of the tiles that
+// show it. With many chunks, boxes are enlarged to limit their number.
+std::string editEvent(std::uint64_t number, std::span<const world::ChunkPos> chunks);
 
 class SeenChanges {
   public:

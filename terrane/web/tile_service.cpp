@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "terrane/base/digest.h"
-#include "terrane/base/exception_text.h"
+#include "terrane/base/result.h"
 
 namespace terrane::web {
 

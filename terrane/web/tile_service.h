@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "terrane/base/job_system.h"
-#include "terrane/map/edited_positions.h"
 #include "terrane/map/lru_cache.h"
 #include "terrane/map/map_painter.h"
+#include "terrane/map/surface_source.h"
 
 namespace terrane::web {
 

@@ -13,7 +13,7 @@
 #include <string>
 #include <utility>
 
-#include "terrane/base/token_bucket.h"
+#include "terrane/base/timing.h"
 #include "terrane/web/event_hub.h"
 #include "terrane/web/web_server.h"
 

@@ -1,9 +1,11 @@
 #include "terrane/world/chunk.h"
 
 #include <algorithm>
+#include <array>
+#include <span>
 #include <utility>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::world {
 
@@ -90,6 +92,14 @@ std::size_t Chunk::memoryBytes() const {
     if (!entityData_.empty()) bytes += entityData_.bucket_count() * sizeof(void*);
     for (const auto& [i, data] : entityData_) bytes += kEntryBytes + data->capacity();
     return bytes;
+}
+
+void addToDigest(base::Digest& digest, const Chunk& chunk) {
+    std::array<Section::Value, kBlocksPerSection> values;
+    for (int s = 0; s < kSectionsPerChunk; ++s) {
+        chunk.section(s).unpack(values);
+        digest.update(std::as_bytes(std::span(values)));
+    }
 }
 
 }  // namespace terrane::world

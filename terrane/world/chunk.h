@@ -9,6 +9,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "terrane/base/digest.h"
 #include "terrane/world/coords.h"
 #include "terrane/world/section.h"
 
@@ -62,5 +63,11 @@ class Chunk {
 };
 
 using ChunkPtr = std::shared_ptr<const Chunk>;
+
+// The digest of chunks that `terrane generate --digest` prints and Python's World.digest() returns. Any
+// thread.
+// Adds a chunk's blocks by z, y, x, as 16-bit little-endian ids. Block state and block entity data do not
+// count. The digest of an area takes its chunks by y, then x.
+void addToDigest(base::Digest& digest, const Chunk& chunk);
 
 }  // namespace terrane::world

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "terrane/shared/hash.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace terrane::world {
 namespace {

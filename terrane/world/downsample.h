@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::world {

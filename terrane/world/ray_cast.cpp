@@ -4,8 +4,8 @@
 // that they are as exact far from the world's origin as near it.
 #include "terrane/world/ray_cast.h"
 
-#include "terrane/world/block_model.h"
-#include "terrane/world/liquid_flow.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/changes/liquid_flow.h"
 
 #include <algorithm>
 #include <array>

@@ -8,9 +8,10 @@
 #include <type_traits>
 #include <utility>
 
-#include "terrane/base/require.h"
+#include "terrane/base/result.h"
 
 namespace terrane::world {
+
 namespace {
 
 // Indices and values are copied between bytes and words.
@@ -280,6 +281,13 @@ bool operator==(const Section& a, const Section& b) {
     a.unpack(valuesA);
     b.unpack(valuesB);
     return valuesA == valuesB;
+}
+
+void appendWords(PackedSections& packed, const Section& section) {
+    for (const std::uint64_t word : section.words()) {
+        packed.data.push_back(static_cast<shared::uint>(word));
+        packed.data.push_back(static_cast<shared::uint>(word >> 32));
+    }
 }
 
 }  // namespace terrane::world

@@ -2,11 +2,16 @@
 // textures of tinted faces (docs/blocks.md). Plain values; any thread.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <glm/vec3.hpp>
 
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "terrane/base/result.h"
 #include "terrane/shared/tint.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 
 namespace terrane::world {
@@ -29,5 +34,31 @@ using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * 
 // would by a factor. This is Schlick's bias function (Fast Alternatives to Perlin's Bias and Gain Functions,
 // 1994), through (n, t) instead of (1/2, t). For display; block_tint.glsl does the same.
 glm::vec3 tinted(glm::vec3 color, PackedColor tint);
+
+// The mean color of each kind of block seen from above, for maps and for light that the ground reflects. Any
+// thread.
+// The color of a block's top face.
+struct TopColor {
+    glm::vec3 mean{0.0f};  // sRGB, 0…255
+    bool tinted = false;
+};
+using TopColors = std::vector<TopColor>;  // by block id
+
+// Blocks without a shape are black. Fails if a texture cannot be read; the message names it.
+base::Result<TopColors> topColors(const BlockRegistry& blocks, const TextureSource& textures);
+
+// The surface of a chunk of any level as seen from above: height and topmost block of its columns. Far
+// shadows and light from the ground are computed from it (render/land_map.h). Plain values; any thread.
+struct LandTile {
+    static constexpr std::size_t kColumns = static_cast<std::size_t>(kChunkSize) * kChunkSize;
+
+    // By column, x + 16 y.
+    std::array<std::uint16_t, kColumns> height{};  // blocks from z = 0 to the upper side of the topmost block
+    std::array<BlockId, kColumns> ground{};        // the topmost block
+    PackedColor tint = kNeutralTint;               // of the whole tile
+};
+
+// Crowns of trees and the surface of water count, plants do not. Columns without blocks have height 0.
+LandTile landTileOf(const Chunk& chunk, const BlockRegistry& blocks);
 
 }  // namespace terrane::world

@@ -4,8 +4,6 @@
 
 #include <set>
 
-#include "apps/terrane/bench/plan_line.h"
-
 namespace terrane::app {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/content_watch.h"
+#include "apps/terrane/window/game/watch.h"
 
 #include <gtest/gtest.h>
 

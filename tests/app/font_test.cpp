@@ -1,4 +1,4 @@
-#include "apps/terrane/window/font.h"
+#include "apps/terrane/window/imgui_layer.h"
 
 #include <gtest/gtest.h>
 #include <imgui.h>

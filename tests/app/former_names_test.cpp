@@ -1,4 +1,4 @@
-#include "apps/terrane/former_names.h"
+#include "apps/terrane/options.h"
 
 #include <gtest/gtest.h>
 

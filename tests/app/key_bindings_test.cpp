@@ -1,4 +1,4 @@
-#include "apps/terrane/window/key_bindings.h"
+#include "apps/terrane/window/settings/key_bindings.h"
 
 #include <gmock/gmock.h>
 

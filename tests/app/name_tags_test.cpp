@@ -1,4 +1,4 @@
-#include "apps/terrane/window/name_tags.h"
+#include "apps/terrane/window/hud/name_tags.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/new_world_form.h"
+#include "apps/terrane/window/title/new_world_form.h"
 
 #include <gmock/gmock.h>
 

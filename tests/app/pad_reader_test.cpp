@@ -1,4 +1,4 @@
-#include "apps/terrane/window/pad_reader.h"
+#include "apps/terrane/window/input.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/place_options.h"
+#include "apps/terrane/graphics_options.h"
 
 #include <gtest/gtest.h>
 

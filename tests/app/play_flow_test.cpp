@@ -1,11 +1,11 @@
-#include "apps/terrane/window/play_flow.h"
+#include "apps/terrane/window/game/play_flow.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
-#include "apps/terrane/window/title_background.h"
-#include "terrane/store/memory_store.h"
+#include "apps/terrane/window/title/title_background.h"
+#include "terrane/store/overlay_store.h"
 
 namespace terrane::app {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/preset_measurement.h"
+#include "apps/terrane/window/settings/preset_measurement.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/terrane/bench/result_file.h"
+#include "apps/terrane/bench/bench_runner.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/server_list.h"
+#include "apps/terrane/window/title/join_dialog.h"
 
 #include <gmock/gmock.h>
 

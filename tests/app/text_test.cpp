@@ -9,7 +9,7 @@
 #include <set>
 #include <sstream>
 
-#include "apps/terrane/window/key_help.h"
+#include "apps/terrane/window/settings/key_help.h"
 
 namespace terrane::app {
 namespace {

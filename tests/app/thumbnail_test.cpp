@@ -1,4 +1,4 @@
-#include "apps/terrane/window/thumbnail.h"
+#include "apps/terrane/window/game/pictures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/window/wheel.h"
+#include "apps/terrane/window/input.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/base/child_process.h"
+#include "terrane/base/process.h"
 
 #include <gtest/gtest.h>
 

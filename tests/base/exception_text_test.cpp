@@ -1,4 +1,4 @@
-#include "terrane/base/exception_text.h"
+#include "terrane/base/result.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/base/hex.h"
+#include "terrane/base/text.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/base/tcp_peer.h"
+#include "terrane/base/tcp.h"
 
 #include <gtest/gtest.h>
 

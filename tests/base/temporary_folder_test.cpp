@@ -1,4 +1,4 @@
-#include "terrane/base/temporary_folder.h"
+#include "terrane/base/files.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/base/timed_value.h"
+#include "terrane/base/timing.h"
 
 #include <gtest/gtest.h>
 

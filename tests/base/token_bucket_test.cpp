@@ -1,4 +1,4 @@
-#include "terrane/base/token_bucket.h"
+#include "terrane/base/timing.h"
 
 #include <gtest/gtest.h>
 

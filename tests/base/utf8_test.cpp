@@ -1,4 +1,4 @@
-#include "terrane/base/utf8.h"
+#include "terrane/base/text.h"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include "terrane/content/built_in.h"
-#include "terrane/content/text_fields.h"
 
 namespace terrane::content {
 namespace {

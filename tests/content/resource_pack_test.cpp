@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "terrane/content/built_in.h"
-#include "terrane/world/block_description.h"
+#include "terrane/world/blocks/block_description.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::content {

@@ -4,7 +4,7 @@
 
 #include <cstring>
 
-#include "terrane/store/save_check.h"
+#include "terrane/store/saves/save_check.h"
 #include "tests/base/failing_memory.h"
 #include "tests/faults/expect_tiles.h"
 

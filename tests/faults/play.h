@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/faults/ledger.h"
 #include "tests/store/faulty_disk.h"
 #include "tests/store/store_fixture.h"

@@ -1,8 +1,8 @@
 #include "tests/faults/simulation.h"
 
-#include "terrane/gen/builder.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/faults/expect_tiles.h"
 
 namespace terrane::store {

@@ -1,6 +1,6 @@
 // Initial saves of plays.
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "tests/faults/play.h"
 #include "tests/store/tile_sums.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/formats/anvil_chunk.h"
+#include "terrane/formats/minecraft_chunk.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

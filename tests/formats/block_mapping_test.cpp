@@ -5,7 +5,7 @@
 
 #include "terrane/content/built_in.h"
 #include "terrane/formats/minecraft_chunk.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace terrane::formats {
 namespace {

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 #include <zlib.h>
 
-#include "terrane/formats/deflate.h"
+#include "terrane/formats/nbt.h"
 
 namespace terrane::formats {
 namespace {

@@ -7,7 +7,6 @@
 #include <random>
 
 #include "terrane/content/built_in.h"
-#include "terrane/formats/deflate.h"
 #include "terrane/formats/nbt.h"
 
 namespace terrane::formats {

@@ -9,8 +9,7 @@
 #include <set>
 
 #include "terrane/content/built_in.h"
-#include "terrane/formats/vox_blocks.h"
-#include "terrane/formats/vox_scene_internal.h"
+#include "terrane/formats/vox_file_internal.h"
 
 namespace terrane::formats {
 namespace {

@@ -1,5 +1,5 @@
 // libFuzzer: any text as the content file of block types (docs/blocks.md).
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,8 +1,7 @@
 // libFuzzer: any text as bookmarks, and as named places. Values survive writing and reading again.
-#include "terrane/game/bookmarks.h"
-
 #include "terrane/game/places.h"
-#include "terrane/game/pose_text.h"
+
+#include "terrane/game/player_state.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -1,6 +1,6 @@
 // libFuzzer: any bytes as a chunk; the first byte selects how deep they are wrapped. A decoded chunk survives
 // encoding and decoding again.
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "tests/fuzz/fuzz_chunks.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/compression.h"
+#include "terrane/store/chunks/bytes.h"
+#include "terrane/store/chunks/chunk_codec.h"
 
 namespace terrane::fuzz {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <string_view>
 
-#include "terrane/base/temporary_folder.h"
+#include "terrane/base/files.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace terrane::fuzz {

@@ -3,11 +3,10 @@
 #include <system_error>
 
 #include "terrane/base/log.h"
-#include "terrane/store/open_world.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/sqlite.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -1,6 +1,5 @@
 // libFuzzer: any text as a language file.
 #include "terrane/content/language.h"
-#include "terrane/content/text_fields.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -1,7 +1,7 @@
 // libFuzzer: any bytes as a message of a client or a server; the first byte selects which. A decoded message
 // survives encoding and decoding again.
-#include "terrane/net/client_message.h"
-#include "terrane/net/server_message.h"
+#include "terrane/net/wire/client_message.h"
+#include "terrane/net/wire/server_message.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

@@ -1,5 +1,4 @@
 // libFuzzer: any bytes as NBT, plain or decompressed. Decoded NBT survives encoding and decoding again.
-#include "terrane/formats/deflate.h"
 #include "terrane/formats/nbt.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -1,7 +1,6 @@
 // libFuzzer: any bytes as content packs: zip files, archives of servers, and their texts (docs/packs.md).
 #include "terrane/pack/content.h"
-#include "terrane/pack/pack_archive.h"
-#include "terrane/pack/zip_file.h"
+#include "terrane/pack/pack_files.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

@@ -1,7 +1,7 @@
 // libFuzzer: any text as a path file (docs/video.md). Accepted camera paths are evaluated.
 #include <cmath>
 
-#include "apps/terrane/record/script_file.h"
+#include "apps/terrane/record/script.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

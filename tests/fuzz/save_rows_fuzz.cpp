@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "tests/fuzz/fuzz_chunks.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"

@@ -1,5 +1,5 @@
 // libFuzzer: any bytes as a schematic, or as its NBT. A decoded volume survives encoding and decoding again.
-#include "terrane/formats/deflate.h"
+#include "terrane/formats/nbt.h"
 #include "terrane/formats/schematic.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -6,7 +6,7 @@
 
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/window/key_bindings.h"
+#include "apps/terrane/window/settings/key_bindings.h"
 #include "tests/fuzz/fuzz_folder.h"
 #include "tests/fuzz/fuzz_input.h"
 

@@ -2,9 +2,9 @@
 // survives encoding and decoding again, including texts of signs.
 #include <xxhash.h>
 
-#include "terrane/store/compression.h"
-#include "terrane/store/structure_file.h"
-#include "terrane/world/sign.h"
+#include "terrane/store/chunks/bytes.h"
+#include "terrane/store/chunks/structure_file.h"
+#include "terrane/world/blocks/sign.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

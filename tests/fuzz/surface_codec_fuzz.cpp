@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "terrane/map/surface_codec.h"
-#include "terrane/store/compression.h"
+#include "terrane/map/surface_cache.h"
+#include "terrane/store/chunks/bytes.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

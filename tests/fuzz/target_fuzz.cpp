@@ -3,7 +3,6 @@
 #include <string>
 
 #include "terrane/web/route.h"
-#include "terrane/web/target.h"
 #include "tests/fuzz/fuzz_input.h"
 
 namespace {

@@ -1,5 +1,5 @@
 // libFuzzer: any bytes as a WAV file.
-#include "terrane/sound/wave_file.h"
+#include "terrane/sound/sound_set.h"
 #include "tests/fuzz/fuzz_input.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

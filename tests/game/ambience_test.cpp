@@ -1,4 +1,4 @@
-#include "terrane/game/ambience.h"
+#include "terrane/game/sounds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "terrane/game/block_palette.h"
+#include "terrane/game/items.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "terrane/game/hotbar.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::game {

@@ -1,4 +1,4 @@
-#include "terrane/game/block_sounds.h"
+#include "terrane/game/sounds.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

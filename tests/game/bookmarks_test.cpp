@@ -1,10 +1,10 @@
-#include "terrane/game/bookmarks.h"
+#include "terrane/game/places.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "terrane/game/pose_text.h"
+#include "terrane/game/player_state.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::game {

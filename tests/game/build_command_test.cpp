@@ -5,9 +5,9 @@
 #include <stdexcept>
 
 #include "terrane/light/light_chunk.h"
-#include "terrane/store/structure_file.h"
-#include "terrane/world/block_model.h"
-#include "terrane/world/sign.h"
+#include "terrane/store/chunks/structure_file.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/sign.h"
 #include "tests/game/session_fixture.h"
 
 namespace terrane::game {

@@ -1,4 +1,4 @@
-#include "terrane/game/day_clock.h"
+#include "terrane/game/player_state.h"
 
 #include <gtest/gtest.h>
 

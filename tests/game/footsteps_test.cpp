@@ -1,4 +1,4 @@
-#include "terrane/game/footsteps.h"
+#include "terrane/game/sounds.h"
 
 #include <gtest/gtest.h>
 

@@ -2,10 +2,10 @@
 // palette placed around a player, items put into a chest.
 #include <gtest/gtest.h>
 
-#include "terrane/game/container.h"
+#include "terrane/game/items.h"
 #include "terrane/game/player_state.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/open_world.h"
+#include "terrane/store/saves/open_world.h"
 #include "tests/base/temp_folder.h"
 #include "tests/world/content_blocks.h"
 

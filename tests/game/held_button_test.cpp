@@ -1,4 +1,4 @@
-#include "terrane/game/held_button.h"
+#include "terrane/game/block_interaction.h"
 
 #include <gtest/gtest.h>
 

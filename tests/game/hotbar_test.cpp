@@ -1,4 +1,4 @@
-#include "terrane/game/hotbar.h"
+#include "terrane/game/items.h"
 
 #include <gtest/gtest.h>
 

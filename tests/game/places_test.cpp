@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 
 namespace terrane::game {
 namespace {

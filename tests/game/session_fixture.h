@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "terrane/game/session.h"
-#include "terrane/gen/builder.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::game {

@@ -1,7 +1,7 @@
 // Flowing water in a session: over time, over saving and loading, with undo, and its light.
 #include <filesystem>
 
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/base/temp_folder.h"
 #include "tests/game/session_fixture.h"
 #include "tests/world/put_block.h"

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "terrane/game/container.h"
+#include "terrane/game/items.h"
 #include "terrane/light/light_chunk.h"
 #include "tests/game/session_fixture.h"
 

@@ -1,6 +1,6 @@
 #include "terrane/game/spawn.h"
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/world/character.h"
 #include "tests/game/session_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/gen/generators/biome_map.h"
+#include "terrane/gen/generators/biomes.h"
 
 #include <gtest/gtest.h>
 

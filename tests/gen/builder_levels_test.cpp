@@ -5,8 +5,8 @@
 #include <cmath>
 #include <vector>
 
-#include "terrane/gen/seeds.h"
-#include "terrane/gen/voronoi_mean.h"
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/language/compounds.h"
 #include "tests/gen/gen_fixture.h"
 #include "tests/gen/noise_reference.h"
 

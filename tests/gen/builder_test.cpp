@@ -1,5 +1,5 @@
 // Small generators against plain C++ that computes the same for each voxel.
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 
 #include <gtest/gtest.h>
 

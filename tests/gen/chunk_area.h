@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/generators/sea_level.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {

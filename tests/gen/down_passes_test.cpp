@@ -1,4 +1,4 @@
-#include "terrane/gen/down_passes.h"
+#include "terrane/gen/compile/down_passes.h"
 
 #include <gtest/gtest.h>
 

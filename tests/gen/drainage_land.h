@@ -4,9 +4,9 @@
 #include <array>
 #include <vector>
 
-#include "terrane/gen/drainage_curves.h"
-#include "terrane/gen/drainage_maps.h"
-#include "terrane/gen/executor.h"
+#include "terrane/gen/cpu/executor.h"
+#include "terrane/gen/drainage/drainage_curves.h"
+#include "terrane/gen/drainage/drainage_maps.h"
 #include "terrane/shared/det_math.h"
 #include "terrane/shared/hash.h"
 #include "tests/gen/gen_fixture.h"

@@ -1,4 +1,4 @@
-#include "terrane/gen/drainage_maps.h"
+#include "terrane/gen/drainage/drainage_maps.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "terrane/gen/drainage_network.h"
+#include "terrane/gen/drainage/drainage_network.h"
 
 #include <algorithm>
 #include <cstdlib>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "terrane/gen/executor.h"
+#include "terrane/gen/cpu/executor.h"
 #include "tests/gen/pass_runner.h"
 #include "tests/gen/random_graph.h"
 #include "tests/gen/slow_evaluator.h"

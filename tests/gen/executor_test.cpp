@@ -1,4 +1,4 @@
-#include "terrane/gen/executor.h"
+#include "terrane/gen/cpu/executor.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Accuracy of the functions that are written in the language itself, and their bits on every instruction set.
-#include "terrane/gen/expr_math.h"
+#include "terrane/gen/language/expr.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/gen/expr.h"
+#include "terrane/gen/language/expr.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "terrane/gen/expr_vec.h"
 #include "terrane/shared/det_math.h"
 #include "tests/gen/not_a_number.h"
 

@@ -10,10 +10,10 @@
 #include <string>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generator.h"
-#include "terrane/gen/kernels.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 #include "tests/support/depth.h"

@@ -1,6 +1,6 @@
 // The text that the emitter writes, without a GL driver: names are declared once and seen only where they
 // are. What the shaders compute is tested in tests/gen_gpu.
-#include "terrane/gen/glsl_emitter.h"
+#include "terrane/gen/compile/glsl_emitter.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "terrane/gen/graph_hash.h"
+#include "terrane/gen/compile/generator_graph.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <map>
 #include <vector>
 
-#include "terrane/gen/builder.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/language/builder.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::gen {

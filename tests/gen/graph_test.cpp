@@ -1,4 +1,4 @@
-#include "terrane/gen/graph.h"
+#include "terrane/gen/compile/graph.h"
 
 #include <gtest/gtest.h>
 

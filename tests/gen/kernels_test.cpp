@@ -1,4 +1,4 @@
-#include "terrane/gen/kernels.h"
+#include "terrane/gen/cpu/kernels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Noise that is written in the language: against slow references in double precision, and what makes it
 // noise.
-#include "terrane/gen/noise_expressions.h"
+#include "terrane/gen/language/pass_noise.h"
 
 #include <gtest/gtest.h>
 

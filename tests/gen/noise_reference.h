@@ -1,4 +1,5 @@
-// Noise as terrane/gen/noise.h describes it, one sample at a time and with nothing shared between samples.
+// Noise as terrane/gen/noise/noise.h describes it, one sample at a time and with nothing shared between
+// samples.
 #pragma once
 
 #include <array>
@@ -7,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-#include "terrane/gen/noise.h"
+#include "terrane/gen/noise/noise.h"
 #include "terrane/shared/det_math.h"
 #include "terrane/shared/hash.h"
 

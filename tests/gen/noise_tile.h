@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "terrane/gen/kernels.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {

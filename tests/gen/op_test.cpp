@@ -1,4 +1,4 @@
-#include "terrane/gen/op.h"
+#include "terrane/gen/compile/op.h"
 
 #include <gtest/gtest.h>
 

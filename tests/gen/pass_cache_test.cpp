@@ -1,4 +1,4 @@
-#include "terrane/gen/pass_cache.h"
+#include "terrane/gen/generator.h"
 
 #include <gtest/gtest.h>
 

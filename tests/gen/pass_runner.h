@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrane/gen/executor.h"
+#include "terrane/gen/cpu/executor.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {

@@ -1,4 +1,4 @@
-#include "terrane/gen/perlin_tile.h"
+#include "terrane/gen/noise/perlin_tile.h"
 
 #include <gtest/gtest.h>
 

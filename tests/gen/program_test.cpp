@@ -1,4 +1,4 @@
-#include "terrane/gen/program.h"
+#include "terrane/gen/compile/program.h"
 
 #include <gtest/gtest.h>
 

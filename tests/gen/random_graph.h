@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 #include "tests/gen/pass_runner.h"
 
 namespace terrane::gen {

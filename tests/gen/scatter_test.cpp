@@ -1,4 +1,4 @@
-#include "terrane/gen/scatter.h"
+#include "terrane/gen/language/compounds.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/gen/schedule.h"
+#include "terrane/gen/compile/schedule.h"
 
 #include <gtest/gtest.h>
 

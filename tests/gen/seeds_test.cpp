@@ -1,4 +1,4 @@
-#include "terrane/gen/seeds.h"
+#include "terrane/gen/compile/generator_graph.h"
 
 #include <gtest/gtest.h>
 #include <xxhash.h>

@@ -1,5 +1,5 @@
 // The layers that slabs skip, and that the blocks stay the same.
-#include "terrane/gen/slab_ranges.h"
+#include "terrane/gen/cpu/slab_ranges.h"
 
 #include <gtest/gtest.h>
 

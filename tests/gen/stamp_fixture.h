@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "terrane/gen/builder.h"
-#include "terrane/gen/sample_grid.h"
+#include "terrane/gen/language/builder.h"
+#include "terrane/gen/noise/sample_grid.h"
 
 namespace terrane::gen {
 

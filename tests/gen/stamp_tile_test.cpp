@@ -1,5 +1,5 @@
 // Pass::stamp, through the generator, against a search of every shape around.
-#include "terrane/gen/stamp_tile.h"
+#include "terrane/gen/noise/stamp_tile.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 #include <set>
 #include <string>
 
-#include "terrane/gen/slab_ranges.h"
+#include "terrane/gen/cpu/slab_ranges.h"
 #include "tests/gen/gen_fixture.h"
 #include "tests/gen/pass_runner.h"
 #include "tests/gen/stamp_fixture.h"

@@ -5,8 +5,8 @@
 
 #include <vector>
 
+#include "terrane/gen/language/builder.h"
 #include "terrane/gen/level_generators.h"
-#include "terrane/gen/tint_graph.h"
 #include "tests/gen/gen_fixture.h"
 
 namespace terrane::gen {

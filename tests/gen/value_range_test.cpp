@@ -1,4 +1,4 @@
-#include "terrane/gen/value_range.h"
+#include "terrane/gen/compile/value_range.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "terrane/gen/perlin_tile.h"
+#include "terrane/gen/noise/perlin_tile.h"
 #include "tests/gen/noise_reference.h"
 #include "tests/gen/random_graph.h"
 

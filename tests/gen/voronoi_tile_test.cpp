@@ -1,4 +1,4 @@
-#include "terrane/gen/voronoi_tile.h"
+#include "terrane/gen/noise/voronoi_tile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/gen/voxel_shape.h"
+#include "terrane/gen/language/voxel_shape.h"
 
 #include <gtest/gtest.h>
 

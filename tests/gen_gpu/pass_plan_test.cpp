@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <set>
 
-#include "terrane/gen/chunks_around.h"
+#include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/world/content_blocks.h"
 

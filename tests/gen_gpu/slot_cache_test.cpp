@@ -1,4 +1,4 @@
-#include "terrane/gen_gpu/slot_cache.h"
+#include "terrane/gen_gpu/pass_plan.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 
 namespace terrane::golden {
 

@@ -1,5 +1,5 @@
 // Background compilation compiles shaders completely: later frames add nothing to the driver's cache.
-#include "terrane/render/background_compiler.h"
+#include "terrane/render/frame/background_compiler.h"
 
 #include <atomic>
 #include <chrono>

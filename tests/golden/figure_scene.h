@@ -5,7 +5,7 @@
 
 #include "terrane/light/light_area.h"
 #include "terrane/world/character.h"
-#include "terrane/world/figure.h"
+#include "terrane/world/pose.h"
 #include "tests/golden/golden_fixture.h"
 
 namespace terrane::golden {

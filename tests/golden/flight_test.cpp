@@ -1,6 +1,6 @@
 // Images must not depend on hidden mesh sections or on the position in the world.
-#include "terrane/content/scenes.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/content/built_in.h"
+#include "terrane/view/camera_path.h"
 #include "tests/golden/effect_scenes.h"
 #include "tests/support/depth.h"
 

@@ -1,6 +1,6 @@
 // The golden images; README.md describes each and how to update them.
-#include "terrane/content/scenes.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/content/built_in.h"
+#include "terrane/view/camera_path.h"
 #include "tests/golden/axes_cube.h"
 #include "tests/golden/effect_scenes.h"
 #include "tests/world/dam.h"

@@ -12,7 +12,7 @@
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 #include "terrane/world/world.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"

@@ -5,7 +5,6 @@
 #include <array>
 #include <type_traits>
 
-#include "terrane/gpu/device_info.h"
 #include "tests/gpu/gl_fixture.h"
 
 namespace terrane::gpu {

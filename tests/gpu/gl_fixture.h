@@ -11,7 +11,6 @@
 #include <utility>
 
 #include "terrane/gpu/context.h"
-#include "terrane/gpu/device_info.h"
 #include "terrane/gpu/program.h"
 
 namespace terrane::gpu {

@@ -1,4 +1,4 @@
-#include "terrane/gpu/range_allocator.h"
+#include "terrane/gpu/arena_allocator.h"
 
 #include <gtest/gtest.h>
 

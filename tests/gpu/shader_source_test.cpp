@@ -1,4 +1,4 @@
-#include "terrane/gpu/shader_source.h"
+#include "terrane/gpu/shader_loader.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,6 @@
 #include <type_traits>
 #include <vector>
 
-#include "terrane/gpu/sampler.h"
 #include "tests/gpu/gl_fixture.h"
 
 namespace terrane::gpu {

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "terrane/light/area_solver.h"
+#include "terrane/light/light_area.h"
 #include "tests/light/reference_light.h"
 
 namespace terrane::light {

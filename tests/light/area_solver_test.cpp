@@ -1,4 +1,4 @@
-#include "terrane/light/area_solver.h"
+#include "terrane/light/light_area.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/light/light_table.h"
+#include "terrane/light/light_sources.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/light/source_change_internal.h"
+#include "terrane/light/relight_internal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/gpu_light_solver.h"
+#include "terrane/light_gpu/gpu_batch_lighter.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/light_batch_internal.h"
+#include "terrane/light_gpu/light_workspace_internal.h"
 
 #include <gtest/gtest.h>
 

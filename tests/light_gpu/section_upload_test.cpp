@@ -1,4 +1,4 @@
-#include "terrane/light_gpu/section_upload_internal.h"
+#include "terrane/light_gpu/light_workspace_internal.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Fields, branches, loops, blocks, shapes, trees, drainage maps and tints as scripts write them.
+#include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/gen/graph_hash.h"
 #include "terrane/lua/recording_internal.h"
 #include "tests/lua/lua_fixture.h"
 

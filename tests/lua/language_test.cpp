@@ -1,7 +1,6 @@
 // Each word of the language records what its C++ counterpart does: the graphs are equal, node by node.
-#include "terrane/gen/erosion.h"
 #include "terrane/gen/generators/trees/trees.h"
-#include "terrane/gen/scatter.h"
+#include "terrane/gen/language/compounds.h"
 #include "tests/lua/same_graph.h"
 
 namespace terrane::lua {

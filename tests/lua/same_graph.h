@@ -4,7 +4,7 @@
 #include <functional>
 #include <string>
 
-#include "terrane/gen/graph_hash.h"
+#include "terrane/gen/compile/generator_graph.h"
 #include "tests/lua/lua_fixture.h"
 
 namespace terrane::lua {

@@ -4,8 +4,8 @@
 #include <thread>
 
 #include "examples/tutorial_generators.h"
+#include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/graph_hash.h"
 #include "tests/lua/lua_fixture.h"
 
 namespace terrane::lua {

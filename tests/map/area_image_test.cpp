@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "terrane/content/built_in.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/map/map_fixture.h"
 
 namespace terrane::map {

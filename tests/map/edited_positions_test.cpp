@@ -1,4 +1,4 @@
-#include "terrane/map/edited_positions.h"
+#include "terrane/map/surface_source.h"
 
 #include <algorithm>
 #include <random>

@@ -1,11 +1,10 @@
-#include "terrane/map/map_colors.h"
+#include "terrane/map/paint.h"
 
 #include <map>
 #include <string>
 #include <string_view>
 
 #include "terrane/content/built_in.h"
-#include "terrane/map/map_pixels.h"
 #include "tests/map/map_fixture.h"
 
 namespace terrane::map {

@@ -7,7 +7,6 @@
 #include <set>
 
 #include "terrane/content/built_in.h"
-#include "terrane/map/overlays.h"
 #include "terrane/map/paint.h"
 #include "tests/map/map_fixture.h"
 

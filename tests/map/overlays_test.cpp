@@ -1,4 +1,4 @@
-#include "terrane/map/overlays.h"
+#include "terrane/map/map_painter.h"
 
 #include <set>
 

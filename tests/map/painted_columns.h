@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "terrane/map/map_pixels.h"
 #include "terrane/map/paint.h"
 
 namespace terrane::map {

@@ -4,7 +4,6 @@
 
 #include <thread>
 
-#include "terrane/map/surface_codec.h"
 #include "tests/base/file_size_limit.h"
 #include "tests/map/map_fixture.h"
 #include "tests/store/store_fixture.h"

@@ -1,4 +1,4 @@
-#include "terrane/map/surface_codec.h"
+#include "terrane/map/surface_cache.h"
 
 #include "tests/map/map_fixture.h"
 

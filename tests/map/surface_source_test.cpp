@@ -6,7 +6,7 @@
 #include <optional>
 #include <thread>
 
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/base/file_size_limit.h"
 #include "tests/base/temp_folder.h"
 #include "tests/map/map_fixture.h"

@@ -1,4 +1,4 @@
-#include "terrane/map/tiles_of_area.h"
+#include "terrane/map/map_tile.h"
 
 #include <gtest/gtest.h>
 

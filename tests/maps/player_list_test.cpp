@@ -1,5 +1,5 @@
 // The players that a server's map shows.
-#include "apps/terrane/maps/player_list.h"
+#include "apps/terrane/maps/server_map.h"
 
 #include <gtest/gtest.h>
 

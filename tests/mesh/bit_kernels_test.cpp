@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "terrane/gen/kernels.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "terrane/shared/hash.h"
 
 namespace terrane::mesh {

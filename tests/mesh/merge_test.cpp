@@ -1,4 +1,4 @@
-#include "terrane/mesh/merge.h"
+#include "terrane/mesh/face_writer.h"
 
 #include <gtest/gtest.h>
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 
 namespace terrane::mesh {
 

@@ -1,10 +1,9 @@
-#include "terrane/mesh/section_bits.h"
+#include "terrane/mesh/section_faces.h"
 
 #include <gtest/gtest.h>
 
 #include <array>
 
-#include "terrane/mesh/section_side.h"
 #include "terrane/shared/hash.h"
 #include "tests/mesh/test_blocks.h"
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "tests/world/test_shapes.h"
 
 namespace terrane::mesh {

@@ -6,7 +6,6 @@
 #include <stdexcept>
 
 #include "terrane/mesh/mesh_section_quads.h"
-#include "terrane/mesh_gpu/gpu_batch_mesher.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/random_blocks.h"
 #include "tests/mesh_gpu/mesh_comparison.h"

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "terrane/mesh/mesh_section_quads.h"
-#include "terrane/render/quad_store.h"
+#include "terrane/render/quads/quad_store.h"
 
 namespace terrane::mesh_gpu {
 

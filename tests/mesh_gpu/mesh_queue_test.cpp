@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <thread>
 
-#include "terrane/gpu/fence.h"
+#include "terrane/gpu/readback_buffer.h"
 #include "terrane/shared/hash.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/test_blocks.h"

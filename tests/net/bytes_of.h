@@ -3,7 +3,7 @@
 
 #include <initializer_list>
 
-#include "terrane/net/wire.h"
+#include "terrane/net/wire/wire.h"
 
 namespace terrane::net {
 

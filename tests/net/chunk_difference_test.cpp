@@ -1,4 +1,4 @@
-#include "terrane/net/chunk_difference.h"
+#include "terrane/net/wire/chunk_difference.h"
 
 #include <gtest/gtest.h>
 

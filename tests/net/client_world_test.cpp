@@ -1,4 +1,4 @@
-#include "terrane/net/client_world.h"
+#include "terrane/net/client/client_world.h"
 
 #include "tests/net/server_fixture.h"
 

@@ -4,7 +4,7 @@
 
 #include <random>
 
-#include "terrane/world/liquid_flow.h"
+#include "terrane/world/changes/liquid_flow.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {

@@ -1,4 +1,4 @@
-#include "terrane/net/edit_log.h"
+#include "terrane/net/server/edit_log.h"
 
 #include <random>
 

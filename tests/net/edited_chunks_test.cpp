@@ -1,12 +1,12 @@
 // Differences of edited chunks, computed by workers.
-#include "terrane/net/edited_chunks.h"
+#include "terrane/net/server/edited_chunks.h"
 
 #include <gtest/gtest.h>
 
 #include <atomic>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::net {

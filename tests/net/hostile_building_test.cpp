@@ -5,8 +5,8 @@
 #include <limits>
 #include <optional>
 
-#include "terrane/store/structure_file.h"
-#include "terrane/world/inventory.h"
+#include "terrane/store/chunks/structure_file.h"
+#include "terrane/world/blocks/inventory.h"
 
 namespace terrane::net {
 namespace {

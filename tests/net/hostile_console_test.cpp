@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "terrane/net/server_clients.h"
+#include "terrane/net/server/server_clients.h"
 
 namespace terrane::net {
 namespace {

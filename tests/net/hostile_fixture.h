@@ -1,7 +1,7 @@
 // A server with a well-behaved player, and wires for hostile clients.
 #pragma once
 
-#include "terrane/net/server_console.h"
+#include "terrane/net/server/server_console.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {

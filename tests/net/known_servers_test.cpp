@@ -1,4 +1,4 @@
-#include "terrane/net/known_servers.h"
+#include "terrane/net/wire/security.h"
 
 #include <gtest/gtest.h>
 

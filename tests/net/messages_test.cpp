@@ -4,8 +4,8 @@
 #include <limits>
 #include <random>
 
-#include "terrane/net/client_message.h"
-#include "terrane/net/server_message.h"
+#include "terrane/net/wire/client_message.h"
+#include "terrane/net/wire/server_message.h"
 #include "tests/net/bytes_of.h"
 
 namespace terrane::net {

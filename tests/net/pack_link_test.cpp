@@ -1,7 +1,7 @@
 // A client's link that downloads content packs before it joins, over sockets.
 #include <gtest/gtest.h>
 
-#include "terrane/net/server_clients.h"
+#include "terrane/net/server/server_clients.h"
 #include "tests/net/socket_fixture.h"
 
 namespace terrane::net {

@@ -1,4 +1,4 @@
-#include "terrane/net/people.h"
+#include "terrane/net/server/people.h"
 
 #include "tests/net/server_file_fixture.h"
 

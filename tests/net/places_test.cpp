@@ -6,7 +6,7 @@
 #include <set>
 
 #include "terrane/game/places.h"
-#include "terrane/net/server_console.h"
+#include "terrane/net/server/server_console.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {

@@ -1,4 +1,4 @@
-#include "terrane/net/prediction.h"
+#include "terrane/net/client/client_world.h"
 
 #include <gtest/gtest.h>
 

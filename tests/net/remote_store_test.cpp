@@ -1,4 +1,4 @@
-#include "terrane/net/remote_store.h"
+#include "terrane/net/client/remote_session.h"
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // Addresses of servers as players type them.
 #include <gtest/gtest.h>
 
-#include "terrane/net/client_socket.h"
+#include "terrane/net/client/client_socket.h"
 
 namespace terrane::net {
 namespace {

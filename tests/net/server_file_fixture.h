@@ -5,7 +5,7 @@
 
 #include <memory>
 
-#include "terrane/net/sqlite_records.h"
+#include "terrane/net/server/sqlite_records.h"
 #include "tests/base/temp_folder.h"
 #include "tests/world/content_blocks.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/net/server_file.h"
+#include "terrane/net/server/sqlite_records.h"
 
 #include <atomic>
 

@@ -1,9 +1,9 @@
 // Content packs from a server to a client that lacks them.
-#include "terrane/net/server_packs.h"
+#include "terrane/net/server/server_login.h"
 
 #include <gtest/gtest.h>
 
-#include "terrane/net/pack_fetch.h"
+#include "terrane/net/client/client_link.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {

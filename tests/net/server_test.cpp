@@ -1,8 +1,8 @@
 // Players on one server, without sockets: each has its own world, and all worlds become equal.
-#include "terrane/net/server.h"
+#include "terrane/net/server/server.h"
 
-#include "terrane/net/server_console.h"
-#include "terrane/net/server_history.h"
+#include "terrane/net/server/server_console.h"
+#include "terrane/net/server/server_history.h"
 #include "tests/net/server_fixture.h"
 
 namespace terrane::net {

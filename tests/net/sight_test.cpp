@@ -1,4 +1,4 @@
-#include "terrane/net/sight.h"
+#include "terrane/net/server/sight.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // equal.
 #include <random>
 
-#include "terrane/net/server.h"
+#include "terrane/net/server/server.h"
 #include "tests/net/socket_fixture.h"
 #include "tests/net/test_proxy.h"
 

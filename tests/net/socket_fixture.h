@@ -5,8 +5,8 @@
 #include <boost/asio/io_context.hpp>
 #include <future>
 
-#include "terrane/net/client_link.h"
-#include "terrane/net/server_sockets.h"
+#include "terrane/net/client/client_link.h"
+#include "terrane/net/server/server_sockets.h"
 #include "tests/base/wait_until.h"
 #include "tests/net/server_fixture.h"
 

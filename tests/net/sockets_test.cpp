@@ -7,10 +7,10 @@
 #include <boost/asio/write.hpp>
 #include <cstdlib>
 
-#include "terrane/base/process_statistics.h"
-#include "terrane/net/server.h"
-#include "terrane/net/server_console.h"
-#include "terrane/net/tls.h"
+#include "terrane/base/machine.h"
+#include "terrane/net/server/server.h"
+#include "terrane/net/server/server_console.h"
+#include "terrane/net/wire/security.h"
 #include "tests/net/socket_fixture.h"
 #include "tests/net/test_proxy.h"
 #include "tests/support/depth.h"

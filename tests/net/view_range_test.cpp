@@ -1,4 +1,4 @@
-#include "terrane/net/view_range.h"
+#include "terrane/net/wire/client_message.h"
 
 #include <gtest/gtest.h>
 

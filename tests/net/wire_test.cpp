@@ -1,4 +1,4 @@
-#include "terrane/net/wire.h"
+#include "terrane/net/wire/wire.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "terrane/net/world_proof.h"
+#include "terrane/net/wire/world_proof.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/net/remote_session.h"
+#include "terrane/net/client/remote_session.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::net {

@@ -1,5 +1,5 @@
 // Conflict detection compared with a slow reference.
-#include "terrane/net_postgres/history_order.h"
+#include "terrane/net_postgres/history_writer.h"
 
 #include <gtest/gtest.h>
 

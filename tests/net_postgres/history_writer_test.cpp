@@ -8,7 +8,7 @@
 
 #include "terrane/net_postgres/record_rows.h"
 #include "terrane/net_postgres/server_rows.h"
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "tests/base/temp_folder.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 

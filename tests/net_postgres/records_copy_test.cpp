@@ -1,8 +1,8 @@
 // Copies records of servers from a file into a database and back.
-#include "terrane/net/records_copy.h"
+#include "terrane/net/server/server_records.h"
 
-#include "terrane/net/server_console.h"
-#include "terrane/net/sqlite_records.h"
+#include "terrane/net/server/server_console.h"
+#include "terrane/net/server/sqlite_records.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 
 namespace terrane::net_postgres {

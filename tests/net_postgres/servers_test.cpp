@@ -2,7 +2,7 @@
 #include <random>
 
 #include "terrane/game/places.h"
-#include "terrane/net/server_console.h"
+#include "terrane/net/server/server_console.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 
 namespace terrane::net_postgres {

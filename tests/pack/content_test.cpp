@@ -5,7 +5,7 @@
 
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generator.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 #include "terrane/world/world.h"
 #include "tests/pack/pack_fixture.h"
 

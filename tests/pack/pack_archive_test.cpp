@@ -1,4 +1,4 @@
-#include "terrane/pack/pack_archive.h"
+#include "terrane/pack/pack_files.h"
 
 #include <gtest/gtest.h>
 

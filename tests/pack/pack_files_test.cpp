@@ -6,9 +6,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/pack/content.h"
-#include "terrane/pack/pack_archive.h"
-#include "terrane/pack/skeleton.h"
-#include "terrane/pack/zip_file.h"
+#include "terrane/pack/pack.h"
 #include "tests/base/temp_folder.h"
 #include "tests/pack/pack_fixture.h"
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/record/edit_player.h"
+#include "apps/terrane/record/recorder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/terrane/record/script_file.h"
+#include "apps/terrane/record/script.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "apps/terrane/record/shot_figures.h"
+#include "apps/terrane/record/recorder.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // drawing.
 #include <map>
 
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"

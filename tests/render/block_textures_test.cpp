@@ -1,10 +1,9 @@
-#include "terrane/render/block_textures.h"
+#include "terrane/render/quads/block_textures.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "terrane/render/mipmaps.h"
 #include "terrane/shared/material.h"
 
 namespace terrane::render {

@@ -1,4 +1,4 @@
-#include "terrane/render/camera.h"
+#include "terrane/render/frame/camera.h"
 
 #include <gtest/gtest.h>
 

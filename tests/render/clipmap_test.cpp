@@ -1,4 +1,4 @@
-#include "terrane/render/clipmap.h"
+#include "terrane/render/land/clipmap.h"
 
 #include <gtest/gtest.h>
 

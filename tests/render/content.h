@@ -4,11 +4,11 @@
 #include <string>
 #include <string_view>
 
-#include "terrane/base/embedded.h"
+#include "terrane/base/files.h"
 #include "terrane/content/built_in.h"
-#include "terrane/gpu/built_in_shaders.h"
-#include "terrane/render/block_textures.h"
-#include "terrane/render/render_options.h"
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/frame/render_options.h"
+#include "terrane/render/quads/block_textures.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::embedded {

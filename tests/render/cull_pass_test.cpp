@@ -1,4 +1,4 @@
-#include "terrane/render/cull_pass.h"
+#include "terrane/render/cull/cull_pass.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <glm/geometric.hpp>

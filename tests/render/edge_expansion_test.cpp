@@ -5,7 +5,7 @@
 #include <map>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/edge_expansion.h"
+#include "terrane/render/frame/edge_expansion.h"
 #include "terrane/shared/hash.h"
 #include "tests/gpu/scratch_folder.h"
 #include "tests/render/renderer_fixture.h"
@@ -141,7 +141,7 @@ TEST_F(EdgeExpansion, WithoutItCracksAreSeenAndFillingClosesMost) {
     }
 }
 
-constexpr std::string_view kExpansionShader = "terrane/render/edge_expansion.glsl";
+constexpr std::string_view kExpansionShader = "terrane/render/frame/edge_expansion.glsl";
 
 // The coarsest rasterizer that OpenGL allows, made of another one: corners lie on a grid of 1/16 pixel.
 constexpr int kCoarsestBits = 4;

@@ -1,5 +1,5 @@
 // Figures of players in images: where they are, what hides them, what they cost.
-#include "terrane/render/figure_pass.h"
+#include "terrane/render/figures/figure_pass.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "terrane/render/figure_records.h"
+#include "terrane/render/figures/figure_pass.h"
 
 #include <gtest/gtest.h>
 

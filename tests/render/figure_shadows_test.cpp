@@ -1,5 +1,5 @@
 // Which tiles figures touch, and their shadows in images of frames that follow each other.
-#include "terrane/render/figure_shadows.h"
+#include "terrane/render/figures/figure_shadows.h"
 
 #include <algorithm>
 

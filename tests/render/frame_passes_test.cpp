@@ -1,9 +1,9 @@
 // Passes after a failure, and passes rebuilt from changed shaders.
-#include "terrane/render/frame_passes.h"
+#include "terrane/render/frame/frame_passes.h"
 
 #include <algorithm>
 
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/gpu/scratch_folder.h"
@@ -14,7 +14,7 @@ namespace {
 
 constexpr glm::ivec2 kPassesSize{96, 64};
 
-constexpr std::string_view kFinalShader = "terrane/render/final.frag.glsl";
+constexpr std::string_view kFinalShader = "terrane/render/frame/final.frag.glsl";
 constexpr std::string_view kRed =
     "layout(location = 0) out vec4 image;\nvoid main() { image = vec4(1, 0, 0, 1); }\n";
 constexpr std::string_view kBroken = "this is no shader\n";
@@ -72,10 +72,10 @@ TEST_F(FramePassesTest, OptionsThatFailLeaveAllAsItWas) {
         std::string name, condition;
     };
     const Case cases[] = {
-        {"terrane/render/final.frag.glsl", "RAW_OCCLUSION == 1"},
-        {"terrane/render/hi_z.comp.glsl", "MSAA_SAMPLES > 1"},
-        {"terrane/render/hole_fill.frag.glsl", "1"},
-        {"terrane/render/transparency.frag.glsl", "LAYERS == 1"},
+        {"terrane/render/frame/final.frag.glsl", "RAW_OCCLUSION == 1"},
+        {"terrane/render/cull/hi_z.comp.glsl", "MSAA_SAMPLES > 1"},
+        {"terrane/render/effects/hole_fill.frag.glsl", "1"},
+        {"terrane/render/shading/transparency.frag.glsl", "LAYERS == 1"},
     };
     RenderOptions other = fullOptions(4);
     other.shadowSize = 512;
@@ -135,7 +135,7 @@ TEST_F(FramePassesTest, WrittenShadersAreSeenAndWrongOnesChangeNothing) {
     ASSERT_FALSE(reloaded);
     EXPECT_EQ(reloaded.error().message.find(kFinalShader), 0u) << reloaded.error().message;
     EXPECT_EQ(draw().rgba, red.rgba);
-    folder_.write("terrane/render/cull.comp.glsl", kBroken);  // a pass that is made before all others
+    folder_.write("terrane/render/cull/cull.comp.glsl", kBroken);  // a pass that is made before all others
     ASSERT_FALSE(renderer_->reloadShaders());
     EXPECT_EQ(draw().rgba, red.rgba);
 

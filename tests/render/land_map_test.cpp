@@ -1,4 +1,4 @@
-#include "terrane/render/land_map.h"
+#include "terrane/render/land/land_map.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "terrane/render/land_textures.h"
+#include "terrane/render/land/land_textures.h"
 
 namespace terrane::render {
 namespace {

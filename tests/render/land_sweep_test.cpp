@@ -1,4 +1,4 @@
-#include "terrane/render/land_sweep.h"
+#include "terrane/render/land/land_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Light on the GPU as images show it: a plane with one lamp, at night, seen from above.
-#include "terrane/render/light_store.h"
+#include "terrane/render/quads/light_store.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -8,7 +8,7 @@
 
 #include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/render/mesh_section_order.h"
+#include "terrane/render/quads/mesh_section_order.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/render/mipmaps.h"
+#include "terrane/render/quads/block_textures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/render/preset_choice.h"
+#include "terrane/render/frame/render_options.h"
 
 #include <gtest/gtest.h>
 

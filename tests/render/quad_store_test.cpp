@@ -1,4 +1,4 @@
-#include "terrane/render/quad_store.h"
+#include "terrane/render/quads/quad_store.h"
 
 #include <map>
 #include <span>

@@ -1,4 +1,4 @@
-#include "terrane/render/render_options.h"
+#include "terrane/render/frame/render_options.h"
 
 #include <stdexcept>
 

@@ -1,4 +1,4 @@
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 
 #include <epoxy/gl.h>
 

@@ -288,8 +288,9 @@ TEST_F(Shaders, ReferenceCompilerRefusesMistakes) {
     EXPECT_EQ(complaints(folder_, kStages[1], {{"a", kRight}, {"b", kRight}}), "");
     EXPECT_NE(complaints(folder_, kStages[1], {{"a", kWrong}, {"b", kRight}}), "");
     EXPECT_NE(complaints(folder_, kStages[1], {{"a", kRight}, {"b", kWrong}}), "");
-    const auto source = contentShaders().load("terrane/render/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
-                                              {{"ALPHA_CLASS", "1"}, {"MSAA_SAMPLES", "1"}, {"SMOOTH", "1"}});
+    const auto source =
+        contentShaders().load("terrane/render/quads/gbuffer.frag.glsl", gpu::ShaderStage::Fragment,
+                              {{"ALPHA_CLASS", "1"}, {"MSAA_SAMPLES", "1"}, {"SMOOTH", "1"}});
     ASSERT_TRUE(source);
     EXPECT_NE(complaints(folder_, kStages[0], {{"a", source->text}}), "") << "another stage";
 }
@@ -310,10 +311,10 @@ class ShaderPrograms : public gpu::GlTest {};
 
 // Quads have a vertex shader variant for each PASS; layers are shaded over quads or over the screen.
 std::string vertexShaderFor(std::string_view path, const gpu::ShaderDefines& defines) {
-    if (path.find("/figure") != std::string_view::npos) return "terrane/render/figure.vert.glsl";
+    if (path.find("/figure") != std::string_view::npos) return "terrane/render/figures/figure.vert.glsl";
     const bool isOfQuads = std::ranges::any_of(defines, [](const auto& d) { return d.first == "PASS"; });
-    return isOfQuads && !has(defines, "QUADS", "0") ? "terrane/render/quad.vert.glsl"
-                                                    : "terrane/render/fullscreen.vert.glsl";
+    return isOfQuads && !has(defines, "QUADS", "0") ? "terrane/render/quads/quad.vert.glsl"
+                                                    : "terrane/render/frame/fullscreen.vert.glsl";
 }
 
 // The stages must fit each other too, which the reference compiler does not check.

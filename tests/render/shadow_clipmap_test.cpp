@@ -1,4 +1,4 @@
-#include "terrane/render/shadow_clipmap.h"
+#include "terrane/render/shadow/shadow_clipmap.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // Images with shadow maps that are kept from frame to frame.
-#include "terrane/render/shadow_map.h"
+#include "terrane/render/shadow/shadow_map.h"
 
 #include <algorithm>
 

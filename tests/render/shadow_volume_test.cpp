@@ -1,4 +1,4 @@
-#include "terrane/render/shadow_volume.h"
+#include "terrane/render/shadow/shadow_volume.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "tests/render/content.h"
 
 namespace terrane::render {

@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <random>
 
-#include "terrane/render/renderer.h"
+#include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"

@@ -3,7 +3,7 @@
 #include <random>
 
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/render/screen_rect.h"
+#include "terrane/render/cull/screen_rect.h"
 #include "tests/render/renderer_fixture.h"
 
 namespace terrane::render {

@@ -1,4 +1,4 @@
-#include "terrane/sound/sound_card.h"
+#include "terrane/sound/sound_player.h"
 
 #include <gtest/gtest.h>
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <numeric>
 
-#include "terrane/world/sound_material.h"
+#include "terrane/world/blocks/block_type.h"
 
 namespace terrane::sound {
 namespace {

@@ -1,4 +1,4 @@
-#include "terrane/sound/wave_file.h"
+#include "terrane/sound/sound_set.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "terrane/store/block_id_map.h"
+#include "terrane/store/chunks/block_id_map.h"
 
 #include "tests/store/store_fixture.h"
 

@@ -4,11 +4,10 @@
 
 #include <cstdlib>
 
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/metadata_table.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/metadata_table.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 #include "tests/support/depth.h"
 

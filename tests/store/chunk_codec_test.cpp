@@ -1,11 +1,11 @@
-#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunks/chunk_codec.h"
 
 #include <stdexcept>
 
 #include <gmock/gmock.h>
 #include <xxhash.h>
 
-#include "terrane/store/compression.h"
+#include "terrane/store/chunks/bytes.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

@@ -1,4 +1,4 @@
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 
 #include <gtest/gtest.h>
 

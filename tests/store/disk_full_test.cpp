@@ -2,8 +2,8 @@
 #include <gmock/gmock.h>
 #include <sys/mount.h>
 
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

@@ -1,11 +1,10 @@
-#include "terrane/store/entity_budget.h"
+#include "terrane/store/chunks/entity_budget.h"
 
 #include <gmock/gmock.h>
 
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

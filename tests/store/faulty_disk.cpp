@@ -97,8 +97,8 @@ void stopHere() {
     disk->hasStopped = true;
     const bool isKill = disk->stop == DiskStop::Kill;
     disk->left = isKill ? disk->unsynced.afterKill() : disk->unsynced.afterPowerLoss(disk->random);
-    // The lock file of terrane/store/file_lock.h, which SQLite does not know: it may be complete, or lack its
-    // last content.
+    // The lock file of terrane/store/saves/file_lock.h, which SQLite does not know: it may be complete, or
+    // lack its last content.
     for (const auto& [path, content] : UnsyncedWrites::Files(disk->left)) {
         auto lock = contentOfFile(path + "-lock");
         if (!lock || lock->empty()) continue;

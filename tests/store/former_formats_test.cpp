@@ -2,11 +2,10 @@
 // writing migrates them, opening for reading works without migration.
 #include <gmock/gmock.h>
 
-#include "terrane/store/chunk_codec.h"
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_codec.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

@@ -1,4 +1,4 @@
-#include "terrane/store/log_check.h"
+#include "terrane/store/saves/save_check.h"
 
 #include <gmock/gmock.h>
 

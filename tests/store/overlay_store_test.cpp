@@ -2,7 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include "terrane/store/memory_store.h"
 #include "tests/store/store_fixture.h"
 #include "tests/store/tile_sums.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/store/save_check.h"
+#include "terrane/store/saves/save_check.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -6,9 +6,9 @@
 
 #include <csignal>
 
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/schema.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/sqlite/schema.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/faulty_disk.h"
 #include "tests/store/store_fixture.h"
 

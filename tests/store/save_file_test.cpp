@@ -1,5 +1,5 @@
 // Invalid files: each is refused with one line that names it, and is not changed.
-#include "terrane/store/save_file.h"
+#include "terrane/store/saves/save_file.h"
 
 #include <gmock/gmock.h>
 #include <sys/wait.h>
@@ -7,10 +7,9 @@
 #include <fstream>
 #include <optional>
 
-#include "terrane/store/file_lock.h"
-#include "terrane/store/open_world.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/saves/file_lock.h"
+#include "terrane/store/saves/open_world.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

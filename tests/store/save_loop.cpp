@@ -12,10 +12,10 @@
 #include <cstring>
 #include <string>
 
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/chunk_reader.h"
-#include "terrane/store/save_file.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/saves/save_file.h"
+#include "terrane/store/sqlite/chunk_reader.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 #include "tests/store/tile_sums.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/store/save_path.h"
+#include "terrane/store/saves/save_path.h"
 
 #include <gmock/gmock.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/store/schema.h"
+#include "terrane/store/sqlite/schema.h"
 
 #include <gmock/gmock.h>
 

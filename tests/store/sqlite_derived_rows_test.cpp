@@ -1,10 +1,9 @@
 // Derived rows in a file: failed writes, damage, other programs.
 #include <gmock/gmock.h>
 
-#include "terrane/store/chunk_key.h"
-#include "terrane/store/save_check.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 #include "tests/store/tile_sums.h"
 

@@ -1,8 +1,8 @@
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 
 #include <gmock/gmock.h>
 
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 #include "tests/store/faulty_disk.h"
 #include "tests/store/store_fixture.h"
 

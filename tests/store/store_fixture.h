@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "terrane/store/block_id_map.h"
 #include "terrane/store/chunk_store.h"
+#include "terrane/store/chunks/block_id_map.h"
 #include "terrane/store/save_queue.h"
-#include "terrane/store/sqlite.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/store/sqlite/sqlite.h"
+#include "terrane/world/blocks/block_registry.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::store {

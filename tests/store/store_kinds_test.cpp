@@ -1,8 +1,6 @@
 // All kinds of stores, tested by the contract of ChunkStore. A new kind needs a fixture here.
-#include "terrane/store/memory_store.h"
 #include "terrane/store/overlay_store.h"
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/chunk_store_contract.h"
 
 namespace terrane::store {

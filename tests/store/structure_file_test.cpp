@@ -1,4 +1,4 @@
-#include "terrane/store/structure_file.h"
+#include "terrane/store/chunks/structure_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,8 +7,8 @@
 #include <fstream>
 #include <random>
 
-#include "terrane/base/temporary_folder.h"
-#include "terrane/store/compression.h"
+#include "terrane/base/files.h"
+#include "terrane/store/chunks/bytes.h"
 
 namespace terrane::store {
 namespace {

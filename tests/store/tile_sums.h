@@ -7,7 +7,7 @@
 #include <memory>
 #include <set>
 
-#include "terrane/store/chunk_codec.h"
+#include "terrane/store/chunks/chunk_codec.h"
 #include "terrane/store/derived_rows.h"
 #include "tests/store/store_fixture.h"
 

@@ -1,7 +1,6 @@
-#include "terrane/store/world_copy.h"
+#include "terrane/store/saves/world_copy.h"
 
-#include "terrane/store/sqlite_reader.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

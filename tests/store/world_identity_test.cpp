@@ -1,4 +1,4 @@
-#include "terrane/store/world_identity.h"
+#include "terrane/store/saves/world_identity.h"
 
 #include <gmock/gmock.h>
 

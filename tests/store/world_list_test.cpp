@@ -1,8 +1,8 @@
-#include "terrane/store/world_list.h"
+#include "terrane/store/saves/world_list.h"
 
 #include <gmock/gmock.h>
 
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

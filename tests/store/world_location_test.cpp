@@ -1,8 +1,8 @@
-#include "terrane/store/world_location.h"
+#include "terrane/store/saves/save_path.h"
 
 #include <gmock/gmock.h>
 
-#include "terrane/store/open_world.h"
+#include "terrane/store/saves/open_world.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {

@@ -1,5 +1,5 @@
 // PostgreSQL and SQLite give equal results for the same random saves.
-#include "terrane/store/sqlite_store.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store_postgres/world_fixture.h"
 
 namespace terrane::store_postgres {

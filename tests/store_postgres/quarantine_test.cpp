@@ -3,7 +3,7 @@
 
 #include "tests/store_postgres/world_fixture.h"
 
-#include "terrane/store/chunk_key.h"
+#include "terrane/store/chunks/chunk_key.h"
 
 namespace terrane::store_postgres {
 namespace {

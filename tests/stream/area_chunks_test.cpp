@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::stream {

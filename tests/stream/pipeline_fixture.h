@@ -7,7 +7,7 @@
 #include <map>
 #include <memory>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "tests/base/wait_until.h"
 #include "tests/world/content_blocks.h"

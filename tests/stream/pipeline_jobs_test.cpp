@@ -1,5 +1,5 @@
 // Work of workers and batch generators, and requests of others than the view.
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/base/job_gates.h"
 #include "tests/stream/pipeline_fixture.h"
 

@@ -1,5 +1,5 @@
 // Edits and the store: edited chunks are saved, loaded again, and not replaced by generated ones.
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "terrane/store/save_queue.h"
 #include "tests/stream/pipeline_fixture.h"
 

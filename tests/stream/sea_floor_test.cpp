@@ -1,4 +1,4 @@
-#include "terrane/stream/sea_floor.h"
+#include "terrane/stream/tile_pipeline.h"
 
 #include <gtest/gtest.h>
 

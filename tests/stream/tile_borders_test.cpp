@@ -1,4 +1,4 @@
-#include "terrane/stream/tile_borders.h"
+#include "terrane/stream/meshing.h"
 
 #include <random>
 

@@ -1,5 +1,5 @@
 // Tiles of edited chunks, from the store to the meshes of the view.
-#include "terrane/stream/tile_rows.h"
+#include "terrane/stream/edited_tiles.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh/chunk_mesher.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::stream {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
 #include "tests/golden/golden_fixture.h"

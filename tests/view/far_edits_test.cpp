@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 
-#include "terrane/base/temporary_folder.h"
-#include "terrane/store/sqlite_store.h"
+#include "terrane/base/files.h"
+#include "terrane/store/sqlite/sqlite_store.h"
 #include "terrane/stream/tile_table.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {

@@ -1,7 +1,7 @@
 // Land to the horizon with known content: flat, or repeating every 256 blocks.
 #include <algorithm>
 
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {

@@ -1,7 +1,7 @@
 // Land of tiles looks like the land of chunks that it stands for. bench_far_view does the same with twenty
 // views as far as 96 chunks.
 #include "bench/picture_figures.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {

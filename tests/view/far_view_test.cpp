@@ -5,7 +5,7 @@
 #include <glm/trigonometric.hpp>
 #include <random>
 
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/support/depth.h"
 #include "tests/view/drawn_session.h"
 

@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {

@@ -1,4 +1,4 @@
-#include "terrane/view/frame_meter.h"
+#include "terrane/view/frame_times.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/view/memory_budget.h"
+#include "terrane/view/gpu_back_ends.h"
 
 #include <gtest/gtest.h>
 

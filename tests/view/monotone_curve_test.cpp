@@ -1,4 +1,4 @@
-#include "terrane/view/monotone_curve.h"
+#include "terrane/view/camera_path.h"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // A tint from the generator to the image.
-#include "terrane/view/tint_view.h"
+#include "terrane/view/land_view.h"
 
 #include <cmath>
 

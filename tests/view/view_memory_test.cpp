@@ -1,7 +1,7 @@
 // A view with too little GPU memory for the requested distance, compared to one with enough.
 #include <chrono>
 
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "tests/view/drawn_session.h"
 
 namespace terrane::view {

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "terrane/volume/read_chunks.h"
-#include "terrane/world/chunk_digest.h"
+#include "terrane/world/chunk.h"
 #include "tests/volume/volume_fixture.h"
 
 namespace terrane::volume {

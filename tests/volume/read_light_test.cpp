@@ -1,6 +1,6 @@
 // read_light.cpp, against the light of a whole area at once.
 #include "terrane/light/light_area.h"
-#include "terrane/volume/write_areas.h"
+#include "terrane/volume/areas.h"
 #include "tests/volume/volume_fixture.h"
 
 namespace terrane::volume {

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "terrane/map/surface.h"
-#include "terrane/volume/write_areas.h"
+#include "terrane/volume/areas.h"
 #include "tests/volume/volume_fixture.h"
 
 namespace terrane::volume {

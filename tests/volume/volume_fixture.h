@@ -12,9 +12,9 @@
 #include <vector>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
+#include "terrane/volume/areas.h"
 #include "terrane/volume/opened_world.h"
-#include "terrane/volume/read_areas.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::volume {

@@ -1,10 +1,10 @@
-#include "terrane/volume/write_areas.h"
+#include "terrane/volume/areas.h"
 
 #include <gmock/gmock.h>
 
 #include <thread>
 
-#include "terrane/store/open_world.h"
+#include "terrane/store/saves/open_world.h"
 #include "tests/base/temp_folder.h"
 #include "tests/volume/volume_fixture.h"
 

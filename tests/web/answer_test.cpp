@@ -1,4 +1,4 @@
-#include "terrane/web/answer.h"
+#include "terrane/web/web_server.h"
 
 #include <gmock/gmock.h>
 

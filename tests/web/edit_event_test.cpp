@@ -1,4 +1,4 @@
-#include "terrane/web/edit_event.h"
+#include "terrane/web/seen_changes.h"
 
 #include <gtest/gtest.h>
 

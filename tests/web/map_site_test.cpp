@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "terrane/content/built_in.h"
-#include "terrane/store/memory_store.h"
+#include "terrane/store/overlay_store.h"
 #include "tests/base/temp_folder.h"
 #include "tests/map/map_fixture.h"
 #include "tests/web/web_fixture.h"

@@ -4,7 +4,7 @@
 
 #include <limits>
 
-#include "terrane/map/tiles_of_area.h"
+#include "terrane/map/map_tile.h"
 
 namespace terrane::web {
 namespace {

@@ -1,4 +1,4 @@
-#include "terrane/web/target.h"
+#include "terrane/web/route.h"
 
 #include <gmock/gmock.h>
 

@@ -1,7 +1,7 @@
 // The selection tool, signs, the palette, named places, screenshots.
 #include <fmt/format.h>
 
-#include "terrane/world/sign.h"
+#include "terrane/world/blocks/sign.h"
 #include "tests/window/window_fixture.h"
 
 namespace terrane::app {

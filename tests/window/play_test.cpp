@@ -4,7 +4,7 @@
 #include <csignal>
 #include <glm/geometric.hpp>
 
-#include "terrane/game/container.h"
+#include "terrane/game/items.h"
 #include "tests/window/window_fixture.h"
 
 namespace terrane::app {

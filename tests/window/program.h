@@ -12,8 +12,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/terrane/window/game_state.h"
-#include "apps/terrane/window/play_flow.h"
+#include "apps/terrane/window/game/game_state.h"
+#include "apps/terrane/window/game/play_flow.h"
 #include "terrane/base/image.h"
 #include "tests/window/offscreen_window.h"
 

@@ -1,6 +1,6 @@
 // Playing on a server, which runs between the program's frames.
 #include "apps/terrane/open_session.h"
-#include "apps/terrane/window/server_list.h"
+#include "apps/terrane/window/title/join_dialog.h"
 #include "tests/net/socket_fixture.h"
 #include "tests/window/window_fixture.h"
 

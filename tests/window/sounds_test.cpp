@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <cstring>
 
-#include "terrane/sound/sound_card.h"
+#include "terrane/sound/sound_player.h"
 #include "tests/window/window_fixture.h"
 
 namespace terrane::app {

@@ -1,4 +1,4 @@
-#include "terrane/world/air.h"
+#include "terrane/world/sky/air.h"
 
 #include <gtest/gtest.h>
 

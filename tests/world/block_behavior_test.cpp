@@ -1,4 +1,4 @@
-#include "terrane/world/block_behavior.h"
+#include "terrane/world/blocks/block_behavior.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "terrane/shared/hash.h"
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,8 +8,8 @@
 #include <random>
 #include <tuple>
 
-#include "terrane/world/block_registry.h"
-#include "terrane/world/collision.h"
+#include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/character.h"
 #include "terrane/world/ray_cast.h"
 #include "tests/world/test_shapes.h"
 

@@ -1,4 +1,4 @@
-#include "terrane/world/block_parser.h"
+#include "terrane/world/blocks/block_parser.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

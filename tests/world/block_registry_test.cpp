@@ -1,7 +1,7 @@
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
-#include "terrane/world/block_description.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_description.h"
+#include "terrane/world/blocks/block_model.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/world/collision.h"
+#include "terrane/world/character.h"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "terrane/base/files.h"
-#include "terrane/world/block_registry.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane {
 

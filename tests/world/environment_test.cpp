@@ -1,4 +1,4 @@
-#include "terrane/world/environment.h"
+#include "terrane/world/sky/environment.h"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "terrane/base/digest.h"
-#include "terrane/world/liquid_flow.h"
+#include "terrane/world/changes/liquid_flow.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
 

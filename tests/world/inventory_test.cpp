@@ -1,4 +1,4 @@
-#include "terrane/world/inventory.h"
+#include "terrane/world/blocks/inventory.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "terrane/world/land_tile.h"
+#include "terrane/world/tint.h"
 
 #include <gtest/gtest.h>
 

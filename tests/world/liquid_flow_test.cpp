@@ -1,9 +1,9 @@
-#include "terrane/world/liquid_flow.h"
+#include "terrane/world/changes/liquid_flow.h"
 
 #include <algorithm>
 #include <array>
 
-#include "terrane/world/collision.h"
+#include "terrane/world/character.h"
 #include "tests/world/flow_world.h"
 
 namespace terrane::world {

@@ -1,4 +1,4 @@
-#include "terrane/world/packed_sections.h"
+#include "terrane/world/section.h"
 
 #include <gtest/gtest.h>
 

@@ -1,11 +1,11 @@
-#include "terrane/world/random_ticks.h"
+#include "terrane/world/changes/random_ticks.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 #include <set>
 
-#include "terrane/world/block_edit.h"
+#include "terrane/world/changes/block_edit.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
 

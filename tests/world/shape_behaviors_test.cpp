@@ -1,11 +1,11 @@
-#include "terrane/world/shape_behaviors.h"
+#include "terrane/world/blocks/block_behavior.h"
 
 #include <gtest/gtest.h>
 
 #include <memory>
 
-#include "terrane/world/block_edit.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/changes/block_edit.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::world {

@@ -1,4 +1,4 @@
-#include "terrane/world/sign.h"
+#include "terrane/world/blocks/sign.h"
 
 #include <stdexcept>
 
@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::world {

@@ -1,12 +1,10 @@
-#include "terrane/world/sky_light.h"
+#include "terrane/world/sky/environment.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-
-#include "terrane/world/air_tables.h"
 
 namespace terrane::world {
 namespace {

@@ -1,4 +1,4 @@
-#include "terrane/world/structure.h"
+#include "terrane/world/changes/structure.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <random>
 #include <stdexcept>
 
-#include "terrane/world/block_edit.h"
-#include "terrane/world/block_model.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/changes/block_edit.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::world {

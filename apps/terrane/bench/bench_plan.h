@@ -43,4 +43,10 @@ std::vector<CellGroup> planGroups(const BenchSettings& settings);
 // Each cell once, in the order of the groups.
 std::vector<Cell> uniqueCells(const std::vector<CellGroup>& groups);
 
+// Expands short command lines: "render --scene cave,ocean --layers 0,3" stands for four runs.
+// The runs of a line: a command, then pairs of a flag and a word or several words joined by commas; all
+// combinations are runs. A repeated flag keeps its first place and its last words, so that equal options give
+// equal runs.
+std::vector<Cell> expandLine(const std::string& line);
+
 }  // namespace terrane::app

@@ -2,7 +2,9 @@
 // example of a client. Runs on one thread; all bots share a BotWorld.
 #pragma once
 
+#include <array>
 #include <chrono>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <random>
@@ -11,10 +13,41 @@
 #include <unordered_map>
 #include <vector>
 
-#include "apps/terrane/bots/bot_land.h"
-#include "terrane/net/client_link.h"
+#include "apps/terrane/client_packs.h"
+#include "terrane/base/result.h"
+#include "terrane/gen/generator.h"
+#include "terrane/net/client/client_link.h"
+#include "terrane/net/wire/server_message.h"
+#include "terrane/net/wire/world_proof.h"
+#include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::app {
+
+// The ground that bots walk on: generated terrain without edits. Shared by all bots. One thread.
+class BotLand {
+  public:
+    explicit BotLand(ClientPacks serverPacks) : packs(std::move(serverPacks)) {}
+
+    ClientPacks packs;  // of the server's world
+
+    // The answer to a server's offer, cached for the same offer. Fails if this program generates another
+    // world.
+    [[nodiscard]] base::Result<net::SampleDigests> prove(const net::WorldOffer& offer);
+    // The height of the highest block of a column; call after prove(). Generates the chunk at the first
+    // request.
+    int groundHeight(std::int32_t x, std::int32_t y);
+    // Call after prove().
+    const world::BlockRegistry& blocks() const { return *content_.blocks; }
+
+  private:
+    using Heights = std::array<std::uint8_t, 256>;
+
+    pack::Content content_;
+    std::unique_ptr<gen::Generator> generator_;
+    net::WorldOffer offer_;
+    net::SampleDigests digests_{};
+    std::unordered_map<world::ChunkPos, Heights, world::ChunkPosHash> heights_;
+};
 
 using BotTime = std::chrono::steady_clock::time_point;
 

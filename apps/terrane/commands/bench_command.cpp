@@ -13,14 +13,12 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
-#include "terrane/base/child_process.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
-#include "terrane/base/nearest_name.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/temporary_folder.h"
+#include "terrane/base/process.h"
+#include "terrane/base/text.h"
 
 namespace terrane::app {
 namespace {

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/world_content.h"
 #include "terrane/content/language.h"
 
 namespace terrane::app {

@@ -13,8 +13,8 @@
 #include "apps/terrane/serve/open_file_limit.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
-#include "terrane/base/process_statistics.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/machine.h"
+#include "terrane/base/process.h"
 
 namespace terrane::app {
 namespace {

@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/world_content.h"
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {

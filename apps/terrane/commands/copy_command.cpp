@@ -4,15 +4,14 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/world_records.h"
-#include "apps/terrane/world_content.h"
 #include "terrane/base/log.h"
-#include "terrane/base/printable.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
-#include "terrane/net/records_copy.h"
-#include "terrane/store/world_copy.h"
+#include "terrane/base/process.h"
+#include "terrane/base/text.h"
+#include "terrane/net/server/server_records.h"
+#include "terrane/store/saves/world_copy.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {

@@ -4,14 +4,12 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/dump/dump_files.h"
 #include "apps/terrane/dump/loaded_square.h"
-#include "apps/terrane/dump/quad_file.h"
-#include "apps/terrane/dump/volume_file.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/process.h"
 
 namespace terrane::app {
 namespace {

@@ -2,8 +2,7 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/formats/glb_export.h"
-#include "apps/terrane/formats/volume_export.h"
+#include "apps/terrane/formats/export_formats.h"
 #include "apps/terrane/options.h"
 
 namespace terrane::app {

@@ -7,11 +7,11 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/place_options.h"
 #include "terrane/base/log.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/view/camera_path.h"
 #include "terrane/view/flight.h"
 
 namespace terrane::app {

@@ -13,14 +13,13 @@
 #include "apps/terrane/options.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
 #include "terrane/content/built_in.h"
+#include "terrane/gen/compile/glsl_emitter.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/glsl_emitter.h"
-#include "terrane/gen/kernels.h"
 #include "terrane/store_postgres/any_world.h"
-#include "terrane/world/chunk_digest.h"
+#include "terrane/world/chunk.h"
 
 namespace terrane::app {
 namespace {

@@ -3,9 +3,8 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/help/completion.h"
-#include "apps/terrane/help/man_page.h"
-#include "terrane/base/nearest_name.h"
+#include "apps/terrane/help/reference.h"
+#include "terrane/base/text.h"
 
 namespace terrane::app {
 

@@ -4,10 +4,10 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/world_records.h"
-#include "apps/terrane/world_content.h"
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 
 namespace terrane::app {
 namespace {

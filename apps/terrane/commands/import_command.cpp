@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/formats/import_options.h"
+#include "apps/terrane/formats/import_world.h"
 #include "apps/terrane/formats/minecraft_import.h"
 #include "apps/terrane/formats/volume_import.h"
 #include "apps/terrane/options.h"

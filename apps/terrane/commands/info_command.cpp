@@ -10,8 +10,8 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/graphics_info.h"
 #include "apps/terrane/options.h"
+#include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/kernels.h"
 
 namespace terrane::app {
 namespace {

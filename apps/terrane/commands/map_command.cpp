@@ -8,7 +8,6 @@
 #include "apps/terrane/maps/static_map.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
 #include "terrane/map/area_image.h"
 
 namespace terrane::app {

@@ -10,15 +10,14 @@
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/world_content.h"
 #include "terrane/base/log.h"
-#include "terrane/base/printable.h"
+#include "terrane/base/text.h"
 #include "terrane/content/language.h"
 #include "terrane/pack/installed_packs.h"
-#include "terrane/pack/pack_archive.h"
+#include "terrane/pack/pack.h"
 #include "terrane/pack/pack_files.h"
-#include "terrane/pack/skeleton.h"
 
 namespace terrane::app {
 namespace {

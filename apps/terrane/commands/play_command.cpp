@@ -4,9 +4,9 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/window/icon.h"
-#include "apps/terrane/window/key_help.h"
-#include "apps/terrane/window/play_flow.h"
+#include "apps/terrane/window/game/play_flow.h"
+#include "apps/terrane/window/glfw_window.h"
+#include "apps/terrane/window/settings/key_help.h"
 #include "apps/terrane/window/text.h"
 
 namespace terrane::app {

@@ -7,11 +7,10 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/record/recorder.h"
-#include "apps/terrane/record/script_file.h"
+#include "apps/terrane/record/script.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/process.h"
 #include "terrane/video/frame_sink.h"
 
 namespace terrane::app {

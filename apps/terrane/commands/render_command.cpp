@@ -6,15 +6,15 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/graphics_options.h"
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/place_options.h"
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
+#include "terrane/base/machine.h"
 #include "terrane/base/median.h"
-#include "terrane/base/process_statistics.h"
-#include "terrane/store/world_location.h"
-#include "terrane/view/camera_pose.h"
+#include "terrane/store/saves/save_path.h"
+#include "terrane/view/camera_path.h"
 #include "terrane/view/frame_times.h"
 
 namespace terrane::app {

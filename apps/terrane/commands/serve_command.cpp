@@ -15,9 +15,8 @@
 #include "apps/terrane/serve/world_records.h"
 #include "apps/terrane/settings.h"
 #include "terrane/base/log.h"
-#include "terrane/net/server_console.h"
-#include "terrane/net/server_host.h"
-#include "terrane/net/server_loop.h"
+#include "terrane/net/server/server_console.h"
+#include "terrane/net/server/server_loop.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {

@@ -12,8 +12,8 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/worker/worker.h"
 #include "terrane/base/log.h"
-#include "terrane/base/printable.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/process.h"
+#include "terrane/base/text.h"
 #include "terrane/store_postgres/postgres_store.h"
 
 namespace terrane::app {

@@ -7,8 +7,8 @@
 
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/log.h"
+#include "terrane/base/process.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/stream/area_chunks.h"
 

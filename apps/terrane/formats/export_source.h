@@ -2,17 +2,32 @@
 #pragma once
 
 #include <memory>
+#include <optional>
+#include <string>
 
-#include "apps/terrane/formats/export_options.h"
+#include "apps/terrane/options.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/result.h"
 #include "terrane/formats/block_volume.h"
 #include "terrane/gen/generator.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/world/block_registry.h"
-#include "terrane/world/texture_source.h"
+#include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::app {
+
+// Options of `terrane export`. A plain value.
+struct ExportOptions {
+    std::string output;
+    WorldOptions world;
+    SaveOptions save;
+    std::optional<world::ChunkArea> area;  // all heights; or `box`
+    std::string box;                       // "X0,Y0,Z0,X1,Y1,Z1" in blocks, the end excluded
+    std::string mapping;                   // for a schematic
+    std::string resourcePack;              // for formats with colors or textures
+    int bits = 8;                          // per pixel of a height map
+};
 
 struct ExportSource {
     std::shared_ptr<const world::BlockRegistry> blocks;

@@ -4,18 +4,16 @@
 #include <array>
 #include <span>
 
-#include "apps/terrane/formats/import_report.h"
 #include "apps/terrane/formats/import_world.h"
+#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/world_content.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
+#include "terrane/base/process.h"
 #include "terrane/formats/schematic.h"
-#include "terrane/formats/vox_blocks.h"
-#include "terrane/store/structure_file.h"
+#include "terrane/formats/vox_file.h"
+#include "terrane/store/chunks/structure_file.h"
 #include "terrane/stream/area_chunks.h"
 
 namespace terrane::app {

@@ -2,7 +2,7 @@
 // import_command.cpp.
 #pragma once
 
-#include "apps/terrane/formats/import_options.h"
+#include "apps/terrane/formats/import_world.h"
 #include "terrane/base/result.h"
 
 namespace terrane::app {

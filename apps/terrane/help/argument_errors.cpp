@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "terrane/base/nearest_name.h"
+#include "terrane/base/text.h"
 
 namespace terrane::app {
 namespace {

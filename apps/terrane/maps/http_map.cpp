@@ -3,14 +3,13 @@
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 
-#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "apps/terrane/serve/open_file_limit.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
-#include "terrane/base/stop_signals.h"
-#include "terrane/store/save_path.h"
-#include "terrane/store/world_location.h"
+#include "terrane/base/process.h"
+#include "terrane/store/saves/save_path.h"
 #include "terrane/web/map_site.h"
 
 namespace terrane::app {

@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/terrane/maps/map_options.h"
-#include "apps/terrane/option_values.h"
+#include "apps/terrane/options.h"
 #include "terrane/base/result.h"
 
 namespace terrane::app {

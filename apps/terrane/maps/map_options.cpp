@@ -1,6 +1,6 @@
 #include "apps/terrane/maps/map_options.h"
 
-#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "apps/terrane/options.h"
 

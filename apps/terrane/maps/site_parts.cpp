@@ -6,7 +6,7 @@
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
-#include "terrane/store/world_location.h"
+#include "terrane/store/saves/save_path.h"
 
 namespace terrane::app {
 namespace {

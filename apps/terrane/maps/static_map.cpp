@@ -6,16 +6,15 @@
 #include <mutex>
 #include <utility>
 
-#include "apps/terrane/maps/place_file.h"
+#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
-#include "terrane/base/progress_bar.h"
-#include "terrane/base/stop_signals.h"
-#include "terrane/map/edited_positions.h"
+#include "terrane/base/process.h"
 #include "terrane/map/map_painter.h"
-#include "terrane/map/tiles_of_area.h"
+#include "terrane/map/map_tile.h"
+#include "terrane/map/surface_source.h"
 
 namespace terrane::app {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/option_values.h"
+#include "apps/terrane/options.h"
 #include "terrane/base/result.h"
 #include "terrane/map/map_tile.h"
 

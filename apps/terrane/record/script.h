@@ -2,12 +2,18 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/terrane/graphics_options.h"
+#include "terrane/base/result.h"
 #include "terrane/view/camera_path.h"
-#include "terrane/world/block_type.h"
+#include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/blocks/block_type.h"
+#include "terrane/world/blocks/content_table.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::app {
 
@@ -63,5 +69,45 @@ constexpr double kTimeSlack = 1e-6;
 // The shot at a time of the video; the last one after its end.
 const Shot& shotAt(const Script& script, double seconds);
 const GraphicsOptions& optionsAt(const Shot& shot, double secondsInShot);
+
+}  // namespace terrane::app
+
+// Reads values in the tables of a path file: numbers, positions, and values of command line flags.
+namespace CLI {
+class App;
+}
+
+namespace terrane::app {
+
+using Names = std::vector<std::string>;
+
+// Errors are stored in the table; `fallback` is then returned.
+
+double numberOf(world::ContentTable& table, std::string_view key, double fallback, double min, double max);
+// `form` names the expected form in errors.
+std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::string_view key,
+                                             std::size_t count, std::string_view form);
+std::optional<world::BlockPos> blockPosOf(world::ContentTable& table, std::string_view key);
+
+// Sets flags from keys of the same names, in the order of `names`, except those in `given`.
+void applyFlags(world::ContentTable& table, CLI::App& flags, const Names& names, const Names& given);
+
+}  // namespace terrane::app
+
+namespace terrane::app {
+
+// Reads path files (docs/video.md). Errors name the file, the line and the key.
+// Options of the command line; they take precedence over the file.
+struct ScriptDefaults {
+    WorldOptions world;
+    GraphicsOptions graphics;
+    // Given flags without dashes: the file's options of these names are ignored; with a preset, all options
+    // that it sets.
+    std::vector<std::string> given;
+};
+
+// `name` stands for the file in errors.
+base::Result<Script> parseScript(std::string_view toml, std::string_view name, const ScriptDefaults& defaults,
+                                 const world::BlockRegistry& blocks);
 
 }  // namespace terrane::app

@@ -1,6 +1,6 @@
 #include "apps/terrane/serve/file_records.h"
 
-#include "terrane/net/sqlite_records.h"
+#include "terrane/net/server/sqlite_records.h"
 
 namespace terrane::app {
 

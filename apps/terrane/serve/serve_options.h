@@ -4,9 +4,9 @@
 #include <string>
 
 #include "apps/terrane/maps/map_options.h"
-#include "apps/terrane/option_values.h"
-#include "terrane/net/server_settings.h"
-#include "terrane/net/server_sockets.h"
+#include "apps/terrane/options.h"
+#include "terrane/net/server/server_sockets.h"
+#include "terrane/net/server/server_state.h"
 
 namespace terrane::app {
 

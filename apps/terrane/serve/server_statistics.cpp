@@ -5,8 +5,8 @@
 
 #include "apps/terrane/quantile.h"
 #include "terrane/base/log.h"
-#include "terrane/base/process_statistics.h"
-#include "terrane/net/server_history.h"
+#include "terrane/base/machine.h"
+#include "terrane/net/server/server_history.h"
 
 namespace terrane::app {
 namespace {

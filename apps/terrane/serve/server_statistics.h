@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/net/server_state.h"
+#include "terrane/net/server/server_state.h"
 
 namespace terrane::app {
 

@@ -4,7 +4,7 @@
 #include "apps/terrane/serve/file_records.h"
 #include "terrane/base/digest.h"
 #include "terrane/net_postgres/postgres_records.h"
-#include "terrane/store/save_path.h"
+#include "terrane/store/saves/save_path.h"
 
 namespace terrane::app {
 namespace {

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "terrane/net/history.h"
-#include "terrane/net/server_records.h"
-#include "terrane/store/world_location.h"
+#include "terrane/net/server/edit_log.h"
+#include "terrane/net/server/server_records.h"
+#include "terrane/store/saves/save_path.h"
 
 namespace terrane::app {
 

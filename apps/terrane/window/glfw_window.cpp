@@ -1,21 +1,28 @@
 #include "apps/terrane/window/glfw_window.h"
 
-#include <epoxy/gl.h>
-// epoxy declares OpenGL; GLFW must not.
-#define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
+#include <epoxy/gl.h>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
 
 #include <cassert>
 #include <cstring>
-#include <glm/geometric.hpp>
-#include <glm/vec4.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
 
-#include "terrane/gpu/device_info.h"
+#include "terrane/content/built_in.h"
+#include "terrane/gpu/context.h"
+
+// epoxy declares OpenGL; GLFW must not.
+#define GLFW_INCLUDE_NONE
 
 namespace terrane::app {
+
+void setTerraneIcon(Window& window) {
+    const auto image = content::builtInTextures()("grass_side");
+    if (image) window.setIcon({image->width, image->height}, std::as_bytes(std::span(image->rgba)));
+}
 
 namespace {
 

@@ -7,6 +7,9 @@
 
 namespace terrane::app {
 
+// Sets the window's icon: the side of a grass block, from the built-in textures.
+void setTerraneIcon(Window& window);
+
 // One window at a time: destroying it terminates GLFW.
 [[nodiscard]] base::Result<std::unique_ptr<Window>> openGlfwWindow(const WindowOptions& options);
 

@@ -1,13 +1,23 @@
 // Runs Dear ImGui on a window, one frame at a time. Used on the window's thread.
 #pragma once
 
-#include <cstdint>
 #include <glm/vec2.hpp>
+
+#include <cstdint>
 #include <string>
 
 #include "apps/terrane/window/window.h"
 
 namespace terrane::app {
+
+// The font of the user interface: the system's, if it has one with the letters of all languages.
+// The system's font file; null if it has none of the known ones.
+const char* fontFile();
+// Replaces Dear ImGui's fonts by a font `pixels` high; its own font if `file` is null. Recreate the font
+// texture afterwards.
+void addFont(float pixels, const char* file);
+// Call after the texture is made: letters that the font lacks are drawn without their accents.
+void replaceMissingLetters();
 
 class ImguiLayer {
   public:

@@ -2,10 +2,32 @@
 // frame loop.
 #pragma once
 
+#include <imgui.h>
+
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
+
+#include "terrane/game/block_interaction.h"
 
 namespace terrane::app {
+
+// Steps of the mouse wheel. Touchpads and smooth wheels turn by parts of a step, or sideways.
+class Wheel {
+  public:
+    // `y`: of an InputEvent of the wheel. Returns the whole steps since the last ones, away from the player;
+    // a turn in the other direction begins anew.
+    int turn(double y) {
+        part_ = part_ * y < 0 ? y : part_ + y;
+        const double steps = std::trunc(part_);
+        part_ -= steps;
+        return static_cast<int>(steps);
+    }
+
+  private:
+    double part_ = 0;  // of a step
+};
 
 // clang-format off
 // Letters are positions on a US keyboard, so that WASD stays a square on every layout.
@@ -45,5 +67,34 @@ struct Gamepad {
     bool up = false, down = false, left = false, right = false;  // of the d-pad
     bool start = false;
 };
+
+// Detects presses and releases of gamepad buttons since the last frame, from their current state.
+class PadReader {
+  public:
+    using Button = bool Gamepad::*;
+
+    // Call once per frame. Without a gamepad all buttons count as released.
+    void read(const std::optional<Gamepad>& pad) {
+        before_ = now_;
+        now_ = pad.value_or(Gamepad());
+    }
+    const Gamepad& now() const { return now_; }
+    bool isPressed(Button button) const { return now_.*button && !(before_.*button); }
+    bool isReleased(Button button) const { return !(now_.*button) && before_.*button; }
+    // Presses and releases `held` with the button; the mouse may hold it as well.
+    void drive(game::HeldButton& held, Button button) const {
+        if (isPressed(button)) held.press();
+        if (isReleased(button)) held.release();
+    }
+
+  private:
+    Gamepad before_, now_;
+};
+
+// Moves through menus with a gamepad.
+// Sets Dear ImGui's inputs of a gamepad: d-pad or left stick, lower and right button. Its own back end
+// numbers the buttons as the driver does, which differs between systems and pads; GLFW's mapping of known
+// pads does not.
+void setPadNavigation(const std::optional<Gamepad>& pad, float (&inputs)[ImGuiNavInput_COUNT]);
 
 }  // namespace terrane::app

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/content/language.h"
+#include "terrane/game/session.h"
 #include "terrane/pack/content.h"
 
 namespace terrane::app {
@@ -32,5 +33,11 @@ std::string_view languageCode(const std::string& choice);
 Texts textsOf(const std::string& choice);
 // With the names of the packs' blocks.
 Texts textsOf(const std::string& choice, const pack::Content& content);
+
+// Texts about results of edits, in the player's language.
+// Why an edit was refused; empty if it was not, or needs no message.
+std::string refusalText(game::EditResult result, const Texts& tr);
+// The result of an undo or a redo; empty while a server decides.
+std::string takenBackText(const game::TakenBack& done, game::HistoryWay way, const Texts& tr);
 
 }  // namespace terrane::app

@@ -3,10 +3,14 @@
 
 #include <imgui.h>
 
+#include <glm/vec2.hpp>
+
 #include <string>
 #include <string_view>
 
 namespace terrane::app {
+
+inline ImVec2 imVec(const glm::vec2& v) { return {v.x, v.y}; }
 
 void setUiStyle(float scale);  // times the design's sizes
 

@@ -7,7 +7,7 @@
 
 #include "terrane/gen/batch_generator.h"
 #include "terrane/store/chunk_store.h"
-#include "terrane/store_postgres/connection_pool.h"
+#include "terrane/store_postgres/connection.h"
 #include "terrane/store_postgres/work_queue.h"
 
 namespace terrane::app {

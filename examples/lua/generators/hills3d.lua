@@ -1,5 +1,5 @@
 -- Land from 3D noise: hills with overhangs, arches and floating rocks, grass wherever the sky is near.
--- The same blocks, to the bit, as terrane/gen/generators/hills3d.cpp.
+-- The same blocks, to the bit, as terrane/gen/generators/small_generators.cpp.
 
 local seaLevel <const> = 80
 local middle = g:field("middle", "float")

@@ -1,5 +1,5 @@
 -- Mountains made only of Voronoi diagrams: bowls with a lake around every point, sharp ridges between
--- them, and boxy caves of a diagram in space. The same blocks, to the bit, as terrane/gen/generators/voronoi.cpp.
+-- them, and boxy caves of a diagram in space. The same blocks, to the bit, as terrane/gen/generators/small_generators.cpp.
 
 local seaLevel <const> = 80
 local spacing <const> = 96  -- blocks between the points of two bowls, about

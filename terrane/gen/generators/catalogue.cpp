@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "terrane/base/nearest_name.h"
+#include "terrane/base/text.h"
 
 namespace terrane::gen {
 namespace {

@@ -8,10 +8,13 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 #include "terrane/gen/level_generators.h"
 
 namespace terrane::gen {
+
+// Sea level of all generators whose land has a sea.
+constexpr int kSeaLevel = 80;  // z of the highest water
 
 struct CatalogueEntry {
     std::string name;

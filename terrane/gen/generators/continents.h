@@ -1,9 +1,9 @@
 // Passes of the generator continents and the fields they exchange. continents.cpp puts them together.
 #pragma once
 
-#include "terrane/gen/builder.h"
-#include "terrane/gen/generators/sea_level.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/generators/trees/trees.h"
+#include "terrane/gen/language/builder.h"
 
 namespace terrane::gen::continents {
 

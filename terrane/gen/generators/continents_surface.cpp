@@ -1,7 +1,10 @@
-// Biomes of continents and what the ground is made of.
 #include "terrane/gen/generators/continents.h"
+#include "terrane/gen/language/expr.h"
 
 namespace terrane::gen::continents {
+
+// Biomes of continents and what the ground is made of.
+
 namespace {
 
 // Inputs to the choice of a biome. Noise in temperature and moisture roughens borders.
@@ -143,6 +146,117 @@ void surfacePass(Pass& p, const Fields& f) {
     const Bool isDry = p.read(f.surface) >= p.read(f.water);
     p.set(f.forest, select(isDry, gentle, Float(0.0f)));
     if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
+}
+
+// Ground of continents: soil, strata, ore, water, caves and their lakes.
+
+namespace {
+
+constexpr int kCaveWater = 13;  // z below which caves are lakes
+
+// Bands of rock, a little bent. Only canyon lands show theirs.
+Block strata(Pass& p, const Fields& f) {
+    const Int bend = Int(p.perlin2D("strata", 64, {1.5f, 3.0f}) + 8.0f);
+    const Int band = floorModulo(p.z() + bend, 17);
+    const Block stripes = multiSelect({{band < 4, p.block("terracotta")},
+                                       {band == 9, p.block("sandstone")},
+                                       {band == 13, p.block("terracotta")}},
+                                      p.block("red_sandstone"));
+    return select(p.read(f.rock) == p.block("red_sandstone"), stripes, p.read(f.rock));
+}
+
+// Winding tunnels where two noises are both near 0, and halls, which columns hold up.
+Bool isCave(Pass& p, const Fields& f) {
+    Var<Bool> result = p.var(Bool(false));
+    const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
+    p.if_(p.z() > 2 && p.z() < p.read(f.caveTop), [&] {
+        p.if_(where > -0.05f, [&] {
+            const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}),
+                        b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
+            result = a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
+        });
+        p.if_(where < -0.12f, [&] {
+            const Float hall =
+                p.perlin3D("halls", 30, {.3f, 1.0f}) - smoothstep(0.0f, 60.0f, Float(p.z()) - 30.0f) * 0.25f;
+            const Float column = p.perlin2D("columns", 5, {1.0f, .5f});
+            result = hall > 0.30f && column < 0.5f;
+        });
+    });
+    return result;
+}
+
+Block veins(Pass& p, Block rock) {
+    Var<Block> block = p.var(rock);
+    const Float where = p.perlin2D("ore places", 64, {.6f, 1.0f});
+    p.if_(where > 0.1f && p.z() < 72, [&] {
+        const Float ore = p.perlin3D("ore", 4, {1.0f, .5f});
+        block = select(ore > 0.78f, p.block("glowing_ore"), static_cast<Block>(block));
+    });
+    return block;
+}
+
+Block earth(Pass& p, const Fields& f) {
+    constexpr int kSoilDepth = 3;
+    const Int z = p.z(), depth = p.read(f.surface) - z;
+    Var<Block> block = p.var(p.block("air"));
+    p.if_(
+        depth <= kSoilDepth,
+        [&] {
+            const Block top = select(p.read(f.top) == p.block("red_sandstone"), strata(p, f), p.read(f.top));
+            const Block soil =
+                select(p.read(f.soil) == p.block("red_sandstone"), strata(p, f), p.read(f.soil));
+            block = select(depth == 0, top, soil);
+        },
+        [&] { block = p.step() == 1 ? veins(p, strata(p, f)) : strata(p, f); });
+    if (p.step() > 1) return block;
+    const Block inside = select(z <= kCaveWater, p.block("water"), p.block("air"));
+    return select(isCave(p, f), inside, static_cast<Block>(block));
+}
+
+}  // namespace
+
+Block ground(Pass& p, const Fields& f) {
+    const Int z = p.z(), water = p.read(f.water);
+    Var<Block> block = p.var(p.block("air"));
+    p.if_(
+        z <= p.read(f.surface), [&] { block = earth(p, f); },
+        [&] {
+            const Bool isIce = z == water && p.read(f.cold) < -0.78f;
+            const Block liquid = select(isIce, p.block("ice"), p.block("water"));
+            block = select(z <= water, liquid, p.block("air"));
+        });
+    return block;
+}
+
+// The color of grass and leaves on continents: by temperature and moisture, with soft borders.
+
+namespace {
+
+// sRGB, 0…1
+struct Color {
+    float red, green, blue;
+};
+
+// From cold to hot, dry and wet.
+constexpr Color kDry[] = {{0.52f, 0.53f, 0.36f}, {0.50f, 0.56f, 0.24f}, {0.72f, 0.64f, 0.33f}};
+constexpr Color kWet[] = {{0.31f, 0.47f, 0.30f}, {0.31f, 0.51f, 0.17f}, {0.25f, 0.48f, 0.13f}};
+
+}  // namespace
+
+void colorPass(Pass& p, const Fields& f) {
+    const Float patches = p.simplex2D("grass colors", 64, {.02f, .03f, .05f, .05f});
+    const Float high = max(p.read(f.base) - (kSea + 20.0f), Float(0.0f)) * 0.0045f;
+    const Float warm = clamp(p.read(f.temperature) - high + patches, -0.6f, 0.6f) * (1.0f / 0.6f);
+    const Float wet = smoothstep(-0.5f, 0.4f, p.read(f.moisture) + patches);
+    const auto channel = [&](float Color::*c) {
+        const auto between = [&](const Color(&colors)[3]) {
+            const Float cool = lerp(Float(colors[1].*c), Float(colors[0].*c), max(-warm, Float(0.0f)));
+            return select(warm < 0.0f, cool,
+                          lerp(Float(colors[1].*c), Float(colors[2].*c), max(warm, Float(0.0f))));
+        };
+        return lerp(between(kDry), between(kWet), wet);
+    };
+    p.set(f.color, packColor(channel(&Color::red), channel(&Color::green), channel(&Color::blue)));
 }
 
 }  // namespace terrane::gen::continents

@@ -1,8 +1,8 @@
 // Passes of the generator overworld and the fields they exchange. overworld.cpp puts them together.
 #pragma once
 
-#include "terrane/gen/builder.h"
-#include "terrane/gen/generators/sea_level.h"
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/language/builder.h"
 
 namespace terrane::gen::overworld {
 

@@ -1,6 +1,6 @@
 // The overworld's climate and the height of its ground.
 #include "terrane/gen/generators/overworld.h"
-#include "terrane/gen/voronoi_mean.h"
+#include "terrane/gen/language/compounds.h"
 
 namespace terrane::gen::overworld {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/gen/generators/trees/tree_math.h"
-#include "terrane/gen/voxel_shape.h"
+#include "terrane/gen/language/voxel_shape.h"
 
 namespace terrane::gen::trees {
 

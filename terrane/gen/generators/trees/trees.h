@@ -12,7 +12,7 @@
 #include <string_view>
 #include <vector>
 
-#include "terrane/gen/builder.h"
+#include "terrane/gen/language/builder.h"
 
 namespace terrane::gen::trees {
 

@@ -1,0 +1,122 @@
+#include "apps/terrane/dump/dump_files.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstring>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "terrane/base/npy.h"
+
+namespace terrane::app {
+
+namespace {
+
+constexpr const char* kQuadType =
+    "[('chunk_x','<i4'),('chunk_y','<i4'),('x','|u1'),('y','|u1'),('z','|u1'),('shape_face','<u2'),"
+    "('extent_u','|u1'),('extent_v','|u1'),('material','<u2'),('context','|u1'),('group','|u1')]";
+
+void appendQuad(std::string& data, world::ChunkPos pos, shared::Quad quad,
+                std::array<int, 2> bucketAndDirection) {
+    const auto number = [&](auto value) {
+        char bytes[sizeof(value)];
+        std::memcpy(bytes, &value, sizeof(value));
+        data.append(bytes, sizeof(value));
+    };
+    const auto byte = [&](shared::uint value) { data.push_back(static_cast<char>(value)); };
+    number(pos.x);
+    number(pos.y);
+    byte(shared::quadX(quad));
+    byte(shared::quadY(quad));
+    byte(shared::quadZ(quad));
+    number(static_cast<std::uint16_t>(shared::quadShapeFace(quad)));
+    byte(shared::quadExtentU(quad));
+    byte(shared::quadExtentV(quad));
+    number(static_cast<std::uint16_t>(shared::quadMaterial(quad)));
+    for (const int value : bucketAndDirection) byte(static_cast<shared::uint>(value));
+}
+
+}  // namespace
+
+QuadFile::QuadFile(base::OutputFile file)
+    : file_(std::move(file)),
+      headerBytes_(base::npyHeader(kQuadType, {SIZE_MAX}).size()),
+      sizeBytes_(headerBytes_) {}
+
+base::Result<QuadFile> QuadFile::create(const std::filesystem::path& path) {
+    auto file = TERRANE_TRY(base::OutputFile::create(path));
+    return QuadFile(std::move(file));
+}
+
+base::Result<void> QuadFile::append(world::ChunkPos pos, mesh::ChunkMesh& mesh) {
+    std::string data;
+    for (const mesh::MeshSection& meshSection : mesh.meshSections) {
+        for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
+            for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
+                const mesh::QuadRange range = meshSection.ranges[bucket][direction];
+                const auto quads = std::span(mesh.quads).subspan(range.first, range.count);
+                std::ranges::sort(quads, {}, [](shared::Quad q) { return std::pair(q.word0, q.word1); });
+                for (const shared::Quad quad : quads) appendQuad(data, pos, quad, {bucket, direction});
+            }
+        }
+    }
+    TERRANE_TRY(file_.write(sizeBytes_, data));
+    sizeBytes_ += data.size();
+    quadCount_ += mesh.quads.size();
+    return {};
+}
+
+base::Result<void> QuadFile::finish() {
+    const auto written = file_.write(0, base::npyHeader(kQuadType, {quadCount_}, headerBytes_));
+    return written ? file_.finish() : written;
+}
+
+namespace {
+
+constexpr std::uint64_t kColumnBytes = world::kChunkHeight * sizeof(std::uint16_t);
+constexpr std::uint64_t kChunkBytes = world::kChunkSize * world::kChunkSize * kColumnBytes;  // 128 KiB
+
+static_assert(std::endian::native == std::endian::little, "values are written as they lie in memory");
+
+std::size_t blocksOver(std::int32_t first, std::int32_t end) {
+    return static_cast<std::size_t>(std::int64_t{end} - first) * world::kChunkSize;
+}
+
+}  // namespace
+
+base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, const world::ChunkArea& area) {
+    constexpr auto kMaxChunks = static_cast<std::int64_t>(INT64_MAX / kChunkBytes) - 1;
+    if (area.chunkCount() > kMaxChunks)
+        return base::fail("--area: {} chunks are too many for a file", area.chunkCount());
+    const std::string header = base::npyHeader(
+        "<u2", {blocksOver(area.x0, area.x1), blocksOver(area.y0, area.y1), world::kChunkHeight});
+    auto file = TERRANE_TRY(base::OutputFile::create(path));
+    const std::uint64_t sizeBytes =
+        header.size() + static_cast<std::uint64_t>(area.chunkCount()) * kChunkBytes;
+    TERRANE_TRY(file.reserve(sizeBytes));
+    TERRANE_TRY(file.write(0, header));
+    return VolumeFile(std::move(file), area, header.size());
+}
+
+// The columns of one x are contiguous in the file.
+base::Result<void> VolumeFile::write(const world::ChunkArea& square, const ColumnOf& columnOf) {
+    const std::size_t sizeX = blocksOver(square.x0, square.x1), sizeY = blocksOver(square.y0, square.y1);
+    const std::size_t areaSizeY = blocksOver(area_.y0, area_.y1);
+    const std::size_t firstX = blocksOver(area_.x0, square.x0), firstY = blocksOver(area_.y0, square.y0);
+    std::vector<std::uint16_t> values(sizeY * world::kChunkHeight);
+    for (std::size_t x = 0; x < sizeX; ++x) {
+        for (std::size_t y = 0; y < sizeY; ++y) {
+            const auto column = std::span(values).subspan(y * world::kChunkHeight);
+            columnOf(static_cast<int>(x), static_cast<int>(y), column.first<world::kChunkHeight>());
+        }
+        const std::uint64_t offset = headerBytes_ + ((firstX + x) * areaSizeY + firstY) * kColumnBytes;
+        const std::string_view bytes(reinterpret_cast<const char*>(values.data()),
+                                     values.size() * sizeof(std::uint16_t));
+        TERRANE_TRY(file_.write(offset, bytes));
+    }
+    return {};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,216 @@
+#include "apps/terrane/formats/export_formats.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <bit>
+
+#include "apps/terrane/dump/loaded_square.h"
+#include "apps/terrane/formats/export_source.h"
+#include "apps/terrane/options.h"
+#include "terrane/base/files.h"
+#include "terrane/base/image.h"
+#include "terrane/base/log.h"
+#include "terrane/base/npy.h"
+#include "terrane/base/process.h"
+#include "terrane/formats/glb_mesh.h"
+#include "terrane/formats/gray_png.h"
+#include "terrane/formats/schematic.h"
+#include "terrane/formats/vox_file.h"
+#include "terrane/mesh/chunk_mesher.h"
+
+namespace terrane::app {
+
+namespace {
+
+// The chunk with air outside the box, so that the mesh is closed on all sides.
+world::Chunk clipped(const world::Chunk& chunk, world::ChunkPos pos, const world::BlockBox& box) {
+    if (!world::isInWorld(pos)) return chunk;  // empty
+    const world::BlockPos low = world::blockPos(pos, 0);
+    world::Chunk result = chunk;
+    for (int k = 0; k < world::kBlocksPerChunk; ++k) {
+        const auto index = static_cast<world::BlockIndex>(k);
+        const std::int64_t x = std::int64_t{low.x} + (k & 15), y = std::int64_t{low.y} + (k >> 4 & 15);
+        const int z = k >> 8;
+        const bool isInside = x >= box.low.x && x <= box.high.x && y >= box.low.y && y <= box.high.y &&
+                              z >= box.low.z && z <= box.high.z;
+        if (!isInside && result.block(index) != world::kAir) result.setBlock(index, world::kAir);
+    }
+    return result;
+}
+
+base::Result<void> addSquare(const LoadedSquare& square, const ExportSource& source, formats::GlbMesh& mesh) {
+    const int width = square.chunksX() + 2;
+    std::vector<world::Chunk> chunks;
+    for (int y = -1; y <= square.chunksY(); ++y)
+        for (int x = -1; x <= square.chunksX(); ++x)
+            chunks.push_back(
+                clipped(square.chunk(x, y), {square.area().x0 + x, square.area().y0 + y}, source.box));
+    const auto chunk = [&](int x, int y) {
+        return &chunks[static_cast<std::size_t>(x + 1 + (y + 1) * width)];
+    };
+    mesh::MeshScratch scratch;
+    for (int y = 0; y < square.chunksY(); ++y) {
+        for (int x = 0; x < square.chunksX(); ++x) {
+            const mesh::MeshInput input{chunk(x, y),
+                                        {chunk(x - 1, y), chunk(x + 1, y), chunk(x, y - 1), chunk(x, y + 1)},
+                                        source.blocks.get(),
+                                        {}};
+            const world::BlockPos at = world::blockPos({square.area().x0 + x, square.area().y0 + y}, 0);
+            // Relative to the box's lowest corner, to keep precision far from the origin.
+            const glm::ivec3 corner(std::int64_t{at.x} - source.box.low.x,
+                                    std::int64_t{at.y} - source.box.low.y, -source.box.low.z);
+            TERRANE_TRY(mesh.add(mesh::meshChunk(input, scratch), corner));
+        }
+    }
+    return {};
+}
+
+}  // namespace
+
+base::Result<void> exportGlb(ExportOptions& options) {
+    const auto source = TERRANE_TRY(openExport(options));
+    const world::ChunkArea area = chunksOf(source.box);
+    formats::GlbMesh mesh(*source.blocks, source.textures);
+    base::JobSystem jobs(threadCount(options.world));
+    const base::StopSignals signals;
+    {
+        base::ProgressBar bar("exporting", static_cast<std::size_t>(squareCount(area)));
+        for (std::int64_t k = 0; k < squareCount(area); ++k) {
+            if (signals.stopAsked())
+                return base::fail("stopped after {} of {} squares", k, squareCount(area));
+            LoadedSquare square(squareOf(area, k));
+            TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
+            TERRANE_TRY(addSquare(square, source, mesh));
+            bar.set(static_cast<std::size_t>(k) + 1);
+        }
+    }
+    const world::BlockPos low = source.box.low;
+    const auto model = mesh.finish(fmt::format("terrane {},{},{}", low.x, low.y, low.z));
+    if (!model) return base::fail(model.error().code, "{}: {}", options.output, model.error().message);
+    const auto bytes = formats::encodeGlb(*model);
+    if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
+    TERRANE_TRY(base::writeFile(options.output, *bytes));
+    base::logInfo("{}: {} faces, {} materials, {} bytes", options.output, mesh.quadCount(),
+                  model->parts.size(), bytes->size());
+    return {};
+}
+
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
+
+base::Result<void> writeResult(const ExportOptions& options, const base::Result<std::string>& bytes,
+                               const std::string& what) {
+    if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
+    TERRANE_TRY(base::writeFile(options.output, *bytes));
+    base::logInfo("{}: {}, {} bytes", options.output, what, bytes->size());
+    return {};
+}
+
+std::string describe(glm::ivec3 size) {
+    return fmt::format("{}×{}×{} blocks", size.x, size.y, size.z);
+}
+
+std::string bytesOf(const std::vector<std::uint16_t>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(std::uint16_t)};
+}
+
+// Row by row, y ascending.
+struct SurfaceHeights {
+    int width = 0, height = 0;  // columns
+    std::vector<std::uint16_t> values;
+};
+
+std::uint16_t heightOf(const world::Chunk& chunk, const world::BlockRegistry& blocks, int column,
+                       const world::BlockBox& box) {
+    for (int z = box.high.z; z >= box.low.z; --z) {
+        const world::BlockType& type =
+            blocks.type(chunk.block(static_cast<world::BlockIndex>(column + 256 * z)));
+        if (!type.collision.empty() || type.shape == world::Shape::Liquid)
+            return static_cast<std::uint16_t>(z);
+    }
+    return 0;
+}
+
+base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
+    const auto source = TERRANE_TRY(openExport(options));
+    const world::BlockBox& box = source.box;
+    const std::int64_t width = std::int64_t{box.high.x} - box.low.x + 1;
+    const std::int64_t height = std::int64_t{box.high.y} - box.low.y + 1;
+    if (width * height > base::kMaxImagePixels)
+        return base::fail(base::ErrorCode::OutOfResources, "{}×{} columns are more than {}", width, height,
+                          base::kMaxImagePixels);
+    SurfaceHeights heights{static_cast<int>(width), static_cast<int>(height), {}};
+    heights.values.resize(static_cast<std::size_t>(width * height));
+    TERRANE_TRY(forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+        const world::BlockPos low = world::blockPos(pos, 0);
+        for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
+            const std::int64_t x = std::int64_t{low.x} + k % world::kChunkSize - box.low.x;
+            const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - box.low.y;
+            if (x < 0 || x >= width || y < 0 || y >= height) continue;
+            heights.values[static_cast<std::size_t>(x + width * y)] = heightOf(chunk, *source.blocks, k, box);
+        }
+        return base::Result<void>();
+    }));
+    return heights;
+}
+
+base::Result<void> writeNames(const ExportOptions& options, const world::BlockRegistry& blocks) {
+    nlohmann::json names = nlohmann::json::array();
+    for (const world::BlockType& type : blocks.types()) names.push_back(type.name);
+    return base::writeFile(options.output + ".names.json", names.dump(1) + "\n");
+}
+
+}  // namespace
+
+base::Result<void> exportSchematic(ExportOptions& options) {
+    const auto source = TERRANE_TRY(openExport(options));
+    const auto mapping = TERRANE_TRY(formats::loadMapping(*source.blocks, options.mapping));
+    const auto volume = TERRANE_TRY(readVolume(options, source));
+    return writeResult(options, formats::encodeSchematic(formats::toNames(volume, mapping)),
+                       describe(volume.size));
+}
+
+base::Result<void> exportVox(ExportOptions& options) {
+    const auto source = TERRANE_TRY(openExport(options));
+    const auto tops = TERRANE_TRY(world::topColors(*source.blocks, source.textures));
+    const auto volume = TERRANE_TRY(readVolume(options, source));
+    const auto image = TERRANE_TRY(formats::toVox(volume, tops));
+    return writeResult(options, formats::encodeVox(image), describe(volume.size));
+}
+
+base::Result<void> exportNpy(ExportOptions& options) {
+    const auto source = TERRANE_TRY(openExport(options));
+    auto volume = TERRANE_TRY(readVolume(options, source));
+    for (std::uint16_t& cell : volume.cells) cell = volume.palette[cell].id;
+    const auto side = [&](int axis) { return static_cast<std::size_t>(volume.size[axis]); };
+    TERRANE_TRY(writeNames(options, *source.blocks));
+    return writeResult(options, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)}),
+                       describe(volume.size));
+}
+
+base::Result<void> exportNpyHeights(ExportOptions& options) {
+    const auto heights = TERRANE_TRY(readHeights(options));
+    const std::vector<std::size_t> shape{static_cast<std::size_t>(heights.height),
+                                         static_cast<std::size_t>(heights.width)};
+    return writeResult(options, base::encodeNpy({"<u2", shape, bytesOf(heights.values)}),
+                       fmt::format("{}×{} columns", heights.width, heights.height));
+}
+
+base::Result<void> exportPngHeights(ExportOptions& options) {
+    const auto heights = TERRANE_TRY(readHeights(options));
+    formats::GrayImage image{heights.width, heights.height, options.bits, {}};
+    const auto width = static_cast<std::size_t>(heights.width);
+    for (std::size_t row = 0; row < static_cast<std::size_t>(heights.height); ++row) {
+        for (std::size_t x = width; x-- > 0;) {
+            // Maps 255 to 65,535.
+            const std::uint16_t height = heights.values[row * width + x];
+            image.values.push_back(options.bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
+        }
+    }
+    return writeResult(options, formats::encodeGrayPng(image),
+                       fmt::format("{}×{} columns", heights.width, heights.height));
+}
+
+}  // namespace terrane::app

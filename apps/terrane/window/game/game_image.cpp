@@ -1,0 +1,125 @@
+#include "apps/terrane/window/game/game_image.h"
+
+#include <chrono>
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <thread>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/content/resource_pack.h"
+#include "terrane/gpu/framebuffer.h"
+#include "terrane/view/camera_path.h"
+
+namespace terrane::app {
+namespace {
+
+// Pause between frames without a world, which leaves the CPU to the compiler.
+constexpr std::chrono::milliseconds kCompilePause{15};
+constexpr double kPresetMessageSeconds = 8;
+
+world::Environment environmentOf(const GameState& game) {
+    return world::environmentAt(static_cast<float>(game.parts.session.clock.timeDay));
+}
+
+bool shadersAreReady(const GameState& game, glm::ivec2 size) {
+    constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
+    const render::RenderOptions& options = game.preset.options(game.settings);
+    render::BackgroundCompiler& compiler = game.parts.compiler;
+    if (hasWorldImage(game) && options == game.parts.renderer.options()) return true;
+    if (!hasWorldImage(game) && !compiler.isReady(kPreview, view::BlockPreview::options(), {})) return false;
+    const render::Renderer& renderer = game.parts.renderer;
+    return compiler.isReady(size, options, {.hasTint = renderer.hasTint(), .hasLand = renderer.hasLand()});
+}
+
+// Applies other options once their shaders are compiled; until then frames are drawn with the former ones, or
+// not at all at first. Options that cannot be drawn are reverted.
+base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
+    render::Renderer& renderer = game.parts.renderer;
+    render::RenderOptions options = game.preset.options(game.settings);
+    if (!shadersAreReady(game, size)) {
+        game.notices.say(game.tr("compiling shaders"));
+        if (!hasWorldImage(game)) return {};
+        options = renderer.options();
+    }
+    if (size == renderer.size() && options == renderer.options()) return {};
+    const auto configured = renderer.configure(size, options);
+    if (configured || !hasWorldImage(game) || options == renderer.options()) return configured;
+    base::logWarning("{}", configured.error().message);
+    game.notices.say(configured.error().message);
+    game.settings.graphics.render = renderer.options();
+    game.preset.end();
+    return {};
+}
+
+render::FrameInput frameInputOf(const GameState& game) {
+    const GameParts& parts = game.parts;
+    render::FrameInput input;
+    input.camera = cameraOf(game);
+    input.environment = environmentOf(game);
+    input.fogDistance = view::fogDistance(parts.view.sightDistance());
+    input.timeSeconds = static_cast<float>(game.seconds);
+    input.view = game.settings.view;
+    input.waterAbove = game::waterAbove(parts.session, game.player.pose().position);
+    input.figures = game.remote.others.figures;
+    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
+    if (game.debug.isAbove) {
+        const int viewDistance = parts.view.viewDistance();
+        input.culledFor = input.camera;
+        input.camera = debugTopCamera(input.camera, viewDistance);
+        input.fogDistance = 16 * view::fogDistance(viewDistance);
+        input.waterAbove = 0;
+    }
+    return input;
+}
+
+double sumOf(const std::vector<gpu::GpuTiming>& passes) {
+    double milliseconds = 0;
+    for (const gpu::GpuTiming& pass : passes) milliseconds += pass.milliseconds;
+    return milliseconds;
+}
+
+// Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
+void pickPreset(GameState& game, double seconds) {
+    const GameParts& parts = game.parts;
+    if (!game.preset.isBusy()) return;
+    const auto isDrawn = [&] { return game.preset.options(game.settings) == parts.renderer.options(); };
+    const bool isComplete = parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
+    if (isDrawn()) game.preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, game.settings);
+    if (!isDrawn()) return;
+    if (auto message = game.preset.takeMessage())
+        game.notices.say(std::move(*message), kPresetMessageSeconds);
+}
+
+void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
+    const GameParts& parts = game.parts;
+    parts.view.upload(view::uploadBudget(seconds, parts.view.missing()));
+    if (auto notice = parts.view.takeNotice()) game.notices.say(std::move(*notice));
+    parts.renderer.draw(frameInputOf(game));
+    parts.renderer.presentToWindow(size);
+    pickPreset(game, seconds);
+}
+
+}  // namespace
+
+base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
+    TERRANE_TRY(configureRenderer(game, size));
+    if (hasWorldImage(game)) {
+        drawWorld(game, size, seconds);
+    } else {
+        gpu::clearWindow(glm::pow(glm::min(environmentOf(game).horizonColor, 1.0f), glm::vec3(1 / 2.2f)));
+        std::this_thread::sleep_for(kCompilePause);
+    }
+    return {};
+}
+
+base::Result<void> useResourcePack(const GameParts& parts, const std::string& folder) {
+    auto textures =
+        TERRANE_TRY(content::loadTextures(folder, parts.session.blocks(), parts.content.textures));
+    TERRANE_TRY(parts.preview.setTextures(textures));
+    TERRANE_TRY(parts.renderer.setTextures(parts.session.blocks(), textures));
+    parts.compiler.setTextures(textures);
+    return {};
+}
+
+}  // namespace terrane::app

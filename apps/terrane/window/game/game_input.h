@@ -1,0 +1,28 @@
+// Handles keys, mouse and gamepad.
+#pragma once
+
+#include "apps/terrane/window/game/game_state.h"
+
+namespace terrane::app {
+
+// Actions of the player: break and build, undo, and everything bound to keys; also the world's thumbnail.
+// Does nothing for actions of held keys: see moveKeysOf().
+void act(GameState& game, Action action);
+// Breaks or builds while a button is held; shows it with the arm and particles. `seconds`: since the last
+// frame.
+void breakAndBuild(GameState& game, double seconds);
+void takeBack(GameState& game, game::HistoryWay way);
+// Writes the thumbnail for the list of worlds over the last one. Does nothing if the world has no file for
+// it.
+void writeThumbnailOf(GameState& game);
+
+// Handles all events since the last frame.
+void handleEvents(GameState& game);
+// Sticks turn the view; buttons do the same as keys and mouse buttons.
+void handlePad(GameState& game, double seconds);
+// While a key of time is held, a day passes in ten seconds.
+void passHeldTime(GameState& game, double seconds);
+// The state of the keys and the stick that move the player.
+game::MoveKeys moveKeysOf(const GameState& game);
+
+}  // namespace terrane::app

@@ -1,0 +1,206 @@
+#include "apps/terrane/window/game/game_interface.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <utility>
+
+#include "apps/terrane/window/game/game_menu.h"
+#include "apps/terrane/window/game/game_statistics.h"
+#include "apps/terrane/window/hud/compass.h"
+#include "apps/terrane/window/hud/container_dialog.h"
+#include "apps/terrane/window/hud/hand_view.h"
+#include "apps/terrane/window/hud/particle_view.h"
+#include "apps/terrane/window/hud/places_panel.h"
+#include "apps/terrane/window/settings/panel.h"
+#include "terrane/view/camera_path.h"
+
+namespace terrane::app {
+
+namespace {
+
+BlockFace blockFaceOf(GameState& game) {
+    return {
+        [&game](world::BlockId block) { return hasWorldImage(game) ? game.parts.preview.image(block) : 0; },
+        [&game](world::BlockId block) { return game.tr.block(game.parts.session.blocks().type(block)); }};
+}
+
+std::string targetText(const GameState& game) {
+    const auto& target = game.interaction.target();
+    if (!target) return {};
+    const world::World& world = game.parts.session.world();
+    const std::uint16_t state = world.blockState(target->block);
+    const std::string name = game.tr.block(game.parts.session.blocks().type(world.block(target->block)));
+    return fmt::format("{}{}  {}, {}, {}", name, state == 0 ? "" : fmt::format(" ({})", state),
+                       target->block.x, target->block.y, target->block.z);
+}
+
+PlaceFacts placeFactsOf(GameState& game) {
+    Hud& hud = game.hud;
+    game::Session& session = game.parts.session;
+    const world::BlockPos at = world::blockOf(game.player.pose().position);
+    const store::WorldIdentity& identity = session.store().identity();
+    if (std::exchange(hud.asksForBiomes, false))  // takes a tenth of a second
+        hud.biomes = gen::BiomeMap::create(identity.generator, session.blocks(), identity.seed);
+    return {.pose = game.player.pose(),
+            .biome = hud.biomes ? std::string(hud.biomes->at(at.x, at.y)) : std::string(),
+            .world = fmt::format("{}, seed {}", identity.generator, identity.seed),
+            .target = targetText(game),
+            .timeDay = session.clock.timeDay,
+            .framesASecond = game.meter.now()};
+}
+
+void drawPaletteDialog(GameState& game, const Screen& screen) {
+    const auto choice =
+        drawPalette(screen, game.hud.palette, game.parts.session.blocks(), blockFaceOf(game), game.tr);
+    if (!choice) return;
+    game::takeInHand(game.interaction.hotbar, *choice);
+    captureMouse(game, true);
+}
+
+void drawPlacesDialog(GameState& game, const Screen& screen) {
+    Hud& hud = game.hud;
+    const PlacesAnswer answer = drawPlaces(screen, hud.placesDialog, hud.places, game.player.pose(), game.tr);
+    if (answer.isChanged) game::savePlaces(game.parts.session.store(), hud.places);
+    if (!answer.goTo) return;
+    game.player.placeAt(*answer.goTo, game.settings.movement);
+    captureMouse(game, true);
+}
+
+}  // namespace
+
+void advanceHud(GameState& game, double seconds) {
+    Hud& hud = game.hud;
+    const glm::dvec3 step = game.player.pose().position - hud.walkedFrom;
+    hud.walkedFrom = game.player.pose().position;
+    hud.hand.advance(seconds, std::hypot(step.x, step.y),
+                     game.settings.movement == game::Movement::Gravity && !game.settings.reducedMotion);
+    hud.screenshot.advance(seconds);
+    hud.particles.advance(seconds, game.parts.session.world(), game.parts.session.blocks());
+}
+
+void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds) {
+    constexpr int kImages = 2, kImagesInDialog = 8;
+    Hud& hud = game.hud;
+    game.parts.preview.beginFrame(isInDialog(game) ? kImagesInDialog : kImages);
+    if (!hud.isHidden && !game.debug.isAbove && hasWorldImage(game)) {
+        const glm::vec3 light = lightOnHand(game.parts.session, game.player.pose().position);
+        drawParticles(screen, camera, hud.particles, game.parts.renderer.topColors(), light);
+        drawCompass(screen, game.player.pose(), hud.places);
+        if (hud.showsFacts) drawPlaceFacts(placeFactsOf(game), game.tr);
+        const world::BlockId block = game.interaction.block();
+        hud.hand.draw(screen, block == world::kAir ? 0 : blockFaceOf(game).image(block), light);
+        hud.hotbar.draw(screen, game.interaction.hotbar, blockFaceOf(game), seconds);
+    }
+    hud.screenshot.draw(screen);
+    if (hud.palette.isOpen) drawPaletteDialog(game, screen);
+    if (hud.placesDialog.isOpen) drawPlacesDialog(game, screen);
+}
+
+namespace {
+
+// The direction to the sun or moon; none without shadows.
+std::optional<glm::vec3> shadowLightOf(const GameParts& parts) {
+    const render::RenderOptions& options = parts.renderer.options();
+    if (options.shadows == render::ShadowReach::Off || options.shading == render::Shading::Off)
+        return std::nullopt;
+    return world::environmentAt(static_cast<float>(parts.session.clock.timeDay)).lightDirection;
+}
+
+void drawLinesInWorld(const GameState& game, const Screen& screen, const render::Camera& camera) {
+    const GameParts& parts = game.parts;
+    if (game.debug.isAbove) {
+        const int viewDistance = parts.view.viewDistance();
+        drawDebugTopView(screen, debugTopCamera(camera, viewDistance), camera,
+                         view::fogDistance(viewDistance), shadowLightOf(parts));
+    } else if (const auto& target = game.interaction.target(); target && !game.hud.isHidden) {
+        drawTarget(screen, camera, *target,
+                   {parts.session.world(), parts.session.blocks(), game.settings.highContrast});
+    }
+}
+
+void drawRemote(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (!game.remote.play) return;
+    if (!game.hud.isHidden && !game.debug.isAbove)
+        drawNames(screen, camera, game.remote.others.names,
+                  {game.parts.session.world(), game.parts.session.blocks()});
+    if (drawRemoteTexts(screen, game.remote, game.seconds, game.tr)) captureMouse(game, true);
+}
+
+// Frees the cursor while the player types or chooses something.
+void drawBuilding(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (!game.debug.isAbove) game.building.draw(screen, camera, buildViewOf(game), game.seconds);
+    if (auto message = game.building.takeMessage()) game.notices.say(std::move(*message));
+    const bool asks = game.building.isAsking();
+    if (asks != std::exchange(game.wasAsking, asks)) captureMouse(game, !asks);
+}
+
+void drawDebugPanels(GameState& game, const Screen& screen) {
+    game::Session& session = game.parts.session;
+    if (game.debug.showsLoading) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
+    if (!game.debug.showsPanel) return;
+    drawStatistics(statisticsOf(game), screen.width - panelWidth() - 30 * uiScale());
+    drawPanel(game.settings, session.clock, {game.options.isSoftwareRenderer, screen.width, screen.height});
+}
+
+// Closes the dialog if the chest is gone or out of reach.
+void drawContainerDialog(GameState& game, const Screen& screen) {
+    game::Session& session = game.parts.session;
+    const world::BlockPos block = *game.container;
+    if (!canUseContainer(session, block, game.player.pose().position)) return captureMouse(game, true);
+    const auto image = [&](const std::string& item) {
+        const world::BlockType* kind = session.blocks().find(item);
+        return kind ? game.parts.preview.image(kind->id) : 0;
+    };
+    const auto name = [&](const std::string& item) {
+        const world::BlockType* kind = session.blocks().find(item);
+        return kind ? game.tr.block(*kind) : item;
+    };
+    const auto drawn =
+        drawOpenContainer(screen, session, block, game.interaction.hotbar, {image, name}, game.tr);
+    if (drawn) return;
+    game.notices.say(drawn.error().message);
+    captureMouse(game, true);
+}
+
+void drawMenu(GameState& game, const Screen& screen) {
+    GameMenu& menu = game.menu;
+    const store::SaveStatus status = game.parts.session.store().status();
+    if (menu.asksToQuit) {
+        if (const auto choice = drawQuitDialog(screen, status, game.tr)) answerQuitDialog(game, *choice);
+        return;
+    }
+    if (menu.showsSettings) {
+        const SettingsDialog::Input view{screen, game.tr, game.options.isSoftwareRenderer,
+                                         &game.parts.session.clock};
+        if (menu.settings.draw(game.settings, view)) closeOne(game);
+    } else if (menu.isPaused) {
+        if (const auto choice = drawPauseMenu(screen, game.settings.keys, game.tr))
+            answerPauseMenu(game, *choice);
+    }
+    drawSaveNotice(screen, status, game.tr);
+}
+
+}  // namespace
+
+void drawInterface(GameState& game, double seconds) {
+    game.imgui.setTextSize(game.settings.textSize);
+    game.imgui.beginFrame(game.input.isCaptured, isInMenu(game) || hasOpenDialog(game));
+    const Screen screen{game.imgui.size().x, game.imgui.size().y};
+    const render::Camera camera = cameraOf(game);
+    const stream::Progress progress = game.parts.session.pipeline().progress();
+    drawLinesInWorld(game, screen, camera);
+    drawRemote(game, screen, camera);
+    drawBuilding(game, screen, camera);
+    if (game.input.isCaptured && !game.debug.isAbove && !game.hud.isHidden) drawCrosshair(screen);
+    drawHud(game, screen, camera, seconds);
+    drawNotices(screen, game.notices, game.settings.keys, game.tr);
+    game.wasComplete = game.wasComplete || progress.complete();
+    if (!game.wasComplete) drawProgress(screen, progress, game.tr);
+    drawDebugPanels(game, screen);
+    if (game.container) drawContainerDialog(game, screen);
+    drawMenu(game, screen);
+    game.imgui.endFrame();
+}
+
+}  // namespace terrane::app

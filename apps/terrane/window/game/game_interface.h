@@ -1,0 +1,17 @@
+// Draws the user interface over the image.
+#pragma once
+
+#include "apps/terrane/window/game/game_state.h"
+
+namespace terrane::app {
+
+// Draws the HUD over the image: arm, hotbar, particles, compass, position, and the dialogs of blocks and
+// places.
+// `seconds`: since the last frame.
+void advanceHud(GameState& game, double seconds);
+void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds);
+
+// Call once per frame; also handles clicks. `seconds`: since the last frame.
+void drawInterface(GameState& game, double seconds);
+
+}  // namespace terrane::app

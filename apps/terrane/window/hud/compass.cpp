@@ -1,0 +1,134 @@
+#include "apps/terrane/window/hud/compass.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/terrane/window/imgui_layer.h"
+
+namespace terrane::app {
+
+namespace {
+
+constexpr double kSpan = 150;  // degrees from end to end
+constexpr ImU32 kPlaceColor = IM_COL32(255, 205, 90, 255);
+
+// The position in the strip, -1 … 1; values beyond are outside of it.
+double placeInStrip(double degrees, double ahead) {
+    return std::remainder(degrees - ahead, 360.0) / (kSpan / 2);
+}
+
+void drawCentered(ImDrawList& draw, ImVec2 at, ImU32 color, const std::string& text) {
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    draw.AddText({at.x - size.x / 2 + 1, at.y + 1}, IM_COL32(0, 0, 0, 160), text.c_str());
+    draw.AddText({at.x - size.x / 2, at.y}, color, text.c_str());
+}
+
+std::string distanceText(double blocks) {
+    return blocks < 1000 ? fmt::format("{:.0f} m", blocks) : fmt::format("{:.1f} km", blocks / 1000);
+}
+
+}  // namespace
+
+void drawCompass(const Screen& screen, const world::Pose& pose, std::span<const game::Place> places) {
+    const float scale = uiScale(), half = std::min(170 * scale, screen.width * 0.35f);
+    const float middle = screen.width / 2, top = 8 * scale, height = 20 * scale;
+    const double ahead = game::compassDegrees(pose.yaw);
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled({middle - half, top}, {middle + half, top + height}, IM_COL32(10, 12, 16, 120),
+                       6 * scale);
+    constexpr const char* kNames[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
+    for (int step = 0; step < 24; ++step) {
+        const double at = placeInStrip(step * 15.0, ahead);
+        if (std::abs(at) > 0.96) continue;
+        const float x = middle + static_cast<float>(at) * half;
+        if (step % 3 == 0)
+            drawCentered(draw, {x, top + 3 * scale}, IM_COL32(255, 255, 255, step % 6 == 0 ? 255 : 170),
+                         kNames[step / 3]);
+        else
+            draw.AddLine({x, top + 7 * scale}, {x, top + 13 * scale}, IM_COL32(255, 255, 255, 110), scale);
+    }
+    // The place nearest to the view direction is labeled with its name and distance.
+    const game::Place* nearest = nullptr;
+    double nearestAt = 0.12;
+    for (const game::Place& place : places) {
+        const glm::dvec3 to = place.pose.position - pose.position;
+        const double at = placeInStrip(game::compassDegrees(to.x, to.y), ahead);
+        if (std::abs(at) > 0.97) continue;
+        const float x = middle + static_cast<float>(at) * half, y = top + height;
+        draw.AddTriangleFilled({x - 4 * scale, y + 5 * scale}, {x + 4 * scale, y + 5 * scale}, {x, y - scale},
+                               kPlaceColor);
+        if (std::abs(at) > nearestAt) continue;
+        nearest = &place;
+        nearestAt = std::abs(at);
+    }
+    if (!nearest) return;
+    const glm::dvec3 to = nearest->pose.position - pose.position;
+    drawCentered(draw, {middle, top + height + 7 * scale}, kPlaceColor,
+                 nearest->name + "  " + distanceText(std::hypot(to.x, to.y)));
+}
+
+namespace {
+
+ImU32 colorOf(stream::ChunkStage stage) {
+    switch (stage) {
+        case stream::ChunkStage::Loading:
+            return IM_COL32(200, 60, 50, 220);
+        case stream::ChunkStage::Loaded:
+            return IM_COL32(220, 160, 40, 220);
+        case stream::ChunkStage::Lighting:
+            return IM_COL32(70, 130, 230, 220);
+        case stream::ChunkStage::Visible:
+            return IM_COL32(70, 180, 80, 220);
+    }
+    return 0;
+}
+
+// Shades of green, darker for coarser levels.
+ImU32 colorOf(int level) {
+    const float share = 1.0f / (1.0f + 0.25f * static_cast<float>(level));
+    return IM_COL32(static_cast<int>(70 * share), static_cast<int>(180 * share), static_cast<int>(80 * share),
+                    220);
+}
+
+}  // namespace
+
+void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
+                    const stream::TileTable& tiles) {
+    const world::ChunkPos center = tiles.view.center;
+    const int around = tiles.view.viewDistance + 3, reach = std::max(around, tiles.view.horizon);
+    const float side = std::min(screen.width, screen.height) * 0.6f;
+    const float cell = side / static_cast<float>(2 * reach + 1);
+    const float left = (screen.width - side) / 2, top = (screen.height - side) / 2;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
+    // A square of chunks of level 0. As on all maps north, -y, is up, and east, -x, to the right.
+    const auto square = [&](world::ChunkPos first, int width, ImU32 color) {
+        const auto at = [&](int chunks) {
+            return static_cast<float>(std::clamp(chunks, 0, 2 * reach + 1)) * cell;
+        };
+        const int x = center.x - (first.x + width - 1) + reach, y = first.y - center.y + reach;
+        const float gap = cell * static_cast<float>(width) > 4 ? 1.0f : 0.0f;
+        draw.AddRectFilled({left + at(x), top + at(y)},
+                           {left + at(x + width) - gap, top + at(y + width) - gap}, color);
+    };
+    for (const auto& [pos, record] : tiles.records) {
+        if (pos.level == 0 || !record.isShown) continue;
+        square({pos.x << pos.level, pos.y << pos.level}, 1 << pos.level, colorOf(pos.level));
+    }
+    for (int y = -around; y <= around; ++y) {
+        for (int x = -around; x <= around; ++x) {
+            const world::ChunkPos pos = world::offsetBy(center, x, y);
+            if (const auto stage = pipeline.stageAt(pos)) square(pos, 1, colorOf(*stage));
+        }
+    }
+    const float own = static_cast<float>(reach) * cell;
+    draw.AddRect({left + own, top + own}, {left + own + cell, top + own + cell}, IM_COL32_WHITE);
+    draw.AddText(
+        {left + 6, top + side + 4}, IM_COL32_WHITE,
+        "red: loading   yellow: there   blue: lit and meshed now   green: visible\ndarker green: coarser");
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,32 @@
+// Temporary notices in the window: a message, and the list of keys. Plain state.
+#pragma once
+
+#include <string>
+#include <utility>
+
+#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/settings/key_bindings.h"
+#include "apps/terrane/window/text.h"
+
+namespace terrane::app {
+
+struct Notices {
+    static constexpr double kMessageSeconds = 3, kHelpSeconds = 20;
+
+    std::string message;
+    double messageSeconds = 0;  // remaining
+    double helpSeconds = 12;    // remaining for the list of keys; shown at the start
+
+    void say(std::string text, double seconds = kMessageSeconds) {
+        message = std::move(text);
+        messageSeconds = seconds;
+    }
+    void advance(double seconds) {
+        messageSeconds -= seconds;
+        helpSeconds -= seconds;
+    }
+};
+
+void drawNotices(const Screen& screen, const Notices& notices, const KeyBindings& keys, const Texts& tr);
+
+}  // namespace terrane::app

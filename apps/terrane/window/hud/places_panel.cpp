@@ -1,0 +1,110 @@
+#include "apps/terrane/window/hud/places_panel.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
+#include "terrane/game/places.h"
+
+namespace terrane::app {
+
+namespace {
+
+// The names of gen::continents::biomeName(), listed here for translation.
+[[maybe_unused]] constexpr const char* kBiomes[] = {
+    trLater("ocean"),       trLater("reef"),         trLater("beach"),      trLater("meadow"),
+    trLater("oak forest"),  trLater("birch forest"), trLater("old forest"), trLater("taiga"),
+    trLater("tundra"),      trLater("snow"),         trLater("savanna"),    trLater("desert"),
+    trLater("canyon land"), trLater("swamp"),        trLater("alpine"),     trLater("rain forest")};
+constexpr const char* kDirections[] = {trLater("north"),      trLater("north-east"), trLater("east"),
+                                       trLater("south-east"), trLater("south"),      trLater("south-west"),
+                                       trLater("west"),       trLater("north-west")};
+
+std::string factsText(const PlaceFacts& f, const Texts& tr) {
+    const auto write = [&](const char* format, const auto&... values) {
+        return fmt::format(fmt::runtime(tr(format)), values...);
+    };
+    const glm::dvec3& p = f.pose.position;
+    const double degrees = game::compassDegrees(f.pose.yaw);
+    const auto direction = static_cast<std::size_t>(std::lround(degrees / 45)) % 8;
+    const int minutes = static_cast<int>(f.timeDay * 24 * 60);
+    std::string text = fmt::format("x {:.1f}  y {:.1f}  z {:.1f}\n", p.x, p.y, p.z - world::kEyeHeight);
+    text += write(trLater("chunk {}, {}\n"), static_cast<int>(std::floor(p.x / 16)),
+                  static_cast<int>(std::floor(p.y / 16)));
+    text +=
+        write(trLater("facing {} ({:.0f}°), {:+.0f}°\n"), tr(kDirections[direction]), degrees, f.pose.pitch);
+    if (!f.biome.empty()) text += std::string(tr(f.biome.c_str())) + "\n";
+    text += write(trLater("{:02}:{:02}   {:.0f} frames per second\n"), minutes / 60 % 24, minutes % 60,
+                  f.framesASecond);
+    text += f.world;
+    if (!f.target.empty()) text += write(trLater("\ntarget: {}"), f.target);
+    return text;
+}
+
+}  // namespace
+
+void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr) {
+    const std::string text = factsText(facts, tr);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
+    const float margin = 10 * uiScale(), pad = 6 * uiScale();
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddRectFilled({margin, margin}, {margin + size.x + 2 * pad, margin + size.y + 2 * pad},
+                       IM_COL32(10, 12, 16, 150), pad);
+    draw.AddText({margin + pad, margin + pad}, IM_COL32(255, 255, 255, 255), text.c_str());
+}
+
+namespace {
+
+bool drawNaming(PlacesState& state, std::vector<game::Place>& places, const world::Pose& here,
+                const Texts& tr) {
+    if (ImGui::IsWindowAppearing()) ImGui::SetKeyboardFocusHere();
+    const float button = 90 * uiScale();
+    ImGui::SetNextItemWidth(-button);
+    const bool isEntered = ui::textField("##name", tr("name of this place"), state.name.data(),
+                                         state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
+    ImGui::SameLine();
+    if (!ui::button(tr("Add"), {-1, 0}) && !isEntered) return false;
+    const bool isNamed = game::namePlace(places, state.name.data(), here);
+    if (isNamed) state.name = {};
+    return isNamed;
+}
+
+}  // namespace
+
+PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<game::Place>& places,
+                        const world::Pose& here, const Texts& tr) {
+    PlacesAnswer answer;
+    const float width = std::min(380 * uiScale(), screen.width - 20 * uiScale());
+    ImGui::SetNextWindowPos({screen.width / 2, screen.height / 2}, ImGuiCond_Always, {0.5f, 0.5f});
+    ImGui::SetNextWindowSize({width, std::min(320 * uiScale(), screen.height - 20 * uiScale())});
+    ui::beginWindow(tr("Places"),
+                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    answer.isChanged = drawNaming(state, places, here, tr);
+    ImGui::Separator();
+    ImGui::BeginChild("list");
+    std::optional<std::size_t> removed;
+    for (std::size_t k = 0; k < places.size(); ++k) {
+        ImGui::PushID(static_cast<int>(k));
+        if (ui::button(tr("Go"), {0, 0}, places[k].name)) answer.goTo = places[k].pose;
+        ImGui::SameLine();
+        if (ui::button(tr("Remove"), {0, 0}, places[k].name)) removed = k;
+        ImGui::SameLine();
+        const glm::dvec3 to = places[k].pose.position - here.position;
+        ImGui::AlignTextToFramePadding();
+        ImGui::TextUnformatted(fmt::format("{}  ({:.0f} m)", places[k].name, std::hypot(to.x, to.y)).c_str());
+        ImGui::PopID();
+    }
+    if (places.empty())
+        ImGui::TextWrapped("%s", tr("There are no named places yet. The compass and the maps show them."));
+    ImGui::EndChild();
+    ImGui::End();
+    if (removed) places.erase(places.begin() + static_cast<std::ptrdiff_t>(*removed));
+    answer.isChanged |= removed.has_value();
+    return answer;
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,401 @@
+#include "apps/terrane/window/hud/selection_tool.h"
+
+#include <fmt/format.h>
+#include <imgui.h>
+#include <glm/common.hpp>
+#include <glm/vec3.hpp>
+
+#include <algorithm>
+
+#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/widgets.h"
+#include "terrane/store/chunks/structure_file.h"
+#include "terrane/world/ray_cast.h"
+
+namespace terrane::app {
+
+namespace {
+
+using game::BuildOutcome;
+using world::BlockBox;
+using world::BlockPos;
+
+constexpr double kAhead = 6;  // blocks to the cell in the air
+
+struct ActionKey {
+    ToolAction action;
+    Key key;
+    bool withControl;
+};
+constexpr ActionKey kActionKeys[] = {
+    {ToolAction::Fill, Key::G, false},      {ToolAction::Replace, Key::X, false},
+    {ToolAction::Copy, Key::C, true},       {ToolAction::Paste, Key::V, true},
+    {ToolAction::Turn, Key::R, false},      {ToolAction::Mirror, Key::F, false},
+    {ToolAction::Save, Key::S, true},       {ToolAction::Open, Key::O, true},
+    {ToolAction::Clear, Key::Delete, false}};
+
+world::Ray lookRay(const BuildView& view) {
+    return {view.pose.position, glm::dvec3(world::lookDirection(view.pose.yaw, view.pose.pitch))};
+}
+
+std::optional<world::RayHit> lookedAt(const BuildView& view) {
+    return world::castRay(view.session.world(), view.session.blocks(), lookRay(view), game::kBuildReach);
+}
+
+// Why nothing changed.
+std::string refusal(BuildOutcome::Result result) {
+    using Result = BuildOutcome::Result;
+    switch (result) {
+        case Result::TooLarge:
+            return fmt::format("too large: at most {} blocks, fewer on a server",
+                               withCommas(world::kMaxStructureBlocks));
+        case Result::OutOfWorld:
+            return "it reaches above or below the world";
+        case Result::NotLoaded:
+            return "a part of it is not loaded: go closer";
+        case Result::OutOfReach:
+            return fmt::format("it is more than {:.0f} blocks away", game::kBuildReach);
+        case Result::NotAllowed:
+            return "you may not change a part of it";
+        case Result::Sent:
+            return "waiting for the server";
+        default:
+            return "there is nothing to build";
+    }
+}
+
+std::string blocksText(std::int64_t count) {
+    return withCommas(count) + (count == 1 ? " block" : " blocks");
+}
+
+}  // namespace
+
+std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
+    if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
+    std::string text = fmt::format("{} {}", verb, blocksText(static_cast<std::int64_t>(outcome.changed)));
+    if (outcome.kept > 0)
+        text +=
+            fmt::format("; {} of the lowest layer kept", blocksText(static_cast<std::int64_t>(outcome.kept)));
+    return text;
+}
+
+std::string withCommas(std::int64_t number) {
+    std::string text = std::to_string(number);
+    for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3)
+        text.insert(static_cast<std::size_t>(at), ",");
+    return text;
+}
+
+BlockPos pointedAt(const BuildView& view, bool beforeBlock) {
+    if (view.shift) {
+        const glm::dvec3 feet =
+            view.body ? view.body->min + glm::dvec3(0.5, 0.5, 0) * (view.body->max - view.body->min)
+                      : view.pose.position;
+        return world::blockOf(feet + glm::dvec3(0, 0, 1e-3));
+    }
+    if (const auto hit = lookedAt(view))
+        return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
+    const world::Ray ray = lookRay(view);
+    return world::blockOf(ray.origin + ray.direction * kAhead);
+}
+
+bool SelectionTool::onKey(Key key, const BuildView& view) {
+    if (isAsking()) {
+        onKeyWhileAsking(key);
+        return true;
+    }
+    if (key == Key::B && !view.control) {
+        isActive_ = !isActive_;
+        selection_.endPaste();
+        return true;
+    }
+    if (!isActive_) return false;
+    for (const ActionKey& entry : kActionKeys) {
+        if (entry.key != key || entry.withControl != view.control) continue;
+        act(entry.action, view);
+        return true;
+    }
+    return false;
+}
+
+bool SelectionTool::onButton(MouseButton button, const BuildView& view) {
+    if (!isActive_ || button == MouseButton::Middle) return false;
+    const bool isLeft = button == MouseButton::Left;
+    if (selection_.isPasting()) {
+        isLeft ? place(view) : selection_.endPaste();
+        return true;
+    }
+    const BlockPos corner = pointedAt(view, false);
+    isLeft ? selection_.setFirst(corner) : selection_.setSecond(corner);
+    const BlockBox box = *selection_.box();
+    message_ = fmt::format("{} corner {}, {}, {}; {}", isLeft ? "first" : "second", corner.x, corner.y,
+                           corner.z, blocksText(box.blockCount()));
+    return true;
+}
+
+bool SelectionTool::close() {
+    if (isAsking()) {
+        asks_ = Asks::Nothing;
+    } else if (selection_.isPasting()) {
+        selection_.endPaste();
+    } else if (isActive_) {
+        isActive_ = false;
+    } else {
+        return false;
+    }
+    return true;
+}
+
+void SelectionTool::act(ToolAction action, const BuildView& view) {
+    switch (action) {
+        case ToolAction::Fill:
+            return fill(view, view.hand, std::nullopt);
+        case ToolAction::Clear:
+            return fill(view, world::kAir, std::nullopt);
+        case ToolAction::Replace:
+            return replace(view);
+        case ToolAction::Copy:
+            return copy(view);
+        case ToolAction::Paste:
+            return beginPaste();
+        case ToolAction::Save:
+            return askName();
+        case ToolAction::Open:
+            return askFile();
+        case ToolAction::Turn:
+        case ToolAction::Mirror:
+            break;
+    }
+    if (!selection_.clipboard()) {
+        message_ = "nothing is copied (Ctrl+C)";
+    } else if (action == ToolAction::Turn) {
+        selection_.turn(view.session.blocks());
+        message_ = "rotated by 90 degrees";
+    } else {
+        selection_.mirror(view.session.blocks(), view.pose.yaw);
+        message_ = "mirrored";
+    }
+}
+
+void SelectionTool::fill(const BuildView& view, world::BlockId id, std::optional<world::BlockId> replaced) {
+    const auto box = selection_.box();
+    if (!box) {
+        message_ = "no box is selected: left and right button set its corners";
+        return;
+    }
+    const auto outcome = view.session.build({game::kLocalPlayer, game::FillBox{*box, id, 0, replaced}});
+    message_ = outcomeText(replaced ? "replaced" : id == world::kAir ? "cleared" : "filled", outcome);
+}
+
+void SelectionTool::replace(const BuildView& view) {
+    const auto hit = lookedAt(view);
+    if (!hit) {
+        message_ = "look at a block of the kind to be replaced";
+        return;
+    }
+    fill(view, view.hand, view.session.world().block(hit->block));
+}
+
+void SelectionTool::copy(const BuildView& view) {
+    const auto box = selection_.box();
+    if (!box || box->blockCount() > world::kMaxStructureBlocks) {
+        message_ = box ? refusal(BuildOutcome::Result::TooLarge) : "no box is selected";
+        return;
+    }
+    selection_.setClipboard(world::copyBlocks(view.session.world(), view.session.blocks(), *box));
+    message_ = "copied " + blocksText(box->blockCount());
+}
+
+void SelectionTool::beginPaste() {
+    message_ =
+        selection_.beginPaste() ? "left button: place, right button: cancel" : "nothing is copied (Ctrl+C)";
+}
+
+void SelectionTool::place(const BuildView& view) {
+    const auto low = selection_.pasteCorner(pointedAt(view, true));
+    message_ = outcomeText(
+        "placed",
+        view.session.build({game::kLocalPlayer, game::PlaceStructure{selection_.clipboard(), *low}}));
+}
+
+void SelectionTool::askName() {
+    if (!selection_.clipboard()) {
+        message_ = "nothing is copied (Ctrl+C)";
+        return;
+    }
+    asks_ = Asks::Name;
+    takesFocus_ = true;
+    name_ = {};
+}
+
+void SelectionTool::askFile() {
+    files_ = store::structureNames(folder_);
+    file_ = 0;
+    if (files_.empty()) {
+        message_ = fmt::format("there are no structures in {}", folder_.string());
+    } else {
+        asks_ = Asks::File;
+    }
+}
+
+void SelectionTool::onKeyWhileAsking(Key key) {
+    if (key == Key::Escape) asks_ = Asks::Nothing;
+    if (key == Key::Enter) isAnswered_ = true;
+    if (asks_ != Asks::File || files_.empty()) return;
+    if (key == Key::Down) file_ = (file_ + 1) % files_.size();
+    if (key == Key::Up) file_ = (file_ + files_.size() - 1) % files_.size();
+}
+
+// Handles Enter after the text of the same frame.
+void SelectionTool::answer(const BuildView& view) {
+    isAnswered_ = false;
+    const Asks asked = std::exchange(asks_, Asks::Nothing);
+    if (asked == Asks::Name) saveAs(name_.data());
+    if (asked == Asks::File) open(files_[file_], view.session.blocks());
+}
+
+void SelectionTool::saveAs(const std::string& name) {
+    const auto path = store::structurePath(folder_, name);
+    const auto done = path ? store::writeStructure(*path, *selection_.clipboard())
+                           : base::Result<void>(tl::unexpected(path.error()));
+    message_ = done ? fmt::format("saved {}", path->string()) : done.error().message;
+}
+
+void SelectionTool::open(const std::string& name, const world::BlockRegistry& blocks) {
+    const auto path = store::structurePath(folder_, name);
+    auto structure =
+        path ? store::readStructure(*path) : base::Result<world::Structure>(tl::unexpected(path.error()));
+    if (!structure) {
+        message_ = structure.error().message;
+        return;
+    }
+    const std::vector<std::string> unknown = world::unknownNames(*structure, blocks);
+    message_ = fmt::format("{}: {}", name, blocksText(structure->blockCount()));
+    if (!unknown.empty())
+        *message_ +=
+            fmt::format("; {} kinds are unknown and shown as missing, {} first", unknown.size(), unknown[0]);
+    selection_.setClipboard(std::move(*structure));
+    selection_.beginPaste();
+}
+
+// Draws the selection tool: its panel, and the outlines of boxes.
+
+namespace {
+
+struct ToolButton {
+    ToolAction action;
+    const char* label;
+};
+// In rows of two.
+constexpr ToolButton kToolButtons[] = {
+    {ToolAction::Fill, trLater("Fill (G)")},        {ToolAction::Replace, trLater("Replace (X)")},
+    {ToolAction::Clear, trLater("Clear (Del)")},    {ToolAction::Copy, trLater("Copy (Ctrl+C)")},
+    {ToolAction::Paste, trLater("Paste (Ctrl+V)")}, {ToolAction::Turn, trLater("Rotate (R)")},
+    {ToolAction::Mirror, trLater("Mirror (F)")},    {ToolAction::Save, trLater("Save (Ctrl+S)")},
+    {ToolAction::Open, trLater("Open (Ctrl+O)")}};
+
+// Orange and blue, which color-blind players can distinguish.
+constexpr ImU32 kSelected = IM_COL32(255, 160, 40, 255);
+constexpr ImU32 kPasted = IM_COL32(90, 180, 255, 255);
+
+void drawBox(const ScreenProjection& projection, const BlockBox& box, double grow, ImU32 color) {
+    const glm::dvec3 low = glm::dvec3(box.low.x, box.low.y, box.low.z) - grow;
+    const glm::dvec3 high = glm::dvec3(box.high.x + 1.0, box.high.y + 1.0, box.high.z + 1.0) + grow;
+    const auto corner = [&](unsigned k) {
+        return glm::dvec3((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,
+                          (k & 4) != 0 ? high.z : low.z);
+    };
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    for (unsigned k = 0; k < 8; ++k)
+        for (const unsigned axis : {1u, 2u, 4u}) {
+            if ((k & axis) != 0) continue;
+            const auto line = projection.line(corner(k), corner(k | axis));
+            if (!line) continue;
+            const ImVec2 from(line->first.x, line->first.y), to(line->second.x, line->second.y);
+            draw.AddLine(from, to, IM_COL32(0, 0, 0, 140), 4 * uiScale());
+            draw.AddLine(from, to, color, 2 * uiScale());
+        }
+}
+
+std::string sizeText(const Texts& tr, glm::ivec3 size) {
+    return fmt::format(fmt::runtime(tr("{} x {} x {} = {} blocks")), size.x, size.y, size.z,
+                       withCommas(std::int64_t{size.x} * size.y * size.z));
+}
+
+}  // namespace
+
+void SelectionTool::draw(const Screen& screen, const render::Camera& camera, const BuildView& view) {
+    if (!isActive_) return;
+    drawOutlines(screen, camera, view);
+    pressed_.reset();
+    drawPanel(screen, view);
+    if (pressed_) act(*pressed_, view);
+    if (isAnswered_) answer(view);
+}
+
+void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
+    const Texts& tr = view.tr;
+    const float margin = 10 * uiScale();
+    ImGui::SetNextWindowPos({screen.width - margin, margin}, ImGuiCond_Always, {1, 0});
+    ImGui::SetNextWindowBgAlpha(0.6f);
+    ui::beginWindow(tr("Selection (B)"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
+                                             ImGuiWindowFlags_NoCollapse |
+                                             ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    if (const auto box = selection_.box()) {
+        const world::BlockPos low = box->low, high = box->high;
+        ImGui::TextUnformatted(
+            sizeText(tr, {high.x - low.x + 1, high.y - low.y + 1, high.z - low.z + 1}).c_str());
+    } else {
+        ImGui::TextUnformatted(tr("left, right button: corners"));
+    }
+    ImGui::Text(tr("with: %s"), tr.block(view.session.blocks().type(view.hand)).c_str());
+    if (const auto& clipboard = selection_.clipboard())
+        ImGui::Text(tr("copied: %s"), sizeText(tr, clipboard->size).c_str());
+    const ImVec2 size(130 * uiScale(), 0);
+    int column = 0;
+    for (const ToolButton& button : kToolButtons) {
+        if (column++ % 2 == 1) ImGui::SameLine();
+        if (ui::button(tr(button.label), size)) pressed_ = button.action;
+    }
+    ImGui::TextUnformatted(tr("Shift: your own position"));
+    if (asks_ == Asks::Name) drawName(tr);
+    if (asks_ == Asks::File) drawFiles(tr);
+    ImGui::End();
+}
+
+void SelectionTool::drawName(const Texts& tr) {
+    ImGui::Separator();
+    ImGui::TextUnformatted(tr("Name of the file, then Enter"));
+    if (takesFocus_) ImGui::SetKeyboardFocusHere();
+    takesFocus_ = false;
+    ImGui::SetNextItemWidth(264 * uiScale());
+    ui::textField("##name", "", name_.data(), name_.size());
+}
+
+void SelectionTool::drawFiles(const Texts& tr) {
+    ImGui::Separator();
+    ImGui::TextUnformatted(tr("Up, Down, Enter or a click"));
+    ImGui::BeginChild("files", {264 * uiScale(), 120 * uiScale()});
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+        ImGui::PushID(static_cast<int>(k));
+        if (ui::selectable(files_[k].c_str(), k == file_)) {
+            file_ = k;
+            isAnswered_ = true;
+        }
+        if (k == file_) ImGui::SetScrollHereY();
+        ImGui::PopID();
+    }
+    ImGui::EndChild();
+}
+
+void SelectionTool::drawOutlines(const Screen& screen, const render::Camera& camera,
+                                 const BuildView& view) const {
+    const ScreenProjection projection({screen.width, screen.height}, camera);
+    if (const auto box = selection_.box()) drawBox(projection, *box, 1 / 64.0, kSelected);
+    if (!selection_.isPasting()) return;
+    const auto low = selection_.pasteCorner(pointedAt(view, true));
+    drawBox(projection, game::boxOf(game::PlaceStructure{selection_.clipboard(), *low}), 1 / 32.0, kPasted);
+}
+
+}  // namespace terrane::app

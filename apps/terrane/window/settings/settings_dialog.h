@@ -1,0 +1,51 @@
+// The settings dialog of the title screen and the pause menu: graphics, controls, world, general.
+// Developers have a panel of their own (panel.h). Immediate mode: draws and changes.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/settings/play_settings.h"
+#include "apps/terrane/window/text.h"
+#include "terrane/game/player_state.h"
+
+namespace terrane::app {
+
+enum class SettingsPage : std::uint8_t { Graphics, Controls, World, General, kCount };
+
+class SettingsDialog {
+  public:
+    struct Input {
+        Screen screen;
+        const Texts& tr;
+        bool isSoftwareRenderer = false;
+        game::DayClock* day = nullptr;  // of the current world; null on the title screen
+    };
+
+    // True when the player is done.
+    bool draw(PlaySettings& settings, const Input& input);
+
+    // Binds the key to the action that waits for one; Escape cancels. False if no action waits.
+    bool takeKey(Key key, PlaySettings& settings, const Texts& tr);
+    // To the previous or next page, for a gamepad's bumpers.
+    void turnPage(int by);
+    void open() { *this = SettingsDialog(); }
+
+  private:
+    void drawTabs(const Texts& tr);
+    void drawControls(PlaySettings& settings, const Texts& tr);
+    void drawKeys(KeyBindings& keys, const Texts& tr);
+
+    SettingsPage page_ = SettingsPage::Graphics;
+    std::optional<Action> waiting_;
+    std::string note_;  // which action lost its key
+};
+
+// The pages that need only the settings.
+void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer, const Texts& tr);
+void drawWorldPage(PlaySettings& settings, game::DayClock* day, const Texts& tr);
+void drawGeneralPage(PlaySettings& settings, const Texts& tr);
+
+}  // namespace terrane::app

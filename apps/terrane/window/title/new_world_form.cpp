@@ -1,0 +1,160 @@
+#include "apps/terrane/window/title/new_world_form.h"
+
+#include <epoxy/gl.h>
+
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include "terrane/base/job_system.h"
+#include "terrane/base/profile.h"
+#include "terrane/base/result.h"
+#include "terrane/map/area_image.h"
+#include "terrane/store/saves/world_list.h"
+
+namespace terrane::app {
+
+namespace {
+
+constexpr int kLevels[] = {6, 5, 4};  // chunks of a level are 1024, 512, 256 blocks wide
+constexpr int kBlocks = 16 * MapPreview::kPixels;
+
+}  // namespace
+
+struct MapPreview::Work {
+    explicit Work(const pack::Content& given) : content(given), thread([this] { run(); }) {}
+    ~Work() {
+        {
+            const std::lock_guard lock(mutex);
+            isEnding = true;
+        }
+        changed.notify_all();
+        thread.join();
+    }
+
+    void run();
+    // Requests have numbers, since the same world may be requested again while another is drawn.
+    void draw(const World& world, std::uint64_t request);
+    bool isOutdated(std::uint64_t request) {
+        const std::lock_guard lock(mutex);
+        return isEnding || newest != request;
+    }
+    void give(std::uint64_t request, base::Result<base::Image> image, bool isLast) {
+        const std::lock_guard lock(mutex);
+        if (newest != request) return;
+        if (image) drawn = std::move(*image);
+        problem = image ? "" : image.error().message;
+        isDone = isLast || !image;
+    }
+
+    const pack::Content& content;
+    std::mutex mutex;
+    std::condition_variable changed;
+    // Guarded by the mutex.
+    std::optional<World> wanted;
+    std::uint64_t newest = 0;          // request
+    std::optional<base::Image> drawn;  // not yet shown
+    bool isDone = false, isEnding = false;
+    std::string problem;
+    base::JobSystem jobs{1};
+    std::thread thread;  // last: starts after all members
+};
+
+void MapPreview::Work::run() {
+    base::setThreadName("map preview");
+    std::uint64_t last = 0;
+    while (true) {
+        std::unique_lock lock(mutex);
+        changed.wait(lock, [&] { return isEnding || newest != last; });
+        if (isEnding) return;
+        last = newest;
+        const World world = *wanted;
+        lock.unlock();
+        try {
+            draw(world, last);
+        } catch (const std::exception& error) {  // no memory
+            give(last, base::fail("{}", base::textOf(error)), true);
+        }
+    }
+}
+
+void MapPreview::Work::draw(const World& world, std::uint64_t request) {
+    auto generators =
+        gen::makeLevelGenerators(world.generator, *content.blocks, world.seed, content.generators);
+    if (!generators) return give(request, tl::unexpected(generators.error()), true);
+    auto painter = map::MapPainter::create({*generators, *content.blocks, content.textures});
+    if (!painter) return give(request, tl::unexpected(painter.error()), true);
+    for (const int level : kLevels) {
+        if (isOutdated(request)) return;
+        const std::int32_t half = kBlocks / 2 / (16 << level);
+        const map::ColumnRect rect = map::columnsOf({-half, -half, half, half}, level);
+        auto image = map::drawArea(*painter, rect, {}, jobs, [&](int) { return !isOutdated(request); });
+        give(request, std::move(image), level == std::end(kLevels)[-1]);
+    }
+}
+
+MapPreview::MapPreview(const pack::Content& content) : work_(std::make_unique<Work>(content)) {}
+MapPreview::~MapPreview() = default;
+
+void MapPreview::show(const World& world) {
+    std::optional<base::Image> image;
+    bool isNew = false;
+    {
+        const std::lock_guard lock(work_->mutex);
+        isNew = work_->wanted != world;
+        if (isNew) {
+            work_->wanted = world;
+            ++work_->newest;
+            work_->drawn.reset();
+            work_->isDone = false;
+            work_->problem.clear();
+        }
+        image = std::exchange(work_->drawn, std::nullopt);
+        isComplete_ = work_->isDone;
+        problem_ = work_->problem;
+    }
+    if (isNew) work_->changed.notify_all();
+    if (!image) return;
+    texture_ =
+        std::make_unique<gpu::Texture2D>(glm::ivec2(image->width, image->height), GL_RGBA8, 1, "map preview");
+    texture_->upload(0, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(image->rgba)));
+}
+
+namespace {
+
+std::string_view trimmed(std::string_view text) {
+    constexpr std::string_view kSpaces = " \t";
+    const std::size_t first = text.find_first_not_of(kSpaces);
+    if (first == text.npos) return {};
+    return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
+}
+
+}  // namespace
+
+NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed) {
+    NewWorldForm form;
+    form.name = store::freeWorldName(folder, "World");
+    form.randomSeed = randomSeed;
+    return form;
+}
+
+base::Result<WrittenSeed> seedOf(const NewWorldForm& form) {
+    const std::string_view text = trimmed(form.seed);
+    if (text.empty()) return WrittenSeed{form.randomSeed, ""};
+    return seedFrom(text);
+}
+
+base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {
+    const std::string name(trimmed(form.name));
+    if (name.empty()) return base::fail(base::ErrorCode::BadInput, "a world needs a name");
+    TERRANE_TRY(store::checkNewWorld(folder, name));
+    auto seed = seedOf(form);
+    if (!seed) return base::fail(base::ErrorCode::BadInput, "seed: {}", seed.error().message);
+    return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator};
+}
+
+}  // namespace terrane::app

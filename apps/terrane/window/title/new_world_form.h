@@ -1,0 +1,74 @@
+// The form for a new world: typed values and the world made from them. Pure; any thread.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "apps/terrane/options.h"
+#include "terrane/gpu/texture.h"
+#include "terrane/pack/content.h"
+
+namespace terrane::app {
+
+// Draws a map of a new world on its own thread, coarse at first, then finer. A request for another world
+// cancels the work on the last one. Used on the thread of the OpenGL context.
+class MapPreview {
+  public:
+    static constexpr int kPixels = 256;  // per side, 16 blocks each
+
+    struct World {
+        std::string generator;
+        std::uint64_t seed = 0;
+        bool operator==(const World&) const = default;
+    };
+
+    explicit MapPreview(const pack::Content& content);  // outlives this
+    ~MapPreview();                                      // waits for a row of chunks
+    MapPreview(const MapPreview&) = delete;
+    MapPreview& operator=(const MapPreview&) = delete;
+
+    // Call each frame with the world to show. Uploads what the thread has drawn.
+    void show(const World& world);
+    // The OpenGL texture, 0 before the first one; the first row is the northern one.
+    unsigned image() const { return texture_ ? texture_->id() : 0; }
+    bool isComplete() const { return isComplete_; }
+    const std::string& problem() const { return problem_; }
+
+  private:
+    struct Work;
+
+    std::unique_ptr<Work> work_;
+    std::unique_ptr<gpu::Texture2D> texture_;
+    bool isComplete_ = false;
+    std::string problem_;
+};
+
+// A world to play: an existing file, or a new one.
+struct ChosenWorld {
+    std::filesystem::path file;
+    std::optional<WrittenSeed> seed;  // for a new world
+    std::optional<std::string> generator;
+};
+
+struct NewWorldForm {
+    std::string name;
+    std::string seed;  // empty: randomSeed
+    std::string generator = WorldOptions::kDefaultGenerator;
+    std::uint64_t randomSeed = 0;
+
+    bool operator==(const NewWorldForm&) const = default;
+};
+
+// A form with the first free name of "World", "World 2", ….
+NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
+
+// Ignores spaces around the seed.
+[[nodiscard]] base::Result<WrittenSeed> seedOf(const NewWorldForm& form);
+
+// Errors are one line for the player.
+[[nodiscard]] base::Result<ChosenWorld> worldOf(const NewWorldForm& form,
+                                                const std::filesystem::path& folder);
+
+}  // namespace terrane::app

@@ -1,0 +1,101 @@
+#include "terrane/gen/compile/down_passes.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstdint>
+#include <utility>
+
+#include "terrane/base/result.h"
+
+namespace terrane::gen {
+namespace {
+
+// Returns `height` − z if it is constant. None beyond the height of a chunk, where the sum may overflow.
+std::optional<int> blocksAboveZ(const Graph& graph, NodeId height) {
+    const Node& n = graph.node(height);
+    if (n.op == Op::PosZ) return 0;
+    if (n.op != Op::AddI && n.op != Op::SubI) return std::nullopt;
+    const Node *z = &graph.node(n.args[0]), *constant = &graph.node(n.args[1]);
+    if (n.op == Op::AddI && z->op == Op::Constant) std::swap(z, constant);
+    if (z->op != Op::PosZ || constant->op != Op::Constant) return std::nullopt;
+    const std::int32_t blocks = asInt(constant->imm);
+    if (blocks < -world::kChunkHeight || blocks > world::kChunkHeight) return std::nullopt;
+    return n.op == Op::SubI ? -blocks : blocks;
+}
+
+}  // namespace
+
+std::optional<int> layersReadBelow(const PassGraph& pass) {
+    int below = 0;
+    for (NodeId id = 0; id < pass.graph.size(); ++id) {
+        const Node& n = pass.graph.node(id);
+        if (n.op == Op::BlockAt) return std::nullopt;
+        if (n.op != Op::BlockInColumn) continue;
+        const std::optional<int> above = blocksAboveZ(pass.graph, n.args[0]);
+        if (!above) return std::nullopt;
+        below = std::max(below, -*above);
+    }
+    return below;
+}
+
+bool canRunDown(const GeneratorGraph& generator) {
+    return !generator.passes.empty() && generator.passes.back().is3D;
+}
+
+int firstDownPass(const GeneratorGraph& generator) {
+    base::require(canRunDown(generator), "firstDownPass: the last pass of the generator is not 3D");
+    auto pass = generator.passes.size() - 1;
+    // A pass before another one must write no field: that takes all of its layers.
+    while (pass > 0 && layersReadBelow(generator.passes[pass]) && generator.passes[pass - 1].is3D &&
+           generator.passes[pass - 1].fields.empty())
+        --pass;
+    return std::max(static_cast<int>(pass), sharedPasses(generator));
+}
+
+void DownPasses::add(const VoxelPass& pass, PassInputs inputs) {
+    if (passes_.size() == count_)
+        passes_.push_back(std::make_unique<Running>(Executor(noises_, seeds_, parts_)));
+    Running& running = *passes_[count_];
+    if (count_ > 0) {
+        const Running& before = *passes_[count_ - 1];
+        inputs.blocks[4] = before.blocks.get();
+        inputs.layerRanges = &before.executor.layerRanges();
+        const std::optional<int> below = layersReadBelow(pass.plan().pass);
+        assert(below && "firstDownPass() says which passes run together");
+        running.readsBelow = *below;
+    }
+    running.executor.begin3D(pass, inputs, *running.blocks);
+    ++count_;
+}
+
+// The lowest layer that can be made from what the pass before has made.
+int DownPasses::reachOf(std::size_t pass) const {
+    if (pass == 0) return 0;
+    const int made = passes_[pass - 1]->executor.lowestMade();
+    return made == 0 ? 0 : std::min(made + passes_[pass]->readsBelow, world::kChunkHeight);
+}
+
+void DownPasses::makeMore(std::size_t pass) {
+    Executor& executor = passes_[pass]->executor;
+    while (reachOf(pass) >= executor.lowestMade()) makeMore(pass - 1);
+    executor.runDown(reachOf(pass), wanted_);
+}
+
+void DownPasses::run(const LayerTaker& take) {
+    const Running& last = *passes_[count_ - 1];
+    const LayerRanges& ranges = last.executor.layerRanges();
+    const auto isLikeAbove = [&](int z) {
+        const auto at = static_cast<std::size_t>(z);
+        return z + 1 < world::kChunkHeight && ranges[at].low == ranges[at].high &&
+               ranges[at] == ranges[at + 1];
+    };
+    wanted_ = WantedColumns();
+    for (int z = world::kChunkHeight; z-- > 0 && wanted_.rows() != 0;) {
+        if (z < last.executor.lowestMade()) makeMore(count_ - 1);
+        if (isLikeAbove(z)) continue;
+        const auto first = last.blocks->begin() + std::ptrdiff_t{z} * kTileLanes;
+        take(z, std::span<const world::BlockId, kTileLanes>(first, kTileLanes), wanted_);
+    }
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,14 @@
+// Writes a pass as the body of a GLSL compute shader: the second back end of the expression graph. The text
+// is complete with the helper functions of gen_gpu/*.glsl, which name what it reads and writes. Any thread.
+#pragma once
+
+#include <string>
+
+#include "terrane/gen/compile/generator_graph.h"
+
+namespace terrane::gen {
+
+// One invocation a column; 3D passes go through a range of z. Values are named v<node>.
+std::string emitGlsl(const GeneratorGraph& generator, std::size_t pass);
+
+}  // namespace terrane::gen

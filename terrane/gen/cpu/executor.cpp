@@ -1,0 +1,308 @@
+#include "terrane/gen/cpu/executor.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <optional>
+
+namespace terrane::gen {
+
+Executor::Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts)
+    : noises_(noises), seeds_(seeds), parts_(parts) {
+    context_.hashSeeds = seeds.hashes;
+    context_.perlin2D.resize(noises.size());
+    context_.perlin3D.resize(noises.size());
+    context_.voronoi2D.resize(noises.size());
+    context_.voronoi3D.resize(noises.size());
+    context_.simplex2D.resize(noises.size());
+    context_.stripes2D.resize(noises.size());
+    context_.drainage.resize(noises.size());
+    for (const NoiseCall& call : noises) context_.noiseKinds.push_back(call.kind);
+}
+
+void Executor::run2D(const Program& program, const PassInputs& inputs,
+                     std::span<ColumnValues* const> results) {
+    assert(!program.is3D && results.size() == program.fields.size() &&
+           "a result for each field of a 2D pass");
+    prepareTile(program, inputs);
+    runInstructions(program.column, context_);
+    for (std::size_t k = 0; k < results.size(); ++k) {
+        const Operand value = program.fields[k].value;
+        for (int r = 0; r < kTileSize; ++r) {
+            std::memcpy(results[k]->data() + r * kRowLanes, row(value) + value.rowStep * r * kRowLanes,
+                        kRowLanes * sizeof(Bits));
+        }
+    }
+}
+
+namespace {
+
+// Slabs begin as high as a section. They double where that decides all choices, and are split as far as
+// kLowestSlab where fewer layers may decide more: analyzing each layer would cost more than it saves.
+constexpr int kLowestSlab = 4, kFirstSlab = world::kSectionSize, kHighestSlab = 64;
+
+// Five times as fast as std::fill.
+void fillLayers(std::uint16_t* layers, int count, std::uint16_t block) {
+    std::uint64_t four = block * 0x0001000100010001u;
+    constexpr int kWords = kTileLanes / 4;
+    std::uint64_t words[kWords];
+    for (std::uint64_t& word : words) word = four;
+    for (int k = 0; k < count; ++k) std::memcpy(layers + k * kTileLanes, words, sizeof(words));
+}
+
+}  // namespace
+
+void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result) {
+    const Program& program = pass.program();
+    assert(program.is3D && program.block && "a 3D pass has blocks");
+    prepareTile(program, inputs);
+    runInstructions(program.column, context_);
+    ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
+    slabs_.clear();
+    run_ = {&pass, &result, {}};
+    lowestMade_ = slabBottom_ = world::kChunkHeight;
+    nextLayers_ = kFirstSlab;
+}
+
+void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
+                     std::span<ColumnValues* const> fieldResults) {
+    assert(fieldResults.size() == pass.program().fields.size() && "a result for each field");
+    for (ColumnValues* field : fieldResults) field->fill(0);
+    begin3D(pass, inputs, result);
+    run_.fieldResults = fieldResults;
+    if (!shortens_) {
+        slabs_.push_back({SlabRun::Way::Whole, world::kChunkHeight, pass.layerInstructions()});
+        return runLayers(pass.program(), 0, world::kChunkHeight);
+    }
+    int height = kFirstSlab;
+    for (int z = 0; z < world::kChunkHeight;) {
+        height = std::min(height, world::kChunkHeight - z);
+        ranges_.analyze(z, height);
+        if (!ranges_.isSettled() && height > kLowestSlab) {
+            height = std::max(height / 4, kLowestSlab);
+            continue;
+        }
+        runSlab(z, height);
+        z += height;
+        if (ranges_.isSettled()) height = std::min(2 * height, kHighestSlab);
+    }
+}
+
+// A slab that must be computed layer by layer is made a few layers at a time, as the caller may need no more;
+// its analysis holds for the rest. Slabs are not split below kFirstSlab: rows without requested columns skip
+// branches anyway.
+void Executor::runDown(int lowest, const WantedColumns& wanted) {
+    context_.rows = wanted.rows();
+    context_.wanted = wanted.lanes();
+    assert(run_.pass && lowest >= 0 && lowest < lowestMade_ && "begin3D() comes first, and layers go down");
+    if (lowestMade_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
+    int height = std::min(nextLayers_, lowestMade_ - lowest);
+    ranges_.analyze(lowestMade_ - height, height);
+    while (!ranges_.isSettled() && height > kFirstSlab) {
+        height = std::max(height / 4, kFirstSlab);
+        ranges_.analyze(lowestMade_ - height, height);
+    }
+    slabs_.clear();
+    slabBottom_ = lowestMade_ - height;
+    slabProgram_ = nullptr;
+    if (!ranges_.block()) {
+        const ShortPass* pass = run_.pass->find(ranges_.decisions());
+        if (!pass) slabProgram_ = &run_.pass->program();
+        if (pass && pass->kind == ShortPass::Kind::EachLayer) {
+            slabProgram_ = &pass->program;
+            startShort(*pass, slabBottom_);
+        }
+    }
+    nextLayers_ = ranges_.isSettled() && !slabProgram_ ? std::min(2 * height, kHighestSlab) : kFirstSlab;
+    if (slabProgram_) return continueSlab(std::max(lowest, slabBottom_));
+    runSlab(slabBottom_, height);
+    lowestMade_ = slabBottom_;
+}
+
+void Executor::continueSlab(int lowest) {
+    const int count = std::min(lowestMade_ - lowest, kLowestSlab);
+    context_.program = slabProgram_;
+    runLayers(*slabProgram_, lowestMade_ - count, count);
+    context_.program = &run_.pass->program();
+    lowestMade_ -= count;
+}
+
+// Computes only what the analysis in ranges_ leaves open.
+void Executor::runSlab(int z, int count) {
+    bool writesNothing = true;
+    for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
+        writesNothing = writesNothing && ranges_.writesNothing(k);
+    }
+    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
+    const std::optional<std::uint16_t> block = ranges_.block();
+    if (block && writesNothing) {
+        fillLayers(layers, count, *block);
+        std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
+        slabs_.push_back({SlabRun::Way::Filled, count, 0});
+        return;
+    }
+    const ShortPass* pass = run_.pass->find(ranges_.decisions());
+    if (pass) {
+        runShort(*pass, z, count);
+    } else {
+        runLayers(run_.pass->program(), z, count);
+        slabs_.push_back({SlabRun::Way::Whole, count, run_.pass->layerInstructions()});
+    }
+}
+
+void Executor::runShort(const ShortPass& pass, int z, int count) {
+    const Program& program = pass.program;
+    const std::size_t instructions = pass.layerInstructions;
+    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
+    const std::size_t layerBytes = kTileLanes * sizeof(*layers);
+    if (pass.kind == ShortPass::Kind::CopyBlocks) {
+        std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
+        for (int k = z; k < z + count; ++k)
+            layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
+        slabs_.push_back({SlabRun::Way::Copied, count, 0});
+        return;
+    }
+    startShort(pass, z);
+    if (pass.kind == ShortPass::Kind::OneLayer) {
+        runLayers(program, z, 1);
+        for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
+        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
+        slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
+    } else {
+        runLayers(program, z, count);
+        slabs_.push_back({SlabRun::Way::Short, count, instructions});
+    }
+    context_.program = &run_.pass->program();
+}
+
+// Computes values that all layers of the pass share. `z`: any of these layers.
+void Executor::startShort(const ShortPass& pass, int z) {
+    const Program& program = pass.program;
+    if (arena_.size() < program.arenaRows) {
+        arena_.resize(program.arenaRows);
+        context_.arena = arena_.front().lanes.data();
+        ranges_.moveArena(context_.arena);
+    }
+    context_.program = &program;
+    for (const RowConstant& c : pass.constants) arena_[c.row.row].lanes.fill(c.value);
+    for (const std::uint32_t n : program.noises) prepareNoise(n);
+    context_.z = z;
+    runInstructions(program.column, context_);
+}
+
+void Executor::runLayers(const Program& program, int z, int count) {
+    for (const std::uint32_t n : program.noises) prepareNoise(n);
+    for (int end = z + count; z < end; ++z) {
+        context_.z = z;
+        std::fill_n(row(program.z), kRowLanes, bitsOf(z));
+        runInstructions(program.layer, context_);
+        layerRanges_[static_cast<std::size_t>(z)] =
+            writeLayer(*program.block, run_.result->data() + z * kTileLanes);
+        for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
+            addToField(program.fields[k].value, *run_.fieldResults[k]);
+        }
+    }
+}
+
+// A column's value is 0 in all layers but one.
+void Executor::addToField(Operand value, ColumnValues& field) {
+    for (int lane = 0; lane < kTileLanes; ++lane) {
+        const int at = value.rowStep ? lane : lane % kRowLanes;
+        field[static_cast<std::size_t>(lane)] |= row(value)[at];
+    }
+}
+
+BlockRange Executor::writeLayer(Operand block, std::uint16_t* layer) {
+    const Bits* values = row(block);
+    if (block.rowStep != 0) return packLayer(values, layer);
+    const auto one = static_cast<std::uint16_t>(*values);
+    fillLayers(layer, 1, one);
+    return {one, one};
+}
+
+void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
+    if (arena_.size() < program.arenaRows) arena_.resize(program.arenaRows);
+    context_.program = &program;
+    context_.rows = kAllRows;
+    context_.wanted = nullptr;
+    context_.arena = arena_.front().lanes.data();
+    for (std::size_t n = 0; n < inputs.blocks.size(); ++n) {
+        context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;
+    }
+    context_.blocks = context_.blocksAround[4];
+    grid_ = sampleGrid(inputs.chunk);
+    fillConstants(program, grid_);
+    isPrepared_.assign(noises_.size(), false);
+    // Noise in space waits until some layer needs it.
+    for (const std::uint32_t n : program.noises) {
+        if (!gen::is3D(noises_[n].kind)) prepareNoise(n);
+    }
+    context_.fields.resize(inputs.fields.size());
+    context_.windows.resize(inputs.fields.size());
+    for (std::size_t f = 0; f < inputs.fields.size(); ++f) {
+        const ColumnValues* own = inputs.fields[f][4];
+        context_.fields[f] = own ? own->data() : nullptr;
+    }
+    for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
+    paintStamps(program);
+}
+
+void Executor::paintStamps(const Program& program) {
+    assert((program.stamps.empty() || parts_.shapes) && "a generator that stamps has shapes");
+    if (context_.stamps.size() < program.stamps.size()) context_.stamps.resize(program.stamps.size());
+    for (std::size_t k = 0; k < program.stamps.size(); ++k) {
+        const StampCall& call = program.stamps[k];
+        context_.stamps[k].paint(*parts_.shapes, context_.windows[call.shape], context_.windows[call.base]);
+    }
+}
+
+void Executor::prepareNoise(std::uint32_t noise) {
+    if (isPrepared_[noise]) return;
+    isPrepared_[noise] = true;
+    const NoiseCall& call = noises_[noise];
+    const std::uint32_t seed = seeds_.noises[noise];
+    switch (call.kind) {
+        case NoiseKind::Perlin2D:
+            return prepare(context_.perlin2D[noise], call, seed, grid_);
+        case NoiseKind::Perlin3D:
+            return prepare(context_.perlin3D[noise], call, seed, grid_);
+        case NoiseKind::Voronoi2D:
+            return prepare(context_.voronoi2D[noise], call, seed, grid_);
+        case NoiseKind::Voronoi3D:
+            return prepare(context_.voronoi3D[noise], call, seed, grid_);
+        case NoiseKind::Simplex2D:
+            return prepare(context_.simplex2D[noise], call, seed, grid_);
+        case NoiseKind::Stripes2D:
+            return prepare(context_.stripes2D[noise], call, seed, grid_);
+        case NoiseKind::Drainage:
+            assert(parts_.drainages && "a program that reads maps is run with them");
+            return parts_.drainages->prepare(context_.drainage[noise], static_cast<std::uint32_t>(call.size),
+                                             grid_);
+    }
+}
+
+void Executor::fillConstants(const Program& program, SampleGrid grid) {
+    for (std::size_t k = 0; k < program.constants.size(); ++k) arena_[k].lanes.fill(program.constants[k]);
+    for (int r = 0; r < kTileSize; ++r) {
+        for (int lane = 0; lane < kRowLanes; ++lane) {
+            row(program.x)[r * kRowLanes + lane] = bitsOf(grid.x + lane * grid.step);
+            row(program.y)[r * kRowLanes + lane] = bitsOf(grid.y + r * grid.step);
+        }
+    }
+}
+
+void Executor::fillWindow(std::uint32_t field, const PassInputs& inputs) {
+    static_assert(kMaxReadOffset == kTileSize, "a window is 3×3 chunks");
+    std::vector<Bits>& window = context_.windows[field];
+    window.resize(static_cast<std::size_t>(kWindowSize) * kWindowSize);
+    for (int chunk = 0; chunk < 9; ++chunk) {
+        const ColumnValues* values = inputs.fields[field][static_cast<std::size_t>(chunk)];
+        assert(values && "fields read with an offset are there for all nine chunks");
+        Bits* corner = window.data() + (chunk / 3) * kTileSize * kWindowSize + (chunk % 3) * kTileSize;
+        for (int r = 0; r < kTileSize; ++r) {
+            std::memcpy(corner + r * kWindowSize, values->data() + r * kRowLanes, kRowLanes * sizeof(Bits));
+        }
+    }
+}
+
+}  // namespace terrane::gen

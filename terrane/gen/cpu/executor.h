@@ -1,0 +1,151 @@
+// Runs one pass of a generator on one chunk. One Executor a thread; it keeps scratch memory between calls.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/compile/program.h"
+#include "terrane/gen/compile/voxel_pass.h"
+#include "terrane/gen/cpu/kernels.h"
+#include "terrane/gen/drainage/drainage_maps.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::gen {
+
+// The columns of a tile whose lower layers are requested, while 3D passes run from the top down. All at
+// first; callers drop columns.
+class WantedColumns {
+  public:
+    WantedColumns() {
+        lanes_.fill(~Bits{0});
+        left_.fill(kRowLanes);
+    }
+
+    bool has(std::size_t column) const { return lanes_[column] != 0; }  // x + 16 y
+    void drop(std::size_t column) {
+        if (!has(column)) return;
+        lanes_[column] = 0;
+        const std::size_t row = column / kRowLanes;
+        if (--left_[row] == 0) rows_ = static_cast<RowMask>(rows_ & ~(1u << row));
+    }
+
+    RowMask rows() const { return rows_; }               // those with wanted columns
+    const Bits* lanes() const { return lanes_.data(); }  // all bits of a column, or none; aligned for SIMD
+
+  private:
+    alignas(64) std::array<Bits, kTileLanes> lanes_;
+    std::array<std::uint8_t, kTileSize> left_;  // wanted columns, by row
+    RowMask rows_ = kAllRows;
+};
+
+// Values of a field in a chunk's columns, and a chunk's blocks by world::BlockIndex.
+using ColumnValues = std::array<Bits, kTileLanes>;
+using BlockArray = std::array<std::uint16_t, world::kBlocksPerChunk>;
+
+// Inputs of a pass from its chunk and the eight around it.
+struct PassInputs {
+    world::ChunkPos chunk;
+    // Values of field f in the chunk at (dx, dy) around this one: fields[f][(dy + 1) * 3 + dx + 1]. Only the
+    // middle one is set where the pass reads the field without an offset.
+    std::vector<std::array<const ColumnValues*, 9>> fields;
+    // Blocks of the last earlier 3D pass, in the same order. Only the middle one is set where the pass reads
+    // blocks without an offset.
+    std::array<const BlockArray*, 9> blocks{};
+    // Ranges of the layers of blocks[4], if they are known.
+    const LayerRanges* layerRanges = nullptr;
+};
+
+// Statistics of a slab.
+struct SlabRun {
+    enum class Way : std::uint8_t {
+        Filled,    // one block
+        Copied,    // from the 3D pass before
+        Repeated,  // one layer was computed
+        Short,     // every layer was, by a short pass
+        Whole
+    };
+    Way way;
+    int count;                 // layers
+    std::size_t instructions;  // of a layer
+};
+
+// Tables that some programs need.
+struct ExecutorParts {
+    const ShapeTable* shapes = nullptr;  // those that stamp
+    DrainageMaps* drainages = nullptr;   // those that read drainage maps
+};
+
+class Executor {
+  public:
+    // Refers to its arguments.
+    Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts = {});
+
+    // Results of a 2D pass, in the order of program.fields.
+    void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
+    // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
+    void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
+               std::span<ColumnValues* const> fieldResults = {});
+    // Runs the pass from the top down as far as requested: begin3D(), then runDown() until there are enough
+    // layers. Writes no fields. Refers to its arguments until then; no other pass runs in between.
+    void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result);
+    // Makes at least one of the missing layers down to `lowest`, the highest first. Columns that are dropped
+    // from `wanted` get any blocks.
+    void runDown(int lowest, const WantedColumns& wanted);
+    // The lowest layer that is made; world::kChunkHeight before the first.
+    int lowestMade() const { return lowestMade_; }
+    // Whether run3D skips work that cannot change the result. Tests compare both.
+    void setShortens(bool shortens) { shortens_ = shortens; }
+    // Slabs of the last run3D, from the bottom.
+    std::span<const SlabRun> slabs() const { return slabs_; }
+    // Ranges of the layers of the last run3D, or of those that runDown made.
+    const LayerRanges& layerRanges() const { return layerRanges_; }
+
+  private:
+    void prepareTile(const Program& program, const PassInputs& inputs);
+    void fillConstants(const Program& program, SampleGrid grid);
+    void paintStamps(const Program& program);
+    void fillWindow(std::uint32_t field, const PassInputs& inputs);
+    Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
+    void prepareNoise(std::uint32_t noise);
+
+    void runSlab(int z, int count);
+    void runLayers(const Program& program, int z, int count);
+    void runShort(const ShortPass& pass, int z, int count);
+    void startShort(const ShortPass& pass, int z);
+    void continueSlab(int lowest);
+    BlockRange writeLayer(Operand block, std::uint16_t* layer);
+    void addToField(Operand value, ColumnValues& field);
+
+    struct AlignedRow {
+        alignas(64) std::array<Bits, kRowLanes> lanes;
+    };
+
+    const std::vector<NoiseCall>& noises_;
+    const Seeds& seeds_;
+    ExecutorParts parts_;
+    std::vector<AlignedRow> arena_;
+    TileContext context_;
+    SampleGrid grid_;
+    std::vector<bool> isPrepared_;  // by noise: for this tile
+    SlabRanges ranges_;
+    LayerRanges layerRanges_{};
+    bool shortens_ = true;
+    std::vector<SlabRun> slabs_;
+    // Arguments of the 3D pass that runs.
+    struct TileRun {
+        const VoxelPass* pass = nullptr;
+        BlockArray* result = nullptr;
+        std::span<ColumnValues* const> fieldResults;
+    };
+    TileRun run_;
+    // State of runDown.
+    int lowestMade_ = 0;                    // z of the lowest layer that is made
+    int nextLayers_ = 0;                    // how many layers the next slab should have
+    int slabBottom_ = 0;                    // z of the lowest layer of the slab that is being made
+    const Program* slabProgram_ = nullptr;  // makes its layers
+};
+
+}  // namespace terrane::gen

@@ -1,0 +1,28 @@
+// Smallest and largest values of a tile or a layer, with SIMD instructions. Used by slab_ranges.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "terrane/gen/compile/value_range.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::gen {
+
+// Range of a value's kTileLanes lanes in the arena (program.h), 64-byte aligned.
+ValueRange rangeOfTile(Type type, const Bits* values);
+
+struct BlockRange {
+    std::uint16_t low, high;
+    bool operator==(const BlockRange&) const = default;
+};
+
+// By layer of a chunk.
+using LayerRanges = std::array<BlockRange, world::kChunkHeight>;
+
+// Range of the kTileLanes blocks of a layer.
+BlockRange rangeOfLayer(const std::uint16_t* blocks);
+// Writes the lower halves of kTileLanes values, 64-byte aligned, as a layer's blocks. Returns their range.
+BlockRange packLayer(const Bits* values, std::uint16_t* blocks);
+
+}  // namespace terrane::gen

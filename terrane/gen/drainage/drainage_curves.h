@@ -1,0 +1,57 @@
+// The courses of rivers and the lakes of one region of a map, as short straight segments sorted by cell.
+//
+// Corners of the way from node to node are rounded, then through each river node runs a quadratic Bézier
+// curve for each river that comes to it: from the middle of the way to it, with the node as control point, to
+// the middle of the way on. All curves of a node end in one point with one direction, so that confluences are
+// smooth. Levels follow the same curve of the nodes' levels, half widths and flows change evenly. Then every
+// point is moved by a noise of two octaves, which makes bends. Pure functions; any thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "terrane/gen/drainage/drainage_heights.h"
+
+namespace terrane::gen {
+
+// Along x and along y. A region looks at kNetworkMargin cells around it, so small ones are most margin: of 64
+// cells they cost four times as much a cell.
+constexpr int kRegionCells = 128;
+
+// A point of a river's course.
+struct CoursePoint {
+    std::int32_t x, y;  // 1/16 blocks from the region's corner
+    float halfWidth, level, flow;
+};
+
+struct CourseSegment {
+    CoursePoint from, to;  // downstream
+};
+
+struct LakeDisc {
+    std::int32_t x, y;  // 1/16 blocks from the region's corner
+    float radius, level;
+};
+
+// A cell's courses are the curves of its node, which is moved by half a cell at most towards its neighbors.
+// They end half way to the next nodes and are bent by a quarter: they lie within 5/4 of a cell around it.
+constexpr int kCourseReach4 = 5;  // quarters of the spacing
+
+struct CellCourses {
+    std::uint32_t firstSegment = 0, segmentCount = 0;
+    std::int32_t lake = -1;
+};
+
+struct DrainageRegion {
+    DrainageCell corner;
+    std::vector<CourseSegment> segments;
+    std::vector<LakeDisc> lakes;
+    std::vector<CellCourses> cells;  // kRegionCells² by y, then x
+
+    std::size_t bytes() const;
+};
+
+// The region whose first cell is `corner`, a multiple of 8. Takes milliseconds.
+DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner);
+
+}  // namespace terrane::gen

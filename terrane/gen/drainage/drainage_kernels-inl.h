@@ -1,0 +1,86 @@
+// Distance to rivers and lakes over rows of a tile, with the steps of gen_gpu/drainage.glsl. Included once
+// for each instruction set by kernels.cpp.
+#if defined(TERRANE_GEN_DRAINAGE_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef TERRANE_GEN_DRAINAGE_KERNELS_INL_H
+#undef TERRANE_GEN_DRAINAGE_KERNELS_INL_H
+#else
+#define TERRANE_GEN_DRAINAGE_KERNELS_INL_H
+#endif
+
+#include <limits>
+
+#include "terrane/gen/noise/tile_rows-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace terrane::gen {
+namespace HWY_NAMESPACE {
+
+constexpr float kNoPower = std::numeric_limits<float>::max();
+
+// The river and the lake that count so far, for one vector of columns.
+struct NearestWater {
+    VF power, distance2, halfWidth, level, flow;
+    VF lakePower, lakeDistance2, radius, lakeLevel;
+};
+
+HWY_INLINE void addSegment(NearestWater& w, const shared::RiverSegment& s, VF x, VF y, VF reach2) {
+    const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
+    const VF dx = hn::Set(df, s.line.z), dy = hn::Set(df, s.line.w);
+    const VF fromX = hn::Sub(x, hn::Set(df, s.line.x)), fromY = hn::Sub(y, hn::Set(df, s.line.y));
+    VF t = hn::Mul(hn::Add(hn::Mul(fromX, dx), hn::Mul(fromY, dy)), hn::Set(df, s.course.x));
+    t = hn::IfThenElse(hn::Lt(t, zero), zero, t);
+    t = hn::IfThenElse(hn::Lt(one, t), one, t);
+    const VF offX = hn::Sub(fromX, hn::Mul(t, dx)), offY = hn::Sub(fromY, hn::Mul(t, dy));
+    const VF distance2 = hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY));
+    const VF halfWidth = hn::Add(hn::Set(df, s.course.y), hn::Mul(t, hn::Set(df, s.course.z)));
+    const VF power = hn::Sub(distance2, hn::Mul(halfWidth, halfWidth));
+    const auto counts = hn::And(hn::Lt(distance2, reach2), hn::Lt(power, w.power));
+    const VF level = hn::Add(hn::Set(df, s.course.w), hn::Mul(t, hn::Set(df, s.flow.x)));
+    const VF flow = hn::Add(hn::Set(df, s.flow.y), hn::Mul(t, hn::Set(df, s.flow.z)));
+    w.power = hn::IfThenElse(counts, power, w.power);
+    w.distance2 = hn::IfThenElse(counts, distance2, w.distance2);
+    w.halfWidth = hn::IfThenElse(counts, halfWidth, w.halfWidth);
+    w.level = hn::IfThenElse(counts, level, w.level);
+    w.flow = hn::IfThenElse(counts, flow, w.flow);
+}
+
+HWY_INLINE void addLake(NearestWater& w, const shared::vec4& lake, VF x, VF y, float reach) {
+    const VF fromX = hn::Sub(x, hn::Set(df, lake.x)), fromY = hn::Sub(y, hn::Set(df, lake.y));
+    const VF distance2 = hn::Add(hn::Mul(fromX, fromX), hn::Mul(fromY, fromY));
+    const VF radius = hn::Set(df, lake.z), far = hn::Set(df, lake.z + reach);
+    const VF power = hn::Sub(distance2, hn::Mul(radius, radius));
+    const auto counts = hn::And(hn::Lt(distance2, hn::Mul(far, far)), hn::Lt(power, w.lakePower));
+    w.lakePower = hn::IfThenElse(counts, power, w.lakePower);
+    w.lakeDistance2 = hn::IfThenElse(counts, distance2, w.lakeDistance2);
+    w.radius = hn::IfThenElse(counts, radius, w.radius);
+    w.lakeLevel = hn::IfThenElse(counts, hn::Set(df, lake.w), w.lakeLevel);
+}
+
+void drainage(const Instruction& i, TileContext& c, const RowList& rows) {
+    const DrainageTile& tile = c.drainage[i.imm];
+    const VF reach2 = hn::Set(df, tile.reach * tile.reach), none = hn::Set(df, kNoRiver),
+             noPower = hn::Set(df, kNoPower);
+    const VF zero = hn::Zero(df);
+    const VI step = hn::Set(di, tile.step);
+    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
+        const VF x = hn::ConvertTo(df, hn::Mul(hn::Iota(di, static_cast<std::int32_t>(lane)), step));
+        const VF y = hn::ConvertTo(df, hn::Set(di, row * tile.step));
+        NearestWater w = {noPower, zero, zero, zero, zero, noPower, zero, zero, zero};
+        for (const shared::RiverSegment& s : tile.segments) addSegment(w, s, x, y, reach2);
+        for (const shared::vec4& lake : tile.lakes) addLake(w, lake, x, y, tile.reach);
+        const VF distance = hn::IfThenElse(hn::Lt(w.power, noPower), squareRoot(w.distance2), none);
+        const VF shore = hn::Sub(squareRoot(w.lakeDistance2), w.radius);
+        const VF lakeDistance = hn::IfThenElse(hn::Lt(w.lakePower, noPower), shore, none);
+        const VF results[kDrainageResultCount] = {distance, w.halfWidth,  w.level,
+                                                  w.flow,   lakeDistance, w.lakeLevel};
+        for (std::uint32_t k = 0; k < kDrainageResultCount; ++k) {
+            const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
+            storeBits(results[k], rowOf(c.arena, o, row) + lane);
+        }
+    });
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace terrane::gen
+HWY_AFTER_NAMESPACE();
+#endif

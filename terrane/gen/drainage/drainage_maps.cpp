@@ -1,0 +1,172 @@
+#include "terrane/gen/drainage/drainage_maps.h"
+
+#include <algorithm>
+#include <bit>
+#include <list>
+#include <mutex>
+#include <optional>
+
+#include "terrane/base/profile.h"
+#include "terrane/gen/drainage/drainage_curves.h"
+#include "terrane/shared/det_math.h"
+
+namespace terrane::gen {
+
+// A region that is or is being made.
+struct KeptRegion {
+    DrainageCell corner;
+    std::once_flag made;
+    std::optional<DrainageRegion> region;
+    std::size_t bytes = 0;  // of the region once it is made
+};
+
+struct DrainageMaps::Map {
+    Map(const DrainageGraph& graph, std::uint64_t worldSeed) : heights(graph, worldSeed) {}
+
+    std::shared_ptr<KeptRegion> find(DrainageCell corner);
+    std::shared_ptr<KeptRegion> region(DrainageCell corner);
+    void forgetOldest();
+
+    DrainageHeights heights;
+    std::mutex mutex;
+    std::list<std::shared_ptr<KeptRegion>> kept;  // most recently used first
+};
+
+std::shared_ptr<KeptRegion> DrainageMaps::Map::find(DrainageCell corner) {
+    const std::lock_guard lock(mutex);
+    const auto isHere = [&](const auto& r) { return r->corner.x == corner.x && r->corner.y == corner.y; };
+    const auto known = std::find_if(kept.begin(), kept.end(), isHere);
+    if (known != kept.end()) {
+        kept.splice(kept.begin(), kept, known);
+        return kept.front();
+    }
+    kept.push_front(std::make_shared<KeptRegion>());
+    kept.front()->corner = corner;
+    forgetOldest();
+    return kept.front();
+}
+
+// Called with the mutex held.
+void DrainageMaps::Map::forgetOldest() {
+    std::size_t bytes = 0;
+    for (const auto& r : kept) bytes += r->bytes;
+    while (kept.size() > 1 && (kept.size() > kKeptRegions || bytes > kKeptRegionBytes)) {
+        bytes -= kept.back()->bytes;
+        kept.pop_back();
+    }
+}
+
+// If making the region throws, the next caller makes it.
+std::shared_ptr<KeptRegion> DrainageMaps::Map::region(DrainageCell corner) {
+    std::shared_ptr<KeptRegion> found = find(corner);
+    std::call_once(found->made, [&] {
+        TERRANE_ZONE("drainage region");
+        found->region = makeDrainageRegion(heights, corner);
+        const std::lock_guard lock(mutex);
+        found->bytes = found->region->bytes();
+        forgetOldest();
+    });
+    return found;
+}
+
+namespace {
+
+// A tile's square in units of 1/16 block from a region's corner.
+struct TileSquare {
+    std::int32_t x, y, width;
+};
+
+std::int32_t gap(std::int32_t first, std::int32_t last, std::int32_t low, std::int32_t high) {
+    return std::max({first - high, low - last, 0});
+}
+
+bool isNear(const TileSquare& tile, const CourseSegment& s, std::int32_t reach) {
+    const auto [lowX, highX] = std::minmax(s.from.x, s.to.x);
+    const auto [lowY, highY] = std::minmax(s.from.y, s.to.y);
+    return gap(tile.x, tile.x + tile.width, lowX, highX) <= reach &&
+           gap(tile.y, tile.y + tile.width, lowY, highY) <= reach;
+}
+
+float blocksOf(std::int32_t units) {
+    return static_cast<float>(units) * (1.0f / static_cast<float>(kPlaceUnits));
+}
+
+shared::RiverSegment tileSegment(const TileSquare& tile, const CourseSegment& s) {
+    const float dx = blocksOf(s.to.x - s.from.x), dy = blocksOf(s.to.y - s.from.y);
+    const float inverse = shared::detDivide(1.0f, dx * dx + dy * dy);
+    return {{blocksOf(s.from.x - tile.x), blocksOf(s.from.y - tile.y), dx, dy},
+            {inverse, s.from.halfWidth, s.to.halfWidth - s.from.halfWidth, s.from.level},
+            {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow, 0.0f}};
+}
+
+void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
+             const TileSquare& square) {
+    const auto reach = static_cast<std::int32_t>(tile.reach * static_cast<float>(kPlaceUnits)) + 1;
+    for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
+        const CourseSegment& s = region.segments[cell.firstSegment + k];
+        if (isNear(square, s, reach)) tile.segments.push_back(tileSegment(square, s));
+    }
+    if (cell.lake < 0) return;
+    const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
+    tile.lakes.emplace_back(blocksOf(lake.x - square.x), blocksOf(lake.y - square.y), lake.radius,
+                            lake.level);
+}
+
+}  // namespace
+
+DrainageMaps::DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64_t worldSeed) {
+    for (const DrainageGraph& graph : graphs) maps_.push_back(std::make_unique<Map>(graph, worldSeed));
+}
+
+DrainageMaps::~DrainageMaps() = default;
+
+// Cells are counted from the tile's own and then wrapped: the world's edge is no special case.
+void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid) {
+    Map& m = *maps_[map];
+    const DrainageSpec& spec = m.heights.spec();
+    tile.segments.clear();
+    tile.lakes.clear();
+    tile.reach = spec.reach;
+    tile.step = grid.step;
+    const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
+    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * kCourseReach4 / 4;
+    const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
+    const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
+    const std::int32_t inX = grid.x & (spacing - 1), inY = grid.y & (spacing - 1);
+    std::shared_ptr<KeptRegion> region;
+    for (std::int32_t dy = (inY - around) >> shift; dy <= (inY + width + around) >> shift; ++dy) {
+        for (std::int32_t dx = (inX - around) >> shift; dx <= (inX + width + around) >> shift; ++dx) {
+            const DrainageCell cell = wrapped({cellX + dx, cellY + dy}, spacing);
+            const DrainageCell corner = {cell.x & -kRegionCells, cell.y & -kRegionCells};
+            if (!region || region->corner.x != corner.x || region->corner.y != corner.y)
+                region = m.region(corner);
+            const auto number =
+                static_cast<std::size_t>((cell.y - corner.y) * kRegionCells + cell.x - corner.x);
+            // From the region's corner to the tile, by way of the cell: both differences are small.
+            const TileSquare square = {((cell.x - corner.x - dx) * spacing + inX) * kPlaceUnits,
+                                       ((cell.y - corner.y - dy) * spacing + inY) * kPlaceUnits,
+                                       width * kPlaceUnits};
+            addCell(tile, *region->region, region->region->cells[number], square);
+        }
+    }
+}
+
+std::size_t DrainageMaps::keptRegions() const {
+    std::size_t sum = 0;
+    for (const auto& map : maps_) {
+        const std::lock_guard lock(map->mutex);
+        sum += map->kept.size();
+    }
+    return sum;
+}
+
+std::size_t DrainageMaps::bytes() const {
+    std::size_t sum = 0;
+    for (const auto& map : maps_) {
+        const std::lock_guard lock(map->mutex);
+        for (const auto& r : map->kept) sum += r->bytes;
+    }
+    return sum;
+}
+
+}  // namespace terrane::gen

@@ -1,0 +1,50 @@
+// The drainage maps of a generator for one world seed: rivers and lakes near tiles, from regions that are
+// made when first needed and kept in a cache of bounded size. Both back ends take them from here.
+// Any thread; a region is made by the first one that needs it while others wait.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/noise/sample_grid.h"
+#include "terrane/shared/drainage.h"
+
+namespace terrane::gen {
+
+struct DrainageRegion;
+
+// Segments and lakes that may be within reach of a column of a tile, in the order of cells by y, then x. On a
+// tie the first one counts.
+struct DrainageTile {
+    std::vector<shared::RiverSegment> segments;
+    std::vector<shared::vec4> lakes;
+    float reach = 0;
+    std::int32_t step = 1;  // blocks from column to column
+};
+
+// Regions kept per map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB
+// where few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that
+// spacing.
+constexpr std::size_t kKeptRegions = 8;
+constexpr std::size_t kKeptRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
+
+class DrainageMaps {
+  public:
+    DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64_t worldSeed);
+    ~DrainageMaps();
+
+    // The tile whose first column is at the grid's place.
+    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid);
+
+    std::size_t keptRegions() const;  // of all maps
+    std::size_t bytes() const;        // that they take
+
+  private:
+    struct Map;
+    std::vector<std::unique_ptr<Map>> maps_;
+};
+
+}  // namespace terrane::gen

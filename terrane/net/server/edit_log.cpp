@@ -1,0 +1,167 @@
+#include "terrane/net/server/edit_log.h"
+
+#include <algorithm>
+#include <chrono>
+#include <map>
+#include <memory>
+#include <system_error>
+#include <unordered_map>
+#include <utility>
+
+#include "terrane/net/server/people.h"
+#include "terrane/net/server/sqlite_records.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/sqlite/schema.h"
+
+namespace terrane::net {
+
+namespace {
+
+// Converts session ids to saved ids. A session has no types without a saved id.
+ChunkDifference withSavedIds(ChunkDifference blocks, const store::BlockIdMap& ids) {
+    for (ChangedBlock& block : blocks)
+        block.value.id = static_cast<world::BlockId>(ids.toSaved(block.value.id));
+    return blocks;
+}
+
+bool takeSessionIds(ChunkDifference& blocks, const store::BlockIdMap& ids) {
+    for (ChangedBlock& block : blocks) {
+        const std::uint32_t id = ids.toSession(block.value.id);
+        if (id == store::BlockIdMap::kNone) return false;
+        block.value.id = static_cast<world::BlockId>(id);
+    }
+    return true;
+}
+
+bool haveSameBlocks(const LoggedEdit& edit) {
+    return !edit.after.empty() &&
+           std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
+}
+
+}  // namespace
+
+Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids) {
+    Bytes bytes;
+    WireWriter wire(bytes);
+    writeBlocks(wire, withSavedIds(edit.before, ids));
+    writeBlocks(wire, withSavedIds(edit.after, ids));
+    return bytes;
+}
+
+base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids) {
+    LoggedEdit edit{
+        row.number, row.timeMs, static_cast<game::PlayerId>(row.player), store::posOf(row.chunkKey), {}, {}};
+    WireReader wire(row.blocks);
+    readBlocks(wire, edit.before);
+    readBlocks(wire, edit.after);
+    const bool isPlace = world::isInWorld(edit.chunk) && edit.chunk.level == 0;
+    const bool isRead = wire.isComplete() && isPlace && haveSameBlocks(edit);
+    if (isRead && takeSessionIds(edit.before, ids) && takeSessionIds(edit.after, ids)) return edit;
+    return base::fail(base::ErrorCode::Damaged, "edit {} is damaged", edit.number);
+}
+
+bool isInArea(const LoggedEdit& edit, const EditFilter& filter) {
+    return !filter.area || std::ranges::any_of(edit.after, [&](const ChangedBlock& block) {
+        return filter.area->contains(world::blockPos(edit.chunk, block.index));
+    });
+}
+
+// Keys are ordered by x first.
+KeyRange chunkKeys(const game::ColumnArea& area) {
+    const world::ChunkPos low{area.x0 >> 4, world::kMinChunk}, high{area.x1 >> 4, world::kMaxChunk};
+    return {store::keyOf(low), store::keyOf(high)};
+}
+
+std::int64_t nowMs() {
+    const auto now = std::chrono::system_clock::now().time_since_epoch();
+    return std::chrono::duration_cast<std::chrono::milliseconds>(now).count();
+}
+
+std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
+                                    std::span<const game::ChangedBlock> changes) {
+    std::map<world::ChunkPos, std::vector<const game::ChangedBlock*>> chunks;
+    for (const game::ChangedBlock& change : changes) chunks[world::chunkOf(change.pos)].push_back(&change);
+    std::vector<LoggedEdit> edits;
+    for (auto& [chunk, blocks] : chunks) {
+        std::ranges::sort(blocks, {}, [](const auto* block) { return world::blockIndex(block->pos); });
+        ChunkDifference before, after;
+        for (const auto* block : blocks) {
+            before.push_back({world::blockIndex(block->pos), block->before});
+            after.push_back({world::blockIndex(block->pos), block->after});
+        }
+        for (std::size_t begin = 0; begin < before.size();) {
+            const std::size_t count = std::min(partsOf(std::span(before).subspan(begin)).front().size(),
+                                               partsOf(std::span(after).subspan(begin)).front().size());
+            const auto part = [&](const ChunkDifference& all) {
+                const auto from = all.begin() + static_cast<std::ptrdiff_t>(begin);
+                return ChunkDifference(from, from + static_cast<std::ptrdiff_t>(count));
+            };
+            const auto number = first + static_cast<std::int64_t>(edits.size());
+            edits.push_back({number, timeMs, player, chunk, part(before), part(after)});
+            begin += count;
+        }
+    }
+    return edits;
+}
+
+base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, const EditFilter& filter) {
+    std::unordered_map<world::BlockPos, RolledBack, world::BlockPosHash> blocks;
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
+        for (std::size_t k = 0; k < edit.after.size(); ++k) {
+            const world::BlockPos pos = world::blockPos(edit.chunk, edit.after[k].index);
+            if (filter.area && !filter.area->contains(pos)) continue;
+            // Edits come newest first: the first one seen gives `made`, the last one `before`.
+            const auto found = blocks.try_emplace(pos, RolledBack{pos, edit.after[k].value, {}}).first;
+            found->second.before = edit.before[k].value;
+        }
+        if (blocks.size() <= kMaxRollback) return {};
+        return base::fail(base::ErrorCode::OutOfResources,
+                          "more than {} blocks to roll back: choose a shorter time or a smaller area",
+                          kMaxRollback);
+    };
+    TERRANE_TRY(forEachEdit(filter, EditOrder::NewestFirst, take));
+    std::vector<RolledBack> plan;
+    plan.reserve(blocks.size());
+    for (auto& [pos, block] : blocks) plan.push_back(std::move(block));
+    std::ranges::sort(plan, {}, [](const RolledBack& block) {
+        return std::pair(world::chunkOf(block.pos), world::blockIndex(block.pos));
+    });
+    return plan;
+}
+
+base::Result<History> readHistoryFile(const std::filesystem::path& file, const world::BlockRegistry& blocks) {
+    std::error_code error;
+    if (!std::filesystem::exists(file, error))
+        return base::fail(base::ErrorCode::NotFound,
+                          "{}: there is no such file: no server has run this world", file.string());
+    auto database = TERRANE_TRY(store::Database::open(file, store::OpenMode::ReadOnly));
+    const auto names = TERRANE_TRY(store::readBlockNames(database));
+    auto ids = store::BlockIdMap::make(blocks, names);
+    if (!ids) return tl::unexpected(ids.error());
+    History history;
+    const auto take = [&](const store::Statement& row) -> base::Result<void> {
+        history.names[static_cast<game::PlayerId>(row.number(0))] = row.text(1);
+        return {};
+    };
+    TERRANE_TRY(store::forEachRow(database, "SELECT id, name FROM players", take));
+    const auto kept = std::make_shared<store::Database>(std::move(database));
+    history.forEachEdit = [kept, ids = std::move(*ids)](const EditFilter& filter, EditOrder order,
+                                                        const UseEdit& use) {
+        return forEachEdit(*kept, ids, filter, order, use);
+    };
+    return history;
+}
+
+std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name) {
+    for (const auto& [id, known] : history.names)
+        if (isSameName(known, name)) return id;
+    return std::nullopt;
+}
+
+std::string nameOf(const History& history, game::PlayerId player) {
+    if (player == game::kNoPlayer) return "the server";
+    const auto found = history.names.find(player);
+    return found == history.names.end() ? fmt::format("player {}", player) : found->second;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,91 @@
+// The edit history of a shared world: player, time, and blocks before and after each change. An edit is
+// written before its command is acknowledged, so the history also restores edits that a crash kept out of the
+// world's store. Plain values, for any thread; server_records.h stores them.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/game/edit_history.h"
+#include "terrane/game/permissions.h"
+#include "terrane/net/wire/chunk_difference.h"
+#include "terrane/store/chunks/block_id_map.h"
+
+namespace terrane::net {
+
+// The blocks that one command changed in one chunk.
+struct LoggedEdit {
+    std::int64_t number = 0;  // ascending, from 1 on; assigned by the server
+    std::int64_t timeMs = 0;  // since 1970
+    game::PlayerId player = game::kNoPlayer;
+    world::ChunkPos chunk;
+    ChunkDifference before, after;  // the same block indices
+};
+
+// The current time as in LoggedEdit::timeMs.
+std::int64_t nowMs();
+// One edit for each chunk, more if a chunk has many changed blocks. Numbers start at `first`.
+std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
+                                    std::span<const game::ChangedBlock> changes);
+
+// Selects edits. A field without a value does not restrict the selection.
+struct EditFilter {
+    std::optional<game::PlayerId> player = {};
+    std::optional<game::ColumnArea> area = {};  // contains at least one block of the edit
+    std::optional<std::int64_t> sinceMs = {}, untilMs = {};
+    std::int64_t afterNumber = 0;
+};
+enum class EditOrder : std::uint8_t { OldestFirst, NewestFirst };
+
+// Calls `use` for each edit until it returns an error. An unreadable edit is an error that names its number.
+using UseEdit = std::function<base::Result<void>(const LoggedEdit&)>;
+using ForEachEdit = std::function<base::Result<void>(const EditFilter&, EditOrder, const UseEdit&)>;
+// Whether a block of the edit is in the filter's area, for an edit that matches the rest of the filter.
+bool isInArea(const LoggedEdit& edit, const EditFilter& filter);
+// Range of chunk keys (store/chunk_key.h) that covers the area; it also contains keys outside the area.
+struct KeyRange {
+    std::int64_t first = 0, last = 0;
+};
+KeyRange chunkKeys(const game::ColumnArea& area);
+
+// Encodes the blocks of an edit with the saved ids of `ids`.
+Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids);
+// A row of the edit table. decodeEdit() returns ErrorCode::Damaged if the bytes are not valid.
+struct EditRow {
+    std::int64_t number = 0, timeMs = 0, player = 0, chunkKey = 0;
+    ByteView blocks;
+};
+[[nodiscard]] base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids);
+
+// A block that a rollback changes, from the value after the last selected edit to the value before the first.
+struct RolledBack {
+    world::BlockPos pos;
+    world::BlockValue made, before;
+};
+// Maximum number of blocks in one rollback: 2,000,000 × about 200 bytes = 400 MB.
+constexpr std::size_t kMaxRollback = 2'000'000;
+// Computes a rollback, sorted by chunk, then block index. Fails if there are more than kMaxRollback blocks.
+[[nodiscard]] base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit,
+                                                             const EditFilter& filter);
+
+// Read access to the edit history of a world's servers, also while they run. One thread at a time.
+struct History {
+    std::map<game::PlayerId, std::string> names;
+    ForEachEdit forEachEdit;  // as ServerRecords::forEachEdit()
+};
+
+// Opens the history in a server's file. Errors name the file.
+[[nodiscard]] base::Result<History> readHistoryFile(const std::filesystem::path& file,
+                                                    const world::BlockRegistry& blocks);
+
+std::optional<game::PlayerId> playerCalled(const History& history, std::string_view name);  // ignores case
+std::string nameOf(const History& history, game::PlayerId player);  // "the server" for kNoPlayer
+
+}  // namespace terrane::net

@@ -1,0 +1,34 @@
+// A server without sockets: takes bytes of connections, produces bytes for them, and advances in ticks of
+// kServerTick. net/server_sockets.h connects it to a network, tests to a simulated one. On the server's
+// thread.
+#pragma once
+
+#include <memory>
+
+#include "terrane/net/server/server_state.h"
+
+namespace terrane::net {
+
+// Opens a server that is ready for players; edits that a crash kept out of the world's store are applied
+// again. The tile listener (SessionParts::tileListener) must call noteTiles() with the same WrittenTiles.
+[[nodiscard]] base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
+                                                                    const ServerSettings& settings,
+                                                                    std::shared_ptr<WrittenTiles> tiles);
+void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles);
+
+// A new connection. `channel`: its exported keying material. Ids are never reused.
+void onOpened(ServerState& server, ConnectionId id, Bytes channel, ClientAddress address, Time now);
+// One message of a client; may be any bytes.
+void onMessage(ServerState& server, ConnectionId id, ByteView message, Time now);
+// The client sent bytes that cannot be a message: it is disconnected.
+void onNonsense(ServerState& server, ConnectionId id, const std::string& what, Time now);
+// The connection was closed.
+void onClosed(ServerState& server, ConnectionId id, Time now);
+
+// Call once every kServerTick.
+void tick(ServerState& server, Time now);
+
+// Disconnects all players and saves. Afterwards the caller sends the outgoing bytes and ends the server.
+[[nodiscard]] base::Result<void> stop(ServerState& server, const std::string& reason);
+
+}  // namespace terrane::net

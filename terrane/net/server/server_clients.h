@@ -1,0 +1,44 @@
+// Messages to clients, and disconnecting them. On the server's thread.
+#pragma once
+
+#include <string>
+
+#include "terrane/net/server/server_state.h"
+
+namespace terrane::net {
+
+// Appends a message to the client's outgoing bytes; drops it if the client is being disconnected.
+void send(ServerClient& client, const ServerMessage& message);
+// Sends a message that was encoded once for several clients.
+void sendEncoded(ServerClient& client, ByteView message);
+
+// Sends lines of chat to one player; the sender is the server. `text` may contain any bytes: what a message
+// cannot contain is escaped, and long lines are cut.
+void say(ServerClient& client, const std::string& text);
+// The time of day, as sent to clients.
+Clock clockOf(const ServerState& server);
+// Sets the time of day on this server and tells its players.
+void setTimeHere(ServerState& server, double timeDay);
+// Sends chat lines to the players of this server, or of all servers. An empty name means the server.
+void sayHere(ServerState& server, const std::string& name, const std::string& text);
+void sayToAll(ServerState& server, const std::string& name, const std::string& text);
+
+// Sends Refused with the reason (any bytes) and disconnects the client; its further messages are ignored.
+void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);
+// The message for a banned player.
+std::string banText(const std::string& reason);
+// Ends the client's play: stores its position and tells other players.
+void leave(ServerState& server, ServerClient& client);
+
+// Null if no such player is playing.
+ServerClient* playingClient(ServerState& server, game::PlayerId player);
+ServerClient* playingClient(ServerState& server, std::string_view name);
+
+// Calls use(ServerClient&) for each playing client.
+template <class Use>
+void forEachPlaying(ServerState& server, Use use) {
+    for (auto& [id, client] : server.clients)
+        if (client.stage == ServerClient::Stage::Playing) use(client);
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,262 @@
+#include "terrane/net/server/server_commands.h"
+
+#include <algorithm>
+
+#include "terrane/net/server/server_clients.h"
+#include "terrane/store/chunks/structure_file.h"
+#include "terrane/world/blocks/inventory.h"
+#include "terrane/world/blocks/sign.h"
+
+namespace terrane::net {
+namespace {
+
+constexpr std::size_t kMaxWaitingCommands = 512;
+// Block entity data in waiting commands; an edit has up to 32 KiB.
+constexpr std::size_t kMaxWaitingBytes = 1 << 20;
+// A command whose chunks are not loaded after this time runs anyway; the session refuses it.
+constexpr std::uint64_t kMaxWaitTicks = 60;
+// Chunks of one command; a line of 65,536 blocks would touch 12,000.
+constexpr int kMaxChunks = 1024;
+// Neighbors of a changed block may change with it, such as attached blocks and the arms of fences. All are
+// nearer than this.
+constexpr std::int32_t kBlocksBeside = 8;
+// Decisions that are not durable yet; beyond this no more commands run.
+constexpr std::size_t kMaxUntold = 1024;
+// A structure is decoded before its size is known: it counts as this many edits.
+constexpr double kEditsOfPlace = 30;
+// Block entity data in one chunk, which is saved and sent in one piece.
+constexpr std::size_t kMaxChunkData = 1 << 20;
+// Block entity data of a placed structure, which the undo steps keep.
+constexpr std::size_t kMaxPlacedData = 64 << 10;
+// After an edit, the chunks around the player are loaded for this time, since more edits are likely.
+constexpr std::chrono::seconds kLoadsAround{20};
+constexpr std::chrono::milliseconds kLoadAroundEvery{1000};
+
+std::size_t dataBytes(const world::Structure& structure) {
+    std::size_t bytes = 0;
+    for (const world::StructureData& data : structure.data) bytes += data.data->size();
+    return bytes;
+}
+
+std::size_t dataBytes(const WaitingCommand& waiting) {
+    const auto* edit = std::get_if<Edit>(&waiting.command);
+    const auto* data = edit ? std::get_if<world::SetEntityData>(&edit->change) : nullptr;
+    return data ? data->data.size() : 0;
+}
+
+std::int32_t chunkAt(std::int32_t block, std::int32_t away) {
+    return static_cast<std::int32_t>((std::int64_t{block} + away) >> 4);
+}
+
+// Requests the chunks that the box and its neighbor blocks touch. Returns whether all are loaded, or there
+// are too many to wait for.
+bool areLoaded(ServerState& server, const world::BlockBox& box) {
+    const std::int32_t lowX = chunkAt(box.low.x, -kBlocksBeside), highX = chunkAt(box.high.x, kBlocksBeside);
+    const std::int32_t lowY = chunkAt(box.low.y, -kBlocksBeside), highY = chunkAt(box.high.y, kBlocksBeside);
+    // Each is at most 2^28 chunks.
+    const std::int64_t width = highX - lowX + 1, depth = highY - lowY + 1;
+    if (width * depth > kMaxChunks) return true;
+    bool all = true;
+    for (std::int32_t y = lowY; y <= highY; ++y)
+        for (std::int32_t x = lowX; x <= highX; ++x) {
+            const world::ChunkPos pos{x, y};
+            if (world::isInWorld(pos)) all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+        }
+    return all;
+}
+
+double blockCount(const world::BlockBox& box) {
+    const auto side = [](std::int32_t low, std::int32_t high) {
+        return static_cast<double>(std::max<std::int64_t>(std::int64_t{high} - low + 1, 0));
+    };
+    return side(box.low.x, box.high.x) * side(box.low.y, box.high.y) * side(box.low.z, box.high.z);
+}
+
+bool isKnown(const ServerState& server, world::BlockId id) {
+    return id < server.session.blocks().types().size();
+}
+
+// Whether `data` is valid block entity data for the type: other data is only a load on disk and network.
+bool keepsData(const world::BlockType& type, const world::BlockEntityData& data) {
+    if (world::holdsText(type)) return world::decodeSign(data).has_value();
+    return type.slots > 0 && data.size() <= kMaxBlockData && world::decodeInventory(data, type.slots);
+}
+
+// Removes invalid block entity data.
+void dropOtherData(world::Structure& structure, const world::BlockRegistry& blocks) {
+    const std::vector<world::BlockValue> values = world::paletteValues(structure, blocks);
+    std::erase_if(structure.data, [&](const world::StructureData& data) {
+        return !keepsData(blocks.type(values[structure.cells[data.cell]].id), *data.data);
+    });
+}
+
+// Whether each loaded chunk that the box touches has room for `bytes` more of block entity data.
+bool hasRoom(const ServerState& server, const world::BlockBox& box, std::size_t bytes) {
+    const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
+    for (std::int32_t y = low.y; y <= high.y; ++y)
+        for (std::int32_t x = low.x; x <= high.x; ++x) {
+            const world::ChunkPtr chunk = server.session.world().maybeChunkAt({x, y});
+            if (chunk && chunk->blockEntityDataBytes() + bytes > kMaxChunkData) return false;
+        }
+    return true;
+}
+
+// Rejects unknown block types, which cannot be saved, and invalid or too much data.
+bool isSensible(const ServerState& server, const Edit& edit) {
+    if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(server, block->id);
+    const auto* data = std::get_if<world::SetEntityData>(&edit.change);
+    if (!data) return true;
+    if (!server.session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
+    const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
+    const world::BlockEntityData* former = server.session.world().blockEntityData(edit.pos);
+    const std::size_t freed = former ? std::min(former->size(), data->data.size()) : 0;
+    return data->data.empty() ||
+           (keepsData(type, data->data) && hasRoom(server, {edit.pos, edit.pos}, data->data.size() - freed));
+}
+bool isSensible(const ServerState& server, const Build& build) {
+    if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(server, fill->id);
+    const world::Structure& structure = *std::get<game::PlaceStructure>(build.change).structure;
+    return structure.data.empty() || hasRoom(server, game::boxOf(build.change), dataBytes(structure));
+}
+
+Done run(ServerState& server, ServerClient& client, const Edit& edit) {
+    if (!isSensible(server, edit))
+        return {edit.number, static_cast<std::uint8_t>(game::EditResult::BadData), 0, 0};
+    const auto result = server.session.edit({client.player, edit.pos, edit.change, edit.expected});
+    return {edit.number, static_cast<std::uint8_t>(result), 0, 0};
+}
+
+Done run(ServerState& server, ServerClient& client, const Build& build) {
+    const double blocks = blockCount(game::boxOf(build.change));
+    game::BuildOutcome outcome{game::BuildOutcome::Result::TooLarge, 0, 0};
+    if (!isSensible(server, build))
+        outcome.result = game::BuildOutcome::Result::Empty;
+    else if (blocks <= static_cast<double>(server.settings.maxFillBlocks) &&
+             client.buckets.blocks.take(blocks, server.now))
+        outcome = server.session.build({client.player, build.change});
+    return {build.number, static_cast<std::uint8_t>(outcome.result),
+            static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.kept)};
+}
+
+game::HistoryWay wayOf(const TakeBack& takeBack) {
+    return takeBack.isRedo ? game::HistoryWay::Redo : game::HistoryWay::Undo;
+}
+
+Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
+    const game::TakenBack taken = server.session.takeBack(client.player, wayOf(takeBack));
+    client.buckets.blocks.spend(static_cast<double>(taken.blocks + taken.kept));
+    return {takeBack.number, static_cast<std::uint8_t>(taken.outcome),
+            static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
+}
+
+// Requests the chunks of a command. Returns whether all are loaded, or the session will refuse it anyway.
+bool isReady(ServerState& server, const ServerClient& client, const world::BlockBox& box) {
+    const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
+    return !isNear || areLoaded(server, box);
+}
+bool isReady(ServerState& server, const ServerClient& client, const Edit& edit) {
+    return isReady(server, client, world::BlockBox{edit.pos, edit.pos});
+}
+bool isReady(ServerState& server, const ServerClient& client, const Build& build) {
+    const world::BlockBox box = game::boxOf(build.change);
+    const double blocks = blockCount(box);
+    const bool isRefused = blocks == 0 || blocks > static_cast<double>(server.settings.maxFillBlocks);
+    return isRefused || isReady(server, client, box);
+}
+bool isReady(ServerState& server, const ServerClient& client, const TakeBack& takeBack) {
+    bool all = true;
+    for (const world::ChunkPos pos : server.session.chunksToTakeBack(client.player, wayOf(takeBack)))
+        all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+    return all;
+}
+
+// Result if another server was first: Conflict for an edit, NotLoaded for others, which may be tried again.
+std::uint8_t refusedResult(const WaitingCommand& command) {
+    if (std::holds_alternative<Edit>(command.command))
+        return static_cast<std::uint8_t>(game::EditResult::Conflict);
+    if (std::holds_alternative<Build>(command.command))
+        return static_cast<std::uint8_t>(game::BuildOutcome::Result::NotLoaded);
+    return static_cast<std::uint8_t>(game::TakenBack::Outcome::NotLoaded);
+}
+
+void decide(ServerState& server, ServerClient& client, const WaitingCommand& next) {
+    const std::uint64_t before = server.history.lastWrite;
+    const Done done =
+        std::visit([&](const auto& command) { return run(server, client, command); }, next.command);
+    const std::uint64_t write = server.history.lastWrite;
+    if (write != before) {
+        client.swungTick = server.tick;
+        client.builtAt = server.now;
+    }
+    client.decisions.push_back({write != before ? write : 0, done, refusedResult(next)});
+}
+
+void runOf(ServerState& server, ServerClient& client) {
+    while (!client.commands.empty() && client.decisions.size() < kMaxUntold) {
+        const WaitingCommand& next = client.commands.front();
+        const bool waitedLong = server.tick - next.since > kMaxWaitTicks;
+        const auto ready = [&](const auto& command) { return isReady(server, client, command); };
+        if (!waitedLong && !std::visit(ready, next.command)) return;
+        if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
+        // The number of blocks is known only afterwards.
+        if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, server.now))
+            return;
+        client.waitingBytes -= dataBytes(next);
+        decide(server, client, next);
+        client.commands.pop_front();
+    }
+}
+
+// Loads the chunks around a player who edited recently.
+void loadAround(ServerState& server, const ServerClient& client) {
+    if (!client.builtAt || server.now - *client.builtAt > kLoadsAround) return;
+    for (const world::ChunkPos pos : world::chunksWithin(world::chunkOf(poseOf(client.pose).position), 1))
+        if (world::isInWorld(pos)) (void)server.session.pipeline().maybeLoadChunkAt(pos);
+}
+
+}  // namespace
+
+void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
+    client.waitingBytes += dataBytes(command);
+    if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
+        return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
+    // Requests its chunks now: they may be loaded by the next tick but one.
+    if (!std::holds_alternative<TakeBack>(command.command))
+        std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
+    client.commands.push_back(std::move(command));
+}
+
+void takePlace(ServerState& server, ServerClient& client, const Place& place) {
+    auto structure = std::make_shared<world::Structure>();
+    if (client.buckets.edits.take(kEditsOfPlace, server.now))
+        if (auto decoded = store::decodeStructure(place.structure);
+            decoded && dataBytes(*decoded) <= kMaxPlacedData)
+            *structure = std::move(*decoded);
+    dropOtherData(*structure, server.session.blocks());
+    takeCommand(server, client,
+                {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
+}
+
+void runCommands(ServerState& server) {
+    const auto ticksAround = static_cast<std::uint64_t>(kLoadAroundEvery / kServerTick);
+    forEachPlaying(server, [&](ServerClient& client) {
+        runOf(server, client);
+        if ((server.tick + client.id) % ticksAround == 0) loadAround(server, client);
+    });
+}
+
+void tellDecisions(ServerState& server) {
+    const std::uint64_t durable = server.records.durable();
+    forEachPlaying(server, [&](ServerClient& client) {
+        for (; !client.decisions.empty(); client.decisions.pop_front()) {
+            const Decision& decision = client.decisions.front();
+            if (decision.write > durable) break;
+            Done done = decision.done;
+            if (server.sharing.refused.erase(decision.write) > 0)
+                done = {done.number, decision.resultIfRefused, 0, 0};
+            send(client, done);
+        }
+    });
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,303 @@
+#include "terrane/net/server/server_console.h"
+
+#include <charconv>
+#include <cmath>
+#include <span>
+
+#include "terrane/net/server/server_clients.h"
+#include "terrane/net/server/server_history.h"
+#include "terrane/net/server/server_players.h"
+#include "terrane/net/wire/security.h"
+#include "terrane/net/wire/wire.h"
+
+namespace terrane::net {
+namespace {
+
+using Words = std::span<const std::string>;
+
+struct ConsoleCommand {
+    std::string_view name, arguments, help;
+    std::size_t minArguments, maxArguments;
+    std::string (*run)(ServerState&, Words);
+};
+
+constexpr std::size_t kAny = 1000;
+
+template <class Number>
+std::optional<Number> numberFrom(const std::string& text) {
+    Number number{};
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(number) : std::nullopt;
+}
+
+std::string joined(Words words) {
+    std::string text;
+    for (const std::string& word : words) text += (text.empty() ? "" : " ") + word;
+    return text;
+}
+
+std::string unknownPlayer(const std::string& name) {
+    return fmt::format("no player called {} has ever joined", name);
+}
+
+std::string sayLine(ServerState& server, Words words) {
+    sayToAll(server, {}, joined(words));
+    return "said";
+}
+
+std::string list(ServerState& server, Words) {
+    std::string text = fmt::format("{} of {} players", server.playing.size(), server.settings.maxPlayers);
+    forEachPlaying(server, [&](const ServerClient& client) {
+        const auto place = poseOf(client.pose).position;
+        text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}, {} ms{}", client.name, place.x, place.y, place.z,
+                            client.latency ? client.latency->count() : 0,
+                            client.role == game::Role::Operator ? ", operator"
+                            : client.role == game::Role::Guest  ? ", guest"
+                                                                : "");
+    });
+    for (const auto& [id, other] : server.sharing.players) {
+        const KnownPlayer* known = server.people.byId(id);
+        if (known && !server.playing.contains(id)) text += fmt::format("\n{} on another server", known->name);
+    }
+    return text;
+}
+
+std::string kick(ServerState& server, Words words) {
+    ServerClient* client = playingClient(server, std::string_view(words[0]));
+    if (!client) return fmt::format("{} is not online", words[0]);
+    const std::string reason = joined(words.subspan(1));
+    refuse(server, *client, Refusal::Kicked,
+           reason.empty() ? "you were kicked" : "you were kicked: " + reason);
+    return words[0] + " is sent away";
+}
+
+std::string ban(ServerState& server, Words words) {
+    const KnownPlayer* player = server.people.byName(words[0]);
+    if (!player) return unknownPlayer(words[0]);
+    std::string reason = plainText(joined(words.subspan(1)), kMaxReasonBytes);
+    if (reason.empty()) reason = "no reason given";
+    server.people.setBan(player->id, reason);
+    if (ServerClient* client = playingClient(server, player->id))
+        refuse(server, *client, Refusal::Banned, banText(reason));
+    return player->name + " is banned";
+}
+
+std::string unban(ServerState& server, Words words) {
+    const KnownPlayer* player = server.people.byName(words[0]);
+    if (!player) return unknownPlayer(words[0]);
+    if (player->ban.empty()) return player->name + " is not banned";
+    server.people.setBan(player->id, {});
+    return player->name + " may come again";
+}
+
+std::string setRole(ServerState& server, const std::string& name, game::Role role, std::string_view what) {
+    const KnownPlayer* player = server.people.byName(name);
+    if (!player) return unknownPlayer(name);
+    server.people.setRole(player->id, role);
+    server.session.permissions.roles[player->id] = role;
+    if (ServerClient* client = playingClient(server, player->id)) {
+        client->role = role;
+        send(*client, RoleChanged{role});
+        say(*client, fmt::format("you are {} now", what));
+    }
+    return fmt::format("{} is {} now", player->name, what);
+}
+
+std::string makeOperator(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Operator, "an operator");
+}
+std::string makePlayer(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Player, "a player");
+}
+std::string makeGuest(ServerState& server, Words words) {
+    return setRole(server, words[0], game::Role::Guest, "a guest, who changes no blocks,");
+}
+
+// Parses two corners, in any order.
+std::optional<game::ColumnArea> areaFrom(Words words) {
+    std::array<std::int32_t, 4> v{};
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto number = numberFrom<std::int32_t>(words[k]);
+        if (!number) return std::nullopt;
+        v[k] = *number;
+    }
+    return game::ColumnArea{std::min(v[0], v[2]), std::min(v[1], v[3]), std::max(v[0], v[2]),
+                            std::max(v[1], v[3])};
+}
+
+std::string claim(ServerState& server, Words words) {
+    const auto area = areaFrom(words.subspan(1));
+    if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
+    if (!isName(words[0])) return nameRule();
+    game::Claim made{words[0], *area, game::kNoPlayer, {}};
+    for (const std::string& name : words.subspan(5)) {
+        const KnownPlayer* player = server.people.byName(name);
+        if (!player) return unknownPlayer(name);
+        if (made.owner == game::kNoPlayer)
+            made.owner = player->id;
+        else
+            made.members.push_back(player->id);
+    }
+    if (const auto added = server.people.addClaim(made); !added) return added.error().message;
+    server.session.permissions.claims = server.people.claims();
+    return fmt::format("{} is claimed for {}", words[0], words[5]);
+}
+
+std::string unclaim(ServerState& server, Words words) {
+    if (!server.people.removeClaim(words[0])) return fmt::format("there is no claim {}", words[0]);
+    server.session.permissions.claims = server.people.claims();
+    return fmt::format("the claim {} is gone", words[0]);
+}
+
+std::string claims(ServerState& server, Words) {
+    std::string text = fmt::format("claims: {}", server.people.claims().all().size());
+    for (const game::Claim& one : server.people.claims().all()) {
+        const KnownPlayer* owner = server.people.byId(one.owner);
+        text += fmt::format("\n{} {} {} {} {} {}", one.name, one.area.x0, one.area.y0, one.area.x1,
+                            one.area.y1, owner ? owner->name : "nobody");
+    }
+    return text;
+}
+
+std::string rollbackLine(ServerState& server, Words words) {
+    EditFilter filter;
+    if (words[0] != "*") {
+        const KnownPlayer* player = server.people.byName(words[0]);
+        if (!player) return unknownPlayer(words[0]);
+        filter.player = player->id;
+    }
+    const auto minutes = numberFrom<double>(words[1]);
+    if (!minutes || !(*minutes > 0) || *minutes > 1e8)
+        return fmt::format("{} is no number of minutes", words[1]);
+    filter.sinceMs = nowMs() - static_cast<std::int64_t>(*minutes * 60000);
+    if (words.size() == 6) {
+        filter.area = areaFrom(words.subspan(2));
+        if (!filter.area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
+    } else if (words.size() != 2) {
+        return "an area is four whole numbers: X0 Y0 X1 Y1";
+    }
+    const auto count = startRollback(server, filter);
+    return count ? fmt::format("blocks rolled back: {}; what others changed since stays", *count)
+                 : count.error().message;
+}
+
+std::string mark(ServerState& server, Words words) {
+    world::Pose pose;
+    for (int k = 0; k < 3; ++k) {
+        const auto number = numberFrom<double>(words[static_cast<std::size_t>(k)]);
+        if (!number) return "a place is three numbers and a name: X Y Z NAME; in the chat a name alone";
+        // Also of z, since messages hold no more.
+        if (!(std::abs(*number) <= kMaxPosePosition / kPoseSteps)) return "this place is not in the world";
+        pose.position[k] = *number;
+    }
+    if (!world::isInWorld(world::chunkOf(pose.position))) return "this place is not in the world";
+    return markPlace(server, joined(words.subspan(3)), pose, true);
+}
+
+std::string unmark(ServerState& server, Words words) {
+    return unmarkPlace(server, joined(words));
+}
+
+std::string marks(ServerState& server, Words) {
+    return placeList(server);
+}
+
+std::string setTime(ServerState& server, Words words) {
+    const auto time = numberFrom<double>(words[0]);
+    if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
+    setTimeHere(server, *time);
+    if (server.sharing.shared) server.sharing.shared->tellTime(*time);
+    return "the time is set";
+}
+
+std::string setPassword(ServerState& server, Words words) {
+    if (words[0] == "off") {
+        server.passwordHash.clear();
+    } else {
+        const std::size_t size = words[0].size();
+        if (size == 0 || size > kMaxPasswordBytes || !isPlainText(words[0]))
+            return fmt::format("a password has 1 to {} bytes of text", kMaxPasswordBytes);
+        auto hash = passwordHash(words[0]);
+        if (!hash) return hash.error().message;
+        server.passwordHash = std::move(*hash);
+    }
+    server.records.setText(kPasswordText, server.passwordHash);
+    return server.passwordHash.empty() ? "no password is needed" : "the password is set";
+}
+
+std::string save(ServerState& server, Words) {
+    const auto saved = saveEverything(server);
+    return saved ? "saved" : saved.error().message;
+}
+
+std::string stop(ServerState& server, Words) {
+    server.isStopping = true;
+    return "stopping";
+}
+
+std::string help(ServerState&, Words) {
+    return consoleHelp();
+}
+
+constexpr ConsoleCommand kCommands[] = {
+    {"help", "", "this list", 0, 0, help},
+    {"list", "", "lists players with position, latency and role", 0, 0, list},
+    {"say", "TEXT", "sends a line to all players", 1, kAny, sayLine},
+    {"kick", "PLAYER [REASON]", "disconnects a player", 1, kAny, kick},
+    {"ban", "PLAYER [REASON]", "disconnects a player and refuses further logins", 1, kAny, ban},
+    {"unban", "PLAYER", "allows a banned player to log in again", 1, 1, unban},
+    {"op", "PLAYER", "makes a player an operator: builds everywhere, gives commands", 1, 1, makeOperator},
+    {"deop", "PLAYER", "makes an operator or guest an ordinary player", 1, 1, makePlayer},
+    {"guest", "PLAYER", "makes a player a guest: looks and chats, changes no blocks", 1, 1, makeGuest},
+    {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny, claim},
+    {"unclaim", "NAME", "ends a claim", 1, 1, unclaim},
+    {"claims", "", "all claims", 0, 0, claims},
+    {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,
+     rollbackLine},
+    {"mark", "X Y Z NAME", "names a place on maps; players name their own position: /mark NAME", 4, kAny,
+     mark},
+    {"unmark", "NAME", "removes a named place", 1, kAny, unmark},
+    {"marks", "", "lists all named places", 0, 0, marks},
+    {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1, setTime},
+    {"password", "PASSWORD|off", "sets or removes the password for joining", 1, 1, setPassword},
+    {"save", "", "saves all changes now; the server also saves every five seconds", 0, 0, save},
+    {"stop", "", "saves and ends the server", 0, 0, stop},
+};
+
+std::vector<std::string> wordsOf(std::string_view line) {
+    std::vector<std::string> words;
+    while (true) {
+        while (!line.empty() && line.front() == ' ') line.remove_prefix(1);
+        if (line.empty()) return words;
+        const bool isQuoted = line.front() == '"';
+        if (isQuoted) line.remove_prefix(1);
+        const std::size_t end = std::min(line.find(isQuoted ? '"' : ' '), line.size());
+        words.emplace_back(line.substr(0, end));
+        line.remove_prefix(std::min(end + 1, line.size()));
+    }
+}
+
+}  // namespace
+
+std::string runConsoleLine(ServerState& server, std::string_view line) {
+    const std::vector<std::string> words = wordsOf(line);
+    if (words.empty()) return {};
+    for (const ConsoleCommand& command : kCommands) {
+        if (command.name != words[0]) continue;
+        const std::size_t count = words.size() - 1;
+        if (count < command.minArguments || count > command.maxArguments)
+            return fmt::format("expected: {} {}", command.name, command.arguments);
+        return command.run(server, Words(words).subspan(1));
+    }
+    return fmt::format("there is no command {}: help lists them", words[0]);
+}
+
+std::string consoleHelp() {
+    std::string text;
+    for (const ConsoleCommand& command : kCommands)
+        text += fmt::format("{}{}{}{}: {}", text.empty() ? "" : "\n", command.name,
+                            command.arguments.empty() ? "" : " ", command.arguments, command.help);
+    return text;
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,219 @@
+#include "terrane/net/server/server_players.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "terrane/base/log.h"
+#include "terrane/net/server/server_clients.h"
+#include "terrane/net/server/server_commands.h"
+#include "terrane/net/server/server_console.h"
+#include "terrane/net/wire/wire.h"
+
+namespace terrane::net {
+
+namespace {
+
+void makeChange(std::vector<game::Place>& places, const PlaceChange& change) {
+    if (change.isGone)
+        std::erase_if(places, [&](const game::Place& place) { return place.name == change.name; });
+    else
+        (void)game::namePlace(places, change.name, poseOf(change.pose));
+}
+
+store::SaveNumber changeHere(ServerState& server, const PlaceChange& change) {
+    std::vector<game::Place> places = game::savedPlaces(server.session.store());
+    makeChange(places, change);
+    return game::savePlaces(server.session.store(), places);
+}
+
+// Changes a place here and on the other servers of the world.
+void change(ServerState& server, const PlaceChange& change) {
+    const store::SaveNumber save = changeHere(server, change);
+    if (server.sharing.shared) server.sharing.untoldPlaces.push_back({save, change});
+}
+
+bool hasPlace(ServerState& server, const std::string& name) {
+    return std::ranges::count(game::savedPlaces(server.session.store()), name, &game::Place::name) > 0;
+}
+
+}  // namespace
+
+void applyPlaceChange(ServerState& server, const PlaceChange& change) {
+    (void)changeHere(server, change);
+}
+
+void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places) {
+    std::vector<game::Place> all = places;
+    for (const auto& [save, change] : server.sharing.untoldPlaces) makeChange(all, change);
+    if (game::textOf(all) != game::textOf(game::savedPlaces(server.session.store())))
+        game::savePlaces(server.session.store(), all);
+}
+
+void tellSavedPlaces(ServerState& server) {
+    auto& untold = server.sharing.untoldPlaces;
+    if (untold.empty()) return;
+    const store::SaveNumber durable = server.session.store().status().durable;
+    for (; !untold.empty() && untold.front().first <= durable; untold.pop_front())
+        server.sharing.shared->tellPlace(untold.front().second);
+}
+
+std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {
+    const std::string name = game::placeName(typed);
+    if (name.empty()) return "a place needs a name: mark NAME";
+    if (!isPlainText(name)) return "the name of a place is text in UTF-8 without control characters";
+    const bool isTaken = hasPlace(server, name);
+    if (isTaken && !mayMove) return fmt::format("there is a place {}: only operators can move it", name);
+    if (!isTaken && game::savedPlaces(server.session.store()).size() >= game::kMaxPlaces)
+        return fmt::format("there are {} named places, the maximum: remove one with unmark",
+                           game::kMaxPlaces);
+    change(server, {name, wirePose(pose), false});
+    return fmt::format("{} is marked", name);
+}
+
+std::string unmarkPlace(ServerState& server, std::string_view typed) {
+    const std::string name = game::placeName(typed);
+    if (!hasPlace(server, name)) return fmt::format("there is no place {}: marks lists them", name);
+    change(server, {name, {}, true});
+    return fmt::format("{} is no longer marked", name);
+}
+
+std::string placeList(ServerState& server) {
+    const std::vector<game::Place> places = game::savedPlaces(server.session.store());
+    std::string text = fmt::format("{} places", places.size());
+    for (const game::Place& place : places) {
+        const auto& at = place.pose.position;
+        text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}", place.name, at.x, at.y, at.z);
+    }
+    return text;
+}
+
+std::string markHere(ServerState& server, const ServerClient& client, std::string_view name) {
+    if (client.role == game::Role::Guest) return "guests cannot mark places";
+    return markPlace(server, name, poseOf(client.pose), client.role == game::Role::Operator);
+}
+
+namespace {
+
+constexpr std::uint64_t kTicksPerPing = 100, kTicksPerClock = 200;
+// Maximum distance in chunks between a client's last known position and the center of its view. The client
+// may have moved since.
+constexpr int kViewAway = 4;
+
+bool isInWorld(const WirePose& pose) {
+    return world::isInWorld(world::chunkOf(poseOf(pose).position));
+}
+
+void onMove(ServerState& server, ServerClient& client, const Move& move) {
+    const bool isFree = client.role == game::Role::Operator;
+    const double blocks = distanceBetween(client.pose, move.pose);
+    if (!isInWorld(move.pose) || (!isFree && !client.buckets.blocksAway.take(blocks, server.now)))
+        return send(client, Corrected{client.pose});
+    client.pose = move.pose;
+    server.session.setPlayer(client.player, poseOf(move.pose));
+}
+
+void onView(ServerClient& client, const View& view) {
+    const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
+    // A corrected client asks for a distant view until Corrected arrives.
+    if (world::chunkDistance(own, view.center) <= kViewAway) client.askedView = view;
+}
+
+void onSay(ServerState& server, ServerClient& client, const Say& message) {
+    if (!client.buckets.chat.take(1, server.now)) return say(client, "you chat too fast");
+    if (message.text.empty()) return;
+    if (message.text.front() != '/') {
+        base::logInfo("<{}> {}", client.name, message.text);
+        return sayToAll(server, client.name, message.text);
+    }
+    constexpr std::string_view kMark = "/mark ";
+    if (message.text.starts_with(kMark))
+        return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
+    if (client.role != game::Role::Operator) return say(client, "only operators can give commands");
+    // Without the arguments, which may contain a password.
+    base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
+    say(client, runConsoleLine(server, message.text.substr(1)));
+}
+
+void onAskPlayers(ServerState& server, ServerClient& client) {
+    if (!client.buckets.lists.take(1, server.now)) return;
+    PlayerList list;
+    forEachPlaying(server, [&](const ServerClient& other) {
+        const auto latency = other.latency.value_or(std::chrono::milliseconds(0)).count();
+        if (list.players.size() < kMaxPlayersInMessage)
+            list.players.push_back({other.name, other.role,
+                                    static_cast<std::uint16_t>(std::clamp<std::int64_t>(latency, 0, 65535))});
+    });
+    for (const auto& [id, other] : server.sharing.players) {
+        const KnownPlayer* known = server.people.byId(id);
+        if (known && !server.playing.contains(id) && list.players.size() < kMaxPlayersInMessage)
+            list.players.push_back({known->name, known->role, 0});
+    }
+    send(client, list);
+}
+
+// The server's clock in milliseconds, modulo 2^32, for Ping.
+std::uint32_t pingTime(Time now) {
+    const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch());
+    return static_cast<std::uint32_t>(since.count());
+}
+
+void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& grid) {
+    const SightChanges changes =
+        client.sight.update(server.tick, grid.around({client.player, client.pose, client.swungTick}));
+    for (const std::uint16_t slot : changes.disappeared) send(client, Disappears{slot});
+    for (const auto& [slot, player] : changes.appeared) {
+        const KnownPlayer* known = server.people.byId(player->id);
+        send(client, Appears{slot, player->id, known ? known->name : std::string(), player->pose});
+    }
+    if (!changes.poses.empty()) send(client, Poses{changes.poses});
+}
+
+}  // namespace
+
+void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
+    if (const auto* move = std::get_if<Move>(&message)) return onMove(server, client, *move);
+    if (const auto* view = std::get_if<View>(&message)) return onView(client, *view);
+    if (auto* edit = std::get_if<Edit>(&message))
+        return takeCommand(server, client, {std::move(*edit), server.tick});
+    if (const auto* fill = std::get_if<Fill>(&message))
+        return takeCommand(server, client, {Build{fill->number, fill->fill}, server.tick});
+    if (const auto* place = std::get_if<Place>(&message)) return takePlace(server, client, *place);
+    if (const auto* takeBack = std::get_if<TakeBack>(&message))
+        return takeCommand(server, client, {*takeBack, server.tick});
+    if (const auto* text = std::get_if<Say>(&message)) return onSay(server, client, *text);
+    if (std::holds_alternative<AskPlayers>(message)) return onAskPlayers(server, client);
+    if (const auto* pong = std::get_if<Pong>(&message)) {
+        client.latency = std::chrono::milliseconds(pingTime(server.now) - pong->time);
+        return;
+    }
+    if (std::holds_alternative<Leave>(message)) return leave(server, client);
+    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
+}
+
+void tellSight(ServerState& server) {
+    std::vector<PlayerAt> players;
+    forEachPlaying(server, [&](const ServerClient& client) {
+        players.push_back({client.player, client.pose, client.swungTick});
+    });
+    for (const auto& [id, other] : server.sharing.players)
+        if (!server.playing.contains(id)) players.push_back(other.at);
+    const PlayerGrid grid(players);
+    // Updates half of the clients in each tick, to spread the traffic over time.
+    forEachPlaying(server, [&](ServerClient& client) {
+        if ((server.tick + client.id) % kTicksPerSight == 0) tellSightTo(server, client, grid);
+    });
+}
+
+void keepInTouch(ServerState& server) {
+    forEachPlaying(server, [&](ServerClient& client) {
+        if (server.now - client.heardAt > server.settings.silentAfter)
+            return refuse(server, client, Refusal::Silent, "no message from you for too long");
+        if ((server.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(server.now)});
+        if ((server.tick + client.id) % kTicksPerClock == 0) send(client, clockOf(server));
+        if (client.outgoing.size() + client.unsent > server.settings.maxUnsentBytes)
+            refuse(server, client, Refusal::TooSlow, "your connection is too slow for the server's messages");
+    });
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,42 @@
+// Messages of players other than block changes: movement, view, chat, visibility of other players. On the
+// server's thread.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "terrane/game/places.h"
+#include "terrane/net/server/server_state.h"
+
+namespace terrane::net {
+
+// Named places in the world's metadata, shown on maps (terrane/web). Players mark their own position,
+// operators any position. On the server's thread.
+// Each returns a line for the player who asked. Other servers of the world are told.
+//
+// markPlace() moves an existing place if `mayMove`; otherwise the name is taken.
+std::string markPlace(ServerState& server, std::string_view name, const world::Pose& pose, bool mayMove);
+std::string unmarkPlace(ServerState& server, std::string_view name);
+std::string placeList(ServerState& server);
+
+// The chat command "/mark NAME". Guests may not use it; only operators may move an existing place.
+std::string markHere(ServerState& server, const ServerClient& client, std::string_view name);
+
+// Applies a change of another server.
+void applyPlaceChange(ServerState& server, const PlaceChange& change);
+// Replaces all places by those of the world's store, since changes of other servers may have been missed. Own
+// changes that wait to be saved are kept.
+void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places);
+// Tells other servers of own changes once the store has them, so a server that misses the message finds them
+// there.
+void tellSavedPlaces(ServerState& server);
+
+// Handles a message of a playing client.
+void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message);
+
+// Tells all players who appears, moves and disappears. Call in each tick.
+void tellSight(ServerState& server);
+// Sends the time and pings; disconnects clients that do not answer. Call in each tick.
+void keepInTouch(ServerState& server);
+
+}  // namespace terrane::net

@@ -1,0 +1,150 @@
+#include "terrane/net/server/server_view.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "terrane/net/server/server_clients.h"
+#include "terrane/net/wire/client_message.h"
+
+namespace terrane::net {
+namespace {
+
+using world::ChunkPos;
+
+// No more differences are sent to a client with this many unsent bytes.
+constexpr std::size_t kUnsentBytes = 64 << 10;
+// Maximum number of differences being computed for a client.
+constexpr std::size_t kLooksAhead = 16;
+// A tile with ongoing edits changes each time that the world is saved; it is sent again at this interval.
+constexpr std::uint64_t kTicksPerTileChange = 200;
+
+ChunkPos above(ChunkPos chunk, int level) {
+    return {chunk.x >> level, chunk.y >> level, static_cast<std::uint8_t>(level)};
+}
+
+// Squared distance from the center of the view, in chunks of level 0.
+double orderOf(const View& view, ChunkPos pos) {
+    const double width = 1 << pos.level;
+    const double x = (pos.x + 0.5) * width - view.center.x, y = (pos.y + 0.5) * width - view.center.y;
+    return x * x + y * y;
+}
+
+void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& difference) {
+    bool isFirst = true;
+    for (const std::span<const ChangedBlock> part : partsOf(difference)) {
+        send(client, ChunkEdits{pos, isFirst, ChunkDifference(part.begin(), part.end())});
+        isFirst = false;
+    }
+}
+
+// Sets the client's view and collects the edited chunks and tiles to send.
+void setClientView(ServerState& server, ServerClient& client, const View& view) {
+    client.view = servedView(view, server.settings.maxViewDistance);
+    std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
+    client.toTell.clear();
+    for (int level = 0; level <= topLevelOf(*client.view); ++level) {
+        const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
+        for (const ChunkPos pos : server.edited.within(above(view.center, level), radius))
+            if (!client.told.contains(pos) && isInView(*client.view, pos)) client.toTell.push_back(pos);
+    }
+    std::ranges::sort(client.toTell, [&](ChunkPos a, ChunkPos b) {
+        return std::pair(orderOf(view, a), a) > std::pair(orderOf(view, b), b);
+    });
+    client.owesViewComplete = true;
+}
+
+// Sends the nearest available differences until the client's buffer is full.
+void tellView(ServerState& server, ServerClient& client) {
+    std::size_t pending = 0;
+    for (std::size_t k = client.toTell.size(); k-- > 0 && pending < kLooksAhead;) {
+        if (client.outgoing.size() + client.unsent >= kUnsentBytes) return;
+        const ChunkPos pos = client.toTell[k];
+        const ChunkDifference* difference = server.edited.maybeDifference(pos);
+        if (!difference) {
+            ++pending;
+            continue;
+        }
+        sendDifference(client, pos, *difference);
+        client.told.insert(pos);
+        client.toTell.erase(client.toTell.begin() + static_cast<std::ptrdiff_t>(k));
+    }
+    if (!client.toTell.empty() || !client.owesViewComplete) return;
+    client.owesViewComplete = false;
+    send(client, ViewComplete{client.view->center});
+}
+
+// Sends changed tiles to all clients that see them.
+void tellChangedTiles(ServerState& server) {
+    if (server.tick % kTicksPerTileChange != 0) return;
+    for (const ChunkPos tile : server.tilesToTell) {
+        server.edited.onTileChanged(tile);
+        forEachPlaying(server, [&](ServerClient& client) {
+            client.told.erase(tile);
+            if (!client.view || !isInView(*client.view, tile)) return;
+            if (tile.level <= topLevelOf(*client.view) && std::ranges::count(client.toTell, tile) == 0)
+                client.toTell.insert(client.toTell.begin(), tile);
+        });
+    }
+    server.tilesToTell.clear();
+}
+
+void takeWrittenTiles(ServerState& server) {
+    std::vector<ChunkPos> tiles;
+    {
+        const std::lock_guard lock(server.writtenTiles->mutex);
+        tiles.swap(server.writtenTiles->tiles);
+    }
+    onTilesChanged(server, tiles);
+    if (server.sharing.shared && !tiles.empty()) server.sharing.shared->tellTiles(tiles);
+}
+
+ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<world::BlockIndex>& indices) {
+    std::ranges::sort(indices);
+    indices.erase(std::unique(indices.begin(), indices.end()), indices.end());
+    ChunkDifference blocks;
+    for (const world::BlockIndex index : indices)
+        blocks.push_back({index, world::blockValue(world, world::blockPos(pos, index))});
+    return blocks;
+}
+
+}  // namespace
+
+void onTilesChanged(ServerState& server, std::span<const ChunkPos> tiles) {
+    server.tilesToTell.insert(tiles.begin(), tiles.end());
+    if (server.onChanged && !tiles.empty()) server.onChanged(tiles);
+}
+
+void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
+    const bool isNew = server.edited.add(pos);
+    server.edited.onChanged(pos, blocks);
+    if (server.onChanged) server.onChanged(std::span(&pos, 1));
+    std::vector<Bytes> messages;
+    for (const std::span<const ChangedBlock> part : partsOf(blocks))
+        messages.push_back(
+            encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
+    forEachPlaying(server, [&](ServerClient& client) {
+        // A client that lacks the chunk will get all of it soon. A client that has it gets every change, even
+        // after the chunk left its view.
+        if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
+        if (!client.told.contains(pos)) return;
+        for (const Bytes& message : messages) sendEncoded(client, message);
+    });
+}
+
+void tellChangedBlocks(ServerState& server) {
+    for (auto& [chunk, indices] : server.changed)
+        tellBlocks(server, chunk, valuesNow(server.session.world(), chunk, indices));
+    server.changed.clear();
+}
+
+void tellViews(ServerState& server) {
+    server.edited.update();
+    takeWrittenTiles(server);
+    tellChangedTiles(server);
+    forEachPlaying(server, [&](ServerClient& client) {
+        if (client.askedView) setClientView(server, client, *std::exchange(client.askedView, std::nullopt));
+        if (client.view) tellView(server, client);
+    });
+}
+
+}  // namespace terrane::net

@@ -1,0 +1,375 @@
+#include "terrane/net/server/sqlite_records.h"
+
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <iterator>
+#include <utility>
+
+#include "terrane/base/log.h"
+#include "terrane/game/player_state.h"
+#include "terrane/net/server/server_records.h"
+#include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/sqlite/schema.h"
+
+namespace terrane::net {
+
+namespace {
+
+std::string queryOf(const EditFilter& filter, EditOrder order) {
+    std::string sql = fmt::format("SELECT number, time, player, chunk, blocks FROM edits WHERE number > {}",
+                                  filter.afterNumber);
+    if (filter.player) sql += fmt::format(" AND player = {}", *filter.player);
+    if (filter.sinceMs) sql += fmt::format(" AND time >= {}", *filter.sinceMs);
+    if (filter.untilMs) sql += fmt::format(" AND time < {}", *filter.untilMs);
+    if (filter.area) {
+        const KeyRange keys = chunkKeys(*filter.area);
+        sql += fmt::format(" AND chunk BETWEEN {} AND {}", keys.first, keys.last);
+    }
+    return sql + (order == EditOrder::OldestFirst ? " ORDER BY number" : " ORDER BY number DESC");
+}
+
+}  // namespace
+
+base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
+                               const EditFilter& filter, EditOrder order, const UseEdit& use) {
+    const auto take = [&](const store::Statement& row) -> base::Result<void> {
+        const auto edit = TERRANE_TRY(
+            decodeEdit({row.number(0), row.number(1), row.number(2), row.number(3), row.blob(4)}, ids));
+        return isInArea(edit, filter) ? use(edit) : base::Result<void>();
+    };
+    return store::forEachRow(database, queryOf(filter, order), take);
+}
+
+namespace {
+
+constexpr std::int64_t kApplicationId = 0x54455253;  // "TERS"
+constexpr std::int64_t kFormatVersion = 1;
+constexpr std::chrono::milliseconds kTryAgain{500};
+
+constexpr const char* kTables =
+    "CREATE TABLE blocks (id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE);"
+    "CREATE TABLE state (name TEXT PRIMARY KEY NOT NULL, value INTEGER NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE texts (name TEXT PRIMARY KEY NOT NULL, value TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE players (id INTEGER PRIMARY KEY, key BLOB NOT NULL UNIQUE, name TEXT NOT NULL UNIQUE, role "
+    "INTEGER NOT "
+    "NULL, pose TEXT NOT NULL, ban TEXT NOT NULL);"
+    "CREATE TABLE claims (name TEXT PRIMARY KEY NOT NULL, x0 INTEGER NOT NULL, y0 INTEGER NOT NULL, x1 "
+    "INTEGER NOT NULL, "
+    "y1 INTEGER NOT NULL, owner INTEGER NOT NULL, members TEXT NOT NULL) WITHOUT ROWID;"
+    "CREATE TABLE edits (number INTEGER PRIMARY KEY, time INTEGER NOT NULL, player INTEGER NOT NULL, chunk "
+    "INTEGER NOT "
+    "NULL, blocks BLOB NOT NULL);"
+    "CREATE INDEX edits_of_chunk ON edits (chunk, number);"
+    "CREATE INDEX edits_of_player ON edits (player, number);";
+
+base::Result<void> makeTables(store::Database& database) {
+    auto transaction = TERRANE_TRY(store::Transaction::begin(database));
+    const std::string marks =
+        fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
+    TERRANE_TRY(database.execute(marks + kTables));
+    return transaction.commit();
+}
+
+// Creates the tables in an empty file; refuses files of another kind or format.
+base::Result<void> prepareTables(store::Database& database) {
+    const auto tables = TERRANE_TRY(database.queryNumber("SELECT count(*) FROM sqlite_schema"));
+    if (tables.value_or(0) == 0) return makeTables(database);
+    const auto mark = database.queryNumber("PRAGMA application_id");
+    const auto version = database.queryNumber("PRAGMA user_version");
+    if (!mark || !version) return tl::unexpected((!mark ? mark : version).error());
+    if (*mark != kApplicationId)
+        return base::fail(base::ErrorCode::Incompatible, "{}: not the file of a server", database.path());
+    if (*version != kFormatVersion)
+        return base::fail(base::ErrorCode::Incompatible, "{}: unknown format {} of a server's file",
+                          database.path(), version->value_or(0));
+    return {};
+}
+
+// Adds block types that are new to the file.
+base::Result<store::BlockIdMap> mapBlocks(store::Database& database, const world::BlockRegistry& blocks) {
+    const auto names = TERRANE_TRY(store::readBlockNames(database));
+    auto ids = store::BlockIdMap::make(blocks, names);
+    if (!ids || ids->added().empty()) return ids;
+    auto transaction = TERRANE_TRY(store::Transaction::begin(database));
+    auto insert = TERRANE_TRY(database.prepare("INSERT INTO blocks (id, name) VALUES (?1, ?2)"));
+    for (const store::SavedName& name : ids->added()) {
+        insert.bind(1, std::int64_t{name.id});
+        insert.bind(2, name.name);
+        TERRANE_TRY(insert.run());
+    }
+    TERRANE_TRY(transaction.commit());
+    return ids;
+}
+
+}  // namespace
+
+std::filesystem::path serverFilePath(const std::filesystem::path& world) {
+    std::filesystem::path path = world;
+    return path.replace_extension(".server.sqlite");
+}
+
+base::Result<std::unique_ptr<ServerFile>> ServerFile::open(const std::filesystem::path& path,
+                                                           const world::BlockRegistry& blocks) {
+    auto lock = TERRANE_TRY(store::FileLock::acquire(path, store::FileLock::Kind::Exclusive));
+    auto writer = TERRANE_TRY(store::Database::open(path, store::OpenMode::Create));
+    TERRANE_TRY(writer.execute("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL"));
+    TERRANE_TRY(prepareTables(writer));
+    auto ids = TERRANE_TRY(mapBlocks(writer, blocks));
+    auto reader = TERRANE_TRY(store::Database::open(path, store::OpenMode::ReadOnly));
+    return std::unique_ptr<ServerFile>(
+        new ServerFile(Parts{std::move(lock), std::move(writer), std::move(reader), std::move(ids)}));
+}
+
+ServerFile::ServerFile(Parts parts)
+    : lock_(std::move(parts.lock)),
+      writer_(std::move(parts.writer)),
+      reader_(std::move(parts.reader)),
+      ids_(std::move(parts.ids)),
+      thread_([this] { run(); }) {}
+
+ServerFile::~ServerFile() {
+    {
+        const std::lock_guard lock(mutex_);
+        isEnding_ = true;
+    }
+    wake_.notify_all();
+    thread_.join();
+}
+
+std::uint64_t ServerFile::write(Write write) {
+    const std::lock_guard lock(mutex_);
+    waiting_.push_back(std::move(write));
+    wake_.notify_all();
+    return ++queued_;
+}
+
+std::uint64_t ServerFile::durable() const {
+    const std::lock_guard lock(mutex_);
+    return durable_;
+}
+
+std::string ServerFile::problem() const {
+    const std::lock_guard lock(mutex_);
+    return problem_;
+}
+
+base::Result<void> ServerFile::flush() {
+    std::unique_lock lock(mutex_);
+    const std::uint64_t goal = queued_, before = attempts_;
+    written_.wait(lock, [&] { return durable_ >= goal || (attempts_ > before && !problem_.empty()); });
+    if (durable_ >= goal) return {};
+    return base::fail(base::ErrorCode::Io, "{}", problem_);
+}
+
+base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
+    auto transaction = TERRANE_TRY(store::Transaction::begin(writer_));
+    for (const Write& write : writes) TERRANE_TRY(write(writer_));
+    return transaction.commit();
+}
+
+// Failed writes are kept and tried again, at the end once.
+void ServerFile::run() {
+    std::vector<Write> writes;
+    std::unique_lock lock(mutex_);
+    while (true) {
+        wake_.wait(lock, [&] { return isEnding_ || !waiting_.empty() || !writes.empty(); });
+        const bool isLast = isEnding_;
+        std::ranges::move(waiting_, std::back_inserter(writes));
+        waiting_.clear();
+        const std::uint64_t number = queued_;
+        lock.unlock();
+        const auto done = writes.empty() ? base::Result<void>() : writeAll(writes);
+        lock.lock();
+        ++attempts_;
+        if (done) {
+            writes.clear();
+            durable_ = number;
+            problem_.clear();
+        } else {
+            if (problem_.empty()) base::logError("{}", done.error().message);
+            problem_ = done.error().message;
+        }
+        written_.notify_all();
+        if (isLast) return;
+        if (!done) wake_.wait_for(lock, kTryAgain, [&] { return isEnding_; });
+    }
+}
+
+namespace {
+
+using store::Database;
+using store::Statement;
+
+constexpr const char* kSaved = "saved";  // a name in the table `state`
+
+tl::unexpected<base::Error> damaged(const Database& database, std::string_view what) {
+    return base::fail(base::ErrorCode::Damaged, "{}: damaged: {}", database.path(), what);
+}
+
+base::Result<std::int64_t> numberOr0(Database& database, const std::string& sql) {
+    const auto number = TERRANE_TRY(database.queryNumber(sql));
+    return number.value_or(0);
+}
+
+}  // namespace
+
+base::Result<std::unique_ptr<SqliteRecords>> SqliteRecords::open(const std::filesystem::path& path,
+                                                                 const world::BlockRegistry& blocks) {
+    auto file = TERRANE_TRY(ServerFile::open(path, blocks));
+    return std::make_unique<SqliteRecords>(std::move(file));
+}
+
+base::Result<std::vector<KnownPlayer>> SqliteRecords::players() {
+    std::vector<KnownPlayer> players;
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        auto player =
+            knownPlayer({row.number(0), row.blob(1), row.text(2), row.number(3), row.text(4), row.text(5)});
+        if (!player) return damaged(file_->reader(), "a player");
+        players.push_back(std::move(*player));
+        return {};
+    };
+    const auto read =
+        store::forEachRow(file_->reader(), "SELECT id, key, name, role, pose, ban FROM players", take);
+    if (!read) return tl::unexpected(read.error());
+    return players;
+}
+
+base::Result<std::vector<game::Claim>> SqliteRecords::claims() {
+    std::vector<game::Claim> claims;
+    const auto take = [&](const Statement& row) -> base::Result<void> {
+        auto claim = claimOf({row.text(0),
+                              {row.number(1), row.number(2), row.number(3), row.number(4)},
+                              row.number(5),
+                              row.text(6)});
+        if (!claim) return damaged(file_->reader(), "a claim");
+        claims.push_back(std::move(*claim));
+        return {};
+    };
+    const auto read =
+        store::forEachRow(file_->reader(), "SELECT name, x0, y0, x1, y1, owner, members FROM claims", take);
+    if (!read) return tl::unexpected(read.error());
+    return claims;
+}
+
+base::Result<std::string> SqliteRecords::text(const std::string& name) {
+    auto query = TERRANE_TRY(file_->reader().prepare("SELECT value FROM texts WHERE name = ?1"));
+    query.bind(1, name);
+    const auto row = TERRANE_TRY(query.step());
+    return row ? std::string(query.text(0)) : std::string();
+}
+
+base::Result<HistoryEnds> SqliteRecords::historyEnds() {
+    const auto newest = numberOr0(file_->reader(), "SELECT max(number) FROM edits");
+    const auto saved =
+        numberOr0(file_->reader(), fmt::format("SELECT value FROM state WHERE name = '{}'", kSaved));
+    if (!newest || !saved) return tl::unexpected((!newest ? newest : saved).error());
+    return HistoryEnds{*newest, *saved};
+}
+
+base::Result<void> SqliteRecords::forEachEdit(const EditFilter& filter, EditOrder order, const UseEdit& use) {
+    return net::forEachEdit(file_->reader(), file_->ids(), filter, order, use);
+}
+
+void SqliteRecords::addPlayer(const KnownPlayer& player) {
+    file_->write([player](Database& database) -> base::Result<void> {
+        auto put = TERRANE_TRY(database.prepare(
+            "INSERT INTO players (id, key, name, role, pose, ban) VALUES (?1, ?2, ?3, ?4, ?5, ?6)"));
+        put.bind(1, std::int64_t{player.id});
+        put.bind(2, ByteView(player.key));
+        put.bind(3, player.name);
+        put.bind(4, static_cast<std::int64_t>(player.role));
+        put.bind(5, player.pose ? game::textOf(*player.pose) : std::string());
+        put.bind(6, player.ban);
+        return put.run();
+    });
+}
+
+void SqliteRecords::changePlayer(game::PlayerId id, const PlayerChange& change) {
+    file_->write([id, change](Database& database) -> base::Result<void> {
+        auto put = TERRANE_TRY(
+            database.prepare("UPDATE players SET name = coalesce(?2, name), role = coalesce(?3, role), "
+                             "pose = coalesce(?4, pose), ban = coalesce(?5, ban) WHERE id = ?1"));
+        put.bind(1, std::int64_t{id});
+        if (change.name) put.bind(2, *change.name);
+        if (change.role) put.bind(3, static_cast<std::int64_t>(*change.role));
+        if (change.pose) put.bind(4, game::textOf(*change.pose));
+        if (change.ban) put.bind(5, *change.ban);
+        return put.run();
+    });
+}
+
+void SqliteRecords::addClaim(const game::Claim& claim) {
+    file_->write([claim](store::Database& database) -> base::Result<void> {
+        auto put = TERRANE_TRY(database.prepare(
+            "INSERT INTO claims (name, x0, y0, x1, y1, owner, members) VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7)"));
+        put.bind(1, claim.name);
+        int column = 2;
+        for (const std::int32_t v : {claim.area.x0, claim.area.y0, claim.area.x1, claim.area.y1})
+            put.bind(column++, std::int64_t{v});
+        put.bind(6, std::int64_t{claim.owner});
+        put.bind(7, membersText(claim.members));
+        return put.run();
+    });
+}
+
+void SqliteRecords::removeClaim(const std::string& name) {
+    file_->write([name](store::Database& database) -> base::Result<void> {
+        auto erase = TERRANE_TRY(database.prepare("DELETE FROM claims WHERE name = ?1"));
+        erase.bind(1, name);
+        return erase.run();
+    });
+}
+
+void SqliteRecords::setText(const std::string& name, const std::string& text) {
+    file_->write([name, text](Database& database) -> base::Result<void> {
+        auto put =
+            TERRANE_TRY(database.prepare("INSERT OR REPLACE INTO texts (name, value) VALUES (?1, ?2)"));
+        put.bind(1, name);
+        put.bind(2, text);
+        return put.run();
+    });
+}
+
+namespace {
+
+// A row of the table `edits`.
+struct EncodedEdit {
+    std::int64_t number, timeMs, player, chunk;
+    Bytes blocks;
+};
+
+base::Result<void> insertEdits(Database& database, const std::vector<EncodedEdit>& edits) {
+    auto insert = TERRANE_TRY(database.prepare(
+        "INSERT INTO edits (number, time, player, chunk, blocks) VALUES (?1, ?2, ?3, ?4, ?5)"));
+    for (const EncodedEdit& edit : edits) {
+        insert.bind(1, edit.number);
+        insert.bind(2, edit.timeMs);
+        insert.bind(3, edit.player);
+        insert.bind(4, edit.chunk);
+        insert.bind(5, ByteView(edit.blocks));
+        TERRANE_TRY(insert.run());
+    }
+    return {};
+}
+
+}  // namespace
+
+std::uint64_t SqliteRecords::append(const std::vector<LoggedEdit>& edits) {
+    std::vector<EncodedEdit> rows;
+    for (const LoggedEdit& edit : edits) {
+        assert(edit.number > 0 && "the server numbers edits");
+        rows.push_back({edit.number, edit.timeMs, std::int64_t{edit.player}, store::keyOf(edit.chunk),
+                        encodeEdit(edit, file_->ids())});
+    }
+    return file_->write([rows = std::move(rows)](Database& database) { return insertEdits(database, rows); });
+}
+
+void SqliteRecords::setSavedEdit(std::int64_t number) {
+    file_->write([number](Database& database) {
+        return database.execute(
+            fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})", kSaved, number));
+    });
+}
+
+}  // namespace terrane::net

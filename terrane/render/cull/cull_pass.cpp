@@ -1,0 +1,264 @@
+#include "terrane/render/cull/cull_pass.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cstring>
+#include <span>
+
+#include "terrane/gpu/debug.h"
+#include "terrane/render/quads/quad_store.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+
+base::Result<QuadCull> QuadCull::create(const gpu::ShaderLoader& shaders) {
+    QuadCull cull;
+    auto program = TERRANE_TRY(
+        gpu::Program::compute(shaders, "terrane/render/cull/quad_cull.comp.glsl", {}, "cull quads"));
+    cull.program_ = std::move(program);
+    return cull;
+}
+
+void QuadCull::begin(std::uint32_t meshSections) {
+    const std::size_t needed = sizeof(shared::TestedMeshSections) + meshSections * sizeof(shared::uint);
+    if (const std::size_t bytes = grownBytes(list_, needed); bytes > 0)
+        list_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "mesh sections to test");
+    const shared::TestedMeshSections none{0, 1, 1};
+    list_.upload(0, std::as_bytes(std::span(&none, 1)));
+    list_.bindStorage(shared::kTestedMeshSectionsBinding);
+}
+
+void QuadCull::run(const QuadStore& quads, const QuadResources& resources) const {
+    const gpu::DebugGroup group("cull quads");
+    resources.bindTables();
+    program_.use();
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_COMMAND_BARRIER_BIT);
+    glBindBuffer(GL_DISPATCH_INDIRECT_BUFFER, list_.id());
+    const std::vector<const gpu::Buffer*> arenas = quads.buffers().buffers;
+    for (std::size_t arena = 0; arena < arenas.size(); ++arena) {
+        arenas[arena]->bindStorage(shared::kQuadsBinding);
+        program_.set(shared::kArenaLocation, static_cast<GLuint>(arena));
+        glDispatchComputeIndirect(0);
+    }
+    // The vertex shader reads the quads as texels; uploads and copies may follow.
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT | GL_TEXTURE_FETCH_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT);
+}
+
+namespace {
+
+using TwoCounts = std::array<shared::DrawCounts, 2>;  // of the early and the late pass, of one arena
+
+gpu::Buffer gpuOnly(std::size_t bytes, std::string_view label) {
+    return gpu::Buffer(bytes, 0, label);
+}
+
+static_assert(static_cast<shared::uint>(CullPhase::Early) == shared::kCullEarly &&
+              static_cast<shared::uint>(CullPhase::Late) == shared::kCullLate);
+
+shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t meshSections) {
+    shared::CullFrame frame{};
+    std::ranges::copy(input.camera, frame.cameraPlanes);
+    frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
+    frame.viewProjection = input.viewProjection;
+    frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
+    frame.viewportSize = input.size;
+    frame.nearPlane = kNearPlane;
+    frame.hiZLevels = input.hiZ ? input.hiZ->levels() : 0;
+    frame.meshSectionCount = meshSections;
+    frame.phase = static_cast<shared::uint>(phase);
+    frame.edgeExpansion = input.edgeExpansion;
+    frame.blockPixels = input.blockPixels;
+    frame.samples = static_cast<shared::uint>(input.samples);
+    return frame;
+}
+
+void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
+    for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+        sum.commands[list] += counts.commands[list];
+        sum.quads[list] += counts.quads[list];
+    }
+    sum.meshSections += counts.meshSections;
+}
+
+// Room for all faces of each list's draw bucket, so that no list can overflow.
+std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
+    std::size_t sum = 0;
+    for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[list];
+    return std::max<std::size_t>(sum, 1) * sizeof(shared::DrawCommand);
+}
+
+}  // namespace
+
+base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device) {
+    CullPass pass;
+    auto cull = TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/cull/cull.comp.glsl", {}, "cull"));
+    auto compact =
+        TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/cull/compact.comp.glsl", {}, "compact"));
+    auto quadCull = TERRANE_TRY(QuadCull::create(shaders));
+    auto quadList = TERRANE_TRY(QuadList::create(shaders));
+    pass.quadCull_ = std::move(quadCull);
+    pass.quadList_ = std::move(quadList);
+    pass.cull_ = std::move(cull);
+    pass.compact_ = std::move(compact);
+    pass.hasIndirectCount_ = device.indirectCount;
+    const std::array<TwoCounts, shared::kMaxArenas> none{};  // 3.3 KB
+    pass.countBuffer_ = gpu::Buffer(std::as_bytes(std::span(none)), GL_DYNAMIC_STORAGE_BIT, "draw counts");
+    for (Readback& readback : pass.readbacks_) {
+        readback.buffer = gpu::ReadbackBuffer(sizeof(none), "draw counts");
+    }
+    return pass;
+}
+
+void CullPass::reserve(const MeshSectionTable& meshSections) {
+    std::uint32_t sum = 0;
+    lists_.resize(meshSections.maxCommands().size());
+    assert(lists_.size() <= shared::kMaxArenas && "the store has no more arenas");
+    for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][list]};
+            sum += lists_[arena][list].max;
+        }
+    }
+    const auto grow = [](gpu::Buffer& buffer, std::size_t neededBytes, std::string_view label) {
+        const std::size_t bytes = grownBytes(buffer, neededBytes);
+        if (bytes > 0) buffer = gpuOnly(bytes, label);
+        return bytes > 0;
+    };
+    grow(commands_, commandBytesOf(meshSections), "draw commands");
+    grow(visible_, meshSections.count() * sizeof(std::uint32_t), "visible mesh sections");
+    if (!grow(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t),
+              "mesh sections visible last frame"))
+        return;
+    const GLuint zero = 0;
+    glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+}
+
+std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
+    return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
+           bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
+           bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
+           countBuffer_.sizeBytes() + quadCull_.gpuBytes() + quadList_.gpuBytes();
+}
+
+// Mesh sections not tested before count as hidden: the late pass draws them.
+void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring) {
+    shared::CullFrame frame = frameOf(phase_, input, meshSections.count());
+    for (std::uint32_t number = 0; number < lists_.size() * shared::kDrawLists; ++number) {
+        const ListCommands& list = lists_[number / shared::kDrawLists][number % shared::kDrawLists];
+        frame.firstCommand[number / 4][static_cast<int>(number % 4)] = list.first;
+    }
+    frame.arenaQuads = meshSections.arenaQuads();
+    ring.writeUniform(shared::kCullBinding, frame);
+    if (input.hiZ) input.hiZ->bind();
+    meshSections.bindRecords();
+    meshSections.bindOrder();
+    visible_.bindStorage(shared::kVisibleBinding);
+    visibleLastFrame_.bindStorage(shared::kVisibleLastFrameBinding);
+    commands_.bindStorage(shared::kCommandsBinding);
+    countBuffer_.bindStorage(shared::kCountsBinding);
+    quadCull_.begin(meshSections.count());
+    cull_.use();
+    glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
+    glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
+    if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
+    compact_.use();
+    glDispatchCompute(shared::kDrawLists, static_cast<GLuint>(lists_.size()), 1);
+    if (phase_ != CullPhase::All)
+        quadList_.run(*input.quads, phase_ == CullPhase::Early ? shared::kQuadSeen : shared::kQuadNew);
+    // The late pass overwrites what the early one read.
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+void CullPass::run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
+                   gpu::MappedRing& ring) {
+    const gpu::DebugGroup group("cull");
+    phase_ = phase;
+    const GLuint zero = 0;
+    if (phase != CullPhase::Late) {
+        reserve(meshSections);
+        glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    }
+    if (meshSections.count() == 0) return;
+    if (!hasIndirectCount_) {
+        glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
+    }
+    dispatch(input, meshSections, ring);
+}
+
+std::size_t CullPass::countsOffset(std::size_t arena) const {
+    return (2 * arena + (phase_ == CullPhase::Late ? 1 : 0)) * sizeof(shared::DrawCounts);
+}
+
+void CullPass::drawList(shared::uint list, std::size_t arena) const {
+    const ListCommands& commands = lists_[arena][list];
+    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
+    const auto offset =
+        reinterpret_cast<const void*>(std::size_t{commands.first} * sizeof(shared::DrawCommand));
+    const auto maxCommands = static_cast<GLsizei>(commands.max);
+    if (hasIndirectCount_) {
+        glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
+        const auto countOffset = static_cast<GLintptr>(countsOffset(arena) + list * sizeof(shared::uint));
+        glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, maxCommands,
+                                            0);
+    } else {
+        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, maxCommands, 0);
+    }
+}
+
+void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
+                           mesh::AlphaClass alphaClass) const {
+    for (const bool isTwoSided : {false, true}) {
+        gpu::PipelineState bucketState = state;
+        bucketState.cullsBackFaces = !isTwoSided;
+        pipeline.set(bucketState);
+        const auto list = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
+        for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
+            if (lists_[arena][list].max == 0) continue;
+            quads.texels(arena).bind(shared::kQuadsUnit);
+            quadList_.bind();
+            drawList(list, arena);
+        }
+    }
+}
+
+// Skipped if the GPU is as many frames behind as there are buffers.
+void CullPass::queueCounts() {
+    counts();
+    Readback& readback = readbacks_[nextReadback_];
+    if (readback.isPending) return;
+    readback.arenas = lists_.size();
+    readback.buffer.copyFrom(countBuffer_, readback.arenas * sizeof(TwoCounts));
+    readback.fence = gpu::Fence::insert();
+    readback.isPending = true;
+    nextReadback_ = (nextReadback_ + 1) % kReadbacks;
+}
+
+const shared::DrawCounts& CullPass::counts() {
+    for (std::size_t k = 0; k < kReadbacks; ++k) {
+        Readback& readback = readbacks_[(nextReadback_ + k) % kReadbacks];
+        if (!readback.isPending || !readback.fence.passed()) continue;
+        std::array<TwoCounts, shared::kMaxArenas> arenas;
+        std::memcpy(arenas.data(), readback.buffer.data().data(), readback.arenas * sizeof(TwoCounts));
+        counts_ = {};
+        for (const TwoCounts& both : std::span(arenas).first(readback.arenas))
+            for (const shared::DrawCounts& counts : both) add(counts_, counts);
+        readback.isPending = false;
+    }
+    return counts_;
+}
+
+std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list, std::size_t arena) const {
+    shared::DrawCounts counts{};
+    countBuffer_.download(countsOffset(arena), std::as_writable_bytes(std::span(&counts, 1)));
+    std::vector<shared::DrawCommand> commands(counts.commands[list]);
+    assert(commands.size() <= lists_[arena][list].max && "each list has room for all commands");
+    if (!commands.empty()) {
+        commands_.download(lists_[arena][list].first * sizeof(shared::DrawCommand),
+                           std::as_writable_bytes(std::span(commands)));
+    }
+    return commands;
+}
+
+}  // namespace terrane::render

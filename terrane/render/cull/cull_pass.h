@@ -1,0 +1,144 @@
+// Selects on the GPU what is drawn: mesh sections in view, without face directions that face away from the
+// camera, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
+// quads (quad_list.h). Used by the renderer on the context's thread.
+#pragma once
+
+#include <array>
+
+#include "terrane/gpu/context.h"
+#include "terrane/gpu/mapped_ring.h"
+#include "terrane/gpu/pipeline_state.h"
+#include "terrane/gpu/program.h"
+#include "terrane/gpu/readback_buffer.h"
+#include "terrane/render/cull/hi_z.h"
+#include "terrane/render/cull/quad_list.h"
+#include "terrane/render/quads/mesh_section_table.h"
+#include "terrane/render/quads/quad_resources.h"
+#include "terrane/render/quads/quad_store.h"
+
+namespace terrane::render {
+
+// Finds the visible quads on the GPU: those in view that cover a sample and are not hidden by the depth of
+// the early pass (cull_pass.h). Most quads of mesh sections in view are hidden: in a landscape four in five.
+//
+// Two bits of a quad (shared/quad.h) hold the result for quad_list.h: *seen* quads are drawn by the early
+// pass of the next frame, *new* ones are added by the late pass of this frame. A quad from the mesher has
+// neither, so it is tested before it is drawn. As with mesh sections, no visible quad is missing in any
+// frame. Used by the renderer on the context's thread.
+class QuadCull {
+  public:
+    static base::Result<QuadCull> create(const gpu::ShaderLoader& shaders);
+
+    // Makes room for this many mesh sections and clears the list of those to test, for cull.comp.glsl.
+    void begin(std::uint32_t meshSections);
+    // Tests the quads of the mesh sections in the list, with the inputs of cull.comp.glsl bound. Later draws
+    // see the bits.
+    void run(const QuadStore& quads, const QuadResources& resources) const;
+    std::size_t gpuBytes() const { return list_.sizeBytes(); }
+
+  private:
+    gpu::Program program_;
+    gpu::Buffer list_;  // shared::TestedMeshSections, then their numbers
+};
+
+struct CullInput {
+    world::ChunkPos cameraChunk;
+    glm::vec3 cameraPosition;  // from the corner of its chunk
+    Frustum camera;
+    glm::mat4 viewProjection{1};
+    glm::vec2 size{1};         // of the image in pixels
+    const HiZ* hiZ = nullptr;  // for the late pass
+    // With Hi-Z the late pass tests quads, and both passes list those to draw.
+    const QuadStore* quads = nullptr;
+    const QuadResources* resources = nullptr;
+    float edgeExpansion = 0;  // pixels that edges of quads move
+    float blockPixels = 0;    // pixels of a block, one block ahead
+    int samples = 1;          // a pixel
+};
+
+// All: everything in view. Early: what was visible in the frame before. Late: what the depth of the early
+// pass does not hide. Mesh sections first, then their quads: quad_cull.h.
+enum class CullPhase : std::uint8_t { All, Early, Late };
+
+class CullPass {
+  public:
+    static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
+
+    // All mesh sections were removed: those that come now were not visible in the last frame.
+    void forget() { visibleLastFrame_ = {}; }
+    // Runs a pass. `meshSections` is up to date. The early and the late pass of a frame follow each other,
+    // with drawing between them.
+    void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
+             gpu::MappedRing& ring);
+    // Draws the quads that the last pass selected, one draw call for each draw bucket and arena of `quads`.
+    // The shader and its other inputs are bound. Culls the back faces of one-sided quads.
+    void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
+                     mesh::AlphaClass alphaClass) const;
+
+    // Ends the frame: queues a read-back of its counts.
+    void queueCounts();
+    // Counts of the newest finished frame, summed over its passes; does not wait.
+    const shared::DrawCounts& counts();
+
+    // Commands of the last run, for tests: waits for the GPU.
+    std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
+
+    // GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList count with
+    // their present size.
+    std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
+
+  private:
+    void reserve(const MeshSectionTable& meshSections);
+    void dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring);
+    void drawList(shared::uint list, std::size_t arena) const;
+    std::size_t countsOffset(std::size_t arena) const;
+
+    struct Readback {
+        gpu::ReadbackBuffer buffer;
+        gpu::Fence fence;
+        bool isPending = false;
+        std::size_t arenas = 0;
+    };
+    // First command of a list in the buffer, and the most commands.
+    struct ListCommands {
+        std::uint32_t first = 0, max = 0;
+    };
+    using ArenaLists = std::array<ListCommands, shared::kDrawLists>;
+    static constexpr std::size_t kReadbacks = 4;
+
+    gpu::Program cull_, compact_;
+    QuadCull quadCull_;
+    QuadList quadList_;
+    gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
+    CullPhase phase_ = CullPhase::All;
+    std::vector<ArenaLists> lists_;  // by arena
+    std::array<Readback, kReadbacks> readbacks_;
+    std::size_t nextReadback_ = 0;
+    shared::DrawCounts counts_{};
+    bool hasIndirectCount_ = false;
+};
+
+// Input of a pass that draws quads: the quads that culling selected, and the data that shaders read of them.
+// Used by the renderer on the context's thread.
+// Features that the world's faces need in the shaders of quads; without them the shaders are shorter.
+struct QuadFeatures {
+    bool hasFaceSampling = false;  // see needsFaceSampling()
+    bool hasTint = false;          // see TintTextures
+    bool hasLand = false;          // land to the horizon affects light: see LandTextures
+};
+
+struct QuadDraw {
+    QuadResources& resources;
+    const QuadStore& quads;
+    const MeshSectionTable& meshSections;
+    const CullPass& culled;  // draws the selection of its last run
+    bool isSmooth = false;   // textures are filtered
+
+    void bind() const { resources.bind(meshSections, isSmooth); }
+    // Draws with the shader and the bindings of bind().
+    void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, mesh::AlphaClass alphaClass) const {
+        culled.drawBuckets(pipeline, state, quads, alphaClass);
+    }
+};
+
+}  // namespace terrane::render

@@ -1,0 +1,103 @@
+#include "terrane/render/frame/render_options.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "terrane/base/result.h"
+
+namespace terrane::render {
+
+namespace {
+
+// Few effects: for drawing without a graphics card.
+constexpr RenderOptions low() {
+    RenderOptions o;
+    o.msaaSamples = 1;
+    o.shadows = ShadowReach::Off;
+    o.depthOfField = o.godRays = o.msaaAlphaTest = o.sharpFiltering = o.clouds = false;
+    o.transparencyLayers = 1;
+    o.water = Water::Plain;
+    return o;
+}
+
+constexpr RenderOptions medium() {
+    RenderOptions o;
+    o.msaaSamples = 2;
+    o.light = LightSampling::Smooth;
+    o.shadows = ShadowReach::Horizon;
+    o.depthOfField = false;
+    o.transparencyLayers = 2;
+    return o;
+}
+
+constexpr RenderOptions high() {
+    RenderOptions o;
+    o.msaaSamples = 4;
+    o.light = LightSampling::Smooth;
+    o.shadows = ShadowReach::Horizon;
+    o.softShadows = true;
+    o.occlusion = Occlusion::On;
+    o.depthOfField = false;
+    return o;
+}
+
+constexpr int kUltraDetail = 24;  // far columns are half as wide as by default
+
+// For a strong graphics card.
+constexpr RenderOptions ultra() {
+    RenderOptions o = high();
+    o.shadowSize = 4096;
+    return o;
+}
+
+// Options of the thesis's measurements, in its terms: samples 2, shadows 2048, three layers, squares ext in
+// mesh sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
+constexpr Preset thesis() {
+    Preset preset{.name = "thesis", .options = {}};
+    preset.options.water = Water::Plain;
+    preset.options.tJunctions = TJunctions::Filled;
+    preset.mesh = {.method = mesh::MergeMethod::SquaresExt, .meshSectionHeight = 64};
+    preset.viewDistance = 32;
+    preset.horizon = 0;
+    return preset;
+}
+
+}  // namespace
+
+const std::array<Preset, 5>& presets() {
+    static constexpr std::array<Preset, 5> kPresets = {
+        {{.name = "low", .options = low(), .relativeCost = 1.0},
+         {.name = "medium", .options = medium(), .relativeCost = 3.8},
+         {.name = "high", .options = high(), .relativeCost = 4.48},
+         {.name = "ultra", .options = ultra(), .detail = kUltraDetail, .relativeCost = 4.54},
+         thesis()}};
+    return kPresets;
+}
+
+const Preset* findPreset(std::string_view name, bool isSoftwareRenderer) {
+    if (name == "auto") name = isSoftwareRenderer ? "low" : "high";
+    const auto found = std::ranges::find(presets(), name, &Preset::name);
+    return found == presets().end() ? nullptr : &*found;
+}
+
+GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer) {
+    const Preset* preset = findPreset(name, isSoftwareRenderer);
+    base::require(preset != nullptr, "withPreset: no preset has this name");
+    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance),
+            preset->horizon.value_or(before.horizon), preset->detail};
+}
+
+PresetChoice choosePreset(double lowMilliseconds) {
+    assert(lowMilliseconds > 0 && "a frame takes time");
+    PresetChoice choice{&presets().front(), 1000 / lowMilliseconds};
+    double dearest = 1;
+    for (const Preset& preset : presets()) {
+        const double cost = preset.relativeCost.value_or(0), milliseconds = cost * lowMilliseconds;
+        if (cost <= dearest || milliseconds > kTargetMilliseconds) continue;
+        dearest = cost;
+        choice = {&preset, 1000 / milliseconds};
+    }
+    return choice;
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,110 @@
+// Options of drawing: every user option as one plain value, and presets. Any thread.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "terrane/mesh/mesh_options.h"
+
+namespace terrane::render {
+
+enum class Shading : std::uint8_t {
+    Off,     // the colors of the blocks alone
+    Sample,  // each sample of a pixel by itself
+    Pixel,   // once a pixel: the nearest depth, the mean of colors and normals
+};
+
+// Sampling of light between blocks: docs/light.md.
+enum class LightSampling : std::uint8_t { Classic, Smooth };
+
+enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead of the image
+
+// Full adds reflections of the shore, swell, foam and caustics.
+enum class Water : std::uint8_t { Plain, Full };
+
+// Treatment of the cracks between quads of different sizes.
+enum class TJunctions : std::uint8_t {
+    Open,     // nothing
+    Filled,   // holes of one sample take the value of a neighbor: hole_fill.h
+    Covered,  // quads overlap by a little, so that there are no cracks: edge_expansion.glsl
+};
+
+// Distance from the camera up to which sun and moon cast shadows.
+enum class ShadowReach : std::uint8_t {
+    Off,
+    Near,     // 50 blocks
+    Far,      // 800 blocks
+    Horizon,  // as far as land is visible
+};
+
+struct RenderOptions {
+    int msaaSamples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
+    Shading shading = Shading::Sample;
+    LightSampling light = LightSampling::Classic;
+    ShadowReach shadows = ShadowReach::Near;
+    int shadowSize = 2048;     // texels a side of each shadow map: 1024, 2048, 4096
+    bool softShadows = false;  // edges widen with the distance to the caster
+    Occlusion occlusion = Occlusion::Off;
+    bool depthOfField = true;
+    bool distanceFog = true;
+    bool godRays = true;
+    bool clouds = true;
+    bool animation = true;
+    bool sharpFiltering = true;  // magnified texels with sharp and smooth edges
+    bool msaaAlphaTest = true;   // holes in leaves and plants are found for each sample
+    Water water = Water::Full;
+    int transparencyLayers = 3;       // of blended faces, 0 to 3
+    int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
+    TJunctions tJunctions = TJunctions::Covered;
+    bool occlusionCulling = true;  // of mesh sections behind others
+
+    bool operator==(const RenderOptions&) const = default;
+};
+
+constexpr int kDefaultDetail = 12;
+
+// All settings of the image: how it is drawn, from which meshes, and how far.
+struct GraphicsSettings {
+    RenderOptions render;
+    mesh::MeshOptions mesh;
+    int viewDistance = 16;        // chunks
+    int horizon = 1024;           // distance of land beyond them, chunks; 0: none
+    int detail = kDefaultDetail;  // tiles a ring of a level of detail: see stream::TileView
+
+    bool operator==(const GraphicsSettings&) const = default;
+};
+
+struct Preset {
+    std::string_view name;
+    RenderOptions options;
+    mesh::MeshOptions mesh = {};
+    int detail = kDefaultDetail;
+    std::optional<int> viewDistance = {}, horizon = {};  // none: unchanged
+    // GPU time of a frame relative to low: docs/rendering.md. None: preset_choice.h never selects it.
+    std::optional<double> relativeCost = {};
+};
+
+// low, medium, high, ultra, thesis.
+const std::array<Preset, 5>& presets();
+// Null if no preset has the name. "auto" is high on a graphics card and low without one.
+const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
+// A preset of the name must exist.
+GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer);
+
+// Selects the best preset for a machine from a measurement of the cheapest one. Any thread.
+constexpr double kTargetFramesPerSecond = 60;
+// A fifth of the frame is left for the interface, the system and views that cost more.
+constexpr double kTargetMilliseconds = 0.8 * 1000 / kTargetFramesPerSecond;
+
+struct PresetChoice {
+    const Preset* preset = nullptr;
+    double framesPerSecond = 0;  // expected
+};
+
+// Returns the most expensive preset whose frame is expected to take at most kTargetMilliseconds; low if none
+// does. `lowMilliseconds`: GPU time of a frame with low, above 0.
+PresetChoice choosePreset(double lowMilliseconds);
+
+}  // namespace terrane::render

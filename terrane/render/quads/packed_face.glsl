@@ -1,0 +1,47 @@
+// Data of a quad for its fragments, packed into 32 bits: bits 0–11 texture, 12–14 alpha mode, 15–17 direction, 18
+// surface of a liquid, 19–22 and 23–26 extents in columns less one, 27–30 level, 31 tinted. Needs quad.h, shape_face.h,
+// frame.h.
+#include "terrane/shared/material.h"
+#include "terrane/shared/mesh_section.h"
+#include "terrane/render/quads/packed_gbuffer.glsl"
+
+// -x, +x, -y, +y, -z, +z as 0 … 5.
+uint directionOfAxis(vec3 axis) {
+    vec3 along = abs(axis);
+    return 2u * uint(along.y + 2.0 * along.z + 0.5) + (axis.x + axis.y + axis.z > 0.0 ? 1u : 0u);
+}
+
+// Direction of a face that is neither of a model nor of a flowing liquid.
+uint directionOf(uint shapeFace) {
+    if (shapeFace < kShapeFaceCross) return shapeFace;
+    if (shapeFace < kShapeFaceInset) return kDirectionPlant;
+    if (shapeFace < kShapeFaceLiquidTop) return shapeFace - kShapeFaceInset;
+    return shapeFace == kShapeFaceLiquidTop ? 5u : shapeFace - kShapeFaceLiquidSide;
+}
+
+uint packFace(Quad quad, MaterialRecord material, uint level, uint direction) {
+    uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
+    return material.texture | material.alphaMode << 12 | direction << 15 | isLiquid << 18 |
+           (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27 |
+           optionsTinted(material.options) << 31;
+}
+
+uint directionOfFace(uint face) {
+    return face >> 15 & 7u;
+}
+
+bool isTinted(uint face) {
+    return (face >> 31) != 0u;
+}
+
+bool isFarFace(uint face) {
+    return (face >> 27 & 15u) != 0u;
+}
+
+// Extents in blocks: a texture covers one block at every level. Heights of columns are those of blocks.
+vec2 extentOf(uint face) {
+    vec2 columns = vec2((face >> 19 & 15u) + 1u, (face >> 23 & 15u) + 1u);
+    float width = columnBlocks(face >> 27 & 15u);
+    bool isLevel = directionOfFace(face) >> 1 == 2u;
+    return columns * vec2(width, isLevel ? width : 1.0);
+}

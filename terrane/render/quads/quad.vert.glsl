@@ -1,0 +1,160 @@
+// PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended. FACE_SAMPLING: see
+// block_texture.glsl. TINT: see block_tint.glsl.
+// Pulls a quad's corner from the quad buffer. A quad has four vertices; the base vertex of a draw is four times its
+// first quad, its base instance the number of its mesh section.
+#include "terrane/render/frame/edge_expansion.glsl"
+#include "terrane/render/frame/frame_uniforms.glsl"
+#include "terrane/render/quads/waves.glsl"
+#include "terrane/shared/hash.h"
+#include "terrane/shared/quad.h"
+#include "terrane/shared/mesh_section.h"
+#include "terrane/shared/shape_face.h"
+#if PASS == 2
+#include "terrane/shared/shadow.h"
+
+layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
+    ShadowDraw shadowDraw;
+};
+
+// Shadows of waving leaves and plants do not move: their casters are this many blocks farther from the light than at
+// rest, so that a plant never shades itself.
+const float kWaveSink = 0.14;
+#endif
+
+layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
+layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
+layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
+
+layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
+
+#if PASS == 0
+layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
+#endif
+
+// Layers are peeled by comparing depths of two programs.
+invariant gl_Position;
+
+// Faces of a liquid are this many blocks inside of it: those against glass would share a plane with the glass, and
+// which of the two is nearer would change from pixel to pixel.
+const float kLiquidInset = 1.0 / 1024.0;
+
+// Depth offset of the sides of tiles for the depth test, in columns. Behind them is solid ground.
+const float kTileSideDepth = 0.25;
+
+layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
+layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
+#if FACE_SAMPLING == 1
+layout(location = 2) flat out uint outSampling;
+#endif
+#if TINT == 1
+#include "terrane/render/quads/tint_place.glsl"
+#endif
+#include "terrane/render/quads/packed_face.glsl"
+
+// Quad by its number in the arena, or from a list of those to draw.
+Quad quadOf(int vertex) {
+    int number = vertex >> 2;
+#if PASS == 0
+    int place = number - int(kFirstListedQuad);
+    if (place >= 0) number = int(texelFetch(listedQuads, place).r);
+#endif
+    uvec2 words = texelFetch(quads, number).rg;
+    return Quad(words.x, words.y);
+}
+
+// Shape face without its normal. The surface of a liquid is as high as its material says, and lower where it flows.
+ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
+    uint number = quadShapeFace(quad);
+    int first = 4 * int(number);
+    ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
+                               texelFetch(shapeFaces, first + 2), vec4(0.0));
+    float low = face.base.z, high = low + face.axisV.z;
+    if (face.base.w > 0.0) low = face.base.w * optionsSurfaceHeight(material.options);
+    if (face.axisV.w > 0.0) high = face.axisV.w * optionsSurfaceHeight(material.options);
+    if (face.base.w + face.axisV.w > 0.0) {
+        face.base.z = low;
+        face.axisV.z = high - low;
+    }
+    return face;
+}
+
+// Height of a corner on the surface of a liquid, as a share of the surface's height; 0 if it is not on it.
+float surfaceShare(ShapeFace face, vec2 corner) {
+    return corner.y == 1.0 ? face.axisV.w : face.base.w;
+}
+
+vec3 normalOfFace(Quad quad) {
+    return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
+}
+
+// Texture coordinates in the quad, 0 to 1. A face of a model or of a flowing liquid shows the part of the texture at
+// its place in the cell.
+vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
+    if (quadShapeFace(quad) < kShapeFaceFlowTop) return vec2(corner.x, 1.0 - corner.y);
+    vec3 inCell = shapeFaceCorner(face, vec4(0.0), corner, vec2(1.0)).xyz;
+    vec2 along = vec2(dot(inCell, sign(face.axisU.xyz)), dot(inCell, sign(face.axisV.xyz)));
+    vec2 from = vec2(dot(face.axisU.xyz, vec3(1.0)), dot(face.axisV.xyz, vec3(1.0)));
+    along += vec2(lessThan(from, vec2(0.0)));
+    return vec2(along.x, 1.0 - along.y);
+}
+
+uint directionOfQuad(Quad quad) {
+    uint number = quadShapeFace(quad);
+    return number < kShapeFaceFlowTop ? directionOf(number) : directionOfAxis(normalOfFace(quad));
+}
+
+MaterialRecord materialOf(Quad quad) {
+    uvec4 words = texelFetch(materials, int(quadMaterial(quad)));
+    return MaterialRecord(words.x, words.y, words.z, words.w);
+}
+
+void main() {
+    Quad quad = quadOf(gl_VertexID);
+    vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
+    vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
+    vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
+    MaterialRecord material = materialOf(quad);
+    ShapeFace face = shapeFaceOf(quad, material);
+    ivec2 chunk = meshSectionChunk.xy;
+    uint level = uint(meshSectionChunk.z);
+    vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
+    vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
+#if PASS == 2
+    if (ALPHA_CLASS == 1 && level == 0u && (material.animation == kAnimationTopWaves || material.animation == kAnimationWholeWaves))
+        inChunk -= kWaveSink * shadowDraw.toLight.xyz;
+    vec3 position = inChunk + vec3(chunkCorner(chunk, level, shadowDraw.anchorChunk), 0.0);
+    gl_Position = shadowDraw.toClip * vec4(position, 1.0);
+#else
+    if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
+        inChunk += waveOffset(material, surfaceShare(face, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
+    }
+#if PASS == 1
+    if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
+#endif
+    vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
+#endif
+#if PASS == 0
+    // Not for blended quads, whose overlap would be visible.
+    vec2 inward = (1.0 - 2.0 * corner) * extent;
+    vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
+    // A tile has sides under all of its border. Where the adjacent land is as high, dots of the sides would show. So
+    // they do not grow beyond the top, whose own growth covers the edge, and have a larger depth than faces at the same
+    // place.
+    bool isTileSide = level > 0u && face.axisV.z > 0.0;
+    float growsV = isTileSide && corner.y > 0.0 ? 0.0 : 1.0;
+    gl_Position = expandEdges(gl_Position, gl_Position + alongU, gl_Position + alongV, frame.viewportSize,
+                              frame.edgeExpansion, growsV);
+    if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
+#endif
+    uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
+    outFace = uvec2(packFace(quad, material, level, directionOfQuad(quad)), quad.word0 ^ seed);
+#if FACE_SAMPLING == 1
+    outSampling = optionsSampling(material.options);
+#endif
+#if TINT == 1
+    setTintPlace(cellBlocks.xy * cell.xy + chunkCorner(chunk, level, frame.cameraChunk), position.xy);
+#endif
+    outTexel = texelOf(quad, face, corner) * extentOf(outFace.x);
+}

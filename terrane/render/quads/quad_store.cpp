@@ -1,0 +1,148 @@
+#include "terrane/render/quads/quad_store.h"
+
+#include <algorithm>
+#include <cassert>
+
+#include "terrane/base/result.h"
+#include "terrane/mesh/mesh_section_quads.h"
+
+namespace terrane::render {
+namespace {
+
+// Largest arena. Growing copies at most half of it, and at most this much is unused.
+constexpr std::int64_t kArenaBytes = std::int64_t{1} << 28;
+static_assert(kArenaBytes <= std::int64_t{1} << 30, "no buffer is larger than 1 GiB");
+static_assert(kArenaBytes / shared::kQuadBytes * shared::kMaxArenas <= std::int64_t{1} << 32);
+
+std::uint32_t reachableQuads() {
+    GLint64 blockBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+    const auto quads = static_cast<std::size_t>(std::min(blockBytes, kArenaBytes)) / shared::kQuadBytes;
+    return static_cast<std::uint32_t>(std::min(quads, gpu::BufferTexture::maxElements()));
+}
+
+gpu::ArenaSizes arenaSizes(const QuadStoreSizes& sizes) {
+    const std::uint32_t arena = sizes.arenaQuads > 0 ? sizes.arenaQuads : reachableQuads();
+    return {.arena = arena, .first = std::min(sizes.firstQuads, arena), .count = sizes.maxArenas};
+}
+
+std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {
+    std::uint32_t count = 0;
+    for (const mesh::MeshSection& meshSection : meshSections) count += mesh::quadCount(meshSection);
+    return count;
+}
+
+}  // namespace
+
+QuadStore::QuadStore(const QuadStoreSizes& sizes) : ranges_(arenaSizes(sizes)) {
+    assert(sizes.maxArenas <= shared::kMaxArenas && "culling has lists for no more");
+    arenas_.push_back(makeArena(ranges_.arenas().front().capacity()));
+}
+
+QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) {
+    Arena arena{gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads"), {}};
+    arena.texels = gpu::BufferTexture(arena.buffer, GL_RG32UI, "quads");
+    return arena;
+}
+
+bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+    base::require(quadsOf(mesh.meshSections) == mesh.quads.size(),
+                  "Renderer::setChunk: the mesh sections do not name each quad once");
+    if (!reserve(pos, mesh.meshSections, meshSections)) return false;
+    if (mesh.quads.empty()) return true;
+    const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
+    std::size_t lowest = 0;
+    while (!mesh::hasMeshSection(meshSections, lowest)) ++lowest;
+    const std::uint32_t first = mesh::firstQuad(stored[lowest]);
+    arenas_[ranges_.arenaOf(first)].buffer.uploadVector(
+        std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
+    uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
+    return true;
+}
+
+bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
+                        mesh::MeshSectionSet meshSections) {
+    for (std::size_t r = 0; r < meshes.size(); ++r) {
+        base::require(mesh::hasMeshSection(meshSections, r) || mesh::quadCount(meshes[r]) == 0,
+                      "Renderer::setChunk: quads of a mesh section that is not set");
+    }
+    ChunkMeshSections& chunk = chunks_[pos];
+    if (chunk.size() != meshes.size()) {
+        free(chunk, mesh::kAllMeshSections);
+        chunk.assign(meshes.size(), {});
+    }
+    free(chunk, meshSections);
+    const std::uint32_t count = quadsOf(meshes);
+    const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
+    std::uint32_t next = first.value_or(0);
+    for (std::size_t r = 0; first && r < meshes.size(); ++r) {
+        if (!mesh::hasMeshSection(meshSections, r)) continue;
+        chunk[r] = mesh::movedTo(next, meshes[r]);
+        next += mesh::quadCount(meshes[r]);
+    }
+    const auto isEmpty = [](const mesh::MeshSection& meshSection) {
+        return mesh::quadCount(meshSection) == 0;
+    };
+    if (std::ranges::all_of(chunk, isEmpty)) chunks_.erase(pos);
+    return first.has_value();
+}
+
+void QuadStore::remove(world::ChunkPos pos) {
+    const auto it = chunks_.find(pos);
+    if (it == chunks_.end()) return;
+    free(it->second, mesh::kAllMeshSections);
+    chunks_.erase(it);
+}
+
+void QuadStore::free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections) {
+    for (std::size_t r = 0; r < chunk.size(); ++r) {
+        if (!mesh::hasMeshSection(meshSections, r)) continue;
+        const std::uint32_t count = mesh::quadCount(chunk[r]);
+        if (count > 0) ranges_.free(mesh::firstQuad(chunk[r]), count);
+        chunk[r] = {};
+    }
+}
+
+std::span<const mesh::MeshSection> QuadStore::meshSectionsOf(world::ChunkPos pos) const {
+    const auto it = chunks_.find(pos);
+    return it == chunks_.end() ? std::span<const mesh::MeshSection>() : it->second;
+}
+
+std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {
+    if (const auto first = ranges_.allocate(count)) return first;
+    return grow(count) ? ranges_.allocate(count) : std::nullopt;
+}
+
+// Doubling copies each quad once or twice in all. The GPU frees the old buffer after drawing with it.
+bool QuadStore::grow(std::uint32_t count) {
+    const std::size_t bytes = bufferBytes(), room = maxBytes_ - std::min(maxBytes_, bytes);
+    const auto growth = ranges_.planGrowth(count, room / shared::kQuadBytes);
+    if (!growth) return false;
+    Arena arena = makeArena(growth->capacity);
+    if (growth->arena == arenas_.size()) {
+        arenas_.push_back(std::move(arena));
+    } else {
+        peakBytes_ = std::max(peakBytes_, bytes + arena.buffer.sizeBytes());
+        gpu::Buffer& old = arenas_[growth->arena].buffer;
+        glCopyNamedBufferSubData(old.id(), arena.buffer.id(), 0, 0, static_cast<GLsizeiptr>(old.sizeBytes()));
+        arenas_[growth->arena] = std::move(arena);
+    }
+    ranges_.grow(*growth);
+    return true;
+}
+
+gpu::ArenaBuffers QuadStore::buffers() const {
+    gpu::ArenaBuffers result{{}, ranges_.arenaSize()};
+    for (const Arena& arena : arenas_) result.buffers.push_back(&arena.buffer);
+    return result;
+}
+
+std::size_t QuadStore::bufferBytes() const {
+    return static_cast<std::size_t>(ranges_.capacity()) * shared::kQuadBytes;
+}
+
+std::size_t QuadStore::usedBytes() const {
+    return static_cast<std::size_t>(ranges_.capacity() - ranges_.freeTotal()) * shared::kQuadBytes;
+}
+
+}  // namespace terrane::render

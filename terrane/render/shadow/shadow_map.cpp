@@ -1,0 +1,226 @@
+#include "terrane/render/shadow/shadow_map.h"
+
+#include <cassert>
+#include <glm/matrix.hpp>
+
+#include "terrane/base/log.h"
+#include "terrane/gpu/debug.h"
+#include "terrane/render/quads/quad_store.h"
+#include "terrane/shared/bindings.h"
+
+namespace terrane::render {
+namespace {
+
+constexpr gpu::PipelineState kNearestToLight{.depthTest = gpu::DepthTest::Greater, .clampsDepth = true};
+
+constexpr int kMapTiles = static_cast<int>(shared::kShadowTiles);
+
+// 256 is the largest alignment that OpenGL allows drivers to require for uniforms.
+struct alignas(256) AlignedDraw {
+    shared::ShadowDraw draw;
+};
+
+shared::ShadowDraw uniformsOf(const ShadowTiles& tiles) {
+    const double blocks = shadowTileBlocks(tiles.cascade);
+    const glm::dmat3 axes = glm::transpose(tiles.plane.toLight);
+    glm::dmat4 rows(0);  // of the matrix
+    for (int axis = 0; axis < 2; ++axis) {
+        const double half = 0.5 * blocks * tiles.size[axis];
+        rows[axis] = {axes[axis] / half, -1 - tiles.place[axis] * blocks / half};
+    }
+    rows[2] = {axes[2] / double{shared::kShadowRange}, 0.5};
+    rows[3] = {0, 0, 0, 1};
+    shared::ShadowDraw draw{};
+    draw.toClip = glm::mat4(glm::transpose(rows));
+    draw.toLight = glm::vec4(axes[2], 0);
+    draw.anchorChunk = {tiles.plane.anchor.x, tiles.plane.anchor.y};
+    return draw;
+}
+
+gpu::Texture2DArray mapsOf(int texels, int count) {
+    return {{{texels, texels}, count, 1}, GL_DEPTH_COMPONENT32F, "shadow map"};
+}
+
+base::Result<std::vector<gpu::Framebuffer>> layersOf(const gpu::Texture2DArray& maps) {
+    std::vector<gpu::Framebuffer> layers;
+    for (int layer = 0; layer < maps.shape().layers; ++layer) {
+        auto framebuffer = TERRANE_TRY(gpu::Framebuffer::create({{}, {maps, layer}}, "shadow map"));
+        layers.push_back(std::move(framebuffer));
+    }
+    return layers;
+}
+
+// One draw call for each command: Mesa 22.3.6 (llvmpipe) loses some commands of long indirect draws, and
+// tiles are drawn seldom.
+void drawQuads(const shared::DrawCommand& command) {
+    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(command.indexCount),
+                                                  GL_UNSIGNED_SHORT, nullptr, 1, command.baseVertex,
+                                                  command.baseInstance);
+}
+
+}  // namespace
+
+ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
+    : opaque_(quadShaders(shaders, "shadow", "opaque shadows")),
+      tested_(quadShaders(shaders, "shadow", "tested shadows")),
+      compared_({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT, .compare = GL_GEQUAL}, "shadow map"),
+      plain_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST, .wrapS = GL_REPEAT, .wrapT = GL_REPEAT},
+             "depths of the shadow map") {}
+
+base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling) {
+    assert(shape.texels % kMapTiles == 0 && "tiles have whole texels");
+    if (shape.cascades > 0) {
+        auto selected =
+            opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}, {"TINT", 0}}));
+        if (selected)
+            selected = tested_.select(
+                defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}, {"TINT", 0}}));
+        if (!selected) return selected;
+    }
+    if (shape == shape_) return {};
+    layers_.clear();
+    depths_ = {};
+    shape_ = {};
+    hasFigures_ = false;
+    canHaveFigures_ = true;
+    figureShadows_.forget();
+    clipmap_ = ShadowClipmap(shape.cascades);
+    if (shape.cascades == 0) return {};
+    auto depths = mapsOf(shape.texels, clipmap_.layers());
+    auto layers = TERRANE_TRY(layersOf(depths));
+    depths_ = std::move(depths);
+    layers_ = std::move(layers);
+    shape_ = shape;
+    return {};
+}
+
+void ShadowMap::markChanged(std::span<const CasterBox> boxes) {
+    for (const CasterBox& box : boxes) clipmap_.markChanged(box);
+}
+
+std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles>& tiles,
+                                                   const MeshSectionTable& meshSections) {
+    std::vector<Drawing> drawings;
+    std::vector<AlignedDraw> uniforms;
+    for (const ShadowTiles& rectangle : tiles) {
+        drawings.push_back(
+            {rectangle, castersOf(rectangle, meshSections.slotRecords(), meshSections.arenaQuads())});
+        uniforms.push_back({uniformsOf(rectangle)});
+        for (const CasterList& list : drawings.back().lists) drawnTriangles_ += 2 * list.quads;
+    }
+    const auto bytes = std::as_bytes(std::span(uniforms));
+    if (const std::size_t grown = grownBytes(uniforms_, bytes.size()))
+        uniforms_ = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, "shadow tiles");
+    uniforms_.upload(0, bytes);
+    return drawings;
+}
+
+// Draws go only into the tiles while the result lives.
+gpu::Scissor ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) const {
+    const int texels = shape_.texels / kMapTiles;
+    const glm::ivec2 corner = texels * tiles.slot(), size = texels * tiles.size;
+    layers_[layer].bind();
+    glViewport(corner.x, corner.y, size.x, size.y);
+    return gpu::Scissor(corner, size);
+}
+
+// Depth grows toward the light. Casters beyond the range are drawn too: their depth is clamped. The scissor
+// test stays on, so that no triangle leaves its tiles, whatever the driver clips to.
+void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
+    pipeline.set(kNearestToLight);
+    const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
+    const gpu::Scissor scissor = bindTiles(drawing.tiles, layer);
+    layers_[layer].clearDepth(0.0f);
+    for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
+        if (drawing.lists[k].commands.empty()) continue;
+        const int bucket = static_cast<int>(k) % kCasterBuckets;
+        gpu::PipelineState state = kNearestToLight;
+        state.cullsBackFaces = !mesh::bucketTwoSided(bucket);
+        pipeline.set(state);
+        (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? opaque_ : tested_).use();
+        quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
+        for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
+    }
+}
+
+void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
+                       glm::vec3 lightDirection, std::size_t maxTiles) {
+    const gpu::DebugGroup group("shadow map");
+    const std::vector<ShadowTiles> tiles = clipmap_.update(camera, lightDirection, maxTiles);
+    drawnTriangles_ = 0;
+    if (tiles.empty()) return;
+    const std::vector<Drawing> drawings = prepare(tiles, casters.meshSections);
+    casters.resources.bind(casters.meshSections, false);
+    for (std::size_t k = 0; k < drawings.size(); ++k) {
+        uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
+                              sizeof(shared::ShadowDraw));
+        draw(pipeline, drawings[k], casters.quads);
+    }
+}
+
+// Adds a layer for figures; the maps are kept.
+bool ShadowMap::addFigureLayer() {
+    if (layers_.size() > figureLayer()) return true;
+    auto depths = mapsOf(shape_.texels, clipmap_.layers() + 1);
+    auto layers = layersOf(depths);
+    if (!layers) {
+        base::logWarning("players cast no shadows: {}", layers.error().message);
+        canHaveFigures_ = false;
+        return false;
+    }
+    glCopyImageSubData(depths_.id(), GL_TEXTURE_2D_ARRAY, 0, 0, 0, 0, depths.id(), GL_TEXTURE_2D_ARRAY, 0, 0,
+                       0, 0, shape_.texels, shape_.texels, clipmap_.layers());
+    depths_ = std::move(depths);
+    layers_ = std::move(*layers);
+    return true;
+}
+
+void ShadowMap::copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const {
+    const int texels = shape_.texels / kMapTiles;
+    for (const glm::ivec2 slot : slots)
+        glCopyImageSubData(depths_.id(), GL_TEXTURE_2D_ARRAY, 0, texels * slot.x, texels * slot.y, layer,
+                           depths_.id(), GL_TEXTURE_2D_ARRAY, 0, texels * slot.x, texels * slot.y,
+                           static_cast<GLint>(figureLayer()), texels, texels, 1);
+}
+
+void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
+                            gpu::MappedRing& ring) {
+    hasFigures_ = false;
+    if (figures.records.empty() || !canHaveFigures_ || !addFigureLayer()) return;
+    std::vector<glm::dvec3> feet;
+    const glm::dvec3 corner = cornerOfChunk(figures.chunk);
+    for (const shared::FigureRecord& record : figures.records)
+        feet.push_back(corner + glm::dvec3(glm::vec3(record.feet)));
+    const NearestShadowMap map = clipmap_.nearest();
+    const FigureShadowPlan plan = figureShadows_.plan(map, feet);
+    if (plan.draws.empty()) return;
+    const gpu::DebugGroup group("shadows of figures");
+    hasFigures_ = true;
+    copyToFigureLayer(map.layer, plan.copies);
+    pipeline.set(kNearestToLight);
+    pass.bind(figures.records, ring);
+    for (const ShadowTiles& tiles : plan.draws) {
+        const shared::ShadowDraw draw = uniformsOf(tiles);
+        ring.writeUniform(shared::kShadowDrawBinding, draw);
+        const gpu::Scissor scissor = bindTiles(tiles, figureLayer());
+        pass.drawShadows(figures.records.size());
+    }
+}
+
+void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {
+    if (!isOn()) return;
+    shared::ShadowFrame frame{};
+    if (isLit) frame = clipmap_.frame(camera, shape_.texels);
+    if (isLit && hasFigures_) frame.layers[0] = static_cast<float>(figureLayer());
+    frame.strength = isLit ? 1.0f : 0.0f;
+    ring.writeUniform(shared::kShadowBinding, frame);
+}
+
+void ShadowMap::bind() const {
+    depths_.bind(shared::kShadowUnit);
+    compared_.bind(shared::kShadowUnit);
+    depths_.bind(shared::kShadowDepthsUnit);
+    plain_.bind(shared::kShadowDepthsUnit);
+}
+
+}  // namespace terrane::render

@@ -1,0 +1,97 @@
+// Water: waves in its normals, reflections of sky and shore, glitter toward the sun or moon, darker and bluer with
+// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, caustics.glsl. WATER_DETAIL: 1 adds reflections
+// of the shore, foam and caustics.
+#include "terrane/render/water/water_waves.glsl"
+#if WATER_DETAIL == 1
+#include "terrane/render/water/water_reflection.glsl"
+#include "terrane/render/water/water_shore.glsl"
+#endif
+
+// Color that a layer adds, and the share of the background that it transmits.
+struct Passed {
+    vec4 color, through;
+};
+
+// Share of light that passes through so many blocks: red is absorbed first. Murkier than clear water.
+vec3 throughBody(float blocks) {
+    return exp(-vec3(0.34, 0.19, 0.165) * blocks);
+}
+
+// Light scattered back by so much water of a color: turquoise if shallow, dark if deep.
+vec3 waterBody(vec3 color, vec3 lit, float blocks) {
+    vec3 shallow = color * vec3(0.75, 1.15, 1.0) + vec3(0.0, 0.06, 0.045), deep = color * vec3(0.07, 0.24, 0.38);
+    return mix(deep, shallow, exp(-0.13 * blocks)) * lit;
+}
+
+// Schlick's approximation with the reflectance of water seen from above, 0.02.
+float waterMirror(float facing) {
+    return 0.02 + 0.98 * pow(1.0 - clamp(facing, 0.0, 1.0), 5.0);
+}
+
+// Share of daylight left under so much water: it loses a level a block.
+float lightUnder(float blocks) {
+    return brightnessOf(vec4(clamp(1.0 - blocks / 15.0, 0.0, 1.0))).a;
+}
+
+// Reflection of the sun or moon in a rough surface whose slopes are normally distributed (C. Cox, W. Munk, Measurement
+// of the Roughness of the Sea Surface from Photographs of the Sun's Glitter, 1954). Compressed smoothly below the
+// brightness of the disc.
+vec3 glitter(vec3 view, Waves waves) {
+    vec3 toLight = frame.lightDirection.xyz, between = normalize(toLight - view);
+    float up = max(between.z, 0.05), spread = waves.variance + 0.25 * frame.discSine * frame.discSine;
+    vec2 off = between.xy / up - waves.slope;
+    float share = exp(-dot(off, off) / spread) / spread;
+    float up4 = up * up * up * up, steep = max(max(-view.z, toLight.z), 0.15);
+    vec3 light = frame.lightColor.rgb * (0.25 * waterMirror(dot(-view, between)) * share / (steep * up4));
+    vec3 most = 0.6 * frame.discColor.rgb;
+    return light * most / (2.0 * light + most + 1e-6) * smoothstep(-0.02, 0.05, toLight.z);
+}
+
+// From below: the world above through a round window, outside of which the surface reflects the water (Snell's law).
+Passed shadeFromBelow(vec3 view, vec3 normal) {
+    float facing = clamp(dot(-view, normal), 0.0, 1.0), bent = 1.77 * (1.0 - facing * facing);
+    float mirror = mix(waterMirror(sqrt(max(1.0 - bent, 0.0))), 1.0, smoothstep(0.9, 1.02, bent));
+    return Passed(vec4(murk() * mirror * (0.8 + 0.7 * facing), mirror), vec4(1.0 - mirror));
+}
+
+// Shades a surface of water in front of `blocks` of water. `levels`: of light; `shadow`: the share of direct light;
+// `visibility`: that of ambient light. `hasFarFloor`: the surface behind belongs to a far tile, whose light does not
+// include the water. `isNearest`: no other layer is in front.
+Passed shadeWater(Surface s, vec3 position, vec3 toPoint, float blocks, vec4 levels, float shadow, float visibility,
+                  bool hasFarFloor, bool isNearest) {
+    vec4 light = brightnessOf(levels);
+    vec3 view = normalize(toPoint);
+    bool isTop = abs(s.normal.z) > 0.5;
+    float below = blocks * abs(view.z);
+    Waves waves = wavesAt(position, toPoint, smoothstep(1.5, 8.0, below));
+    vec3 normal = isTop ? normalize(vec3(waves.slope, 1.0)) * sign(s.normal.z) : s.normal;
+#if UNDER_WATER == 1
+    return shadeFromBelow(view, normal);
+#else
+    vec3 direct = frame.lightColor.rgb * max(frame.lightDirection.z, 0.0) * shadow;
+    vec3 lamps = light.rgb * (1.0 - frame.hiddenLampShare * light.a);
+    vec3 lit = light.a * (frame.ambientColor.rgb * visibility + direct) + (lamps + kMinLight) * visibility;
+    vec3 seen = throughBody(blocks), body = waterBody(s.albedo, lit, blocks) * (1.0 - seen);
+    float open = light.a * light.a, mirror = isTop ? waterMirror(dot(-view, normal)) : 0.03;
+    mirror *= smoothstep(0.0, 0.2, blocks);  // no hard edge along the shore
+    vec3 reflected = reflect(view, normal);
+    reflected = normalize(vec3(reflected.xy, abs(reflected.z) + 0.01));
+    vec3 mirrored = skyColor(reflected) * open;
+    if (hasFarFloor) seen *= lightUnder(below);
+#if WATER_DETAIL == 1
+    vec3 calmer = normalize(vec3(0.4 * waves.slope, 1.0));
+    vec4 shore = shoreReflection(position, reflect(view, calmer), isTop && isNearest ? mirror : 0.0);
+    mirrored = mix(mirrored, shore.rgb, shore.a);
+    seen *= causticsBehind(position, toPoint, view, blocks, shadow * light.a);
+    vec4 fine = fineNoise(position);
+    float foam = isTop ? foamAt(position, toPoint, blocks, fine.r) : 0.0;
+    body = mix(body, 0.85 * lit, foam);
+    seen *= 1.0 - foam;
+    mirror *= 1.0 - foam;
+    waves = withRipples(waves, fine, toPoint);
+#endif
+    vec3 glint = isTop ? glitter(view, waves) * shadow * open : vec3(0.0);
+    float left = dot(seen, vec3(1.0 / 3.0)) * (1.0 - mirror);
+    return Passed(vec4(mix(body, mirrored, mirror) + glint, 1.0 - left), vec4(seen * (1.0 - mirror), left));
+#endif
+}

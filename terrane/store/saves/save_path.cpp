@@ -1,0 +1,112 @@
+#include "terrane/store/saves/save_path.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+namespace terrane::store {
+
+namespace {
+
+constexpr std::string_view kSchemeEnd = "://";
+
+// Whether the text looks like a database URL, even a misspelled one: it may hold a password and must not
+// become a file name.
+bool isMeantAsDatabase(std::string_view text) {
+    constexpr std::string_view kStart = "postgres";
+    const auto isSame = [](char a, char b) { return (a >= 'A' && a <= 'Z' ? a - 'A' + 'a' : a) == b; };
+    return std::ranges::equal(text.substr(0, kStart.size()), kStart, isSame) &&
+           text.find_first_of(":@") != std::string_view::npos;
+}
+
+}  // namespace
+
+WorldLocation worldLocation(std::string text) {
+    using Kind = WorldLocation::Kind;
+    const bool isUrl = text.find(kSchemeEnd) != std::string::npos || isMeantAsDatabase(text);
+    const bool isFile = text.find('/') != std::string::npos || text.ends_with(".sqlite");
+    return {isUrl ? Kind::Url : isFile ? Kind::File : Kind::Name, std::move(text)};
+}
+
+base::Result<std::filesystem::path> fileOf(const WorldLocation& location) {
+    switch (location.kind) {
+        case WorldLocation::Kind::Name:
+            return savePath(location.text, savePlaces());
+        case WorldLocation::Kind::File:
+            return std::filesystem::path(location.text);
+        case WorldLocation::Kind::Url:
+            break;
+    }
+    // The rest of a URL may hold a password.
+    const std::string scheme = location.text.substr(0, location.text.find_first_of(":/@"));
+    return base::fail(
+        base::ErrorCode::Unsupported,
+        "{}…: no URL of a world; a database is postgresql://host/database, where the build has them", scheme);
+}
+
+std::uintmax_t bytesOnDisk(const WorldLocation& location) {
+    const auto path = fileOf(location);
+    std::uintmax_t bytes = 0;
+    for (const char* ending : {"", "-wal"}) {
+        std::error_code error;
+        const std::uintmax_t size = path ? std::filesystem::file_size(path->string() + ending, error) : 0;
+        if (!error) bytes += size;
+    }
+    return bytes;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string environment(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+}  // namespace
+
+base::Result<void> checkSaveName(std::string_view name) {
+    const auto isForbidden = [](char c) {
+        const auto byte = static_cast<unsigned char>(c);
+        return c == '/' || c == '\\' || byte < 0x20 || byte == 0x7F;
+    };
+    if (name.empty()) return base::fail(base::ErrorCode::BadInput, "\"\": the name of a save is empty");
+    if (name.size() > kMaxSaveName)
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save has {} bytes, expected at most {}", name, name.size(),
+                          kMaxSaveName);
+    if (std::any_of(name.begin(), name.end(), isForbidden))
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save has neither slashes nor control characters", name);
+    if (name.front() == '.' || name.front() == ' ')
+        return base::fail(base::ErrorCode::BadInput,
+                          "{:?}: the name of a save begins with neither a dot nor a space", name);
+    return {};
+}
+
+SavePlaces savePlaces() {
+    return {.xdgDataHome = environment("XDG_DATA_HOME"), .home = environment("HOME")};
+}
+
+base::Result<fs::path> dataFolder(const SavePlaces& places) {
+    // The XDG specification says to ignore relative paths.
+    if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane";
+    if (fs::path(places.home).is_absolute()) return fs::path(places.home) / ".local/share/terrane";
+    return base::fail(base::ErrorCode::NotFound,
+                      "no folder for worlds: neither XDG_DATA_HOME nor HOME names an absolute path");
+}
+
+base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places) {
+    TERRANE_TRY(checkSaveName(name));
+    const auto folder = dataFolder(places);
+    if (!folder) return base::fail(folder.error().code, "{:?}: {}", name, folder.error().message);
+    const std::string file = std::string(name) + ".sqlite";
+    std::error_code ignored;
+    const bool isFormer = !fs::exists(*folder / file, ignored) && fs::exists(places.former / file, ignored);
+    return isFormer ? places.former / file : *folder / file;
+}
+
+}  // namespace terrane::store

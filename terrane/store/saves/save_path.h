@@ -1,0 +1,57 @@
+// Paths of saves by name. Called by programs while they start; reads the environment, which no thread may
+// change meanwhile.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include "terrane/base/result.h"
+
+namespace terrane::store {
+
+// The location of a world as given by the player. A plain value, for any thread.
+struct WorldLocation {
+    enum class Kind {
+        Name,  // a save in the folder of saves (save_path.h)
+        File,  // a SQLite file
+        Url,   // a database, for example postgresql://host/name
+    };
+    Kind kind = Kind::Name;
+    std::string text;
+};
+
+// "a://b" is a URL, "a/b" and "b.sqlite" are files, everything else is a name.
+WorldLocation worldLocation(std::string text);
+
+// The file of a name or path, whether it exists or not. Fails for an invalid save name, and for a URL.
+[[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
+
+// Bytes on disk of the file and its log; 0 if there is none.
+[[nodiscard]] std::uintmax_t bytesOnDisk(const WorldLocation& location);
+
+// The inputs of the paths. Strings are empty if the environment lacks them.
+struct SavePlaces {
+    std::string xdgDataHome;                // $XDG_DATA_HOME
+    std::string home;                       // $HOME
+    std::filesystem::path former = "save";  // folder of saves up to version 0.1, below the working directory
+};
+
+// The values of this process.
+SavePlaces savePlaces();
+
+// The folder of players' worlds and other files: $XDG_DATA_HOME/terrane, or $HOME/.local/share/terrane if
+// that variable is not an absolute path. Absolute; may not exist. Fails if neither variable is set.
+[[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SavePlaces& places);
+
+constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, including extensions
+// Fails for a name that cannot be a file name: empty, longer than 100 bytes, with a slash or a control
+// character, or with a leading dot or space.
+[[nodiscard]] base::Result<void> checkSaveName(std::string_view name);
+
+// NAME.sqlite in the data folder, or in the former folder if it exists only there; then the path is relative.
+// Errors of checkSaveName(). Creates no folders.
+[[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
+
+}  // namespace terrane::store

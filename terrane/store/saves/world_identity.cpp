@@ -1,0 +1,98 @@
+#include "terrane/store/saves/world_identity.h"
+
+#include <charconv>
+
+#include "terrane/store/derived_rows.h"
+#include "terrane/store/sqlite/metadata_table.h"
+
+namespace terrane::store {
+
+namespace {
+
+using base::ErrorCode;
+
+constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version";
+
+// Error messages call metadata "settings", like the table in the file.
+base::Result<std::string> textOf(const Metadata& metadata, const char* name, const std::string& where) {
+    const auto found = metadata.find(name);
+    if (found != metadata.end()) return found->second;
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is missing", where, name);
+}
+
+template <class T>
+base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::string& where) {
+    const auto text = TERRANE_TRY(textOf(metadata, name, where));
+    T value{};
+    const char* end = text.data() + text.size();
+    const auto [next, error] = std::from_chars(text.data(), end, value);
+    if (error == std::errc() && next == end) return value;
+    return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is \"{}\", expected a number", where,
+                      name, text);
+}
+
+}  // namespace
+
+bool isReserved(std::string_view name) {
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark ||
+           name == kChecksum;
+}
+
+bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value) {
+    constexpr std::size_t kOwnRows = 2, kOwnBytes = 4096;  // kChecksum, kDerivedRowsMark
+    std::size_t bytes = name.size() + value.size() + kOwnBytes, rows = metadata.size() + kOwnRows;
+    for (const auto& [otherName, otherValue] : metadata)
+        if (otherName != name) bytes += otherName.size() + otherValue.size();
+    const bool isNew = !metadata.contains(name);
+    return name.size() <= kMaxNameBytes && bytes <= kMaxMetadataBytes &&
+           rows + (isNew ? 1 : 0) <= kMaxMetadata;
+}
+
+Metadata metadataOf(const WorldIdentity& identity) {
+    return {{kSeed, std::to_string(identity.seed)},
+            {kGenerator, identity.generator},
+            {kGeneratorVersion, std::to_string(identity.generatorVersion)}};
+}
+
+base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where) {
+    const auto seed = TERRANE_TRY(numberOf<std::uint64_t>(metadata, kSeed, where));
+    const auto version = TERRANE_TRY(numberOf<int>(metadata, kGeneratorVersion, where));
+    const auto generator = TERRANE_TRY(textOf(metadata, kGenerator, where));
+    return WorldIdentity{seed, generator, version};
+}
+
+base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& requested,
+                               const std::string& where) {
+    if (saved.generator != requested.generator)
+        return base::fail(ErrorCode::Incompatible, "{}: made by the generator {}, not {}", where,
+                          saved.generator, requested.generator);
+    if (saved.seed != requested.seed)
+        return base::fail(ErrorCode::Incompatible, "{}: made with seed {}, not {}", where, saved.seed,
+                          requested.seed);
+    if (saved.generatorVersion != requested.generatorVersion)
+        return base::fail(
+            ErrorCode::Incompatible,
+            "{}: made by version {} of the generator {}, this program has version {} "
+            "(--regenerate keep-edits regenerates all chunks without edits, --recreate all chunks)",
+            where, saved.generatorVersion, saved.generator, requested.generatorVersion);
+    return {};
+}
+
+base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const RequestedWorld& requested,
+                                        const GeneratorVersionOf& versionOf, const std::string& where) {
+    const std::string generator = requested.generator.value_or(saved.generator);
+    const int version = versionOf(generator);
+    if (version == 0) {
+        return base::fail(ErrorCode::Incompatible,
+                          "{}: made by the generator {}, which this program does not have", where, generator);
+    }
+    const bool takesAnyVersion = requested.regenerate != Regenerate::None || requested.followsGenerator;
+    const WorldIdentity expected{requested.seed.value_or(saved.seed), generator,
+                                 takesAnyVersion ? saved.generatorVersion : version};
+    TERRANE_TRY(requireSame(saved, expected, where));
+    if (requested.regenerate != Regenerate::None || saved.generatorVersion == version)
+        return Regeneration{requested.regenerate, version};
+    return Regeneration{Regenerate::AllButEdited, version, false};
+}
+
+}  // namespace terrane::store

@@ -1,0 +1,100 @@
+// Compares the world of a store with the world that a program requests. Plain values and functions, for any
+// thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/store/chunks/block_id_map.h"
+
+namespace terrane::store {
+
+// The inputs that determine a world's generated chunks. They never change during the life of a save, except
+// the version, when the world is regenerated.
+struct WorldIdentity {
+    std::uint64_t seed = 0;
+    std::string generator;
+    int generatorVersion = 0;
+
+    bool operator==(const WorldIdentity&) const = default;
+};
+
+// Chunks to regenerate with the program's version of the generator.
+enum class Regenerate : std::uint8_t {
+    None,
+    AllButEdited,  // edited chunks stay; the terrain may have steps at their borders
+    All,           // edits are lost
+};
+
+// The world that a player requests. Fields without a value are taken from the existing world.
+struct RequestedWorld {
+    std::optional<std::uint64_t> seed;
+    std::optional<std::string> generator;
+    Regenerate regenerate = Regenerate::None;
+    // For the development of generators: if the generator's version differs, chunks without edits are
+    // regenerated, and no backup is kept.
+    bool followsGenerator = false;
+};
+
+// Decision on an existing world: chunks to regenerate and the generator version to continue with.
+struct Regeneration {
+    Regenerate chunks = Regenerate::None;
+    int generatorVersion = 0;
+    bool keepsCopy = true;
+};
+
+// The program's version of a generator; 0 if it lacks the generator.
+using GeneratorVersionOf = std::function<int(std::string_view generator)>;
+
+// Options for opening a world for writing.
+struct SaveAccess {
+    // Creates the world with this identity if it does not exist. No value: it must exist.
+    std::optional<WorldIdentity> create;
+    // For a new world: ids and names of another world whose rows it will get.
+    std::vector<SavedName> blockNames = {};
+    // Decides from the identity of an existing save what is regenerated, after a backup beside it. On an
+    // error the world is not opened. Empty: nothing is regenerated.
+    std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
+};
+
+// Fails with one line that names `where` and the difference, unless both are equal: chunks of two generators
+// do not fit together.
+[[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& requested,
+                                             const std::string& where);
+
+// Checks a saved world against the requested one, and decides what to regenerate. Fails if it is another
+// world, if the program lacks its generator, or if the versions differ and the world is not to be
+// regenerated.
+[[nodiscard]] base::Result<Regeneration> compareWorld(const WorldIdentity& saved,
+                                                      const RequestedWorld& requested,
+                                                      const GeneratorVersionOf& versionOf,
+                                                      const std::string& where);
+
+// World metadata that stores write themselves, and the world's identity as text. Used by the stores.
+// Limits of a save: bytes of a name (settings and blocks), number of settings, bytes of all setting names and
+// values.
+constexpr std::size_t kMaxNameBytes = 1024, kMaxMetadata = 4096, kMaxMetadataBytes = std::size_t{16} << 20;
+
+using Metadata = std::map<std::string, std::string, std::less<>>;
+
+// Whether only stores write it: the world's identity, when a world is created or regenerated,
+// kDerivedRowsMark and kChecksum.
+bool isReserved(std::string_view name);
+
+// Whether the metadata, with this value, fits the limits. The store's own rows count.
+bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value);
+
+// The metadata of a new world.
+Metadata metadataOf(const WorldIdentity& identity);
+
+// Fails, naming `where`, if an entry is missing or not a number.
+[[nodiscard]] base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where);
+
+}  // namespace terrane::store

@@ -1,0 +1,41 @@
+// Areas of a world as arrays: block ids, light, surfaces, digests. Any thread; all of the world's threads
+// work on a call. All ask `goesOn` (opened_world.h), which may be empty.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+
+#include "terrane/volume/block_area.h"
+#include "terrane/volume/opened_world.h"
+#include "terrane/volume/read_chunks.h"
+
+namespace terrane::volume {
+
+// Block ids of a checked area. `blocks` begins as zeros. Errors as readChunks().
+[[nodiscard]] base::Result<void> readBlocks(OpenedWorld& world, const BlockArea& area,
+                                            std::span<world::BlockId> blocks, const GoesOn& goesOn);
+
+// Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
+// as zeros. BadInput if a chunk is outside the world.
+[[nodiscard]] base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
+                                                 std::span<world::BlockId> blocks, const GoesOn& goesOn);
+
+// Light of a checked area, as if all of the world around it were loaded.
+[[nodiscard]] base::Result<void> readLight(OpenedWorld& world, const BlockArea& area,
+                                           std::span<LightLevels> levels, const GoesOn& goesOn);
+
+// The digest that `terrane generate --digest` prints (world/chunk_digest.h).
+[[nodiscard]] base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& area,
+                                                 const GoesOn& goesOn);
+
+// Sets the blocks of areas. Any thread; all of the world's threads work on a call, and other writes wait.
+// Sets a checked area to exactly these blocks: one id for all, or one for each by z, y, x. No behavior runs
+// (world/block_behavior.h): sand stays in the air. Chunks that change are saved as edited; they are durable
+// after the store's next flush(). Returns how many blocks changed. BadInput if an id is not a block's: then
+// nothing is written. After another error some chunks may be written.
+[[nodiscard]] base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
+                                                   std::span<const world::BlockId> blocks,
+                                                   const GoesOn& goesOn);
+
+}  // namespace terrane::volume

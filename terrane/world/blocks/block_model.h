@@ -1,0 +1,126 @@
+// Shapes from content files ([[shape]]): boxes in a cell, in sixteenths of a block, turned by the block's
+// state. block_registry.h makes models of them. Meshers read a model's faces, collision and ray casts its
+// boxes. Plain values; any thread.
+//
+// Bits of the block state that choose a form:
+//
+//   0–1  facing: quarter turns of the shape in the file, counterclockwise seen from above
+//   2    upside down
+//   3    the other form: an open door, a torch on a wall
+//   4–7  an arm toward -x, +x, -y, +y
+#pragma once
+
+#include <glm/vec3.hpp>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
+#include "terrane/shared/shape_face.h"
+#include "terrane/world/coords.h"
+
+namespace terrane::world {
+
+// A source of textures of blocks: content, resource packs, tests.
+// The image of a texture by its name in the block types. An error says what is missing.
+using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
+
+// Faces of a block's cell, and boxes in it. Plain values; any thread.
+struct Box {
+    glm::vec3 min{0}, max{1};  // in block units inside the cell
+};
+
+// Order of faces everywhere: -x, +x, -y, +y, -z, +z.
+enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
+
+// The cell beside a face of a block.
+constexpr BlockPos beside(BlockPos pos, Face face) {
+    // Wraps around at the ends of the numbers, where no chunk is.
+    const auto step = [&](std::int32_t at, int axis) {
+        const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
+        return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);
+    };
+    return {step(pos.x, 0), step(pos.y, 1), step(pos.z, 2)};
+}
+
+constexpr std::uint16_t kStateFacing = 3, kStateUpsideDown = 4, kStateOther = 8;
+constexpr unsigned kStateArmShift = 4;
+constexpr std::uint16_t kStateArms = 15u << kStateArmShift;
+constexpr int kSixteenths = 16;  // of a block
+constexpr std::size_t kMaxShapeBoxes = 16;
+
+// From 0 to kSixteenths, not empty.
+struct ShapeBox {
+    glm::ivec3 min{0}, max{kSixteenths};
+
+    bool operator==(const ShapeBox&) const = default;
+};
+
+struct ShapeDescription {
+    std::string name;
+    bool hasFacing = false, hasHalf = false;
+    std::vector<ShapeBox> boxes;  // as it is at state 0
+    std::vector<ShapeBox> other;  // of the other form; empty: there is none
+    std::vector<ShapeBox> arms;   // what an arm toward +y adds; empty: there are none
+    int line = 0;                 // of its table in the file
+};
+using ShapePtr = std::shared_ptr<const ShapeDescription>;
+
+struct ModelFace {
+    std::uint16_t shapeFace = 0;  // index into the table of all shape faces
+    Face side = kFacePosZ;        // the direction of the face, which gives its material
+    bool isOnBorder = false;      // at the side of the cell: an opaque cube beside hides it
+};
+
+struct ModelForm {
+    std::vector<ModelFace> faces;
+    std::vector<Box> boxes;
+    Box bounds;  // of all boxes
+};
+
+struct BlockModel {
+    std::uint16_t stateMask = 0;   // bits of the state that choose a form
+    std::vector<ModelForm> forms;  // stateMask + 1
+    // Whether it fills at least a quarter of the cell: far tiles show it as a cube, others not at all.
+    bool isBulky = false;
+
+    const ModelForm& form(std::uint16_t state) const { return forms[state & stateMask]; }
+};
+
+struct BlockType;
+
+// The boxes that stop bodies, and those that rays from the camera hit, in a state of the block.
+std::span<const Box> collisionBoxes(const BlockType& type, std::uint16_t state);
+std::span<const Box> selectionBoxes(const BlockType& type, std::uint16_t state);
+// The bounds of the selection boxes.
+Box selectionBounds(const BlockType& type, std::uint16_t state);
+
+// Bits of the state that choose a form.
+std::uint16_t formMask(const ShapeDescription& shape);
+// The boxes of a state, with facing, form, arms and half applied.
+std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state);
+
+constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;
+std::size_t filledParts(std::span<const ShapeBox> boxes);  // of kCellParts
+
+// A rectangle of the surface, on the plane where min and max are equal.
+struct ShapeRectangle {
+    Face side = kFacePosZ;
+    glm::ivec3 min{0}, max{0};
+
+    bool operator==(const ShapeRectangle&) const = default;
+};
+
+// The outer surface of boxes that may touch and overlap, each part of it once.
+std::vector<ShapeRectangle> surfaceOf(std::span<const ShapeBox> boxes);
+
+shared::ShapeFace shapeFaceOf(const ShapeRectangle& rectangle);
+
+}  // namespace terrane::world

@@ -1,0 +1,103 @@
+#include "terrane/world/blocks/inventory.h"
+
+#include <algorithm>
+#include <span>
+
+#include "terrane/base/result.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr std::byte kVersion{1};
+constexpr std::size_t kHeaderBytes = 3, kSlotBytes = 3;
+
+void append16(BlockEntityData& out, std::size_t value) {
+    out.push_back(static_cast<std::byte>(value & 255));
+    out.push_back(static_cast<std::byte>(value >> 8));
+}
+
+std::uint16_t read16(std::span<const std::byte> bytes) {
+    return static_cast<std::uint16_t>(std::to_integer<int>(bytes[0]) | std::to_integer<int>(bytes[1]) << 8);
+}
+
+}  // namespace
+
+int addToStack(ItemStack& stack, std::string_view item, int count) {
+    base::require(count >= 0, "addToStack: a negative count");
+    if (stack.count > 0 && stack.item != item) return count;
+    const int moved = std::min(count, kMaxStack - stack.count);
+    if (moved > 0) stack = {std::string(item), static_cast<std::uint16_t>(stack.count + moved)};
+    return count - std::max(moved, 0);
+}
+
+int takeFromStack(ItemStack& stack, int count) {
+    base::require(count >= 0, "takeFromStack: a negative count");
+    const int moved = std::min<int>(count, stack.count);
+    stack.count = static_cast<std::uint16_t>(stack.count - moved);
+    if (stack.count == 0) stack = {};
+    return moved;
+}
+
+int addItems(Inventory& inventory, std::string_view item, int count) {
+    base::require(!item.empty() && item.size() <= kMaxItemName, "addItems: a name has 1 to 255 bytes");
+    base::require(count >= 0, "addItems: a negative count");
+    for (ItemStack& stack : inventory)
+        if (stack.item == item) count = addToStack(stack, item, count);
+    for (ItemStack& stack : inventory)
+        if (stack.item.empty()) count = addToStack(stack, item, count);
+    return count;
+}
+
+int takeItems(Inventory& inventory, std::string_view item, int count) {
+    base::require(count >= 0, "takeItems: a negative count");
+    int taken = 0;
+    for (auto stack = inventory.rbegin(); stack != inventory.rend() && taken < count; ++stack) {
+        if (stack->item == item) taken += takeFromStack(*stack, count - taken);
+    }
+    return taken;
+}
+
+int countItems(const Inventory& inventory, std::string_view item) {
+    int count = 0;
+    for (const ItemStack& stack : inventory) count += stack.item == item ? stack.count : 0;
+    return count;
+}
+
+BlockEntityData encodeInventory(const Inventory& inventory) {
+    base::require(inventory.size() <= 0xFFFF, "encodeInventory: more than 65,535 slots");
+    BlockEntityData out{kVersion};
+    append16(out, inventory.size());
+    for (const ItemStack& stack : inventory) {
+        base::require(stack.item.size() <= kMaxItemName, "encodeInventory: a name of more than 255 bytes");
+        append16(out, stack.count);
+        out.push_back(static_cast<std::byte>(stack.item.size()));
+        const auto name = std::as_bytes(std::span(stack.item));
+        out.insert(out.end(), name.begin(), name.end());
+    }
+    return out;
+}
+
+base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) {
+    if (data.size() < kHeaderBytes || data[0] != kVersion) return base::fail("not an inventory of version 1");
+    std::span<const std::byte> rest(data);
+    const std::size_t slotCount = read16(rest.subspan(1));
+    rest = rest.subspan(kHeaderBytes);
+    // Checked before memory is allocated: a slot has at least three bytes.
+    if (slotCount * kSlotBytes > rest.size()) return base::fail("an inventory that is cut off");
+    Inventory inventory(slotCount);
+    for (ItemStack& stack : inventory) {
+        if (rest.size() < kSlotBytes) return base::fail("an inventory that is cut off");
+        const auto length = std::to_integer<std::size_t>(rest[2]);
+        if (rest.size() < kSlotBytes + length) return base::fail("an inventory that is cut off");
+        stack.count = read16(rest);
+        stack.item.assign(reinterpret_cast<const char*>(rest.data()) + kSlotBytes, length);
+        if (stack.item.empty() != (stack.count == 0))
+            return base::fail("an inventory with a stack of nothing");
+        rest = rest.subspan(kSlotBytes + length);
+    }
+    if (!rest.empty()) return base::fail("an inventory with {} bytes too many", rest.size());
+    if (inventory.size() < static_cast<std::size_t>(slots)) inventory.resize(static_cast<std::size_t>(slots));
+    return inventory;
+}
+
+}  // namespace terrane::world

@@ -1,0 +1,240 @@
+#include "terrane/world/changes/liquid_flow.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <unordered_map>
+#include <utility>
+
+#include "terrane/world/blocks/block_behavior.h"
+
+namespace terrane::world {
+namespace {
+
+constexpr std::array<Face, 4> kFlowSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY};
+
+void unsettle(BlockUpdate& update, BlockPos pos) {
+    const std::uint16_t state = update.world().blockState(pos);
+    if ((state & kLiquidUnsettled) != 0) return;
+    update.change(pos, SetState{static_cast<std::uint16_t>(state | kLiquidUnsettled)});
+}
+
+// Ladders, blocks that players use and blocks with slots are not washed away.
+bool isWashedAway(const BlockType& type) {
+    if (type.id == kAir) return true;
+    const bool holdsOn = type.climbable || type.slots > 0 || behaviorWith(type, &BlockBehavior::used);
+    return type.shape != Shape::Liquid && type.collision.empty() && !holdsOn;
+}
+
+enum class Room : std::uint8_t { Full, Free, Liquid };  // Free: liquid flows into it
+
+// Rules by block id.
+struct FlowRules {
+    explicit FlowRules(const BlockRegistry& blocks) : missing(blocks.missing()) {
+        for (const BlockType& type : blocks.types()) {
+            rooms.push_back(isWashedAway(type) ? Room::Free : isFlowing(type) ? Room::Liquid : Room::Full);
+            if (rooms.back() == Room::Liquid) liquids.push_back(type.id);
+        }
+    }
+    Room room(BlockId id) const { return rooms[id < rooms.size() ? id : missing]; }
+
+    std::vector<Room> rooms;
+    std::vector<BlockId> liquids;
+    BlockId missing;
+};
+
+struct FlowCell {
+    BlockId id = kAir;
+    std::uint16_t form = 0;  // of a liquid
+    Room room = Room::Full;
+
+    bool is(BlockId liquid) const { return id == liquid; }
+    bool isSourceOf(BlockId liquid) const { return id == liquid && form == 0; }
+    bool isGroundFor(BlockId liquid) const { return room != Room::Free && id != liquid; }
+};
+
+// Reads cells and keeps their chunks. Must be destroyed before a chunk is written: a chunk that is held would
+// be copied.
+class FlowCells {
+  public:
+    FlowCells(const World& world, const FlowRules& rules) : world_(world), rules_(rules) {}
+
+    const FlowRules& rules() const { return rules_; }
+    const Chunk* chunk(ChunkPos pos) {
+        if (last_ && lastPos_ == pos) return last_;
+        const auto [known, isNew] = chunks_.try_emplace(pos);
+        if (isNew) known->second = world_.maybeChunkAt(pos);
+        lastPos_ = pos;
+        return last_ = known->second.get();
+    }
+    // Ground below the world, air above it.
+    FlowCell at(BlockPos pos) {
+        if (pos.z < 0) return {};
+        const Chunk* chunk = isInHeight(pos.z) ? this->chunk(chunkOf(pos)) : nullptr;
+        if (!chunk) return {kAir, 0, Room::Free};
+        const BlockIndex index = blockIndex(pos);
+        const BlockId id = chunk->block(index);
+        const Room room = rules_.room(id);
+        if (room == Room::Liquid)
+            return {id, static_cast<std::uint16_t>(chunk->blockState(index) & kLiquidForm), room};
+        const bool holdsData = room == Room::Free && id != kAir && chunk->blockEntityData(index);
+        return {id, 0, holdsData ? Room::Full : room};
+    }
+    // Whether all chunks within two blocks are loaded.
+    bool isSurrounded(BlockPos pos) {
+        const ChunkPos own = chunkOf(pos);
+        const auto away = [](std::int32_t v) { return (v & 15) < 2 ? -1 : (v & 15) > 13 ? 1 : 0; };
+        const int dx = away(pos.x), dy = away(pos.y);
+        const auto isLoaded = [&](int x, int y) { return chunk(offsetBy(own, x, y)) != nullptr; };
+        return (dx == 0 || isLoaded(dx, 0)) && (dy == 0 || isLoaded(0, dy)) &&
+               (dx == 0 || dy == 0 || isLoaded(dx, dy));
+    }
+
+  private:
+    const World& world_;
+    const FlowRules& rules_;
+    std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash> chunks_;
+    const Chunk* last_ = nullptr;
+    ChunkPos lastPos_;
+};
+
+FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
+    const FlowCell now = cells.at(pos);
+    if (now.isSourceOf(liquid) || (!now.is(liquid) && now.room != Room::Free)) return now;
+    int sources = 0, level = kMaxLiquidLevel + 1;
+    for (const Face side : kFlowSides) {
+        const BlockPos next = beside(pos, side);
+        const FlowCell cell = cells.at(next);
+        if (!cell.is(liquid)) continue;
+        sources += cell.form == 0;
+        if (cell.form == 0 || cells.at(beside(next, kFaceNegZ)).isGroundFor(liquid))
+            level = std::min(level, (cell.form & kLiquidLevel) + 1);
+    }
+    const FlowCell below = cells.at(beside(pos, kFaceNegZ));
+    if (sources >= 2 && (below.isGroundFor(liquid) || below.isSourceOf(liquid)))
+        return {liquid, 0, Room::Liquid};
+    if (cells.at(beside(pos, kFacePosZ)).is(liquid)) return {liquid, kLiquidFalling, Room::Liquid};
+    if (level <= kMaxLiquidLevel) return {liquid, static_cast<std::uint16_t>(level), Room::Liquid};
+    return now.is(liquid) ? FlowCell{kAir, 0, Room::Free} : now;
+}
+
+// May be true for a section without such a cell, if its palette still has such a state.
+bool mayBeUnsettled(const Section& states) {
+    const auto isSettled = [](std::uint16_t state) { return (state & kLiquidUnsettled) == 0; };
+    return !states.surelyAll(isSettled);
+}
+
+struct Unsettled {
+    std::vector<BlockPos> cells;
+    std::vector<BlockPos> former;  // one block of each section whose palette has such a state without a cell
+};
+
+void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
+    const Chunk& chunk = *cells.chunk(pos);
+    std::array<Section::Value, kBlocksPerSection> states;
+    chunk.blockStates(section).unpack(states);
+    bool isFormer = true;
+    for (int i = 0; i < kBlocksPerSection; ++i) {
+        if ((states[static_cast<std::size_t>(i)] & kLiquidUnsettled) == 0) continue;
+        isFormer = false;
+        if (out.cells.size() >= kMaxFlowingCells) return;
+        const BlockPos at = blockPos(pos, static_cast<BlockIndex>(section * kBlocksPerSection + i));
+        if (cells.at(at).room == Room::Liquid && cells.isSurrounded(at)) out.cells.push_back(at);
+    }
+    if (isFormer && !chunk.blockStates(section).isDense())
+        out.former.push_back({pos.x * kChunkSize, pos.y * kChunkSize, section * kSectionSize});
+}
+
+Unsettled findUnsettled(FlowCells& cells, std::span<const ChunkPos> chunks) {
+    Unsettled found;
+    for (const ChunkPos pos : chunks) {
+        const Chunk* chunk = cells.chunk(pos);
+        for (int section = 0; chunk && section < kSectionsPerChunk; ++section)
+            if (mayBeUnsettled(chunk->blockStates(section))) addUnsettled(cells, pos, section, found);
+    }
+    return found;
+}
+
+struct CellChange {
+    BlockPos pos;
+    BlockId before = kAir;
+    FlowCell after;
+};
+
+struct NextValues {
+    std::vector<CellChange> changes;
+    std::vector<BlockPos> settled;
+};
+
+NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) {
+    NextValues next;
+    for (const BlockId liquid : cells.rules().liquids) {
+        BlockSet seen;
+        const auto look = [&](BlockPos pos) {
+            if (!isInHeight(pos.z) || !seen.insert(pos)) return;
+            const FlowCell before = cells.at(pos), after = nextCell(cells, pos, liquid);
+            if (before.id != after.id || before.form != after.form)
+                next.changes.push_back({pos, before.id, after});
+        };
+        for (const BlockPos pos : unsettled) {
+            if (!cells.at(pos).is(liquid)) continue;
+            next.settled.push_back(pos);
+            look(pos);
+            for (const Face side : kFlowSides) look(beside(pos, side));
+            look(beside(pos, kFaceNegZ));
+        }
+    }
+    return next;
+}
+
+}  // namespace
+
+BlockBehavior flows() {
+    return {.name = "flows",
+            .placed = unsettle,
+            .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face) { unsettle(update, pos); }};
+}
+
+bool isFlowing(const BlockType& type) {
+    return type.shape == Shape::Liquid && hasBehavior(type, "flows");
+}
+
+double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos pos) {
+    const BlockId id = world.block(pos);
+    const BlockType& type = blocks.type(id);
+    if (type.shape != Shape::Liquid) return 0;
+    const int form = world.blockState(pos) & kLiquidForm;
+    if ((form & kLiquidFalling) != 0 || world.block(beside(pos, kFacePosZ)) == id) return 1;
+    const double surface = type.surface.heightUnits / double{shared::kSurfaceUnits};
+    return surface * (kMaxLiquidLevel + 1 - form) / (kMaxLiquidLevel + 1);
+}
+
+// Writes call behaviors, which unsettle the neighbors of changed blocks. If a behavior has put another block
+// into a cell by then, that stays.
+std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
+                        std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
+    const FlowRules rules(blocks);
+    if (rules.liquids.empty()) return 0;
+    Unsettled unsettled;
+    NextValues next;
+    {
+        FlowCells cells(world, rules);
+        unsettled = findUnsettled(cells, chunks);
+        next = nextValues(cells, unsettled.cells);
+    }
+    for (const BlockPos pos : unsettled.former) BlockUpdate(world, blocks, edits).compactState(pos);
+    for (const BlockPos pos : next.settled) {
+        const std::uint16_t state = world.blockState(pos) & kLiquidForm;
+        applyChange(world, blocks, pos, SetState{state}, edits, recorder);
+    }
+    for (const CellChange& change : next.changes) {
+        if (world.block(change.pos) != change.before) continue;
+        const auto state = static_cast<std::uint16_t>(change.after.form | kLiquidUnsettled);
+        const bool isDry = change.after.id == kAir;
+        applyChange(world, blocks, change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state},
+                    edits, recorder);
+    }
+    return unsettled.cells.size();
+}
+
+}  // namespace terrane::world
