@@ -35,7 +35,7 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
                                                            const world::BlockRegistry& blocks);
 
 // --backend of commands that draw: whether workers or the GPU generate, light and mesh the world on screen.
-// True for Backend::Gpu; Auto is the CPU (back_ends.h).
+// True for Backend::Gpu; Auto is the CPU.
 bool usesGpu(Backend backend);
 
 // Makes the GPU back ends and sets `parts` to use them; null if workers do the work. `generators` include the

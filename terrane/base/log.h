@@ -1,5 +1,5 @@
 // Messages to the user who runs the program, one line each on standard error (standard output is for
-// results), made printable (printable.h). Any thread may call; without memory a fixed line is written
+// results), made printable (text.h). Any thread may call; without memory a fixed line is written
 // instead.
 #pragma once
 

@@ -159,7 +159,7 @@ class Generator {
     // Threads and errors as generate(); `take` may throw.
     void generateDown(world::ChunkPos pos, const LayerTaker& take) const;
 
-    // Values of a field in the chunk's columns, x + 16 y, for a graph without 3D passes (tint_graph.h).
+    // Values of a field in the chunk's columns, x + 16 y, for a graph without 3D passes (builder.h).
     // Threads and errors as generate().
     std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
 

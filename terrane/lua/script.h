@@ -3,7 +3,7 @@
 //
 // Used by code that opens a world whose generator is a script. Any thread: each call has a Lua state of its
 // own. Scripts are untrusted: they reach no files, no clock and no other script, and a limit stops each of
-// memory, steps, time and what they record (limits_internal.h). The same script gives the same graph on every
+// memory, steps, time and what they record (budget_internal.h). The same script gives the same graph on every
 // machine.
 #pragma once
 

@@ -18,8 +18,8 @@
 namespace terrane::map {
 
 // Compresses 256×256 columns of surface for a cache on the disk: 0.1 to 0.8 bytes a column at level 0, up to
-// 1.5 at level 4 and 2 at level 8. Block ids are those of the registry, which the bytes do not name
-// (surface_cache.h). Any thread.
+// 1.5 at level 4 and 2 at level 8. Block ids are those of the registry, which the bytes do not name.
+// Any thread.
 constexpr int kBlobColumns = 256;  // along each side
 constexpr std::size_t kColumnsOfBlob = std::size_t{kBlobColumns} * kBlobColumns;
 

@@ -1,5 +1,5 @@
 // A content pack: block types, textures, generators and names of blocks as files (docs/packs.md). Read from a
-// folder or a zip file (pack_files.h), or from the archive that servers send (pack_archive.h). Plain values;
+// folder or a zip file (pack_files.h), or from the archive that servers send (pack_files.h). Plain values;
 // any thread.
 #pragma once
 

@@ -35,7 +35,7 @@ struct TileParts {
     base::JobSystem& jobs;
     const world::BlockRegistry& blocks;  // as seen from afar
     const gen::LevelGenerators& generators;
-    store::ReadableStore* store = nullptr;  // has the tiles that edits changed (tile_rows.h); null: none
+    store::ReadableStore* store = nullptr;  // has the tiles that edits changed (edited_tiles.h); null: none
 };
 
 struct TileMesh {

@@ -2,7 +2,7 @@
 // them to the renderer within a time budget and within the renderer's memory budget. Used on the thread of
 // the OpenGL context.
 //
-// If a chunk does not fit the memory budget, the view gets shorter (memory_budget.h) until it does, and the
+// If a chunk does not fit the memory budget, the view gets shorter (gpu_back_ends.h) until it does, and the
 // farthest chunks are removed. The view stays short until another view distance is set, so that it does not
 // oscillate.
 #pragma once

@@ -67,7 +67,7 @@ void expectWellFormed(const shared::Quad q, const MeshOptions& options) {
     }
 }
 
-// The draw bucket and direction of a range against the quads in it, by the words of chunk_mesh.h.
+// The draw bucket and direction of a range against the quads in it, by the words of mesh_section_quads.h.
 void expectSorted(const shared::Quad q, int bucket, int direction) {
     const world::Material& material = testBlocks().materials()[quadMaterial(q)];
     const auto alpha = material.alpha;

@@ -1,4 +1,4 @@
-// read_blocks.cpp and read_chunks.cpp.
+// areas.cpp and read_chunks.cpp.
 #include <gmock/gmock.h>
 
 #include <thread>

@@ -1,4 +1,4 @@
-// read_light.cpp, against the light of a whole area at once.
+// areas.cpp, against the light of a whole area at once.
 #include "terrane/light/light_area.h"
 #include "terrane/volume/areas.h"
 #include "tests/volume/volume_fixture.h"

@@ -40,7 +40,7 @@ TEST(Page, EachFileThatItNamesIsThere) {
         EXPECT_NE(typeOf(name), "application/octet-stream") << name;
     }
     EXPECT_THAT(names, testing::Contains("world.js"));
-    // The page has no inline scripts or styles (answer.cpp) and no links to other hosts.
+    // The page has no inline scripts or styles (web_server.cpp) and no links to other hosts.
     EXPECT_FALSE(std::regex_search(html, std::regex("<script>|<style>| on[a-z]+=|style=|https?://")));
 }
 

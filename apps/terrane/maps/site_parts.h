@@ -34,7 +34,7 @@ std::string titleOf(const std::string& world);
 
 web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose);
 std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places);
-// The places saved in the world, then those of a file (place_file.h).
+// The places saved in the world, then those of a file (map_world.h).
 std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
 // The spawn point, with an empty name. Takes a tenth of a second.
 [[nodiscard]] base::Result<web::NamedPlace> spawnOf(const MapWorld& world);

@@ -62,7 +62,7 @@ struct DrainageGraph {
     std::vector<std::string> hashNames;
     PassGraph heights;
 };
-struct TintGraph;  // tint_graph.h
+struct TintGraph;  // builder.h
 
 struct GeneratorGraph {
     std::string name;

@@ -47,8 +47,8 @@ int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
 void writeContinents(GeneratorBuilder& g);  // continents.cpp: see docs/continents.md
-void writeFlat(GeneratorBuilder& g);        // flat.cpp: grass at sea level
-void writeHills3D(GeneratorBuilder& g);     // hills3d.cpp: overhangs and arches from noise in space
-void writeVoronoi(GeneratorBuilder& g);     // voronoi.cpp: bowls and ridges, boxy chambers
+void writeFlat(GeneratorBuilder& g);        // grass at sea level
+void writeHills3D(GeneratorBuilder& g);     // overhangs and arches from noise in space
+void writeVoronoi(GeneratorBuilder& g);     // bowls and ridges, boxy chambers
 
 }  // namespace terrane::gen

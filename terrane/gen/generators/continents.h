@@ -37,7 +37,7 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
-// The map that rivers and lakes follow: continents_rivers.cpp.
+// The map that rivers and lakes follow: continents_relief.cpp.
 Drainage rivers(GeneratorBuilder& g);
 
 // Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
@@ -138,7 +138,7 @@ void plantsPass(Pass& p, const Fields& f);    // 2D: where
 void landPass(Pass& p, const Fields& f);      // 3D: on the ground
 void caveLifePass(Pass& p, const Fields& f);  // 3D: in caves
 
-// Rivers and lakes: continents_rivers.cpp.
+// Rivers and lakes: continents_relief.cpp.
 struct Watered {
     Float height;   // of the ground
     Int water;      // z of the highest water where the ground is lower

@@ -3,7 +3,7 @@
 
 namespace terrane::gen::continents {
 
-// The ground of continents: gullies, terraces, dunes, karst towers, on the forms of continents_shape.cpp.
+// The ground of continents: gullies, terraces, dunes, karst towers, on the forms of continents.cpp.
 
 namespace {
 

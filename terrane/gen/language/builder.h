@@ -40,7 +40,7 @@ namespace terrane::gen {
 // side alone.
 constexpr int kMaxBranchDepth = 64;
 // Ifs and loops along one path from a node to its arguments: no schedule of a part of the pass is deeper.
-// Parts with known conditions (short_pass.h) are compiled again, and their nodes may stand deeper than in the
+// Parts with known conditions (voxel_pass.h) are compiled again, and their nodes may stand deeper than in the
 // whole pass. 1,024 levels of the compiler take about half a megabyte of stack.
 constexpr int kMaxBranchChain = 1024;
 

@@ -181,7 +181,7 @@ inline Bool operator==(IVec2 a, IVec2 b) { return a.x == b.x && a.y == b.y; }
 // Powers, logarithms and angles of expressions, made of their additions, multiplications and bits, so that
 // both back ends and constant folding give the same value to the bit without knowing of them.
 //
-// The polynomials are least-maximum fits on the intervals named in expr_math.cpp; the errors stated here are
+// The polynomials are least-maximum fits on the intervals named in expr.cpp; the errors stated here are
 // measured against the C library in double precision (tests/gen/expr_math_test.cpp).
 // 2^x within 1.5 units in the last place for x in -126…128; 0 below, 2^128 less a little above.
 Float exp2(Float x);

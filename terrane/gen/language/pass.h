@@ -45,7 +45,7 @@ class Var {
     std::size_t slot_;
 };
 
-// Results of noise calls that return several values: see Pass (pass.h).
+// Results of noise calls that return several values: see Pass.
 struct Voronoi2D {
     Float distance;  // blocks
     Float ratio;     // nearest / second nearest, 0…1
@@ -86,7 +86,7 @@ class Pass {
     void while_(const std::function<Bool()>& condition, const std::function<void()>& body);
 
     // Noise at this column or voxel (3D: in 3D passes). `name` makes the seed. Sizes in blocks; see noise.h
-    // and noise_expressions.h.
+    // and pass_noise.h.
     Float perlin2D(std::string_view name, int size, std::vector<float> weights);
     Float perlin3D(std::string_view name, int size, std::vector<float> weights);
     // The noise plus grain: a random number per column with the deviation of the part that faded at this

@@ -1,7 +1,7 @@
 // Stripes over a tile of 16×16 columns: waves that run across a direction given at each column. Waves of
 // random phase start at a jittered point of each cell of `size` blocks and blend into each other, so that
 // stripes bend with the direction and join and end here and there. After C. John, F. Westin and
-// R. S. Johansen, who draw erosion gullies with them (see erosion.h).
+// R. S. Johansen, who draw erosion gullies with them (see compounds.h).
 //
 // The point of a cell lies at ¼…¾ of it in x and y. Its offset from the column, in cells, is o; its weight is
 // w = max(0, 1 − |o|² / kStripeReach2)², which is 0 beyond the 3×3 cells around. With the direction d of

@@ -53,7 +53,7 @@ std::optional<AskPack> nextPart(const PackFetch& fetch);
 
 struct LinkEvents {
     // Called before anything is sent. Returns whether the server has its known key, or none was known
-    // (known_servers.h). False or an error ends the link.
+    // (security.h). False or an error ends the link.
     std::function<base::Result<bool>(const std::string& serverKey)> trusts;
     // Returns the digests of the sample chunks, or why this program cannot play there.
     std::function<base::Result<SampleDigests>(const WorldOffer&)> prove;

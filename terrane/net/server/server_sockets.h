@@ -26,7 +26,7 @@ constexpr std::size_t kMaxPendingConnections = 256;
 
 class ServerSockets {
   public:
-    // Starts to listen. The server and the context outlive this; `keyFile`: see tls.h.
+    // Starts to listen. The server and the context outlive this; `keyFile`: see security.h.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerSockets>> open(
         boost::asio::io_context& context, ServerState& server, const ListenAddress& address,
         const std::filesystem::path& keyFile);

@@ -1,4 +1,4 @@
-// Records in a server's file (server_file.h), used by one server at a time.
+// Records in a server's file, used by one server at a time.
 #pragma once
 
 #include <condition_variable>
@@ -24,8 +24,8 @@ namespace terrane::net {
 [[nodiscard]] base::Result<void> forEachEdit(store::Database& database, const store::BlockIdMap& ids,
                                              const EditFilter& filter, EditOrder order, const UseEdit& use);
 
-// A server's file beside the world's, NAME.server.sqlite: players, claims, and the edit history
-// (sqlite_records.h). The format of the world's file does not depend on it.
+// A server's file beside the world's, NAME.server.sqlite: players, claims, and the edit history.
+// The format of the world's file does not depend on it.
 //
 // Writes are collected and committed together by a thread of this class, about as fast as the disk allows: a
 // command is acknowledged when it is durable. Functions are for the server's thread unless stated otherwise.

@@ -112,7 +112,7 @@ class WireReader {
         require(read < static_cast<std::uint8_t>(count));
         value = hasFailed() ? E{} : static_cast<E>(read);
     }
-    void text(std::string& value, std::size_t maxBytes);  // isPlainText() (plain_text.h)
+    void text(std::string& value, std::size_t maxBytes);  // isPlainText()
     void data(Bytes& value, std::size_t maxBytes);
     template <std::size_t N>
     void array(std::array<std::byte, N>& value) {

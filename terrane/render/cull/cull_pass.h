@@ -19,7 +19,7 @@
 namespace terrane::render {
 
 // Finds the visible quads on the GPU: those in view that cover a sample and are not hidden by the depth of
-// the early pass (cull_pass.h). Most quads of mesh sections in view are hidden: in a landscape four in five.
+// the early pass. Most quads of mesh sections in view are hidden: in a landscape four in five.
 //
 // Two bits of a quad (shared/quad.h) hold the result for quad_list.h: *seen* quads are drawn by the early
 // pass of the next frame, *new* ones are added by the late pass of this frame. A quad from the mesher has
@@ -57,7 +57,7 @@ struct CullInput {
 };
 
 // All: everything in view. Early: what was visible in the frame before. Late: what the depth of the early
-// pass does not hide. Mesh sections first, then their quads: quad_cull.h.
+// pass does not hide. Mesh sections first, then their quads: cull_pass.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
 class CullPass {

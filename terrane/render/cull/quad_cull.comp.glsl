@@ -1,5 +1,5 @@
 // Tests the quads of a mesh section for visibility against Hi-Z: a work group for a mesh section, a thread for a quad.
-// Writes two bits of each quad (quad_cull.h), and the directions of the mesh section that have quads with them.
+// Writes two bits of each quad (cull_pass.h), and the directions of the mesh section that have quads with them.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/material.h"
 #include "terrane/shared/mesh_section.h"

@@ -50,9 +50,9 @@ struct FrameTargets {
     gpu::Texture2D sceneColor, ldrColor, maskDepth;
     gpu::Framebuffer gbuffer;  // the G-buffer
     gpu::Framebuffer scene;    // light, and coverage in alpha; depth: that of the one sample, or the mask
-    gpu::Framebuffer mask;     // with several samples a pixel: see pixel_mask.h
+    gpu::Framebuffer mask;     // with several samples a pixel: see shading_pass.h
     gpu::Framebuffer ldr;      // LDR target: as the screen shows it
-    gpu::Framebuffer direct;   // with one sample a pixel, the same with the depth: see direct_image.h
+    gpu::Framebuffer direct;   // with one sample a pixel, the same with the depth: see frame_targets.h
 };
 
 // The short path of a frame: if no later pass reads the linear scene, sky, surfaces and layers are drawn

@@ -82,7 +82,7 @@ struct Preset {
     mesh::MeshOptions mesh = {};
     int detail = kDefaultDetail;
     std::optional<int> viewDistance = {}, horizon = {};  // none: unchanged
-    // GPU time of a frame relative to low: docs/rendering.md. None: preset_choice.h never selects it.
+    // GPU time of a frame relative to low: docs/rendering.md. None: render_options.h never selects it.
     std::optional<double> relativeCost = {};
 };
 

@@ -1,5 +1,5 @@
 // Shades the G-buffer over the sky, into the scene or directly into the image of the screen: see
-// direct_image.h. Used by the renderer on the context's thread.
+// frame_targets.h. Used by the renderer on the context's thread.
 #pragma once
 
 #include <array>

@@ -60,7 +60,7 @@ class TransparencyPass {
     std::array<FullscreenPass, 2> shade_;
     PixelMask mask_;
     bool shadesQuads_ = false;    // instead of the whole screen
-    bool isDirect_ = false;       // see direct_image.h
+    bool isDirect_ = false;       // see frame_targets.h
     bool isMasked_ = false;       // the whole screen except pixels without layers
     bool isBounded_ = true;       // by rectangles: a single layer has a background everywhere
     bool hasWholeDepth_ = false;  // other passes read the first layer's depth all over the screen

@@ -14,7 +14,7 @@ namespace terrane::store {
 // The location of a world as given by the player. A plain value, for any thread.
 struct WorldLocation {
     enum class Kind {
-        Name,  // a save in the folder of saves (save_path.h)
+        Name,  // a save in the folder of saves
         File,  // a SQLite file
         Url,   // a database, for example postgresql://host/name
     };

@@ -1,5 +1,5 @@
 // RAII wrappers of SQLite's connections and statements. Errors read "path: what is wrong". A connection and
-// its statements are used by one thread at a time, and trust nothing in the file (sqlite_guard.h).
+// its statements are used by one thread at a time, and trust nothing in the file.
 #pragma once
 
 #include <cstdint>

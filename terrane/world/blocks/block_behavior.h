@@ -72,7 +72,7 @@ class BehaviorTable {
 // falling    falls through air and liquids when it is placed or when the block below changes
 // flows      makes a liquid flow (liquid_flow.h)
 // container  holds BlockType::slots stacks of items
-// and those of shape_behaviors.h; with parameters those of behavior_template.h
+// and those of block_behavior.h; with parameters those of behavior_template.h
 const BehaviorTable& builtInBehaviors();
 
 bool hasBehavior(const BlockType& type, std::string_view name);

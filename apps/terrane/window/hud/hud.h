@@ -1,4 +1,4 @@
-// State of the HUD and of the dialogs of blocks and places. game_hud.h draws them.
+// State of the HUD and of the dialogs of blocks and places. game_interface.h draws them.
 #pragma once
 
 #include <optional>

@@ -46,8 +46,8 @@ class PresetMeasurement {
 // "graphics: medium, for 74 frames/s on llvmpipe (…)". `renderer` is the driver's name of the device.
 std::string messageOf(const render::PresetChoice& choice, std::string_view renderer);
 
-// Chooses a graphics preset at the first start: the window's loop draws with options() and adds each frame
-// (preset_measurement.h); then the settings change, and a message tells the player.
+// Chooses a graphics preset at the first start: the window's loop draws with options() and adds each frame;
+// then the settings change, and a message tells the player.
 class PresetPicker {
   public:
     // `deviceName`: of the graphics driver. The window outlives this.

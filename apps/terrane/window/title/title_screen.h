@@ -1,6 +1,5 @@
 // The title screen: continue, worlds, a new world, servers, settings, quit, over a slow flight through a
 // world. It runs until a world is chosen or the player leaves. Used on the thread of the OpenGL context.
-// title_screen.cpp has the loop; title_pages.cpp and title_dialogs.cpp draw the pages.
 #pragma once
 
 #include <cstdint>
