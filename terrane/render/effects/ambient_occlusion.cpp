@@ -5,8 +5,8 @@
 namespace terrane::render {
 
 AmbientOcclusion::Passes AmbientOcclusion::makePasses(const gpu::ShaderLoader& shaders) {
-    return {FullscreenPass(shaders, "ambient_occlusion"), FullscreenPass(shaders, "occlusion_blur"),
-            FullscreenPass(shaders, "occlusion_blur")};
+    return {FullscreenPass(shaders, "effects/ambient_occlusion"), FullscreenPass(shaders, "effects/occlusion_blur"),
+            FullscreenPass(shaders, "effects/occlusion_blur")};
 }
 
 AmbientOcclusion::AmbientOcclusion(const gpu::ShaderLoader& shaders)

@@ -5,7 +5,7 @@
 namespace terrane::render {
 
 DepthOfField::DepthOfField(const gpu::ShaderLoader& shaders)
-    : alongX_(shaders, "depth_of_field"), alongY_(shaders, "depth_of_field"), smooth_({}, "smooth") {}
+    : alongX_(shaders, "effects/depth_of_field"), alongY_(shaders, "effects/depth_of_field"), smooth_({}, "smooth") {}
 
 base::Result<void> DepthOfField::configure(const FrameTargets& targets, bool isOn) {
     if (isOn) {

@@ -5,8 +5,8 @@
 namespace terrane::render {
 
 GodRays::GodRays(const gpu::ShaderLoader& shaders)
-    : sample_(shaders, "god_rays"),
-      smooth_(shaders, "god_rays_smooth"),
+    : sample_(shaders, "effects/god_rays"),
+      smooth_(shaders, "effects/god_rays_smooth"),
       linear_({}, "smooth"),
       nearest_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST}, "nearest") {}
 

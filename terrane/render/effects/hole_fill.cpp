@@ -12,7 +12,7 @@ void copy(const MsaaTexture& from, const MsaaTexture& to, glm::ivec2 size) {
 
 }  // namespace
 
-HoleFill::HoleFill(const gpu::ShaderLoader& shaders) : fill_(shaders, "hole_fill") {}
+HoleFill::HoleFill(const gpu::ShaderLoader& shaders) : fill_(shaders, "effects/hole_fill") {}
 
 base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
     if (!isOn) {

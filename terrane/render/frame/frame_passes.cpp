@@ -39,8 +39,8 @@ base::Result<FramePasses> FramePasses::create(const gpu::ShaderLoader& shaders,
                        .godRays = GodRays(shaders),
                        .depthOfField = DepthOfField(shaders),
                        .shading = ShadingPass(shaders),
-                       .debugView = FullscreenPass(shaders, "debug_view"),
-                       .finalPass = FullscreenPass(shaders, "final")};
+                       .debugView = FullscreenPass(shaders, "frame/debug_view"),
+                       .finalPass = FullscreenPass(shaders, "frame/final")};
 }
 
 base::Result<void> FramePasses::configure(const FrameTargets& targets, const RenderOptions& options,

@@ -8,7 +8,7 @@ namespace terrane::render {
 
 FullscreenPass::FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name)
     : variants_(shaders, "terrane/render/frame/fullscreen.vert.glsl",
-                fmt::format("terrane/render/{}.frag.glsl", name), std::string(name)),
+                fmt::format("terrane/render/{}.frag.glsl", name), std::string(name.substr(name.rfind('/') + 1))),
       vertexArray_(name) {}
 
 void FullscreenPass::draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state) const {

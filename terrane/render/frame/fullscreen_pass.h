@@ -13,7 +13,7 @@ namespace terrane::render {
 class FullscreenPass {
   public:
     FullscreenPass() = default;
-    // The loader outlives the pass. The shader is terrane/render/NAME.frag.glsl.
+    // The loader outlives the pass. The shader is terrane/render/NAME.frag.glsl, and NAME without its folder the label.
     FullscreenPass(const gpu::ShaderLoader& shaders, std::string_view name);
 
     base::Result<void> select(const gpu::ShaderDefines& defines) { return variants_.select(defines); }

@@ -11,8 +11,8 @@ constexpr gpu::PipelineState kNearest{.depthTest = gpu::DepthTest::Greater};
 }  // namespace
 
 GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
-    : opaque_(quadShaders(shaders, "gbuffer", "opaque quads")),
-      tested_(quadShaders(shaders, "gbuffer", "tested quads")) {}
+    : opaque_(quadShaders(shaders, "quads/gbuffer", "opaque quads")),
+      tested_(quadShaders(shaders, "quads/gbuffer", "tested quads")) {}
 
 base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, const QuadFeatures& features) {
     const auto variant = [&](int alphaClass, int samples) {

@@ -29,11 +29,11 @@ constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 }  // namespace
 
 ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
-    : sky_(shaders, "sky"),
-      nightSky_(shaders, "sky"),
-      shade_{FullscreenPass(shaders, "shade"), FullscreenPass(shaders, "shade")},
-      shadeDistant_(shaders, "shade"),
-      shadeFar_(shaders, "shade"),
+    : sky_(shaders, "sky/sky"),
+      nightSky_(shaders, "sky/sky"),
+      shade_{FullscreenPass(shaders, "shading/shade"), FullscreenPass(shaders, "shading/shade")},
+      shadeDistant_(shaders, "shading/shade"),
+      shadeFar_(shaders, "shading/shade"),
       skyMask_(shaders, PixelMask::Of::Sky),
       surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
 

@@ -24,7 +24,7 @@ class PixelMask {
     enum class Of { Surfaces, Sky, Layers };
 
     PixelMask() = default;
-    PixelMask(const gpu::ShaderLoader& shaders, Of of) : pass_(shaders, "pixel_mask"), of_(of) {}
+    PixelMask(const gpu::ShaderLoader& shaders, Of of) : pass_(shaders, "shading/pixel_mask"), of_(of) {}
 
     base::Result<void> select(int samples);
     // Draws the mask into the depth of the scene, with the textures of layers bound for Of::Layers: 1 in

@@ -15,11 +15,11 @@ GLenum targetOf(int samples) {
 }  // namespace
 
 TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
-    : first_(quadShaders(shaders, "depth_peel", "first layer")),
-      next_(quadShaders(shaders, "depth_peel", "next layer")),
-      shadeQuads_{quadShaders(shaders, "transparency", "shade layers"),
-                  quadShaders(shaders, "transparency", "shade layers")},
-      shade_{FullscreenPass(shaders, "transparency"), FullscreenPass(shaders, "transparency")},
+    : first_(quadShaders(shaders, "shading/depth_peel", "first layer")),
+      next_(quadShaders(shaders, "shading/depth_peel", "next layer")),
+      shadeQuads_{quadShaders(shaders, "shading/transparency", "shade layers"),
+                  quadShaders(shaders, "shading/transparency", "shade layers")},
+      shade_{FullscreenPass(shaders, "shading/transparency"), FullscreenPass(shaders, "shading/transparency")},
       mask_(shaders, PixelMask::Of::Layers) {
     for (auto& query : anyDrawn_) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
 }

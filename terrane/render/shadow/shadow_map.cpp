@@ -61,8 +61,8 @@ void drawQuads(const shared::DrawCommand& command) {
 }  // namespace
 
 ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
-    : opaque_(quadShaders(shaders, "shadow", "opaque shadows")),
-      tested_(quadShaders(shaders, "shadow", "tested shadows")),
+    : opaque_(quadShaders(shaders, "shadow/shadow", "opaque shadows")),
+      tested_(quadShaders(shaders, "shadow/shadow", "tested shadows")),
       compared_({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT, .compare = GL_GEQUAL}, "shadow map"),
       plain_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST, .wrapS = GL_REPEAT, .wrapT = GL_REPEAT},
              "depths of the shadow map") {}
