@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from . import BadInput
 from .processes import run_group
 
-BUILD_LIMIT_SECONDS = 1800  # endless constant expressions usually hit a limit of the compiler first
+BUILD_LIMIT_SECONDS = 1800  # of a change: endless constant expressions usually hit a limit of the compiler first
 SETTINGS = {
     "CMAKE_BUILD_TYPE": "Mutation",  # not a known type: only these flags
     "CMAKE_CXX_FLAGS_MUTATION": "-O1",
@@ -47,21 +47,21 @@ class Build:
         if done.code != 0:
             raise BadInput(f"{self.folder}: cmake failed:\n{done.output}")
 
-    def run(self, command):
-        return run_group(command, self.environment, BUILD_LIMIT_SECONDS)
+    def run(self, command, limit_seconds=None):
+        return run_group(command, self.environment, limit_seconds)
 
     def targets(self):
         done = self.run(["ninja", "-C", str(self.folder), "-t", "targets", "all"])
         return {line.split(":")[0] for line in done.output.splitlines() if ":" in line}
 
-    def build(self, target):
+    def build(self, target, limit_seconds=BUILD_LIMIT_SECONDS):
         start = time.monotonic()
-        done = self.run(["ninja", "-C", str(self.folder), f"-j{self.jobs}", target])
+        done = self.run(["ninja", "-C", str(self.folder), f"-j{self.jobs}", target], limit_seconds)
         seconds = time.monotonic() - start
         if done.code == 0:
             return Built(True, seconds)
         if done.code is None:
-            return Built(False, seconds, f"error: not built in {BUILD_LIMIT_SECONDS} s")
+            return Built(False, seconds, f"error: not built in {limit_seconds} s")
         error = re.search(r"^.*error: .*$", done.output, re.MULTILINE)
         if not error:
             raise BadInput(f"{self.folder}: ninja {target} failed without an error of the compiler:\n"

@@ -21,7 +21,7 @@ class Trial:
         targets = self.build.targets()
         self.programs = {module: programs_of(module, targets) for module in modules}
         for name in dict.fromkeys(name for names in self.programs.values() for name in names):
-            built = self.build.build(target_of(name))
+            built = self.build.build(target_of(name), limit_seconds=None)
             if not built.is_good:
                 raise BadInput(f"{name} cannot be built unchanged: {built.error}")
             if name in self.unchangeds.by_program:
