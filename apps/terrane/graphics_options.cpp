@@ -70,7 +70,7 @@ void addGraphicsOptions(CLI::App& command, GraphicsOptions& options, std::string
         ->type_name("WxH")
         ->default_str("1280x720");
     command.add_option("--view-distance", options.choices.viewDistance, "View distance in chunks")
-        ->check(numberFrom(1, 64))
+        ->check(numberFrom(1, render::kMaxViewDistance))
         ->default_str("16, thesis 32");
     addGpuMemoryOption(command, options.gpuMemory);
     addGraphicsChoices(command, options.choices, std::move(preset));

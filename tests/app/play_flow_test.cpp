@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "apps/terrane/window/settings/settings_table.h"
 #include "apps/terrane/window/title/title_background.h"
 #include "terrane/store/overlay_store.h"
 

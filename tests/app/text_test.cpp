@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "apps/terrane/window/settings/key_help.h"
+#include "terrane/render/frame/graphics_table.h"
 
 namespace terrane::app {
 namespace {
@@ -49,6 +50,24 @@ std::set<std::string> textsIn(std::string_view source) {
     return texts;
 }
 
+// Those of the module that draws, which knows no languages.
+std::set<std::string> textsOfDrawing() {
+    std::set<std::string> texts;
+    const auto add = [&](const char* text) {
+        if (text) texts.insert(text);
+    };
+    for (const render::GraphicsRow& row : render::graphicsTable()) {
+        add(row.label);
+        add(row.tip);
+        for (const char* label : row.valueLabels) add(label);
+    }
+    for (const render::Preset& preset : render::presets()) {
+        add(preset.label);
+        add(preset.about);
+    }
+    return texts;
+}
+
 std::set<std::string> textsOfTheProgram() {
     std::set<std::string> texts;
     for (const auto& file : std::filesystem::recursive_directory_iterator(
@@ -56,6 +75,7 @@ std::set<std::string> textsOfTheProgram() {
         const auto extension = file.path().extension();
         if (extension == ".cpp" || extension == ".h") texts.merge(textsIn(contentOf(file.path())));
     }
+    texts.merge(textsOfDrawing());
     return texts;
 }
 

@@ -107,7 +107,7 @@ TEST_F(GraphicsTest, KeysDoNothingElseWhileOneTypes) {
     program.untilDrawn();
     program.press(Key::F2);
     program.hold(Key::Control);
-    program.click("field of view");  // a number can be typed
+    program.click("field-of-view");  // a number can be typed
     program.release(Key::Control);
     program.type("m9");
     program.press(Key::Enter);
@@ -196,7 +196,7 @@ TEST_F(GraphicsTest, TheInterfaceFollowsTheScreensScale) {
     program.untilDrawn();
     program.press(Key::F2);
     const auto width = [&] {
-        const Widget& found = program.widget("view distance");
+        const Widget& found = program.widget("view-distance");
         return found.max.x - found.min.x;
     };
     const float usual = width();
@@ -204,7 +204,7 @@ TEST_F(GraphicsTest, TheInterfaceFollowsTheScreensScale) {
     program.window().units = {960, 600};
     program.frames(2);
     EXPECT_EQ(width(), 2 * usual);
-    program.click("view distance", {}, 0.2);
+    program.click("view-distance", {}, 0.2);
     EXPECT_NEAR(program.game().settings.graphics.viewDistance, 13, 3);
     // Systems whose units are larger than pixels scale by themselves.
     program.window().unitPixels = 2;

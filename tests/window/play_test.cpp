@@ -334,7 +334,7 @@ TEST_F(PlayTest, EscapeClosesOneThingAtATime) {
     program.untilDrawn();
     const world::Pose start = program.game().player.pose();
     program.press(Key::F2);
-    program.widget("view distance");
+    program.widget("view-distance");
     program.press(Key::Escape);
     EXPECT_FALSE(program.game().debug.showsPanel);
     EXPECT_FALSE(program.game().menu.isPaused);

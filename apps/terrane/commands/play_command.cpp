@@ -7,6 +7,7 @@
 #include "apps/terrane/window/game/play_flow.h"
 #include "apps/terrane/window/glfw_window.h"
 #include "apps/terrane/window/settings/key_help.h"
+#include "apps/terrane/window/settings/settings_table.h"
 #include "apps/terrane/window/text.h"
 
 namespace terrane::app {
@@ -62,47 +63,6 @@ base::Result<void> play(const PlayOptions& options, CLI::App& command, PlayHost&
     return {};
 }
 
-void addKeyBindings(CLI::App& command, KeyBindings& keys) {
-    const auto take = [&keys](const std::string& text) {
-        auto bindings = keyBindingsFrom(text);
-        if (!bindings) throw CLI::ValidationError("--keys", bindings.error().message);
-        keys = *bindings;
-    };
-    command
-        .add_option_function<std::string>("--keys", take,
-                                          "Keys that differ from the defaults, such as jump=F,run=R")
-        ->type_name("ACTION=KEY,...");
-}
-
-void addPlaySettings(CLI::App& command, PlaySettings& settings) {
-    addChoice<game::Movement>(command, "--movement", settings.movement,
-                              {movementNames().begin(), movementNames().end()}, "Movement mode");
-    command.add_option("--field-of-view", settings.fieldOfView, "Vertical field of view in degrees")
-        ->check(numberFrom(40, 110))
-        ->capture_default_str();
-    command.add_option("--mouse-sensitivity", settings.mouseSensitivity, "Degrees per step of the mouse")
-        ->check(numberFrom(0.02, 0.6))
-        ->capture_default_str();
-    command.add_option("--sound-volume", settings.soundVolume, "Volume of sounds, 0 (none) to 1")
-        ->check(numberFrom(0, 1))
-        ->capture_default_str();
-    command.add_option("--day-minutes", settings.dayMinutes, "Length of a day in minutes")
-        ->check(numberFrom(0.5, 1440))
-        ->capture_default_str();
-    addChoice<std::string>(command, "--language", settings.language, languageChoices(),
-                           "Language of names and menus; auto: the system's language");
-    command.add_flag("--full-screen", settings.fullScreen, "Use the whole screen");
-    addKeyBindings(command, settings.keys);
-    command.add_flag("--invert-y", settings.invertY, "Invert the vertical axis of mouse and stick");
-    command.add_flag("--auto-jump", settings.autoJump, "Climb steps of one block without jumping");
-    command.add_option("--text-size", settings.textSize, "Scale of texts and menus")
-        ->check(numberFrom(0.5, 3))
-        ->capture_default_str();
-    command.add_flag("--high-contrast", settings.highContrast, "Thick outline around the targeted block");
-    command.add_flag("--reduced-motion", settings.reducedMotion,
-                     "No motion of the arm and of the world behind the title");
-}
-
 }  // namespace
 
 CommandEntry addPlay(CLI::App& app) {
@@ -139,7 +99,7 @@ CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
         ->check(numberFrom(0, 1));
     command->add_option("--collect-perf-data", options->perfData, "Write statistics of each frame (CSV)")
         ->type_name("FILE");
-    addPlaySettings(*command, options->settings);
+    addSettings(*command, options->settings);
     addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "auto");
     command

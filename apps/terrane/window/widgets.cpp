@@ -66,16 +66,11 @@ bool checkbox(const char* label, bool* value) {
     return isChanged;
 }
 
-bool slider(const char* label, int* value, int low, int high, const char* format) {
+bool slider(const char* label, float* value, float low, float high, const char* format,
+            ImGuiSliderFlags flags) {
     const LabeledFrame frame{label};
-    const bool isChanged = ImGui::SliderInt(label, value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
-    if (record()) frame.enterWith(std::to_string(*value));
-    return isChanged;
-}
-
-bool slider(const char* label, float* value, float low, float high, const char* format) {
-    const LabeledFrame frame{label};
-    const bool isChanged = ImGui::SliderFloat(label, value, low, high, format, ImGuiSliderFlags_AlwaysClamp);
+    const bool isChanged =
+        ImGui::SliderFloat(label, value, low, high, format, flags | ImGuiSliderFlags_AlwaysClamp);
     if (record()) frame.enterWith(fmt::format("{}", *value));
     return isChanged;
 }

@@ -39,8 +39,8 @@ bool invisibleButton(const char* label, ImVec2 size, ImGuiButtonFlags flags, std
 bool selectable(const char* label, bool isChosen, std::string_view value = {}, ImGuiSelectableFlags flags = 0,
                 ImVec2 size = {0, 0});
 bool checkbox(const char* label, bool* value);
-bool slider(const char* label, int* value, int low, int high, const char* format);
-bool slider(const char* label, float* value, float low, float high, const char* format);
+bool slider(const char* label, float* value, float low, float high, const char* format,
+            ImGuiSliderFlags flags = 0);
 bool beginCombo(const char* label, const char* chosen);
 // `hint`: shown while the field is empty.
 bool textField(const char* label, const char* hint, char* text, std::size_t size,

@@ -22,11 +22,6 @@ int indexOf(const std::array<int, kCount>& values, int value) {
     return static_cast<int>(std::ranges::find(values, value) - values.begin());
 }
 
-GraphicsRow switchRow(std::string_view name, std::string_view description,
-                      int (*get)(const GraphicsSettings&), void (*set)(GraphicsSettings&, int)) {
-    return {name, description, {"off", "on"}, get, set};
-}
-
 // Rows for members that a value's index can be cast to.
 template <auto kMember>
 int getMember(const GraphicsSettings& s) {
@@ -37,105 +32,131 @@ void setMember(GraphicsSettings& s, int value) {
     using Value = std::remove_reference_t<decltype(s.render.*kMember)>;
     s.render.*kMember = static_cast<Value>(value);
 }
+
+struct RowTexts {
+    std::string_view name, description;
+    const char *label = nullptr, *tip = nullptr;
+    std::vector<const char*> valueLabels = {};
+};
+
 template <auto kMember>
-GraphicsRow switchOf(std::string_view name, std::string_view description) {
-    return switchRow(name, description, getMember<kMember>, setMember<kMember>);
+GraphicsRow rowOf(std::vector<std::string_view> valueNames, RowTexts texts) {
+    return {texts.name,         texts.description,           std::move(valueNames),
+            getMember<kMember>, setMember<kMember>,          texts.label,
+            texts.tip,          std::move(texts.valueLabels)};
+}
+template <auto kMember>
+GraphicsRow switchOf(RowTexts texts) {
+    return rowOf<kMember>({"off", "on"}, std::move(texts));
 }
 
 std::vector<GraphicsRow> makeTable() {
     return {
-        {"samples",
-         "Anti-aliasing: MSAA samples per pixel",
-         {"1", "2", "4", "8"},
-         [](const GraphicsSettings& s) { return indexOf(kSamples, s.render.msaaSamples); },
-         [](GraphicsSettings& s, int value) {
-             s.render.msaaSamples = kSamples[static_cast<std::size_t>(value)];
-         }},
-        {"shading",
-         "Shading, per MSAA sample or per pixel",
-         {"off", "sample", "pixel"},
-         getMember<&RenderOptions::shading>,
-         setMember<&RenderOptions::shading>},
-        {"light",
-         "Interpolation of light between blocks: as stored, or with soft corners and round edges",
-         {"classic", "smooth"},
-         getMember<&RenderOptions::light>,
-         setMember<&RenderOptions::light>},
-        {"shadows",
-         "Distance up to which sun and moon cast shadows: none, 50 blocks, 800 blocks, or all that is "
-         "visible",
-         {"off", "near", "far", "horizon"},
-         getMember<&RenderOptions::shadows>,
-         setMember<&RenderOptions::shadows>},
-        {"shadow-size",
-         "Texels along a side of each shadow map",
-         {"1024", "2048", "4096"},
-         [](const GraphicsSettings& s) { return indexOf(kShadowSizes, s.render.shadowSize); },
-         [](GraphicsSettings& s, int value) {
-             s.render.shadowSize = kShadowSizes[static_cast<std::size_t>(value)];
-         }},
-        switchOf<&RenderOptions::softShadows>("soft-shadows",
-                                              "Shadow edges that widen with the distance to the caster"),
-        {"ssao",
-         "Ambient occlusion in screen space",
-         {"off", "on", "raw"},
-         getMember<&RenderOptions::occlusion>,
-         setMember<&RenderOptions::occlusion>},
-        switchOf<&RenderOptions::depthOfField>("depth-of-field", "Depth of field: blur distant objects"),
-        switchOf<&RenderOptions::distanceFog>("distance-fog",
-                                              "Distance fog: distant terrain fades into the sky"),
-        switchOf<&RenderOptions::godRays>("god-rays", "Rays of light around objects in front of the sun"),
-        switchOf<&RenderOptions::clouds>("clouds", "Clouds"),
-        switchOf<&RenderOptions::animation>("animation", "Moving plants, leaves and water"),
-        switchOf<&RenderOptions::sharpFiltering>("sharp-filtering",
-                                                 "Sharp texels with smooth edges in near textures"),
-        switchOf<&RenderOptions::msaaAlphaTest>("msaa-alpha-test",
-                                                "Anti-aliasing of holes in leaves and plants"),
-        {"layers",
-         "Transparency layers (depth peeling) of water and glass",
-         {"0", "1", "2", "3"},
-         getMember<&RenderOptions::transparencyLayers>,
-         setMember<&RenderOptions::transparencyLayers>},
-        {"water",
-         "Water: full adds reflections, swell, foam and caustics",
-         {"plain", "full"},
-         getMember<&RenderOptions::water>,
-         setMember<&RenderOptions::water>},
-        {"single-layer",
-         "Show one transparency layer alone",
-         {"all", "1", "2", "3"},
-         getMember<&RenderOptions::singleTransparencyLayer>,
-         setMember<&RenderOptions::singleTransparencyLayer>},
-        {"t-junctions",
-         "Treatment of cracks at T-junctions between quads",
-         {"open", "filled", "covered"},
-         getMember<&RenderOptions::tJunctions>,
-         setMember<&RenderOptions::tJunctions>},
-        switchOf<&RenderOptions::occlusionCulling>("occlusion-culling",
-                                                   "Do not draw terrain that other terrain hides"),
-        {"merging",
-         "Method that merges equal faces into quads",
-         {mesh::kMergeMethodNames.begin(), mesh::kMergeMethodNames.end()},
-         [](const GraphicsSettings& s) { return static_cast<int>(s.mesh.method); },
-         [](GraphicsSettings& s, int value) { s.mesh.method = static_cast<mesh::MergeMethod>(value); }},
-        {"mesh-section-height",
-         "Height in blocks of the mesh sections that are culled and drawn",
-         {"8", "16", "32", "64", "128"},
-         [](const GraphicsSettings& s) { return indexOf(kMeshSectionHeights, s.mesh.meshSectionHeight); },
-         [](GraphicsSettings& s, int value) {
-             s.mesh.meshSectionHeight = kMeshSectionHeights[static_cast<std::size_t>(value)];
-         }},
-        {"horizon",
-         "Distance of land beyond the view distance, in chunks",
-         {"0", "128", "256", "512", "1024", "2048", "4096"},
-         [](const GraphicsSettings& s) { return indexOf(kHorizons, s.horizon); },
-         [](GraphicsSettings& s, int value) { s.horizon = kHorizons[static_cast<std::size_t>(value)]; },
-         false},
-        {"detail",
-         "Detail of the land beyond the view distance: tiles from the camera to the edge of each level",
-         {"8", "12", "16", "20", "24", "28", "32"},
-         [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
-         [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
+        {.name = "samples",
+         .description = "Anti-aliasing: MSAA samples per pixel",
+         .valueNames = {"1", "2", "4", "8"},
+         .get = [](const GraphicsSettings& s) { return indexOf(kSamples, s.render.msaaSamples); },
+         .set = [](GraphicsSettings& s,
+                   int value) { s.render.msaaSamples = kSamples[static_cast<std::size_t>(value)]; },
+         .label = "Anti-aliasing",
+         .tip = "Samples per pixel (MSAA).\nCost: high; four samples at least double the frame time.",
+         .valueLabels = {"Off", "2 samples", "4 samples", "8 samples"}},
+        rowOf<&RenderOptions::shading>({"off", "sample", "pixel"},
+                                       {"shading", "Shading, per MSAA sample or per pixel"}),
+        rowOf<&RenderOptions::light>(
+            {"classic", "smooth"},
+            {"light",
+             "Interpolation of light between blocks: as stored, or with soft corners and round edges",
+             "Light",
+             "Steps from block to block, or smooth transitions.\nCost: low.",
+             {"Classic", "Smooth"}}),
+        rowOf<&RenderOptions::shadows>(
+            {"off", "near", "far", "horizon"},
+            {"shadows",
+             "Distance up to which sun and moon cast shadows: none, 50 blocks, 800 blocks, or all that is "
+             "visible",
+             "Shadows",
+             "How far the sun and the moon cast shadows.\nCost: medium, higher while you move.",
+             {"Off", "Near", "Far", "To the horizon"}}),
+        {.name = "shadow-size",
+         .description = "Texels along a side of each shadow map",
+         .valueNames = {"1024", "2048", "4096"},
+         .get = [](const GraphicsSettings& s) { return indexOf(kShadowSizes, s.render.shadowSize); },
+         .set = [](GraphicsSettings& s,
+                   int value) { s.render.shadowSize = kShadowSizes[static_cast<std::size_t>(value)]; }},
+        switchOf<&RenderOptions::softShadows>(
+            {"soft-shadows", "Shadow edges that widen with the distance to the caster", "Soft shadows",
+             "Shadows get softer with the distance to what casts them.\nCost: low."}),
+        rowOf<&RenderOptions::occlusion>(
+            {"off", "on", "raw"},
+            {"ssao",
+             "Ambient occlusion in screen space",
+             "Ambient occlusion",
+             "Corners and gaps are a little darker (SSAO).\nCost: a fourteenth of the frame "
+             "time.",
+             {"Off", "On", "Coarse"}}),
+        switchOf<&RenderOptions::depthOfField>({"depth-of-field", "Depth of field: blur distant objects",
+                                                "Depth of field", "Distant things are blurred.\nCost: low."}),
+        switchOf<&RenderOptions::distanceFog>({"distance-fog",
+                                               "Distance fog: distant terrain fades into the sky",
+                                               "Distance fog", "Far land fades into the sky.\nCost: none."}),
+        switchOf<&RenderOptions::godRays>({"god-rays", "Rays of light around objects in front of the sun",
+                                           "Sun rays",
+                                           "Rays of light between things in front of the sun.\nCost: low."}),
+        switchOf<&RenderOptions::clouds>(
+            {"clouds", "Clouds", "Clouds", "Clouds in the sky and their shadows.\nCost: medium."}),
+        switchOf<&RenderOptions::animation>({"animation", "Moving plants, leaves and water", "Moving plants",
+                                             "Plants, leaves and water move.\nCost: low."}),
+        switchOf<&RenderOptions::sharpFiltering>(
+            {"sharp-filtering", "Sharp texels with smooth edges in near textures"}),
+        switchOf<&RenderOptions::msaaAlphaTest>(
+            {"msaa-alpha-test", "Anti-aliasing of holes in leaves and plants"}),
+        rowOf<&RenderOptions::transparencyLayers>(
+            {"0", "1", "2", "3"}, {"layers", "Transparency layers (depth peeling) of water and glass"}),
+        rowOf<&RenderOptions::water>(
+            {"plain", "full"}, {"water",
+                                "Water: full adds reflections, swell, foam and caustics",
+                                "Water",
+                                "Full: reflected shores, waves, foam.\nCost: medium where water is in view.",
+                                {"Plain", "Full"}}),
+        rowOf<&RenderOptions::singleTransparencyLayer>({"all", "1", "2", "3"},
+                                                       {"single-layer", "Show one transparency layer alone"}),
+        rowOf<&RenderOptions::tJunctions>(
+            {"open", "filled", "covered"},
+            {"t-junctions", "Treatment of cracks at T-junctions between quads"}),
+        switchOf<&RenderOptions::occlusionCulling>(
+            {"occlusion-culling", "Do not draw terrain that other terrain hides"}),
+        {.name = "merging",
+         .description = "Method that merges equal faces into quads",
+         .valueNames = {mesh::kMergeMethodNames.begin(), mesh::kMergeMethodNames.end()},
+         .get = [](const GraphicsSettings& s) { return static_cast<int>(s.mesh.method); },
+         .set = [](GraphicsSettings& s,
+                   int value) { s.mesh.method = static_cast<mesh::MergeMethod>(value); }},
+        {.name = "mesh-section-height",
+         .description = "Height in blocks of the mesh sections that are culled and drawn",
+         .valueNames = {"8", "16", "32", "64", "128"},
+         .get =
+             [](const GraphicsSettings& s) { return indexOf(kMeshSectionHeights, s.mesh.meshSectionHeight); },
+         .set =
+             [](GraphicsSettings& s, int value) {
+                 s.mesh.meshSectionHeight = kMeshSectionHeights[static_cast<std::size_t>(value)];
+             }},
+        {.name = "horizon",
+         .description = "Distance of land beyond the view distance, in chunks",
+         .valueNames = {"0", "128", "256", "512", "1024", "2048", "4096"},
+         .get = [](const GraphicsSettings& s) { return indexOf(kHorizons, s.horizon); },
+         .set = [](GraphicsSettings& s,
+                   int value) { s.horizon = kHorizons[static_cast<std::size_t>(value)]; },
+         .label = "Distant land",
+         .tip = "How far coarser land continues beyond the view distance.\nCost: medium, also in memory.",
+         .valueLabels = {"None", "2 km", "4 km", "8 km", "16 km", "33 km", "65 km"},
+         .isOfPreset = false},
+        {.name = "detail",
+         .description =
+             "Detail of the land beyond the view distance: tiles from the camera to the edge of each level",
+         .valueNames = {"8", "12", "16", "20", "24", "28", "32"},
+         .get = [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
+         .set = [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
     };
 }
 

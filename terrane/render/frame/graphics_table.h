@@ -1,5 +1,5 @@
-// Every graphics option as one row of a table: its name, its values, and access to its member. The command
-// line, settings and menus are generated from it.
+// Every graphics option as one row of a table: its names, values, texts, and access to its member. The
+// command line, settings and menus are generated from it.
 #pragma once
 
 #include <optional>
@@ -14,12 +14,20 @@
 namespace terrane::render {
 
 struct GraphicsRow {
-    std::string_view name;  // of the flag, without dashes, and of the setting
-    std::string_view description;
+    std::string_view name;                     // of the flag, without dashes, and of the setting
+    std::string_view description;              // for the command line and developers
     std::vector<std::string_view> valueNames;  // of its values, in order
     int (*get)(const GraphicsSettings&);       // the value's index
     void (*set)(GraphicsSettings&, int value);
-    bool isOfPreset = true;  // a preset sets it
+    // For players, in English; the program translates them. No label: only developers see the row.
+    const char* label = nullptr;
+    const char* tip = nullptr;                  // effect and cost, from docs/rendering.md
+    std::vector<const char*> valueLabels = {};  // empty for a switch
+    bool isOfPreset = true;                     // a preset sets it
+
+    bool isSwitch() const {
+        return valueNames.size() == 2 && valueNames[0] == "off" && valueNames[1] == "on";
+    }
 };
 
 std::span<const GraphicsRow> graphicsTable();

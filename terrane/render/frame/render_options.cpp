@@ -53,7 +53,7 @@ constexpr RenderOptions ultra() {
 // Options of the thesis's measurements, in its terms: samples 2, shadows 2048, three layers, squares ext in
 // mesh sections of 64 blocks, T-junctions hidden after the image, 65 x 65 chunks and nothing beyond.
 constexpr Preset thesis() {
-    Preset preset{.name = "thesis", .options = {}};
+    Preset preset{.name = "thesis"};
     preset.options.water = Water::Plain;
     preset.options.tJunctions = TJunctions::Filled;
     preset.mesh = {.method = mesh::MergeMethod::SquaresExt, .meshSectionHeight = 64};
@@ -66,10 +66,27 @@ constexpr Preset thesis() {
 
 const std::array<Preset, 5>& presets() {
     static constexpr std::array<Preset, 5> kPresets = {
-        {{.name = "low", .options = low(), .relativeCost = 1.0},
-         {.name = "medium", .options = medium(), .relativeCost = 3.8},
-         {.name = "high", .options = high(), .relativeCost = 4.48},
-         {.name = "ultra", .options = ultra(), .detail = kUltraDetail, .relativeCost = 4.54},
+        {{.name = "low",
+          .label = "Low",
+          .about = "For machines without a graphics card. No distant shadows, one sample per pixel.",
+          .options = low(),
+          .relativeCost = 1.0},
+         {.name = "medium",
+          .label = "Medium",
+          .about = "Anti-aliasing, clouds, sun rays.",
+          .options = medium(),
+          .relativeCost = 3.8},
+         {.name = "high",
+          .label = "High",
+          .about = "Also ambient occlusion.",
+          .options = high(),
+          .relativeCost = 4.48},
+         {.name = "ultra",
+          .label = "Ultra",
+          .about = "Finer shadows and distant land. Takes more memory.",
+          .options = ultra(),
+          .detail = kUltraDetail,
+          .relativeCost = 4.54},
          thesis()}};
     return kPresets;
 }

@@ -64,6 +64,7 @@ struct RenderOptions {
 };
 
 constexpr int kDefaultDetail = 12;
+constexpr int kMaxViewDistance = 64;  // chunks
 
 // All settings of the image: how it is drawn, from which meshes, and how far.
 struct GraphicsSettings {
@@ -78,7 +79,10 @@ struct GraphicsSettings {
 
 struct Preset {
     std::string_view name;
-    RenderOptions options;
+    const char* label =
+        nullptr;  // for players, in English; null: only on the command line and for developers
+    const char* about = nullptr;
+    RenderOptions options = {};
     mesh::MeshOptions mesh = {};
     int detail = kDefaultDetail;
     std::optional<int> viewDistance = {}, horizon = {};  // none: unchanged

@@ -10,6 +10,7 @@
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/window/game/game_state.h"
 #include "apps/terrane/window/game/watch.h"
+#include "apps/terrane/window/settings/settings_table.h"
 #include "apps/terrane/window/title/join_dialog.h"
 #include "apps/terrane/window/title/join_server.h"
 #include "terrane/base/files.h"

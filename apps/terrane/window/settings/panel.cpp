@@ -5,13 +5,12 @@
 #include <array>
 
 #include "apps/terrane/window/imgui_layer.h"
-#include "apps/terrane/window/text.h"
+#include "apps/terrane/window/settings/settings_dialog.h"
 #include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
 namespace {
 
-// Clamps numbers typed after a Ctrl+click too.
 // A combo box of `count` names; true if another one was chosen.
 template <class NameOf>
 bool combo(const char* label, int& chosen, int count, NameOf nameOf) {
@@ -57,29 +56,6 @@ void drawPreset(PlaySettings& settings, bool isSoftwareRenderer) {
     settings.graphics = render::withPreset(settings.graphics, settings.preset, isSoftwareRenderer);
 }
 
-// A checkbox for rows with values off and on, else a combo box.
-void drawRow(const render::GraphicsRow& row, render::GraphicsSettings& graphics) {
-    const std::string label(row.name);
-    int value = row.get(graphics);
-    bool isChanged = false;
-    if (row.valueNames[0] == "off" && row.valueNames.size() == 2) {
-        bool isOn = value == 1;
-        isChanged = ui::checkbox(label.c_str(), &isOn);
-        value = isOn ? 1 : 0;
-    } else {
-        const auto nameOf = [&](int k) { return row.valueNames[static_cast<std::size_t>(k)]; };
-        isChanged = combo(label.c_str(), value, static_cast<int>(row.valueNames.size()), nameOf);
-    }
-    tooltip(row.description);
-    if (isChanged) row.set(graphics, value);
-}
-
-void drawView(PlaySettings& s) {
-    choice("view", s.view, viewNames());
-    ui::slider("view distance", &s.graphics.viewDistance, 2, 64, "%d");
-    ui::slider("field of view", &s.fieldOfView, 40, 110, "%.0f");
-}
-
 // Applied with Enter.
 void drawResourcePack(PlaySettings& s) {
     std::array<char, 512> folder{};
@@ -90,18 +66,10 @@ void drawResourcePack(PlaySettings& s) {
     tooltip("Folder of PNG files named as textures; Enter takes it");
 }
 
-void drawPlayer(PlaySettings& s, game::DayClock& day) {
-    choice("movement", s.movement, movementNames());
-    ui::slider("sound volume", &s.soundVolume, 0, 1, "%.2f");
-    ui::slider("mouse", &s.mouseSensitivity, 0.02f, 0.6f, "%.2f");
-    ui::checkbox("full screen", &s.fullScreen);
-    const auto languages = languageChoices();
-    choice<std::string>("language", s.language, languages);
-    float time = static_cast<float>(day.timeDay);
+void drawClock(game::DayClock& day) {
+    auto time = static_cast<float>(day.timeDay);
     if (ui::slider("time of day", &time, 0, 1, "%.3f")) day.timeDay = double{time};
     ui::checkbox("time runs", &day.isRunning);
-    float minutes = static_cast<float>(s.dayMinutes);
-    if (ui::slider("minutes per day", &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
 }
 
 }  // namespace
@@ -118,12 +86,12 @@ void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& in
     ui::beginWindow("Settings", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
     ImGui::PushItemWidth(120 * scale);
     drawPreset(settings, input.isSoftwareRenderer);
-    drawView(settings);
+    choice("view", settings.view, viewNames());
     ImGui::Separator();
-    for (const render::GraphicsRow& row : render::graphicsTable()) drawRow(row, settings.graphics);
+    for (const Setting& setting : settingsTable()) drawSetting(setting, settings, nullptr);
     ImGui::Separator();
     drawResourcePack(settings);
-    drawPlayer(settings, day);
+    drawClock(day);
     ImGui::PopItemWidth();
     ImGui::End();
 }

@@ -1,5 +1,4 @@
-// Settings that a user can change while playing, and their text form. Shown by panel.h and settings_dialog.h,
-// saved by settings.h.
+// Settings that a user can change while playing. settings_table.h has a row for each.
 #pragma once
 
 #include <optional>
@@ -45,10 +44,6 @@ struct PlaySettings {
 EnumNames<game::Movement> movementNames();  // of the option --movement
 const std::string& nameOf(game::Movement movement);
 std::optional<game::Movement> movementNamed(std::string_view name);
-
-// As options of `terrane play`; graphics options only if they differ from the preset. Without movement and
-// resource pack, which are saved per world.
-SettingValues valuesOf(const PlaySettings& settings, bool isSoftwareRenderer);
 
 // Options of `terrane play`.
 struct PlayOptions {

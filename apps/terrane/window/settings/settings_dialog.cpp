@@ -32,19 +32,7 @@ bool SettingsDialog::draw(PlaySettings& settings, const Input& input) {
     const float footer = ImGui::GetFrameHeightWithSpacing() + 10 * scale;
     ImGui::BeginChild("page", {0, -footer}, false, ImGuiWindowFlags_NavFlattened);
     ImGui::PushItemWidth(170 * scale);
-    switch (page_) {
-        case SettingsPage::Graphics:
-            drawGraphicsPage(settings, input.isSoftwareRenderer, input.tr);
-            break;
-        case SettingsPage::Controls:
-            drawControls(settings, input.tr);
-            break;
-        case SettingsPage::World:
-            drawWorldPage(settings, input.day, input.tr);
-            break;
-        default:
-            drawGeneralPage(settings, input.tr);
-    }
+    drawPage(settings, input);
     ImGui::PopItemWidth();
     ImGui::EndChild();
     ImGui::Separator();
@@ -70,18 +58,6 @@ void SettingsDialog::turnPage(int by) {
     const int count = static_cast<int>(kPages.size());
     page_ = static_cast<SettingsPage>((static_cast<int>(page_) + by + count) % count);
     waiting_.reset();
-}
-
-void SettingsDialog::drawControls(PlaySettings& settings, const Texts& tr) {
-    heading(tr("Mouse and gamepad"));
-    ui::slider(tr("Mouse sensitivity"), &settings.mouseSensitivity, 0.02f, 0.6f, "%.2f");
-    tooltipFor(tr("Degrees that the view turns per step of the mouse."));
-    ui::checkbox(tr("Invert up and down"), &settings.invertY);
-    tooltipFor(tr("Moving the mouse or the stick forward looks down."));
-    ui::checkbox(tr("Jump automatically"), &settings.autoJump);
-    tooltipFor(tr("Climb steps of one block by walking against them."));
-    heading(tr("Keys"));
-    drawKeys(settings.keys, tr);
 }
 
 void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
@@ -129,201 +105,146 @@ bool SettingsDialog::takeKey(Key key, PlaySettings& settings, const Texts& tr) {
     return true;
 }
 
-// The pages of the settings dialog that show values of settings.
-
 namespace {
 
-// Texts of a row of the graphics table. Costs are from docs/rendering.md, "What a preset costs".
-struct PlainRow {
-    const char* name;  // of the row
-    const char* label;
-    const char* help;  // effect and cost
-    std::array<const char*, 7> words;
-};
-
-constexpr PlainRow kRows[] = {
-    {"horizon",
-     trLater("Distant land"),
-     trLater("How far coarser land continues beyond the view distance.\nCost: medium, also in memory."),
-     {trLater("None"), trLater("2 km"), trLater("4 km"), trLater("8 km"), trLater("16 km"), trLater("33 km"),
-      trLater("65 km")}},
-    {"shadows",
-     trLater("Shadows"),
-     trLater("How far the sun and the moon cast shadows.\nCost: medium, higher while you move."),
-     {trLater("Off"), trLater("Near"), trLater("Far"), trLater("To the horizon")}},
-    {"soft-shadows",
-     trLater("Soft shadows"),
-     trLater("Shadows get softer with the distance to what casts them.\nCost: low."),
-     {}},
-    {"samples",
-     trLater("Anti-aliasing"),
-     trLater("Samples per pixel (MSAA).\nCost: high; four samples at least double the frame time."),
-     {trLater("Off"), trLater("2 samples"), trLater("4 samples"), trLater("8 samples")}},
-    {"light",
-     trLater("Light"),
-     trLater("Steps from block to block, or smooth transitions.\nCost: low."),
-     {trLater("Classic"), trLater("Smooth")}},
-    {"ssao",
-     trLater("Ambient occlusion"),
-     trLater("Corners and gaps are a little darker (SSAO).\nCost: a fourteenth of the frame time."),
-     {trLater("Off"), trLater("On"), trLater("Coarse")}},
-    {"water",
-     trLater("Water"),
-     trLater("Full: reflected shores, waves, foam.\nCost: medium where water is in view."),
-     {trLater("Plain"), trLater("Full")}},
-    {"clouds", trLater("Clouds"), trLater("Clouds in the sky and their shadows.\nCost: medium."), {}},
-    {"god-rays",
-     trLater("Sun rays"),
-     trLater("Rays of light between things in front of the sun.\nCost: low."),
-     {}},
-    {"distance-fog", trLater("Distance fog"), trLater("Far land fades into the sky.\nCost: none."), {}},
-    {"animation", trLater("Moving plants"), trLater("Plants, leaves and water move.\nCost: low."), {}},
-    {"depth-of-field", trLater("Depth of field"), trLater("Distant things are blurred.\nCost: low."), {}},
-};
-
-const render::GraphicsRow* rowNamed(std::string_view name) {
-    const auto found = std::ranges::find(render::graphicsTable(), name, &render::GraphicsRow::name);
-    return found == render::graphicsTable().end() ? nullptr : &*found;
+void drawNumber(const NumberSetting& number, const char* label, PlaySettings& settings, const Texts* tr) {
+    const auto low = static_cast<float>(number.low * number.factor),
+               high = static_cast<float>(number.high * number.factor);
+    auto value = static_cast<float>(number.get(settings) * number.factor);
+    const ImGuiSliderFlags flags = number.isLogarithmic ? ImGuiSliderFlags_Logarithmic : 0;
+    if (ui::slider(label, &value, low, high, tr ? (*tr)(number.shown) : number.shown, flags))
+        number.set(settings, double{value} / number.factor);
 }
 
-void drawPlainRow(const PlainRow& plain, render::GraphicsSettings& graphics, const Texts& tr) {
-    const render::GraphicsRow* row = rowNamed(plain.name);
-    if (!row) return;
-    int value = row->get(graphics);
-    bool isChanged = false;
-    if (plain.words[0] == nullptr) {
-        bool isOn = value == 1;
-        isChanged = ui::checkbox(tr(plain.label), &isOn);
-        value = isOn ? 1 : 0;
-    } else {
-        const auto count = static_cast<int>(row->valueNames.size());
-        const bool isKnown = value >= 0 && value < count;
-        if (ui::beginCombo(tr(plain.label),
-                           isKnown ? tr(plain.words[static_cast<std::size_t>(value)]) : tr("Other"))) {
-            for (int k = 0; k < count; ++k) {
-                if (!ui::selectable(tr(plain.words[static_cast<std::size_t>(k)]), k == value)) continue;
-                value = k;
-                isChanged = true;
-            }
-            ImGui::EndCombo();
-        }
-    }
-    tooltipFor(tr(plain.help));
-    if (isChanged) row->set(graphics, value);
+void drawStops(const NumberSetting& number, const char* label, PlaySettings& settings, const Texts& tr) {
+    const auto textOf = [&](double value) {
+        std::array<char, 32> text{};
+        std::snprintf(text.data(), text.size(), tr(number.shown), value * number.factor);
+        return std::string(text.data());
+    };
+    if (!ui::beginCombo(label, textOf(number.get(settings)).c_str())) return;
+    for (const double stop : number.stops)
+        if (ui::selectable(textOf(stop).c_str(), number.get(settings) == stop)) number.set(settings, stop);
+    ImGui::EndCombo();
 }
 
-struct Quality {
-    const char *preset, *label, *help;
-};
-constexpr Quality kQualities[] = {
-    {"auto", trLater("Auto"), trLater("High on a graphics card, low without one.")},
-    {"low", trLater("Low"),
-     trLater("For machines without a graphics card. No distant shadows, one sample per pixel.")},
-    {"medium", trLater("Medium"),
-     trLater("Anti-aliasing, clouds, sun rays.\nA frame takes 3.8 times as long as with low.")},
-    {"high", trLater("High"),
-     trLater("Also ambient occlusion.\nA frame takes 4.5 times as long as with low.")},
-    {"ultra", trLater("Ultra"),
-     trLater(
-         "Finer shadows and distant land.\nA frame takes a little longer than with high, and more memory.")},
-};
+void drawChoice(const ChoiceSetting& choice, const char* label, PlaySettings& settings, const Texts* tr) {
+    const auto textOf = [&](std::size_t k) {
+        return tr && k < choice.labels.size() ? (*tr)(choice.labels[k]) : choice.names[k].c_str();
+    };
+    const int now = choice.get(settings);
+    const char* none = tr ? (*tr)(trLater("Other")) : "custom";
+    if (!ui::beginCombo(label, now >= 0 ? textOf(static_cast<std::size_t>(now)) : none)) return;
+    for (std::size_t k = 0; k < choice.names.size(); ++k)
+        if (ui::selectable(textOf(k), static_cast<int>(k) == now)) choice.set(settings, static_cast<int>(k));
+    ImGui::EndCombo();
+}
 
-void drawQuality(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
-    const float gap = ImGui::GetStyle().ItemSpacing.x, count = static_cast<float>(std::size(kQualities));
-    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
-    for (const Quality& quality : kQualities) {
-        if (&quality != kQualities) ImGui::SameLine();
-        if (tabButton(tr(quality.label), s.preset == quality.preset, width)) {
-            s.preset = quality.preset;
-            s.graphics = render::withPreset(s.graphics, s.preset, isSoftwareRenderer);
-        }
-        tooltipFor(tr(quality.help));
-    }
+void drawSwitch(bool isOn, const char* label, const std::function<void(bool)>& set) {
+    if (ui::checkbox(label, &isOn)) set(isOn);
 }
 
 }  // namespace
 
-void drawGraphicsPage(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
+void drawSetting(const Setting& setting, PlaySettings& settings, const Texts* tr) {
+    // The same id in every language, so that a list stays open when it changes the language.
+    const std::string name(setting.name), label = tr ? (*tr)(setting.label) + ("###" + name) : name;
+    const char* const shown = label.c_str();
+    if (const auto* isOn = std::get_if<SwitchSetting>(&setting.kind))
+        drawSwitch(isOn->get(settings), shown, [&](bool value) { isOn->set(settings, value); });
+    else if (const auto* number = std::get_if<NumberSetting>(&setting.kind))
+        tr && !number->stops.empty() ? drawStops(*number, shown, settings, *tr)
+                                     : drawNumber(*number, shown, settings, tr);
+    else if (const auto& choice = std::get<ChoiceSetting>(setting.kind);
+             setting.graphics && setting.graphics->isSwitch())
+        drawSwitch(choice.get(settings) == 1, shown,
+                   [&](bool value) { choice.set(settings, value ? 1 : 0); });
+    else
+        drawChoice(choice, shown, settings, tr);
+    if (!tr)
+        tooltipFor(std::string(setting.help).c_str());
+    else if (setting.tip)
+        tooltipFor((*tr)(setting.tip));
+}
+
+namespace {
+
+struct Heading {
+    SettingsPage page;
+    const char* text;
+};
+
+// In the order of SettingsSection, without Hidden.
+constexpr std::array<Heading, 7> kHeadings = {{{SettingsPage::Graphics, trLater("View")},
+                                               {SettingsPage::Graphics, trLater("Details")},
+                                               {SettingsPage::Controls, trLater("Mouse and gamepad")},
+                                               {SettingsPage::World, trLater("Time")},
+                                               {SettingsPage::World, trLater("Movement")},
+                                               {SettingsPage::General, trLater("Language and sound")},
+                                               {SettingsPage::General, trLater("Accessibility")}}};
+
+void drawQualityButton(PlaySettings& s, const char* preset, const char* label, bool isSoftwareRenderer,
+                       float width) {
+    if (!tabButton(label, s.preset == preset, width)) return;
+    s.preset = preset;
+    s.graphics = render::withPreset(s.graphics, s.preset, isSoftwareRenderer);
+}
+
+std::string aboutPreset(const render::Preset& preset, const Texts& tr) {
+    std::string text = tr(preset.about);
+    if (preset.relativeCost.value_or(1) > 1)
+        text += '\n' + fmt::format(fmt::runtime(tr("A frame takes {:.1f} times as long as with low.")),
+                                   *preset.relativeCost);
+    return text;
+}
+
+void drawQuality(PlaySettings& s, bool isSoftwareRenderer, const Texts& tr) {
+    const auto isForPlayers = [](const render::Preset& preset) { return preset.label != nullptr; };
+    const float gap = ImGui::GetStyle().ItemSpacing.x,
+                count = 1 + static_cast<float>(std::ranges::count_if(render::presets(), isForPlayers));
+    const float width = (ImGui::GetContentRegionAvail().x - gap * (count - 1)) / count;
     heading(tr("Quality"));
-    drawQuality(s, isSoftwareRenderer, tr);
-    heading(tr("View"));
-    ui::slider(tr("View distance"), &s.graphics.viewDistance, 2, 64, tr("%d chunks"));
-    tooltipFor(
-        tr("In chunks of 16 blocks, which are shown in full.\nCost: high; memory grows with the square."));
-    ui::slider(tr("Field of view"), &s.fieldOfView, 40, 110, tr("%.0f degrees"));
-    tooltipFor(tr("Vertical.\nCost: a little higher if it is wider."));
-    ui::checkbox(tr("Full screen"), &s.fullScreen);
-    heading(tr("Details"));
-    for (const PlainRow& row : kRows) drawPlainRow(row, s.graphics, tr);
+    drawQualityButton(s, "auto", tr("Auto"), isSoftwareRenderer, width);
+    tooltipFor(tr("High on a graphics card, low without one."));
+    for (const render::Preset& preset : render::presets()) {
+        if (!isForPlayers(preset)) continue;
+        ImGui::SameLine();
+        drawQualityButton(s, std::string(preset.name).c_str(), tr(preset.label), isSoftwareRenderer, width);
+        tooltipFor(aboutPreset(preset, tr).c_str());
+    }
 }
 
-void drawWorldPage(PlaySettings& s, game::DayClock* day, const Texts& tr) {
-    constexpr std::array<const char*, 4> kMovements = {trLater("Fly fast, through blocks"),
-                                                       trLater("Fly slowly, through blocks"),
-                                                       trLater("Fly, with collisions"), trLater("Walk")};
-    heading(tr("Time"));
-    if (day) {
-        float time = static_cast<float>(day->timeDay) * 24;
-        char text[16];
-        std::snprintf(text, sizeof text, "%02d:%02d", static_cast<int>(time) % 24,
-                      static_cast<int>(time * 60) % 60);
-        if (ui::slider(tr("Time of day"), &time, 0, 24, text))
-            day->timeDay = std::min(double{time} / 24, 0.99999);
-        ui::checkbox(tr("Time runs"), &day->isRunning);
-    }
-    float minutes = static_cast<float>(s.dayMinutes);
-    if (ui::slider(tr("Minutes per day"), &minutes, 0.5f, 60, "%.1f")) s.dayMinutes = double{minutes};
-    tooltipFor(tr("Length of a day of the world."));
-    if (!day) {
-        dimText(tr("Each world has its own time and movement mode:\nplay it to change them."));
-        return;
-    }
-    heading(tr("Movement"));
-    const auto chosen = static_cast<std::size_t>(s.movement);
-    if (!ui::beginCombo(tr("Movement mode"), tr(kMovements[chosen]))) return;
-    for (std::size_t k = 0; k < kMovements.size(); ++k)
-        if (ui::selectable(tr(kMovements[k]), k == chosen)) s.movement = static_cast<game::Movement>(k);
-    ImGui::EndCombo();
+void drawClock(game::DayClock& day, const Texts& tr) {
+    auto time = static_cast<float>(day.timeDay) * 24;
+    std::array<char, 16> text{};
+    std::snprintf(text.data(), text.size(), "%02d:%02d", static_cast<int>(time) % 24,
+                  static_cast<int>(time * 60) % 60);
+    if (ui::slider(tr("Time of day"), &time, 0, 24, text.data()))
+        day.timeDay = std::min(double{time} / 24, 0.99999);
+    ui::checkbox(tr("Time runs"), &day.isRunning);
 }
 
-static void drawLanguageAndSound(PlaySettings& s, const Texts& tr) {
-    // Each language in its own name, so that everyone finds theirs.
-    const std::array<std::pair<const char*, const char*>, 4> languages = {
-        {{"auto", tr("System language")}, {"en", "English"}, {"cs", "Čeština"}, {"de", "Deutsch"}}};
-    heading(tr("Language and sound"));
-    const auto chosen = std::ranges::find(languages, s.language, [](const auto& row) { return row.first; });
-    const char* const shown = chosen != languages.end() ? chosen->second : s.language.c_str();
-    if (ui::beginCombo((tr("Language") + std::string("###language")).c_str(), shown)) {
-        for (const auto& [code, name] : languages)
-            if (ui::selectable(name, s.language == code)) s.language = code;
-        ImGui::EndCombo();
-    }
-    float percent = s.soundVolume * 100;
-    if (ui::slider(tr("Sound volume"), &percent, 0, 100, "%.0f %%")) s.soundVolume = percent / 100;
-}
+}  // namespace
 
-void drawGeneralPage(PlaySettings& s, const Texts& tr) {
-    constexpr std::array<std::pair<const char*, float>, 6> kSizes = {{{"75 %", 0.75f},
-                                                                      {"100 %", 1.0f},
-                                                                      {"125 %", 1.25f},
-                                                                      {"150 %", 1.5f},
-                                                                      {"175 %", 1.75f},
-                                                                      {"200 %", 2.0f}}};
-    drawLanguageAndSound(s, tr);
-    heading(tr("Accessibility"));
-    char shown[16];
-    std::snprintf(shown, sizeof shown, "%.0f %%", double{s.textSize} * 100);
-    if (ui::beginCombo(tr("Text size"), shown)) {
-        for (const auto& [label, size] : kSizes)
-            if (ui::selectable(label, s.textSize == size)) s.textSize = size;
-        ImGui::EndCombo();
+// The rows of the page by heading, and around them what is not a setting.
+void SettingsDialog::drawPage(PlaySettings& settings, const Input& input) {
+    if (page_ == SettingsPage::Graphics) drawQuality(settings, input.isSoftwareRenderer, input.tr);
+    for (std::size_t k = 0; k < kHeadings.size(); ++k) {
+        const auto section = static_cast<SettingsSection>(k);
+        if (kHeadings[k].page != page_) continue;
+        // Each world has its own.
+        if (section == SettingsSection::Movement && !input.day) {
+            dimText(input.tr("Each world has its own time and movement mode:\nplay it to change them."));
+            continue;
+        }
+        heading(input.tr(kHeadings[k].text));
+        if (section == SettingsSection::Time && input.day) drawClock(*input.day, input.tr);
+        for (const Setting& setting : settingsTable())
+            if (setting.section == section) drawSetting(setting, settings, &input.tr);
     }
-    tooltipFor(tr("Size of all texts and menus."));
-    ui::checkbox(tr("High contrast"), &s.highContrast);
-    tooltipFor(
-        tr("The targeted block gets thick lines in black, white and orange, for color-blind players."));
-    ui::checkbox(tr("Reduced motion"), &s.reducedMotion);
-    tooltipFor(tr("The world behind the title stands still."));
+    if (page_ != SettingsPage::Controls) return;
+    heading(input.tr("Keys"));
+    drawKeys(settings.keys, input.tr);
 }
 
 }  // namespace terrane::app

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "apps/terrane/window/hud/overlay.h"
-#include "apps/terrane/window/settings/play_settings.h"
+#include "apps/terrane/window/settings/settings_table.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/player_state.h"
 
@@ -35,7 +35,7 @@ class SettingsDialog {
 
   private:
     void drawTabs(const Texts& tr);
-    void drawControls(PlaySettings& settings, const Texts& tr);
+    void drawPage(PlaySettings& settings, const Input& input);
     void drawKeys(KeyBindings& keys, const Texts& tr);
 
     SettingsPage page_ = SettingsPage::Graphics;
@@ -43,9 +43,7 @@ class SettingsDialog {
     std::string note_;  // which action lost its key
 };
 
-// The pages that need only the settings.
-void drawGraphicsPage(PlaySettings& settings, bool isSoftwareRenderer, const Texts& tr);
-void drawWorldPage(PlaySettings& settings, game::DayClock* day, const Texts& tr);
-void drawGeneralPage(PlaySettings& settings, const Texts& tr);
+// A widget of a setting. With `tr` in words for players, else by its names.
+void drawSetting(const Setting& setting, PlaySettings& settings, const Texts* tr);
 
 }  // namespace terrane::app

@@ -1,0 +1,215 @@
+#include "apps/terrane/window/settings/settings_table.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/terrane/window/text.h"
+
+namespace terrane::app {
+namespace {
+
+using Section = SettingsSection;
+
+template <auto kMember>
+SwitchSetting switchOf() {
+    return {[](const PlaySettings& s) { return s.*kMember; },
+            [](PlaySettings& s, bool isOn) { s.*kMember = isOn; }};
+}
+
+template <auto kMember>
+NumberSetting numberOf(NumberSetting number) {
+    using Value = std::remove_cvref_t<decltype(PlaySettings().*kMember)>;
+    number.get = [](const PlaySettings& s) { return static_cast<double>(s.*kMember); };
+    number.set = [](PlaySettings& s, double value) { s.*kMember = static_cast<Value>(value); };
+    return number;
+}
+
+ChoiceSetting movementChoice() {
+    ChoiceSetting choice;
+    for (const auto& [name, movement] : movementNames()) choice.names.push_back(name);
+    choice.labels = {trLater("Fly fast, through blocks"), trLater("Fly slowly, through blocks"),
+                     trLater("Fly, with collisions"), trLater("Walk")};
+    choice.get = [](const PlaySettings& s) { return static_cast<int>(s.movement); };
+    choice.set = [](PlaySettings& s, int value) { s.movement = static_cast<game::Movement>(value); };
+    return choice;
+}
+
+// Each language has its own name, so that everyone finds theirs.
+ChoiceSetting languageChoice() {
+    ChoiceSetting choice;
+    for (const auto& [name, code] : languageChoices()) choice.names.push_back(name);
+    choice.labels = {trLater("System language"), "English", "Čeština", "Deutsch"};
+    choice.get = [names = choice.names](const PlaySettings& s) {
+        const auto found = std::ranges::find(names, s.language);
+        return found == names.end() ? -1 : static_cast<int>(found - names.begin());
+    };
+    choice.set = [names = choice.names](PlaySettings& s, int value) {
+        s.language = names[static_cast<std::size_t>(value)];
+    };
+    return choice;
+}
+
+Setting graphicsSetting(const render::GraphicsRow& row) {
+    Setting setting{.name = row.name,
+                    .help = row.description,
+                    .section = row.label ? Section::Details : Section::Hidden,
+                    .label = row.label,
+                    .tip = row.tip,
+                    .graphics = &row};
+    setting.kind = ChoiceSetting{.names = {row.valueNames.begin(), row.valueNames.end()},
+                                 .labels = row.valueLabels,
+                                 .get = [&row](const PlaySettings& s) { return row.get(s.graphics); },
+                                 .set = [&row](PlaySettings& s, int value) { row.set(s.graphics, value); }};
+    return setting;
+}
+
+std::vector<Setting> makeTable() {
+    std::vector<Setting> table = {
+        {"view-distance", "View distance in chunks", Section::View, trLater("View distance"),
+         trLater(
+             "In chunks of 16 blocks, which are shown in full.\nCost: high; memory grows with the square."),
+         NumberSetting{
+             .get = [](const PlaySettings& s) { return static_cast<double>(s.graphics.viewDistance); },
+             .set = [](PlaySettings& s,
+                       double value) { s.graphics.viewDistance = static_cast<int>(std::lround(value)); },
+             .low = 1,
+             .high = render::kMaxViewDistance,
+             .shown = trLater("%.0f chunks")}},
+        {"field-of-view", "Vertical field of view in degrees", Section::View, trLater("Field of view"),
+         trLater("Vertical.\nCost: a little higher if it is wider."),
+         numberOf<&PlaySettings::fieldOfView>({.low = 40, .high = 110, .shown = trLater("%.0f degrees")})},
+        {"full-screen", "Use the whole screen", Section::View, trLater("Full screen"), nullptr,
+         switchOf<&PlaySettings::fullScreen>()},
+    };
+    for (const render::GraphicsRow& row : render::graphicsTable()) table.push_back(graphicsSetting(row));
+    const std::vector<Setting> others = {
+        {"mouse-sensitivity", "Degrees per step of the mouse", Section::Input, trLater("Mouse sensitivity"),
+         trLater("Degrees that the view turns per step of the mouse."),
+         numberOf<&PlaySettings::mouseSensitivity>(
+             {.low = 0.02, .high = 0.6, .decimals = 2, .shown = "%.2f"})},
+        {"invert-y", "Invert the vertical axis of mouse and stick", Section::Input,
+         trLater("Invert up and down"), trLater("Moving the mouse or the stick forward looks down."),
+         switchOf<&PlaySettings::invertY>()},
+        {"auto-jump", "Climb steps of one block without jumping", Section::Input,
+         trLater("Jump automatically"), trLater("Climb steps of one block by walking against them."),
+         switchOf<&PlaySettings::autoJump>()},
+        {"day-minutes", "Length of a day in minutes", Section::Time, trLater("Minutes per day"),
+         trLater("Length of a day of the world."),
+         numberOf<&PlaySettings::dayMinutes>(
+             {.low = 0.5, .high = 1440, .decimals = 1, .shown = "%.1f", .isLogarithmic = true})},
+        {.name = "movement",
+         .help = "Movement mode",
+         .section = Section::Movement,
+         .label = trLater("Movement mode"),
+         .kind = movementChoice(),
+         .isSaved = false},
+        {"language", "Language of names and menus; auto: the system's language", Section::LanguageAndSound,
+         trLater("Language"), nullptr, languageChoice()},
+        {"sound-volume", "Volume of sounds, 0 (none) to 1", Section::LanguageAndSound,
+         trLater("Sound volume"), nullptr,
+         numberOf<&PlaySettings::soundVolume>(
+             {.low = 0, .high = 1, .decimals = 2, .shown = "%.0f %%", .factor = 100})},
+        {"text-size", "Scale of texts and menus", Section::Accessibility, trLater("Text size"),
+         trLater("Size of all texts and menus."),
+         numberOf<&PlaySettings::textSize>({.low = 0.5,
+                                            .high = 3,
+                                            .decimals = 2,
+                                            .shown = "%.0f %%",
+                                            .factor = 100,
+                                            .stops = {0.75, 1, 1.25, 1.5, 1.75, 2}})},
+        {"high-contrast", "Thick outline around the targeted block", Section::Accessibility,
+         trLater("High contrast"),
+         trLater("The targeted block gets thick lines in black, white and orange, for color-blind players."),
+         switchOf<&PlaySettings::highContrast>()},
+        {"reduced-motion", "No motion of the arm and of the world behind the title", Section::Accessibility,
+         trLater("Reduced motion"), trLater("The world behind the title stands still."),
+         switchOf<&PlaySettings::reducedMotion>()},
+    };
+    table.insert(table.end(), others.begin(), others.end());
+    return table;
+}
+
+void addChoiceOption(CLI::App& command, const Setting& setting, const ChoiceSetting& choice,
+                     PlaySettings& settings) {
+    const std::string flag = "--" + std::string(setting.name);
+    const auto take = [flag, choice, &settings](const std::string& text) {
+        const auto found = std::ranges::find(choice.names, currentValue(text));
+        if (found == choice.names.end()) throw CLI::ValidationError(flag, base::notOneOf(choice.names, text));
+        choice.set(settings, static_cast<int>(found - choice.names.begin()));
+    };
+    command
+        .add_option_function<std::string>(flag, take,
+                                          fmt::format("{}: {}", setting.help, fmt::join(choice.names, ", ")))
+        ->type_name("CHOICE")
+        ->default_str(textOf(setting, settings));
+}
+
+void addNumberOption(CLI::App& command, const Setting& setting, const NumberSetting& number,
+                     PlaySettings& settings) {
+    const auto take = [&number, &settings](double value) { number.set(settings, value); };
+    command.add_option_function<double>("--" + std::string(setting.name), take, std::string(setting.help))
+        ->check(numberFrom(number.low, number.high))
+        ->default_str(fmt::format("{:g}", number.get(settings)));
+}
+
+void addKeysOption(CLI::App& command, KeyBindings& keys) {
+    const auto take = [&keys](const std::string& text) {
+        auto bindings = keyBindingsFrom(text);
+        if (!bindings) throw CLI::ValidationError("--keys", bindings.error().message);
+        keys = *bindings;
+    };
+    command
+        .add_option_function<std::string>("--keys", take,
+                                          "Keys that differ from the defaults, such as jump=F,run=R")
+        ->type_name("ACTION=KEY,...");
+}
+
+}  // namespace
+
+std::span<const Setting> settingsTable() {
+    static const std::vector<Setting> table = makeTable();
+    return table;
+}
+
+std::string textOf(const Setting& setting, const PlaySettings& settings) {
+    if (const auto* isOn = std::get_if<SwitchSetting>(&setting.kind))
+        return isOn->get(settings) ? "true" : "false";
+    if (const auto* number = std::get_if<NumberSetting>(&setting.kind))
+        return fmt::format("{:.{}f}", number->get(settings), number->decimals);
+    const auto& choice = std::get<ChoiceSetting>(setting.kind);
+    const int value = choice.get(settings);
+    return value < 0 ? std::string() : choice.names[static_cast<std::size_t>(value)];
+}
+
+void addSettings(CLI::App& command, PlaySettings& settings) {
+    for (const Setting& setting : settingsTable()) {
+        if (setting.graphics || setting.name == "view-distance") continue;
+        if (const auto* isOn = std::get_if<SwitchSetting>(&setting.kind))
+            command.add_flag_callback(
+                "--" + std::string(setting.name), [isOn, &settings] { isOn->set(settings, true); },
+                std::string(setting.help));
+        else if (const auto* number = std::get_if<NumberSetting>(&setting.kind))
+            addNumberOption(command, setting, *number, settings);
+        else
+            addChoiceOption(command, setting, std::get<ChoiceSetting>(setting.kind), settings);
+    }
+    addKeysOption(command, settings.keys);
+}
+
+SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
+    PlaySettings usual;
+    usual.graphics = render::settingsOf({s.preset}, isSoftwareRenderer);
+    SettingValues values = {{"preset", s.preset}};
+    for (const Setting& setting : settingsTable()) {
+        const std::string text = textOf(setting, s);
+        if (setting.isSaved && text != textOf(setting, usual)) values.emplace(setting.name, text);
+    }
+    if (const std::string keys = textOf(s.keys); !keys.empty()) values.emplace("keys", keys);
+    return values;
+}
+
+}  // namespace terrane::app
