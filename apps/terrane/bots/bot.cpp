@@ -7,6 +7,7 @@
 #include <numbers>
 #include <utility>
 
+#include "terrane/base/match.h"
 #include "terrane/net/client/remote_session.h"
 #include "terrane/world/character.h"
 
@@ -92,14 +93,23 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
              }}) {}
 
 void Bot::onMessage(const net::ServerMessage& message) {
-    if (const auto* joined = std::get_if<net::Joined>(&message)) return onJoined(*joined);
-    if (std::holds_alternative<net::ViewComplete>(message)) return onViewComplete();
-    if (const auto* changed = std::get_if<net::BlocksChanged>(&message)) return onBlocks(*changed);
-    if (const auto* done = std::get_if<net::Done>(&message)) return onDone(*done);
-    if (const auto* corrected = std::get_if<net::Corrected>(&message)) {
-        pose_ = net::poseOf(corrected->pose);
-        ++world_.corrections;
-    }
+    std::visit(
+        base::Match{
+            [this](const net::Joined& joined) { onJoined(joined); },
+            [this](const net::ViewComplete&) { onViewComplete(); },
+            [this](const net::BlocksChanged& changed) { onBlocks(changed); },
+            [this](const net::Done& done) { onDone(done); },
+            [this](const net::Corrected& corrected) {
+                pose_ = net::poseOf(corrected.pose);
+                ++world_.corrections;
+            },
+            base::on<net::Greeting, net::WorldOffer, net::PackPart, net::Refused, net::Ping, net::Servers>(
+                [] {}),
+            // A bot looks at nothing and listens to nobody.
+            base::on<net::ChunkEdits, net::Appears, net::Disappears, net::Poses, net::Said, net::Clock,
+                     net::PlayerList, net::RoleChanged>([] {}),
+        },
+        message);
 }
 
 void Bot::onJoined(const net::Joined& joined) {

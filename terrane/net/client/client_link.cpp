@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "terrane/base/match.h"
+
 namespace terrane::net {
 
 Hello helloOf(const ClientIdentity& identity) {
@@ -103,20 +105,29 @@ void ClientLink::onMessage(ByteView bytes) {
     heardAt_ = now_;
     const auto message = decodeServerMessage(bytes);
     if (!message) return end("the server sent an invalid message: " + message.error().message);
-    if (const auto* refused = std::get_if<Refused>(&*message)) return onRefused(*refused);
-    if (const auto* greeting = std::get_if<Greeting>(&*message))
-        return say(loginOf(identity_, *greeting, channel_));
-    if (const auto* offer = std::get_if<WorldOffer>(&*message)) return onOffer(*offer);
-    if (const auto* part = std::get_if<PackPart>(&*message)) return onPackPart(*part);
-    if (std::holds_alternative<Joined>(*message)) {
-        if (!hasProved_) return end("the server let the player in before it offered its world");
-        stage_ = Stage::Joined;
-        wasJoined_ = true;
-        cuts_ = 0;
-    }
-    if (const auto* ping = std::get_if<Ping>(&*message)) return say(Pong{ping->time});
-    if (const auto* servers = std::get_if<Servers>(&*message)) return learnServers(*servers);
-    if (stage_ == Stage::Joined) events_.message(*message);
+    std::visit(base::Match{
+                   [this](const Refused& refused) { onRefused(refused); },
+                   [this](const Greeting& greeting) { say(loginOf(identity_, greeting, channel_)); },
+                   [this](const WorldOffer& offer) { onOffer(offer); },
+                   [this](const PackPart& part) { onPackPart(part); },
+                   [this](const Joined& joined) { onJoined(joined); },
+                   [this](const Ping& ping) { say(Pong{ping.time}); },
+                   [this](const Servers& servers) { learnServers(servers); },
+                   // Of the world.
+                   base::on<ChunkEdits, BlocksChanged, ViewComplete, Done, Appears, Disappears, Poses, Said,
+                            Clock, Corrected, PlayerList, RoleChanged>([&] {
+                       if (stage_ == Stage::Joined) events_.message(*message);
+                   }),
+               },
+               *message);
+}
+
+void ClientLink::onJoined(const Joined& joined) {
+    if (!hasProved_) return end("the server let the player in before it offered its world");
+    stage_ = Stage::Joined;
+    wasJoined_ = true;
+    cuts_ = 0;
+    events_.message(joined);
 }
 
 void ClientLink::onOffer(const WorldOffer& offer) {

@@ -95,6 +95,7 @@ class ClientLink {
   private:
     void connect();
     void onMessage(ByteView bytes);
+    void onJoined(const Joined& joined);
     void onOffer(const WorldOffer& offer);
     void onPackPart(const PackPart& part);
     void fetchOrProve();

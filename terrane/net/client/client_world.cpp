@@ -5,6 +5,7 @@
 #include <limits>
 #include <utility>
 
+#include "terrane/base/match.h"
 #include "terrane/net/wire/client_message.h"
 #include "terrane/net/wire/wire.h"
 #include "terrane/store/chunks/structure_file.h"
@@ -64,30 +65,41 @@ ClientWorld::~ClientWorld() {
 }
 
 void ClientWorld::onMessage(const ServerMessage& message) {
-    if (const auto* clock = std::get_if<Clock>(&message)) {
-        session_.clock.timeDay = clock->timeDay;
-        session_.clock.isRunning = clock->daysASecond > 0;
-        if (clock->daysASecond > 0) session_.clock.dayMinutes = 1 / (60 * clock->daysASecond);
-    } else if (const auto* appears = std::get_if<Appears>(&message)) {
-        players_[appears->slot] = {appears->player, appears->name, poseOf(appears->pose), 1, 0};
-        playerPoses_[appears->slot] = appears->pose;
-    } else if (const auto* gone = std::get_if<Disappears>(&message)) {
-        players_.erase(gone->slot);
-        playerPoses_.erase(gone->slot);
-    } else if (const auto* said = std::get_if<Said>(&message)) {
-        chat_.push_back({said->name, said->text});
-    } else if (const auto* corrected = std::get_if<Corrected>(&message)) {
-        correction_ = poseOf(corrected->pose);
-    } else if (const auto* complete = std::get_if<ViewComplete>(&message)) {
-        isViewComplete_ = toldView_ && complete->center == toldView_->center;
-        mayDropUnconfirmed_ = isViewComplete_;
-    } else if (const auto* changed = std::get_if<RoleChanged>(&message)) {
-        session_.permissions.roles[game::kLocalPlayer] = changed->role;
-    } else if (const auto* list = std::get_if<PlayerList>(&message)) {
-        playerList_ = *list;
-    } else {
-        std::visit([this](const auto& other) { take(other); }, message);
-    }
+    std::visit(base::Match{
+                   [this](const Joined& joined) { onJoined(joined); },
+                   [this](const ChunkEdits& edits) { onChunkEdits(edits); },
+                   [this](const BlocksChanged& changed) { onBlocksChanged(changed); },
+                   [this](const Done& done) { onDone(done); },
+                   [this](const Poses& poses) { onPoses(poses); },
+                   [this](const Clock& clock) {
+                       session_.clock.timeDay = clock.timeDay;
+                       session_.clock.isRunning = clock.daysASecond > 0;
+                       if (clock.daysASecond > 0) session_.clock.dayMinutes = 1 / (60 * clock.daysASecond);
+                   },
+                   [this](const Appears& player) {
+                       players_[player.slot] = {player.player, player.name, poseOf(player.pose), 1, 0};
+                       playerPoses_[player.slot] = player.pose;
+                   },
+                   [this](const Disappears& player) {
+                       players_.erase(player.slot);
+                       playerPoses_.erase(player.slot);
+                   },
+                   [this](const Said& said) {
+                       chat_.push_back({said.name, said.text});
+                   },
+                   [this](const Corrected& corrected) { correction_ = poseOf(corrected.pose); },
+                   [this](const ViewComplete& complete) {
+                       isViewComplete_ = toldView_ && complete.center == toldView_->center;
+                       mayDropUnconfirmed_ = isViewComplete_;
+                   },
+                   [this](const RoleChanged& changed) {
+                       session_.permissions.roles[game::kLocalPlayer] = changed.role;
+                   },
+                   [this](const PlayerList& list) { playerList_ = list; },
+                   // Of the connection: ClientLink handles them.
+                   base::on<Greeting, WorldOffer, PackPart, Refused, Ping, Servers>([] {}),
+               },
+               message);
 }
 
 void ClientWorld::onCut() {
@@ -96,7 +108,7 @@ void ClientWorld::onCut() {
     show(prediction_.settleAll());
 }
 
-void ClientWorld::take(const Joined& joined) {
+void ClientWorld::onJoined(const Joined& joined) {
     onCut();
     maxViewDistance_ = joined.maxViewDistance;
     for (const world::ChunkPos pos : store_.positions()) unconfirmed_.insert(pos);
@@ -109,7 +121,7 @@ void ClientWorld::take(const Joined& joined) {
     session_.permissions.roles[game::kLocalPlayer] = joined.role;
 }
 
-void ClientWorld::take(const ChunkEdits& edits) {
+void ClientWorld::onChunkEdits(const ChunkEdits& edits) {
     if (edits.isFirst) unconfirmed_.erase(edits.chunk);
     if (edits.isFirst && edits.chunk.level > 0) return setTile(edits.chunk, edits.blocks);
     if (edits.chunk.level > 0) {
@@ -159,7 +171,7 @@ void ClientWorld::dropUnconfirmed() {
     mayDropUnconfirmed_ = dropped == kDropsAFrame;
 }
 
-void ClientWorld::take(const BlocksChanged& changed) {
+void ClientWorld::onBlocksChanged(const BlocksChanged& changed) {
     // The server tells of a chunk's first change since it was generated without ChunkEdits.
     if (unconfirmed_.erase(changed.chunk) > 0)
         return showChunk(changed.chunk, replaceDifference(changed.chunk, changed.blocks));
@@ -253,7 +265,7 @@ void ClientWorld::say(const std::string& text) {
     send_(Say{plainText(text, kMaxChatBytes)});
 }
 
-void ClientWorld::take(const Done& done) {
+void ClientWorld::onDone(const Done& done) {
     show(prediction_.settle(done.number));
     while (!waiting_.empty() && waiting_.front().number < done.number) waiting_.pop_front();
     if (waiting_.empty() || waiting_.front().number != done.number) return;
@@ -276,7 +288,7 @@ void ClientWorld::take(const Done& done) {
         decided_.push_back(result);
 }
 
-void ClientWorld::take(const Poses& poses) {
+void ClientWorld::onPoses(const Poses& poses) {
     for (const PoseChange& change : poses.changes) {
         const auto player = players_.find(change.slot);
         if (player == players_.end()) continue;

@@ -116,12 +116,11 @@ class ClientWorld {
     void sendEdit(const game::EditCommand& command, std::span<const game::ChangedBlock> changed);
     void sendBuild(const game::BuildChange& change);
     void sendTakeBack(game::HistoryWay way);
-    void take(const Joined& joined);
-    void take(const ChunkEdits& edits);
-    void take(const BlocksChanged& changed);
-    void take(const Done& done);
-    void take(const Poses& poses);
-    void take(const auto&) {}
+    void onJoined(const Joined& joined);
+    void onChunkEdits(const ChunkEdits& edits);
+    void onBlocksChanged(const BlocksChanged& changed);
+    void onDone(const Done& done);
+    void onPoses(const Poses& poses);
 
     void show(std::span<const world::PlacedBlock> blocks);
     void showChunk(world::ChunkPos pos, const ChunkDifference& blocks);

@@ -63,6 +63,10 @@ void refuse(ServerState& server, ServerClient& client, Refusal why, const std::s
     client.stage = ServerClient::Stage::Closed;
 }
 
+void refuseUnexpected(ServerState& server, ServerClient& client, const ClientMessage& message) {
+    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
+}
+
 std::string banText(const std::string& reason) {
     return "you are banned from this server: " + reason;
 }

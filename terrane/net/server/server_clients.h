@@ -25,6 +25,8 @@ void sayToAll(ServerState& server, const std::string& name, const std::string& t
 
 // Sends Refused with the reason (any bytes) and disconnects the client; its further messages are ignored.
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);
+// The same for a message that is not allowed at this time.
+void refuseUnexpected(ServerState& server, ServerClient& client, const ClientMessage& message);
 // The message for a banned player.
 std::string banText(const std::string& reason);
 // Ends the client's play: stores its position and tells other players.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/base/match.h"
 #include "terrane/game/spawn.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/sharing/other_servers.h"
@@ -250,15 +251,21 @@ void prepareLogin(ServerState& server, std::uint64_t random) {
 }
 
 void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessage& message) {
-    const auto* hello = std::get_if<Hello>(&message);
-    const auto* login = std::get_if<Login>(&message);
-    const auto* proof = std::get_if<Proof>(&message);
-    if (hello && client.stage == Stage::Hello) return onHello(server, client, *hello);
-    if (login && client.stage == Stage::Login) return onLogin(server, client, *login);
-    if (const auto* ask = std::get_if<AskPack>(&message); ask && client.stage == Stage::Proof)
-        return onAskPack(server, client, *ask);
-    if (proof && client.stage == Stage::Proof) return onProof(server, client, *proof);
-    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
+    const auto at = [&](Stage stage, auto handle) {
+        if (client.stage == stage)
+            handle();
+        else
+            refuseUnexpected(server, client, message);
+    };
+    std::visit(base::Match{
+                   [&](const Hello& hello) { at(Stage::Hello, [&] { onHello(server, client, hello); }); },
+                   [&](const Login& login) { at(Stage::Login, [&] { onLogin(server, client, login); }); },
+                   [&](const AskPack& ask) { at(Stage::Proof, [&] { onAskPack(server, client, ask); }); },
+                   [&](const Proof& proof) { at(Stage::Proof, [&] { onProof(server, client, proof); }); },
+                   base::on<View, Move, Edit, Fill, Place, TakeBack, Say, Pong, AskPlayers, Leave>(
+                       [&] { refuseUnexpected(server, client, message); }),
+               },
+               message);
 }
 
 void updateLogins(ServerState& server) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "terrane/base/log.h"
+#include "terrane/base/match.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_commands.h"
 #include "terrane/net/server/server_console.h"
@@ -172,23 +173,28 @@ void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& gr
 }  // namespace
 
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
-    if (const auto* move = std::get_if<Move>(&message)) return onMove(server, client, *move);
-    if (const auto* view = std::get_if<View>(&message)) return onView(client, *view);
-    if (auto* edit = std::get_if<Edit>(&message))
-        return takeCommand(server, client, {std::move(*edit), server.tick});
-    if (const auto* fill = std::get_if<Fill>(&message))
-        return takeCommand(server, client, {Build{fill->number, fill->fill}, server.tick});
-    if (const auto* place = std::get_if<Place>(&message)) return takePlace(server, client, *place);
-    if (const auto* takeBack = std::get_if<TakeBack>(&message))
-        return takeCommand(server, client, {*takeBack, server.tick});
-    if (const auto* text = std::get_if<Say>(&message)) return onSay(server, client, *text);
-    if (std::holds_alternative<AskPlayers>(message)) return onAskPlayers(server, client);
-    if (const auto* pong = std::get_if<Pong>(&message)) {
-        client.latency = std::chrono::milliseconds(pingTime(server.now) - pong->time);
-        return;
-    }
-    if (std::holds_alternative<Leave>(message)) return leave(server, client);
-    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
+    std::visit(base::Match{
+                   [&](const Move& move) { onMove(server, client, move); },
+                   [&](const View& view) { onView(client, view); },
+                   [&](Edit& edit) {
+                       takeCommand(server, client, {std::move(edit), server.tick});
+                   },
+                   [&](const Fill& fill) {
+                       takeCommand(server, client, {Build{fill.number, fill.fill}, server.tick});
+                   },
+                   [&](const Place& place) { takePlace(server, client, place); },
+                   [&](const TakeBack& takeBack) {
+                       takeCommand(server, client, {takeBack, server.tick});
+                   },
+                   [&](const Say& text) { onSay(server, client, text); },
+                   [&](const AskPlayers&) { onAskPlayers(server, client); },
+                   [&](const Pong& pong) {
+                       client.latency = std::chrono::milliseconds(pingTime(server.now) - pong.time);
+                   },
+                   [&](const Leave&) { leave(server, client); },
+                   base::on<Hello, Login, Proof, AskPack>([&] { refuseUnexpected(server, client, message); }),
+               },
+               message);
 }
 
 void tellSight(ServerState& server) {
