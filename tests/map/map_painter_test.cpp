@@ -211,7 +211,7 @@ TEST(MapPainter, FactsOfAColumn) {
     for (const auto& [x, y] : {std::pair(5, -3), std::pair(-1, 2000), std::pair(-30000, 4),
                                std::pair(7777, 7777), std::pair(-60000, 90000), std::pair(200000, -150000)}) {
         const auto facts = painter.facts(x, y, {}).value();
-        const ChunkPos chunk = world::chunkOf({x, y, 0});
+        const ChunkPos chunk = world::chunkOf(world::BlockPos{x, y, 0});
         const auto index = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
         const SurfaceColumn column = generatedSurface(generators, chunk)[index];
         EXPECT_EQ(facts.top, column.top);

@@ -104,7 +104,7 @@ TEST_F(SurfaceSourceTest, AnAreaHasEachColumnInItsPlace) {
             const auto columnX = static_cast<std::int32_t>(rect.x0 + x),
                        columnY = static_cast<std::int32_t>(rect.y0 + y);
             static std::map<ChunkPos, Surface> surfaces;
-            const ChunkPos chunk = world::chunkOf({columnX, columnY, 0});
+            const ChunkPos chunk = world::chunkOf(world::BlockPos{columnX, columnY, 0});
             if (!surfaces.contains(chunk)) surfaces[chunk] = generatedSurface(overworld(), chunk);
             ASSERT_EQ(area.at(x, y),
                       surfaces[chunk][static_cast<std::size_t>((columnX & 15) + 16 * (columnY & 15))]);

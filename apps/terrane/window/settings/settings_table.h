@@ -33,8 +33,8 @@ struct SwitchSetting {
 };
 
 struct NumberSetting {
-    double (*get)(const PlaySettings&);
-    void (*set)(PlaySettings&, double);
+    double (*get)(const PlaySettings&) = nullptr;
+    void (*set)(PlaySettings&, double) = nullptr;
     double low = 0, high = 1;
     int decimals = 0;            // of the saved text
     const char* shown = "%.0f";  // to the player, translated; printf format of the value times `factor`
@@ -45,7 +45,7 @@ struct NumberSetting {
 
 struct ChoiceSetting {
     std::vector<std::string> names;               // of the values: command line and settings.toml
-    std::vector<const char*> labels;              // for the player, translated; empty: the names
+    std::vector<const char*> labels = {};         // for the player, translated; empty: the names
     std::function<int(const PlaySettings&)> get;  // the value's index; −1: none of them
     std::function<void(PlaySettings&, int)> set;
 };
@@ -56,7 +56,7 @@ struct Setting {
     SettingsSection section = SettingsSection::Hidden;
     const char* label = nullptr;  // for the player, translated
     const char* tip = nullptr;    // effect and cost; null: none
-    std::variant<SwitchSetting, NumberSetting, ChoiceSetting> kind;
+    std::variant<SwitchSetting, NumberSetting, ChoiceSetting> kind = {};
     const render::GraphicsRow* graphics = nullptr;  // the setting is this row of drawing
     bool isSaved = true;                            // in settings.toml, rather than in each world
 };
