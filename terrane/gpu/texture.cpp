@@ -249,4 +249,24 @@ void Sampler::bind(GLuint unit) const {
     glBindSampler(unit, id());
 }
 
+TextureSet& TextureSet::add(GLuint unit, GLuint texture, const Sampler* sampler) {
+    if (texture == 0) return *this;
+    assert(count_ < kMax && "a draw has few textures");
+    bindings_[count_++] = {unit, texture, sampler ? sampler->id() : 0};
+    return *this;
+}
+
+TextureSet& TextureSet::add(const TextureSet& others) {
+    assert(count_ + others.count_ <= kMax && "a draw has few textures");
+    for (std::size_t k = 0; k < others.count_; ++k) bindings_[count_++] = others.bindings_[k];
+    return *this;
+}
+
+void TextureSet::bind() const {
+    for (std::size_t k = 0; k < count_; ++k) {
+        glBindTextureUnit(bindings_[k].unit, bindings_[k].texture);
+        glBindSampler(bindings_[k].unit, bindings_[k].sampler);
+    }
+}
+
 }  // namespace terrane::gpu

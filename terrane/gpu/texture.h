@@ -7,6 +7,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include <array>
 #include <cstddef>
 #include <span>
 #include <string_view>
@@ -133,6 +134,25 @@ class Sampler {
 
   private:
     Handle<ObjectKind::Sampler> handle_;
+};
+
+// The textures of a draw, each at a unit with the sampler that reads it. They are bound as a whole, so that
+// no draw depends on what another one left. At most kMax; refers to the objects by their GL names.
+class TextureSet {
+  public:
+    static constexpr std::size_t kMax = 24;
+
+    // `sampler`: null for the texture's own filters. A texture 0 is left out.
+    TextureSet& add(GLuint unit, GLuint texture, const Sampler* sampler = nullptr);
+    TextureSet& add(const TextureSet& others);
+    void bind() const;
+
+  private:
+    struct Binding {
+        GLuint unit = 0, texture = 0, sampler = 0;
+    };
+    std::array<Binding, kMax> bindings_;
+    std::size_t count_ = 0;
 };
 
 }  // namespace terrane::gpu

@@ -1,5 +1,5 @@
 // The image drawn directly equals the one drawn through the scene image.
-#include "terrane/render/frame/frame_targets.h"
+#include "terrane/render/frame/target.h"
 
 #include "tests/render/sunlit_fixture.h"
 

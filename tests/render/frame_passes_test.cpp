@@ -1,8 +1,10 @@
 // Passes after a failure, and passes rebuilt from changed shaders.
-#include "terrane/render/frame/frame_passes.h"
+#include "terrane/render/frame/frame.h"
 
 #include <algorithm>
+#include <set>
 
+#include "terrane/base/files.h"
 #include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
@@ -152,7 +154,7 @@ TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAnImage) {
 }
 
 // Code that writes times into columns needs the names of all passes.
-TEST_F(FramePassesTest, EachPassThatIsMeasuredIsListed) {
+TEST_F(FramePassesTest, EachPassThatIsOnIsMeasured) {
     RenderOptions options = fullOptions(1);
     options.tJunctions = TJunctions::Filled;
     ASSERT_TRUE(renderer_->configure(kPassesSize, options));
@@ -160,9 +162,48 @@ TEST_F(FramePassesTest, EachPassThatIsMeasuredIsListed) {
         draw();
         glFinish();
     }
-    EXPECT_EQ(renderer_->passTimes().size(), kPassNames.size()) << "all options are on";
-    for (const gpu::GpuTiming& pass : renderer_->passTimes())
-        EXPECT_TRUE(std::ranges::find(kPassNames, pass.name) != kPassNames.end()) << pass.name;
+    std::vector<std::string_view> expected = passNames();
+    ASSERT_EQ(expected.back(), "debug view");
+    expected.pop_back();
+    std::vector<std::string_view> measured;
+    for (const gpu::GpuTiming& pass : renderer_->passTimes()) measured.push_back(pass.name);
+    EXPECT_EQ(measured, expected) << "all options are on";
+}
+
+// What a pass reads, a pass before it has written.
+TEST_F(FramePassesTest, PassesReadWhatIsWritten) {
+    for (const Preset& preset : presets()) {
+        ASSERT_TRUE(renderer_->configure(kPassesSize, preset.options));
+        std::set<const Target*> written;
+        for (const Pass& pass : renderer_->frame().passes) {
+            for (const TargetRef& target : pass.reads)
+                EXPECT_TRUE(written.contains(target.get()))
+                    << pass.name << " reads " << target->shape().label;
+            for (const TargetRef& target : pass.writes) written.insert(target.get());
+        }
+    }
+}
+
+// docs/rendering.md lists the passes.
+TEST_F(FramePassesTest, AreThoseOfTheDocument) {
+    ASSERT_TRUE(renderer_->configure(kPassesSize, findPreset("high", false)->options));
+    const auto page = base::readFile(std::filesystem::path(TERRANE_SOURCE_DIR) / "docs/rendering.md");
+    ASSERT_TRUE(page) << page.error().message;
+    const std::string passes = textOf(renderer_->frame());
+    EXPECT_NE(page->find("```text\n" + passes + "```"), std::string::npos) << passes;
+}
+
+// Options that stay the same keep their targets, and what an option needed is freed.
+TEST_F(FramePassesTest, TargetsAreKeptAndFreed) {
+    RenderOptions options = fullOptions(1);
+    ASSERT_TRUE(renderer_->configure(kPassesSize, options));
+    const Frame before = renderer_->frame();
+    options.godRays = false;
+    ASSERT_TRUE(renderer_->configure(kPassesSize, options));
+    EXPECT_EQ(renderer_->frame().targets.scene, before.targets.scene);
+    EXPECT_EQ(renderer_->frame().shadowMap, before.shadowMap);
+    constexpr glm::ivec2 kThird = (kPassesSize + 2) / 3;
+    EXPECT_EQ(before.targetBytes() - renderer_->frame().targetBytes(), std::size_t{2} * kThird.x * kThird.y);
 }
 
 }  // namespace

@@ -1,6 +1,5 @@
 // Variants of every shader, through the reference compiler and through the driver: all of them where
-// TERRANE_DEPTH=all, else so many that each pair of options occurs. A shader that is new is found by its
-// name; one that has variants is listed here.
+// TERRANE_DEPTH=all, else so many that each pair of options occurs.
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -10,6 +9,7 @@
 #include <set>
 
 #include "terrane/gpu/program.h"
+#include "terrane/render/frame/variants.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/gpu/scratch_folder.h"
 #include "tests/render/content.h"
@@ -20,116 +20,8 @@ namespace {
 
 const std::vector<gpu::ShaderDefines> kPlain = {{}};
 
-// All combinations of values.
-using Values = std::vector<std::pair<std::string, std::vector<std::string>>>;
-std::vector<gpu::ShaderDefines> combined(const Values& values) {
-    std::vector<gpu::ShaderDefines> all = kPlain;
-    for (const auto& [name, choices] : values) {
-        std::vector<gpu::ShaderDefines> more;
-        for (const gpu::ShaderDefines& defines : all) {
-            for (const std::string& choice : choices) {
-                more.push_back(defines);
-                more.back().emplace_back(name, choice);
-            }
-        }
-        all = std::move(more);
-    }
-    return all;
-}
-
-// By the name in its folder, with the stage.
-const std::map<std::string, Values>& variantValues() {
-    static const std::map<std::string, Values> values = {
-        {"mesh.comp", {{"WRITES_QUADS", {"0", "1"}}}},
-        {"quad.vert",
-         {{"PASS", {"0", "1", "2"}},
-          {"ALPHA_CLASS", {"0", "1", "2"}},
-          {"FACE_SAMPLING", {"0", "1"}},
-          {"TINT", {"0", "1"}}}},
-        {"gbuffer.frag",
-         {{"PASS", {"0"}},
-          {"ALPHA_CLASS", {"0", "1"}},
-          {"MSAA_SAMPLES", {"1", "4"}},
-          {"SMOOTH", {"0", "1"}},
-          {"FACE_SAMPLING", {"0", "1"}},
-          {"TINT", {"0", "1"}}}},
-        {"shadow.frag",
-         {{"PASS", {"2"}}, {"ALPHA_CLASS", {"0", "1"}}, {"FACE_SAMPLING", {"0", "1"}}, {"TINT", {"0"}}}},
-        {"depth_peel.frag",
-         {{"PASS", {"1"}},
-          {"ALPHA_CLASS", {"2"}},
-          {"NEXT", {"0", "1"}},
-          {"MSAA_SAMPLES", {"1", "4"}},
-          {"FACE_SAMPLING", {"0", "1"}},
-          {"TINT", {"0", "1"}}}},
-        {"transparency.frag",
-         {{"PASS", {"1"}},
-          {"ALPHA_CLASS", {"2"}},
-          {"MSAA_SAMPLES", {"1", "4"}},
-          {"LAYERS", {"1", "2", "3"}},
-          {"SHADOW", {"0", "1", "2"}},
-          {"LAND", {"0", "1"}},
-          {"OCCLUSION", {"0", "1"}},
-          {"LIGHT_SMOOTH", {"0", "1"}},
-          {"QUADS", {"0", "1"}},
-          {"WATER_DETAIL", {"0", "1"}},
-          {"UNDER_WATER", {"0", "1"}},
-          {"DIRECT", {"0", "1"}},
-          {"OVER_SKY", {"0", "1"}},
-          {"FAR", {"0"}},
-          {"FACE_SAMPLING", {"0"}},
-          {"TINT", {"0"}}}},
-        {"figure.vert", {{"PASS", {"0", "2"}}}},
-        {"figure.frag", {{"PASS", {"0"}}}},
-        {"figure_shadow.frag", {{"PASS", {"2"}}}},
-        {"pixel_mask.frag", {{"MSAA_SAMPLES", {"4"}}, {"OF", {"0", "1", "2"}}}},
-        {"sky.frag", {{"CLOUDS", {"0", "1"}}, {"NIGHT", {"0", "1"}}, {"DIRECT", {"0", "1"}}}},
-        {"hole_fill.frag", {{"MSAA_SAMPLES", {"1", "4"}}}},
-        {"depth_of_field.frag", {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
-        {"ambient_occlusion.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
-        {"occlusion_blur.frag",
-         {{"AXIS", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}, {"NEAREST_LAYER", {"0", "1"}}}},
-        {"final.frag",
-         {{"MSAA_SAMPLES", {"1", "4"}},
-          {"DEPTH_OF_FIELD", {"0", "1"}},
-          {"GOD_RAYS", {"0", "1"}},
-          {"RAW_OCCLUSION", {"0", "1"}}}},
-        {"hi_z.comp", {{"LEVEL_0", {"0", "1"}}, {"MSAA_SAMPLES", {"1", "4"}}}},
-        {"debug_view.frag", {{"MSAA_SAMPLES", {"1", "4"}}, {"LIGHT_SMOOTH", {"0", "1"}}}},
-        {"shade.frag",
-         {{"MSAA_SAMPLES", {"1", "4"}},
-          {"PER_SAMPLE", {"0", "1"}},
-          {"LIGHT_SMOOTH", {"0", "1", "2"}},
-          {"SHADOW", {"0", "1", "2"}},
-          {"LAND", {"0", "1"}},
-          {"OCCLUSION", {"0", "1"}},
-          {"OVER_SKY", {"0", "1"}},
-          {"DIRECT", {"0", "1"}},
-          {"UNDER_WATER", {"0", "1"}},
-          {"FAR", {"0", "1"}}}},
-    };
-    return values;
-}
-
 bool has(const gpu::ShaderDefines& defines, const char* name, const char* value) {
     return std::ranges::find(defines, std::pair<std::string, std::string>(name, value)) != defines.end();
-}
-
-// Combinations that no options select: with several samples a pixel layers are shaded over the whole screen,
-// surfaces over the sky, and neither writes display colors; display colors exclude ambient occlusion and
-// reflected shores. Without shadows the land does not affect light. Far tiles have a shader of their own only
-// with several samples, in air.
-bool isNeverSelected(const gpu::ShaderDefines& defines) {
-    if (has(defines, "FAR", "1") && (has(defines, "MSAA_SAMPLES", "1") || has(defines, "UNDER_WATER", "1")))
-        return true;
-    if (has(defines, "LAND", "1") && has(defines, "SHADOW", "0")) return true;
-    const bool isDirect = has(defines, "DIRECT", "1"), isOverSky = has(defines, "OVER_SKY", "1");
-    const bool isOfLayers = has(defines, "QUADS", "0") || has(defines, "QUADS", "1");
-    if (has(defines, "MSAA_SAMPLES", "4") && (has(defines, "QUADS", "1") || has(defines, "OVER_SKY", "0")))
-        return true;
-    if (isOfLayers && isDirect == isOverSky) return true;
-    const bool readsLight = has(defines, "OCCLUSION", "1") || has(defines, "WATER_DETAIL", "1");
-    return isDirect && (isOverSky || has(defines, "QUADS", "0") || readsLight);
 }
 
 // The pairs of options that a variant has: names and values. An option is also a pair with itself.
@@ -160,13 +52,13 @@ std::vector<gpu::ShaderDefines> coveringPairs(const std::vector<gpu::ShaderDefin
 }
 
 std::vector<gpu::ShaderDefines> variantsOf(std::string_view path) {
-    for (const auto& [name, values] : variantValues()) {
-        if (!path.ends_with("/" + name + ".glsl")) continue;
-        std::vector<gpu::ShaderDefines> variants = combined(values);
-        std::erase_if(variants, isNeverSelected);
-        return testsAll() ? variants : coveringPairs(variants);
-    }
-    return kPlain;
+    constexpr std::string_view kFolder = "terrane/render/", kEnding = ".glsl";
+    std::vector<gpu::ShaderDefines> variants = kPlain;
+    if (path.ends_with("/mesh.comp.glsl"))
+        variants = {{{"WRITES_QUADS", "0"}}, {{"WRITES_QUADS", "1"}}};
+    else if (path.starts_with(kFolder) && path.ends_with(kEnding))
+        variants = allVariants(path.substr(kFolder.size(), path.size() - kFolder.size() - kEnding.size()));
+    return testsAll() ? variants : coveringPairs(variants);
 }
 
 std::string named(const gpu::ShaderDefines& defines) {

@@ -151,7 +151,7 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     }
     frame.arenaQuads = meshSections.arenaQuads();
     ring.writeUniform(shared::kCullBinding, frame);
-    if (input.hiZ) input.hiZ->bind();
+    if (input.hiZ) gpu::TextureSet().add(shared::kHiZUnit, input.hiZ->id()).bind();
     meshSections.bindRecords();
     meshSections.bindOrder();
     visible_.bindStorage(shared::kVisibleBinding);

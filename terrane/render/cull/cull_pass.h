@@ -10,7 +10,6 @@
 #include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
-#include "terrane/render/cull/hi_z.h"
 #include "terrane/render/cull/quad_list.h"
 #include "terrane/render/quads/mesh_section_table.h"
 #include "terrane/render/quads/quad_resources.h"
@@ -46,8 +45,8 @@ struct CullInput {
     glm::vec3 cameraPosition;  // from the corner of its chunk
     Frustum camera;
     glm::mat4 viewProjection{1};
-    glm::vec2 size{1};         // of the image in pixels
-    const HiZ* hiZ = nullptr;  // for the late pass
+    glm::vec2 size{1};                    // of the image in pixels
+    const gpu::Texture2D* hiZ = nullptr;  // for the late pass
     // With Hi-Z the late pass tests quads, and both passes list those to draw.
     const QuadStore* quads = nullptr;
     const QuadResources* resources = nullptr;
@@ -120,13 +119,6 @@ class CullPass {
 
 // Input of a pass that draws quads: the quads that culling selected, and the data that shaders read of them.
 // Used by the renderer on the context's thread.
-// Features that the world's faces need in the shaders of quads; without them the shaders are shorter.
-struct QuadFeatures {
-    bool hasFaceSampling = false;  // see needsFaceSampling()
-    bool hasTint = false;          // see TintTextures
-    bool hasLand = false;          // land to the horizon affects light: see LandTextures
-};
-
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;

@@ -1,8 +1,8 @@
-#include "terrane/render/cull/hi_z.h"
-
+// Hi-Z: the farthest depths of squares of pixels in a mip chain, for occlusion culling.
 #include <bit>
 
-#include "terrane/gpu/debug.h"
+#include "terrane/render/frame/frame.h"
+#include "terrane/shared/bindings.h"
 #include "terrane/shared/mesh_section.h"
 
 namespace terrane::render {
@@ -19,7 +19,7 @@ glm::ivec2 finestSize(glm::ivec2 pixels) {
 }
 
 // Texels of the finest level that cover the image. The others keep their near depth.
-glm::ivec2 used(glm::ivec2 pixels) {
+glm::ivec2 usedSize(glm::ivec2 pixels) {
     constexpr int kPixels = shared::kHiZTexelPixels;
     return (pixels + kPixels - 1) / kPixels;
 }
@@ -30,54 +30,49 @@ void dispatch(glm::ivec2 size) {
                       static_cast<GLuint>((size.y + kGroup - 1) / kGroup), 1);
 }
 
-}  // namespace
-
-base::Result<void> HiZ::configure(const FrameTargets& targets, bool isOn) {
-    if (!isOn) {
-        texture_ = {};
-        return {};
-    }
-    const char* name = "terrane/render/cull/hi_z.comp.glsl";
-    if (samples_ != targets.msaaSamples) {
-        auto finest = TERRANE_TRY(gpu::Program::compute(
-            *shaders_, name, {{"LEVEL_0", "1"}, {"MSAA_SAMPLES", std::to_string(targets.msaaSamples)}},
-            "Hi-Z"));
-        auto next = TERRANE_TRY(
-            gpu::Program::compute(*shaders_, name, {{"LEVEL_0", "0"}, {"MSAA_SAMPLES", "1"}}, "Hi-Z"));
-        finest_ = std::move(finest);
-        next_ = std::move(next);
-        samples_ = targets.msaaSamples;
-    }
-    const glm::ivec2 size = finestSize(targets.size);
-    // Texels of an image of another size must be cleared to the near depth.
-    if (texture_.id() == 0 || imageSize_ != targets.size) {
-        imageSize_ = targets.size;
-        texture_ = gpu::Texture2D(size, GL_R32F, gpu::fullLevels(size), "Hi-Z");
-        constexpr float kNear = 1;
-        for (int level = 0; level < levels(); ++level)
-            glClearTexImage(texture_.id(), level, GL_RED, GL_FLOAT, &kNear);
-    }
-    return {};
+void clearToNear(const gpu::Texture2D& hiZ) {
+    constexpr float kNear = 1;
+    for (int level = 0; level < hiZ.levels(); ++level)
+        glClearTexImage(hiZ.id(), level, GL_RED, GL_FLOAT, &kNear);
 }
 
-void HiZ::build(const FrameTargets& targets) const {
-    const gpu::DebugGroup group("Hi-Z");
-    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // the frame before may still read it
-    glBindImageTexture(shared::kHiZToImage, texture_.id(), 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-    targets.depth.bind(shared::kDepthUnit);
-    finest_.use();
-    dispatch(used(targets.size));
-    next_.use();
-    glm::ivec2 drawn = used(targets.size);
-    for (int level = 1; level < levels(); ++level) {
-        drawn = (drawn + 1) / 2;
-        glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
-        glBindImageTexture(shared::kHiZFromImage, texture_.id(), level - 1, GL_FALSE, 0, GL_READ_ONLY,
-                           GL_R32F);
-        glBindImageTexture(shared::kHiZToImage, texture_.id(), level, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
-        dispatch(drawn);
-    }
-    glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+}  // namespace
+
+MaybePass makeDepthPyramid(FrameBuilder& build) {
+    if (!build.options().occlusionCulling) return std::nullopt;
+    const auto* finest =
+        TERRANE_TRY(build.programs.compute("cull/hi_z", HiZVariant{build.samples(), true}.defines()));
+    const auto* next = TERRANE_TRY(build.programs.compute("cull/hi_z", HiZVariant{1, false}.defines()));
+    const glm::ivec2 pixels = build.frame.spec.size, size = finestSize(pixels);
+    const TargetRef hiZ = build.target({"Hi-Z", GL_R32F, size, 1, gpu::fullLevels(size)});
+    const TargetRef depth = build.frame.targets.depth;
+    build.frame.targets.hiZ = hiZ;
+    clearToNear(hiZ->plain());  // also after an image of another size
+    return Pass{
+        .reads = {depth},
+        .writes = {hiZ},
+        .record =
+            [=](FrameContext&) {
+                const GLuint id = hiZ->id();
+                glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // the frame before may still read it
+                glBindImageTexture(shared::kHiZToImage, id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+                gpu::TextureSet().add(shared::kDepthUnit, depth->id()).bind();
+                finest->use();
+                dispatch(usedSize(pixels));
+                next->use();
+                glm::ivec2 drawn = usedSize(pixels);
+                for (int level = 1; level < hiZ->plain().levels(); ++level) {
+                    drawn = (drawn + 1) / 2;
+                    glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
+                    glBindImageTexture(shared::kHiZFromImage, id, level - 1, GL_FALSE, 0, GL_READ_ONLY,
+                                       GL_R32F);
+                    glBindImageTexture(shared::kHiZToImage, id, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
+                    dispatch(drawn);
+                }
+                glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+            },
+        .isNeeded = [](FrameContext& context) { return context.hidesHidden(); },
+        .drawnIn = DrawnIn::EveryView};
 }
 
 }  // namespace terrane::render

@@ -1,65 +1,53 @@
 #include "terrane/render/effects/ambient_occlusion.h"
 
+#include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 
-AmbientOcclusion::Passes AmbientOcclusion::makePasses(const gpu::ShaderLoader& shaders) {
-    return {FullscreenPass(shaders, "effects/ambient_occlusion"), FullscreenPass(shaders, "effects/occlusion_blur"),
-            FullscreenPass(shaders, "effects/occlusion_blur")};
-}
-
-AmbientOcclusion::AmbientOcclusion(const gpu::ShaderLoader& shaders)
-    : opaque_(makePasses(shaders)), nearestLayer_(makePasses(shaders)) {}
-
-base::Result<void> AmbientOcclusion::select(Passes& passes, int samples, bool nearestLayer) {
-    const auto variant = [&](int axis) {
-        return defined({{"AXIS", axis}, {"MSAA_SAMPLES", samples}, {"NEAREST_LAYER", nearestLayer}});
+base::Result<OcclusionPrograms> OcclusionPrograms::make(FrameBuilder& build, bool isNearestLayer) {
+    const OcclusionVariant variant{build.samples(), isNearestLayer};
+    const auto blur = [&](Axis axis) {
+        return build.programs.fullscreen("effects/occlusion_blur",
+                                         OcclusionBlurVariant{variant, axis}.defines());
     };
-    auto selected = passes.find.select(defined({{"MSAA_SAMPLES", samples}, {"NEAREST_LAYER", nearestLayer}}));
-    if (selected) selected = passes.alongX.select(variant(0));
-    if (selected) selected = passes.alongY.select(variant(1));
-    return selected;
+    OcclusionPrograms made{};
+    made.find = TERRANE_TRY(build.programs.fullscreen("effects/ambient_occlusion", variant.defines()));
+    made.alongX = TERRANE_TRY(blur(Axis::X));
+    made.alongY = TERRANE_TRY(blur(Axis::Y));
+    const auto targetNamed = [&](std::string_view label,
+                                 const TargetRef& there) -> base::Result<FrameBuilder::Drawn> {
+        if (!there) return build.drawnTarget(label, GL_R8, build.frame.spec.size);
+        return FrameBuilder::Drawn{there, TERRANE_TRY(build.framebuffer(label, {there}))};
+    };
+    SharedTargets& targets = build.frame.targets;
+    made.visibility = TERRANE_TRY(targetNamed("ambient occlusion", targets.occlusion));
+    made.between = TERRANE_TRY(targetNamed("occlusion between", targets.occlusionBetween));
+    targets.occlusion = made.visibility.target;
+    targets.occlusionBetween = made.between.target;
+    return made;
 }
 
-base::Result<void> AmbientOcclusion::configure(const FrameTargets& targets, bool isOn, bool hasLayers) {
-    if (isOn) {
-        auto selected = select(opaque_, targets.msaaSamples, false);
-        if (selected && hasLayers) selected = select(nearestLayer_, targets.msaaSamples, true);
-        if (!selected) return selected;
-    }
-    const glm::ivec2 wanted = isOn ? targets.size : glm::ivec2(0);
-    if (wanted == size_) return {};
-    visibility_ = {};
-    between_ = {};
-    size_ = {0, 0};
-    if (!isOn) return {};
-    auto visibility = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "ambient occlusion"));
-    auto between = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "occlusion between"));
-    visibility_ = std::move(visibility);
-    between_ = std::move(between);
-    size_ = wanted;
-    return {};
+void OcclusionPrograms::draw(FrameContext& context, const gpu::TextureSet& textures) const {
+    visibility.framebuffer->bind();
+    drawFullscreen(context, *find, {}, textures);
+    between.framebuffer->bind();
+    drawFullscreen(context, *alongX, {},
+                   gpu::TextureSet(textures).add(shared::kOcclusionUnit, visibility.target->id()));
+    visibility.framebuffer->bind();
+    drawFullscreen(context, *alongY, {},
+                   gpu::TextureSet(textures).add(shared::kOcclusionUnit, between.target->id()));
 }
 
-void AmbientOcclusion::run(gpu::Pipeline& pipeline, const FrameTargets& targets, const Passes& passes) const {
-    targets.bindGBuffer();
-    visibility_.framebuffer.bind();
-    passes.find.draw(pipeline, {});
-    between_.framebuffer.bind();
-    visibility_.texture.bind(shared::kOcclusionUnit);
-    passes.alongX.draw(pipeline, {});
-    visibility_.framebuffer.bind();
-    between_.texture.bind(shared::kOcclusionUnit);
-    passes.alongY.draw(pipeline, {});
-}
-
-void AmbientOcclusion::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    run(pipeline, targets, opaque_);
-}
-
-void AmbientOcclusion::drawNearestLayer(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    run(pipeline, targets, nearestLayer_);
+MaybePass makeOcclusion(FrameBuilder& build) {
+    if (build.options().occlusion == Occlusion::Off) return std::nullopt;
+    const auto programs = TERRANE_TRY(OcclusionPrograms::make(build, false));
+    const SharedTargets& targets = build.frame.targets;
+    return Pass{.reads = {targets.surfaces, targets.depth},
+                .writes = {targets.occlusion},
+                .record = [programs](FrameContext& context) {
+                    programs.draw(context, context.frame.gbufferTextures());
+                }};
 }
 
 }  // namespace terrane::render

@@ -1,48 +1,35 @@
-#include "terrane/render/effects/depth_of_field.h"
-
+// Blurs distant objects, along both axes; at half the size.
+#include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 
-DepthOfField::DepthOfField(const gpu::ShaderLoader& shaders)
-    : alongX_(shaders, "effects/depth_of_field"), alongY_(shaders, "effects/depth_of_field"), smooth_({}, "smooth") {}
-
-base::Result<void> DepthOfField::configure(const FrameTargets& targets, bool isOn) {
-    if (isOn) {
-        auto selected =
-            alongX_.select({{"AXIS", "0"}, {"MSAA_SAMPLES", std::to_string(targets.msaaSamples)}});
-        if (selected) selected = alongY_.select({{"AXIS", "1"}, {"MSAA_SAMPLES", "1"}});
-        if (!selected) return selected;
-    }
-    const glm::ivec2 wanted = isOn ? (targets.size + 1) / 2 : glm::ivec2(0);
-    if (wanted == size_) return {};
-    between_ = {};
-    result_ = {};
-    size_ = {0, 0};
-    if (!isOn) return {};
-    auto between = TERRANE_TRY(ColorTarget::create(wanted, GL_RGBA16F, "blurred along x"));
-    auto result = TERRANE_TRY(ColorTarget::create(wanted, GL_RGBA16F, "blurred"));
-    between_ = std::move(between);
-    result_ = std::move(result);
-    size_ = wanted;
-    return {};
-}
-
-void DepthOfField::draw(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                        const MsaaTexture& depth) const {
-    depth.bind(shared::kDepthUnit);
-    targets.sceneColor.bind(shared::kSceneUnit);
-    between_.framebuffer.bind();
-    alongX_.draw(pipeline, {});
-    between_.texture.bind(shared::kDepthOfFieldUnit);
-    smooth_.bind(shared::kDepthOfFieldUnit);
-    result_.framebuffer.bind();
-    alongY_.draw(pipeline, {});
-}
-
-void DepthOfField::bindResult() const {
-    result_.texture.bind(shared::kDepthOfFieldUnit);
-    smooth_.bind(shared::kDepthOfFieldUnit);
+MaybePass makeDepthOfField(FrameBuilder& build) {
+    if (!build.options().depthOfField) return std::nullopt;
+    const auto blurAlong = [&](const DepthOfFieldVariant& variant) {
+        return build.programs.fullscreen("effects/depth_of_field", variant.defines());
+    };
+    const auto* alongX = TERRANE_TRY(blurAlong({build.samples(), Axis::X}));
+    const auto* alongY = TERRANE_TRY(blurAlong({1, Axis::Y}));
+    const glm::ivec2 size = (build.frame.spec.size + 1) / 2;
+    const auto between = TERRANE_TRY(build.drawnTarget("blurred along x", GL_RGBA16F, size));
+    const auto blurred = TERRANE_TRY(build.drawnTarget("blurred", GL_RGBA16F, size));
+    const TargetRef scene = build.frame.targets.scene;
+    build.frame.targets.depthOfField = blurred.target;
+    const auto smooth = std::make_shared<gpu::Sampler>(gpu::SamplerSettings{}, "smooth");
+    return Pass{.reads = {scene, build.frame.targets.depth},
+                .writes = {blurred.target},
+                .record = [=](FrameContext& context) {
+                    between.framebuffer->bind();
+                    drawFullscreen(context, *alongX, {},
+                                   gpu::TextureSet()
+                                       .add(shared::kDepthUnit, context.nearestDepth->id())
+                                       .add(shared::kSceneUnit, scene->id()));
+                    blurred.framebuffer->bind();
+                    drawFullscreen(
+                        context, *alongY, {},
+                        gpu::TextureSet().add(shared::kDepthOfFieldUnit, between.target->id(), smooth.get()));
+                }};
 }
 
 }  // namespace terrane::render

@@ -1,45 +1,31 @@
-#include "terrane/render/effects/god_rays.h"
-
+// Rays of the sun or moon between objects in front of it, in screen space, from the scene's coverage; at a
+// third of the size.
+#include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 
-GodRays::GodRays(const gpu::ShaderLoader& shaders)
-    : sample_(shaders, "effects/god_rays"),
-      smooth_(shaders, "effects/god_rays_smooth"),
-      linear_({}, "smooth"),
-      nearest_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST}, "nearest") {}
-
-base::Result<void> GodRays::configure(glm::ivec2 size, bool isOn) {
-    const glm::ivec2 wanted = isOn ? (size + 2) / 3 : glm::ivec2(0);
-    if (wanted == size_) return {};
-    sampled_ = {};
-    smoothed_ = {};
-    size_ = {0, 0};
-    if (!isOn) return {};
-    for (FullscreenPass* pass : {&sample_, &smooth_}) TERRANE_TRY(pass->select({}));
-    for (ColorTarget* target : {&sampled_, &smoothed_}) {
-        auto made = TERRANE_TRY(ColorTarget::create(wanted, GL_R8, "god rays"));
-        *target = std::move(made);
-    }
-    size_ = wanted;
-    return {};
-}
-
-void GodRays::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    nearest_.bind(shared::kSceneUnit);
-    sampled_.framebuffer.bind();
-    targets.sceneColor.bind(shared::kSceneUnit);
-    sample_.draw(pipeline, {});
-    linear_.bind(shared::kSceneUnit);
-    smoothed_.framebuffer.bind();
-    sampled_.texture.bind(shared::kSceneUnit);
-    smooth_.draw(pipeline, {});
-}
-
-void GodRays::bindResult() const {
-    smoothed_.texture.bind(shared::kGodRaysUnit);
-    linear_.bind(shared::kGodRaysUnit);
+MaybePass makeGodRays(FrameBuilder& build) {
+    if (!build.options().godRays) return std::nullopt;
+    const auto* sample = TERRANE_TRY(build.programs.fullscreen("effects/god_rays"));
+    const auto* smooth = TERRANE_TRY(build.programs.fullscreen("effects/god_rays_smooth"));
+    const glm::ivec2 size = (build.frame.spec.size + 2) / 3;
+    const auto sampled = TERRANE_TRY(build.drawnTarget("sampled god rays", GL_R8, size));
+    const auto smoothed = TERRANE_TRY(build.drawnTarget("god rays", GL_R8, size));
+    const TargetRef scene = build.frame.targets.scene;
+    build.frame.targets.godRays = smoothed.target;
+    const auto nearest = std::make_shared<gpu::Sampler>(
+        gpu::SamplerSettings{.minFilter = GL_NEAREST, .magFilter = GL_NEAREST}, "nearest");
+    const auto linear = std::make_shared<gpu::Sampler>(gpu::SamplerSettings{}, "smooth");
+    return Pass{.reads = {scene}, .writes = {smoothed.target}, .record = [=](FrameContext& context) {
+                    sampled.framebuffer->bind();
+                    drawFullscreen(context, *sample, {},
+                                   gpu::TextureSet().add(shared::kSceneUnit, scene->id(), nearest.get()));
+                    smoothed.framebuffer->bind();
+                    drawFullscreen(
+                        context, *smooth, {},
+                        gpu::TextureSet().add(shared::kSceneUnit, sampled.target->id(), linear.get()));
+                }};
 }
 
 }  // namespace terrane::render

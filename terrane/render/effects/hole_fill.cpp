@@ -1,40 +1,34 @@
-#include "terrane/render/effects/hole_fill.h"
-
+// Fills the cracks at T-junctions: holes of one sample in the G-buffer, between quads of different sizes,
+// that show something farther. The method of D. Čejchan's thesis; with edge_expansion.glsl there are no
+// holes. Reads a copy of the G-buffer: eight bytes a sample.
+#include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
-namespace {
 
-void copy(const MsaaTexture& from, const MsaaTexture& to, glm::ivec2 size) {
-    const GLenum target = from.samples() > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
-    glCopyImageSubData(from.id(), target, 0, 0, 0, 0, to.id(), target, 0, 0, 0, 0, size.x, size.y, 1);
-}
-
-}  // namespace
-
-HoleFill::HoleFill(const gpu::ShaderLoader& shaders) : fill_(shaders, "effects/hole_fill") {}
-
-base::Result<void> HoleFill::configure(const FrameTargets& targets, bool isOn) {
-    if (!isOn) {
-        surface_ = {};
-        depth_ = {};
-        return {};
-    }
-    TERRANE_TRY(fill_.select(defined({{"MSAA_SAMPLES", targets.msaaSamples}})));
-    if (this->isOn() && size_ == targets.size && surface_.samples() == targets.msaaSamples) return {};
-    surface_ = MsaaTexture(targets.size, GL_RGBA8, targets.msaaSamples, "G-buffer with holes");
-    depth_ = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "depth with holes");
-    size_ = targets.size;
-    return {};
-}
-
-void HoleFill::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    copy(targets.gbufferColor, surface_, size_);
-    copy(targets.depth, depth_, size_);
-    surface_.bind(shared::kGBufferUnit);
-    depth_.bind(shared::kDepthUnit);
-    targets.gbuffer.bind();
-    fill_.draw(pipeline, {.depthTest = gpu::DepthTest::Always, .readsSampleId = targets.msaaSamples > 1});
+MaybePass makeHoleFill(FrameBuilder& build) {
+    if (build.options().tJunctions != TJunctions::Filled) return std::nullopt;
+    const int samples = build.samples();
+    const auto* fill =
+        TERRANE_TRY(build.programs.fullscreen("effects/hole_fill", HoleFillVariant{samples}.defines()));
+    const glm::ivec2 size = build.frame.spec.size;
+    const TargetRef surfaces = build.frame.targets.surfaces, depth = build.frame.targets.depth;
+    const TargetRef oldSurfaces = build.target({"G-buffer with holes", GL_RGBA8, size, samples});
+    const TargetRef oldDepth = build.target({"depth with holes", GL_DEPTH_COMPONENT32F, size, samples});
+    return Pass{.reads = {surfaces, depth},
+                .writes = {surfaces, depth},
+                .record =
+                    [=](FrameContext& context) {
+                        copyTarget(*surfaces, *oldSurfaces, {0, 0}, size);
+                        copyTarget(*depth, *oldDepth, {0, 0}, size);
+                        context.frame.gbuffer->bind();
+                        drawFullscreen(context, *fill,
+                                       {.depthTest = gpu::DepthTest::Always, .readsSampleId = samples > 1},
+                                       gpu::TextureSet()
+                                           .add(shared::kGBufferUnit, oldSurfaces->id())
+                                           .add(shared::kDepthUnit, oldDepth->id()));
+                    },
+                .drawnIn = DrawnIn::EveryView};
 }
 
 }  // namespace terrane::render

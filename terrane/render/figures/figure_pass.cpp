@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "terrane/gpu/debug.h"
+#include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/world/character.h"
 
@@ -57,19 +57,6 @@ std::vector<shared::FigureRecord> figureRecords(std::span<const world::Figure> f
     return records;
 }
 
-FigurePass::FigurePass(const gpu::ShaderLoader& shaders)
-    : surfaces_(shaders, "terrane/render/figures/figure.vert.glsl", "terrane/render/figures/figure.frag.glsl",
-                "figures"),
-      shadows_(shaders, "terrane/render/figures/figure.vert.glsl",
-               "terrane/render/figures/figure_shadow.frag.glsl", "shadows of figures"),
-      vertexArray_("figures") {}
-
-base::Result<void> FigurePass::select(bool castsShadows) {
-    auto selected = surfaces_.select(defined({{"PASS", 0}}));
-    if (selected && castsShadows) selected = shadows_.select(defined({{"PASS", 2}}));
-    return selected;
-}
-
 void FigurePass::bind(std::span<const shared::FigureRecord> figures, gpu::MappedRing& ring) const {
     assert(!figures.empty() && figures.size() <= shared::kMostFigures && "what figureRecords() gives");
     const auto slice = ring.allocate(kRingBytes);  // a block of uniforms is bound as a whole
@@ -78,23 +65,33 @@ void FigurePass::bind(std::span<const shared::FigureRecord> figures, gpu::Mapped
     ring.bindUniform(shared::kFiguresBinding, *slice);
 }
 
-void FigurePass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, std::size_t count) const {
-    const gpu::DebugGroup group("figures");
-    targets.gbuffer.bind();
-    pipeline.set({.depthTest = gpu::DepthTest::Greater});
-    surfaces_.use();
-    drawInstances(count);
-}
-
-void FigurePass::drawShadows(std::size_t count) const {
-    shadows_.use();
-    drawInstances(count);
-}
-
-void FigurePass::drawInstances(std::size_t count) const {
+void FigurePass::draw(const gpu::Program& program, std::size_t count) const {
+    program.use();
     vertexArray_.bind();
     glDrawArraysInstanced(GL_TRIANGLES, 0, shared::kFigureBoxes * shared::kVerticesPerFigureBox,
                           static_cast<GLsizei>(count));
+}
+
+MaybePass makeFigures(FrameBuilder& build) {
+    const auto* program = TERRANE_TRY(build.programs.graphics("figures/figure", "figures/figure",
+                                                              FigureVariant{QuadPass::Surfaces}.defines()));
+    const SharedTargets& targets = build.frame.targets;
+    return Pass{.writes = {targets.surfaces, targets.depth},
+                .record =
+                    [program](FrameContext& context) {
+                        context.figures.bind(context.figuresInView, context.ring);
+                        context.frame.gbuffer->bind();
+                        context.pipeline.set({.depthTest = gpu::DepthTest::Greater});
+                        context.figures.draw(*program, context.figuresInView.size());
+                    },
+                .isNeeded =
+                    [](FrameContext& context) {
+                        const FrameInput& input = context.input;
+                        context.figuresInView = figureRecords(
+                            input.figures, input.camera, context.culling.camera, double{input.fogDistance});
+                        return !context.figuresInView.empty();
+                    },
+                .drawnIn = DrawnIn::EveryView};
 }
 
 }  // namespace terrane::render

@@ -1,7 +1,6 @@
 // Statistics of a frame. A plain value.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <string_view>
 
@@ -22,12 +21,6 @@ struct GpuMemory {
     std::size_t fixed() const { return textures + targets + staging; }
     std::size_t total() const { return world() + fixed(); }
 };
-
-// The passes whose GPU time is measured, in the order of a frame. Options leave some out.
-constexpr std::array<std::string_view, 16> kPassNames = {
-    "cull",         "shadow map", "surfaces",          "depth pyramid", "cull again", "surfaces again",
-    "fill holes",   "figures",    "ambient occlusion", "sky",           "shade",      "peel",
-    "shade layers", "god rays",   "depth of field",    "final"};
 
 // Sums over the early and the late pass: mesh sections drawn by both count twice. Quads left out by
 // quad_list.h do not count. A draw command counts even if its list is empty.

@@ -27,7 +27,7 @@ enum class Water : std::uint8_t { Plain, Full };
 // Treatment of the cracks between quads of different sizes.
 enum class TJunctions : std::uint8_t {
     Open,     // nothing
-    Filled,   // holes of one sample take the value of a neighbor: hole_fill.h
+    Filled,   // holes of one sample take the value of a neighbor: hole_fill.cpp
     Covered,  // quads overlap by a little, so that there are no cracks: edge_expansion.glsl
 };
 

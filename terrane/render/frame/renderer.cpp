@@ -11,7 +11,6 @@
 #include "terrane/render/figures/figure_pass.h"
 #include "terrane/render/frame/edge_expansion.h"
 #include "terrane/render/frame/frame_statistics.h"
-#include "terrane/render/frame/frame_targets.h"
 #include "terrane/render/frame/frame_uniforms.h"
 #include "terrane/render/shadow/shadow_volume.h"
 #include "terrane/shared/bindings.h"
@@ -41,14 +40,16 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     const TextureLimits limits{device.maxArrayLayers, maxTextureSide};
     auto blockTextures = TERRANE_TRY(loadBlockTextures(blocks, textures, limits));
     auto topColors = TERRANE_TRY(world::topColors(blocks, textures));
-    auto passes = TERRANE_TRY(FramePasses::create(shaders, device));
+    auto cull = TERRANE_TRY(CullPass::create(shaders, device));
 
     Renderer renderer;
     renderer.topColors_ = std::move(topColors);
     // Software renderers take time for each sample.
     const float anisotropy = device.software ? 1.0f : std::min(kMaxAnisotropy, device.maxAnisotropy);
     renderer.resources_ = QuadResources(blocks, std::move(blockTextures), anisotropy);
-    renderer.passes_ = std::move(passes);
+    renderer.cull_ = std::move(cull);
+    renderer.programs_ = std::make_unique<Programs>(shaders);
+    renderer.fullscreen_ = gpu::VertexArray("fullscreen");
     renderer.noise_ = SkyNoise::create();
     renderer.sky_ = SkyTexture::create();
     renderer.ring_ = gpu::MappedRing(kRingBytes, "frame data");
@@ -67,25 +68,21 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
 base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, const TextureSource& textures) {
     auto loaded = TERRANE_TRY(loadBlockTextures(blocks, textures, textureLimits_));
     auto colors = TERRANE_TRY(world::topColors(blocks, textures));
-    if (targets_.size.x > 0) {
-        TERRANE_TRY(configurePasses(targets_, options_,
-                                    {needsFaceSampling(blocks, loaded), tints_.isUsed(), land_.isUsed()}));
-    }
+    FrameSpec spec = frame_.spec;
+    spec.features.hasFaceSampling = needsFaceSampling(blocks, loaded);
+    TERRANE_TRY(rebuild(spec));
     topColors_ = std::move(colors);
     if (land_.isUsed()) land_ = LandTextures::create(topColors_);  // its tiles come again, with these colors
     resources_.setTextures(blocks, std::move(loaded));
-    passes_.shadowMap.forget();
+    forgetShadows();
     return {};
 }
 
-// If it fails, the passes are as before.
-base::Result<void> Renderer::configurePasses(const FrameTargets& targets, const RenderOptions& options,
-                                             const QuadFeatures& features) {
-    auto done = passes_.configure(targets, options, features);
-    if (done || targets_.size.x == 0) return done;
-    const auto undone = passes_.configure(targets_, options_, this->features());
-    if (!undone) base::logError("the previous options cannot be restored: {}", undone.error().message);
-    return done;
+// Does nothing before the first configure().
+base::Result<void> Renderer::rebuild(const FrameSpec& spec) {
+    if (spec.size.x == 0 || spec == frame_.spec) return {};
+    frame_ = TERRANE_TRY(buildFrame(spec, *programs_, frame_));
+    return {};
 }
 
 base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& options) {
@@ -101,40 +98,30 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         return base::fail("{} × {} pixels: the graphics driver has at most {} per side", size.x, size.y,
                           device_.maxTextureSize);
     }
-    std::optional<FrameTargets> made;
-    if (size != targets_.size || options.msaaSamples != targets_.requestedMsaaSamples) {
-        auto targets = TERRANE_TRY(FrameTargets::create(size, options.msaaSamples));
-        made = std::move(targets);
-    }
-    TERRANE_TRY(configurePasses(made ? *made : targets_, options, features()));
-    if (made) targets_ = std::move(*made);
-    options_ = options;
-    return {};
+    return rebuild({size, options, features()});
 }
 
 base::Result<void> Renderer::reloadShaders() {
-    auto passes = TERRANE_TRY(FramePasses::create(*shaders_, device_));
-    if (targets_.size.x > 0) {
-        TERRANE_TRY(passes.configure(targets_, options_, features()));
-    }
-    passes_ = std::move(passes);
+    auto programs = std::make_unique<Programs>(*shaders_);
+    auto cull = TERRANE_TRY(CullPass::create(*shaders_, device_));
+    if (frame_.isBuilt()) frame_ = TERRANE_TRY(buildFrame(frame_.spec, *programs, frame_));
+    programs_ = std::move(programs);
+    cull_ = std::move(cull);
     return {};
 }
 
 base::Result<void> Renderer::useTint(bool isUsed) {
-    if (targets_.size.x > 0 && isUsed != tints_.isUsed()) {
-        TERRANE_TRY(
-            configurePasses(targets_, options_, {resources_.hasFaceSampling(), isUsed, land_.isUsed()}));
-    }
+    FrameSpec spec = frame_.spec;
+    spec.features.hasTint = isUsed;
+    TERRANE_TRY(rebuild(spec));
     tints_ = isUsed ? TintTextures::create() : TintTextures();
     return {};
 }
 
 base::Result<void> Renderer::useLand(bool isUsed) {
-    if (targets_.size.x > 0 && isUsed != land_.isUsed()) {
-        TERRANE_TRY(
-            configurePasses(targets_, options_, {resources_.hasFaceSampling(), tints_.isUsed(), isUsed}));
-    }
+    FrameSpec spec = frame_.spec;
+    spec.features.hasLand = isUsed;
+    TERRANE_TRY(rebuild(spec));
     land_ = isUsed ? LandTextures::create(topColors_) : LandTextures();
     return {};
 }
@@ -142,197 +129,95 @@ base::Result<void> Renderer::useLand(bool isUsed) {
 bool Renderer::hasShadows(const FrameInput& input) const {
     const glm::vec3 light = input.environment.lightColor;
     const bool isLit = std::max({light.x, light.y, light.z}) > kMinShadowedLight;
-    return passes_.shadowMap.isOn() && input.view == View::Color && isLit;
+    return frame_.shadowMap && input.view == View::Color && isLit;
 }
 
-void Renderer::bindFrame(const FrameInput& input, const ViewMatrices& view) {
-    shared::Frame frame =
-        frameUniforms(input, options_,
-                      {view, glm::vec2(targets_.size), edgeExpansion(device_.subpixelBits, targets_.size)});
+void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) {
+    shared::Frame frame = frameUniforms(
+        input, options(), {view, glm::vec2(size()), edgeExpansion(device_.subpixelBits, size())});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
     frame.firstLightTile = {kTilesOfChunk * (chunk.x & mask), kTilesOfChunk * (chunk.y & mask)};
     frame.lightGridTiles = kTilesOfChunk * light_.gridChunks();
     ring_.writeUniform(shared::kFrameBinding, frame);
-    tints_.bind(input.camera, ring_);
-    sky_.bind(input.environment, view.cameraPosition.z, ring_);
+    tints_.writeUniforms(input.camera, ring_);
+    sky_.update(input.environment, view.cameraPosition.z, ring_);
     const int levels = std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1;
     if (!readsLand()) return;
     land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius}, levels);
-    land_.bind(input.camera, ring_);
+    land_.writeUniforms(input.camera, ring_);
 }
 
 CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
     CullInput cull{cameraChunk(input.camera), view.cameraPosition, frustumOf(view.viewProjection),
-                   view.viewProjection, glm::vec2(targets_.size)};
+                   view.viewProjection, glm::vec2(size())};
     cull.quads = &quads_;
     cull.resources = &resources_;
-    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, targets_.size);
+    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, size());
     cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
-    cull.samples = targets_.msaaSamples;
-    if (input.culledFor) {
-        cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(targets_.size)).viewProjection);
-    }
+    cull.samples = frame_.samples;
+    if (input.culledFor)
+        cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(size())).viewProjection);
+    else if (frame_.targets.hiZ)
+        cull.hiZ = &frame_.targets.hiZ->plain();
     return cull;
 }
 
-void Renderer::cull(CullPhase phase, const CullInput& input) {
-    const TimerZone zone(timer_, phase == CullPhase::Late ? "cull again" : "cull");
-    passes_.cull.run(phase, input, meshSections_, ring_);
-}
-
-QuadDraw Renderer::quadDraw() {
-    return {resources_, quads_, meshSections_, passes_.cull, options_.sharpFiltering};
-}
-
-ShadingInputs Renderer::shadingInputs(const FrameInput& input) const {
-    return {light_, passes_.shadowMap, noise_, input.waterAbove > 0};
-}
-
-void Renderer::drawShadows(const FrameInput& input) {
-    passes_.shadowMap.markChanged(meshSections_.takeChanges());
-    if (hasShadows(input)) {
-        const TimerZone zone(timer_, "shadow map");
-        passes_.shadowMap.update(pipeline_, {resources_, quads_, meshSections_}, input.camera,
-                                 input.environment.lightDirection, input.maxShadowTiles);
-        const auto figures = figureRecords(input.figures, input.camera, {}, kFigureShadowReach);
-        passes_.shadowMap.drawFigures(pipeline_, passes_.figures, {figures, cameraChunk(input.camera)},
-                                      ring_);
+// Writes what all passes read, and collects what they draw with.
+FrameContext Renderer::prepare(const FrameInput& input) {
+    const ViewMatrices view = viewMatrices(input.camera, aspectOf(size()));
+    writeUniforms(input, view);
+    meshSections_.update(cameraChunk(input.camera));
+    const bool isShadowed = hasShadows(input);
+    const auto changes = meshSections_.takeChanges();
+    if (frame_.shadowMap) {
+        frame_.shadowMap->markChanged(changes);
+        if (!isShadowed) frame_.shadowMap->writeUniforms(input.camera, false, ring_);
     }
-    passes_.shadowMap.bindUniforms(input.camera, hasShadows(input), ring_);
-}
-
-void Renderer::drawSurfaces() {
-    const TimerZone zone(timer_, "surfaces");
-    passes_.gbuffer.clear(pipeline_, targets_);
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
-}
-
-// Draws surfaces that were hidden in the frame before and are visible now.
-void Renderer::drawLate(const CullInput& cullInput) {
-    {
-        const TimerZone zone(timer_, "depth pyramid");
-        passes_.hiZ.build(targets_);
-    }
-    cull(CullPhase::Late, cullInput);
-    const TimerZone zone(timer_, "surfaces again");
-    passes_.gbuffer.draw(pipeline_, targets_, quadDraw());
-}
-
-// Comes after holes are filled, which would take thin distant arms for holes.
-void Renderer::drawFigures(const FrameInput& input, const CullInput& cullInput) {
-    if (input.figures.empty()) return;
-    const auto records =
-        figureRecords(input.figures, input.camera, cullInput.camera, double{input.fogDistance});
-    if (records.empty()) return;
-    const TimerZone zone(timer_, "figures");
-    passes_.figures.bind(records, ring_);
-    passes_.figures.draw(pipeline_, targets_, records.size());
-}
-
-void Renderer::shadeSurfaces(const FrameInput& input) {
-    {
-        const TimerZone zone(timer_, "sky");
-        const bool isNight = input.environment.starLight > 0 || input.environment.isMoon;
-        passes_.shading.drawSky(pipeline_, targets_, shadingInputs(input), {input.fogDistance, isNight});
-    }
-    const TimerZone zone(timer_, "shade");
-    passes_.shading.drawSurfaces(pipeline_, targets_, shadingInputs(input), passes_.occlusion);
-}
-
-// Costs nothing if no mesh section in view has blended faces, and returns false.
-bool Renderer::drawTransparency(const FrameInput& input) {
-    const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
-    if (options_.transparencyLayers == 0) return false;
-    const std::vector<ScreenRect> rects =
-        meshSections_.blendedRects(cameraChunk(input.camera), view.viewProjection, targets_.size);
-    if (rects.empty()) return false;
-    {
-        const TimerZone zone(timer_, "peel");
-        passes_.transparency.peelLayers(pipeline_, targets_, quadDraw(), rects);
-    }
-    const TimerZone zone(timer_, "shade layers");
-    passes_.transparency.shade(pipeline_, targets_, quadDraw(), shadingInputs(input), passes_.occlusion,
-                               rects);
-    return true;
-}
-
-// `depth`: of the nearest surfaces.
-void Renderer::drawFinal(const MsaaTexture& depth) {
-    const TimerZone zone(timer_, "final");
-    depth.bind(shared::kDepthUnit);
-    targets_.sceneColor.bind(shared::kSceneUnit);
-    if (passes_.occlusion.isOn()) passes_.occlusion.result().bind(shared::kOcclusionUnit);
-    if (passes_.godRays.isOn()) passes_.godRays.bindResult();
-    if (passes_.depthOfField.isOn()) passes_.depthOfField.bindResult();
-    targets_.ldr.bind();
-    passes_.finalPass.draw(pipeline_, {});
-}
-
-void Renderer::drawImage(const FrameInput& input) {
-    if (passes_.occlusion.isOn()) {
-        const TimerZone zone(timer_, "ambient occlusion");
-        passes_.occlusion.draw(pipeline_, targets_);
-    }
-    shadeSurfaces(input);
-    // The depth of water is that of its surface, not of its ground.
-    const bool hasLayers = drawTransparency(input);
-    if (isDirectImage(options_, targets_.msaaSamples)) return;
-    const MsaaTexture& depth = hasLayers ? passes_.transparency.nearestDepth() : targets_.depth;
-    if (passes_.godRays.isOn()) {
-        const TimerZone zone(timer_, "god rays");
-        passes_.godRays.draw(pipeline_, targets_);
-    }
-    if (passes_.depthOfField.isOn()) {
-        const TimerZone zone(timer_, "depth of field");
-        passes_.depthOfField.draw(pipeline_, targets_, depth);
-    }
-    drawFinal(depth);
-}
-
-void Renderer::drawDebugView() {
-    targets_.bindGBuffer();
-    light_.bind();
-    targets_.ldr.bind();
-    passes_.debugView.draw(pipeline_, {});
+    FrameContext context{.frame = frame_,
+                         .input = input,
+                         .view = view,
+                         .pipeline = pipeline_,
+                         .ring = ring_,
+                         .quads = quads_,
+                         .resources = resources_,
+                         .meshSections = meshSections_,
+                         .cull = cull_,
+                         .figures = figures_,
+                         .fullscreen = fullscreen_,
+                         .culling = cullInput(input, view),
+                         .hasShadows = isShadowed,
+                         .nearestDepth = frame_.targets.depth.get()};
+    light_.addTo(context.worldTextures);
+    noise_.addTo(context.worldTextures);
+    sky_.addTo(context.worldTextures);
+    tints_.addTo(context.worldTextures);
+    land_.addTo(context.worldTextures);
+    return context;
 }
 
 void Renderer::draw(const FrameInput& input) {
     TERRANE_ZONE("draw frame");
-    base::require(targets_.size.x > 0, "Renderer::draw: configure() comes before the first frame");
-    const ViewMatrices view = viewMatrices(input.camera, aspectOf(targets_.size));
+    base::require(frame_.isBuilt(), "Renderer::draw: configure() comes before the first frame");
     timer_.nextFrame();
     ring_.beginFrame();
     pipeline_.forget();
-    bindFrame(input, view);
-    CullInput culling = cullInput(input, view);
-    meshSections_.update(culling.cameraChunk);
-    const bool leavesOutHidden = passes_.hiZ.isOn() && !input.culledFor;
-    if (leavesOutHidden) culling.hiZ = &passes_.hiZ;
-    cull(leavesOutHidden ? CullPhase::Early : CullPhase::All, culling);
-    drawShadows(input);
-    drawSurfaces();
-    if (leavesOutHidden) drawLate(culling);
-    if (passes_.holeFill.isOn()) {
-        const TimerZone zone(timer_, "fill holes");
-        passes_.holeFill.draw(pipeline_, targets_);
-    }
-    drawFigures(input, culling);
-    input.view == View::Color ? drawImage(input) : drawDebugView();
+    FrameContext context = prepare(input);
+    recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
     gpu::Program::useNone();
-    passes_.cull.queueCounts();
+    cull_.queueCounts();
     ring_.endFrame();
 }
 
 std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
-    return countShadowTriangles(quads_, input.camera, viewMatrices(input.camera, aspectOf(targets_.size)),
+    return countShadowTriangles(quads_, input.camera, viewMatrices(input.camera, aspectOf(size())),
                                 input.environment.lightDirection);
 }
 
 void Renderer::presentToWindow(glm::ivec2 windowSize) const {
-    gpu::blitToWindow(targets_.ldr, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
+    gpu::blitToWindow(*frame_.image, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
 }
 
 // Chunks of the renderer and their memory budget.
@@ -357,10 +242,10 @@ std::size_t lightShare(std::size_t bytes) {
 GpuMemory Renderer::memory() const {
     return {.quads = quads_.bufferBytes(),
             .light = light_.textureBytes(),
-            .meshSections = meshSections_.gpuBytes() + passes_.cull.gpuBytes(meshSections_),
+            .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_),
             .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
                         land_.gpuBytes(),
-            .targets = targets_.gpuBytes() + passes_.targetBytes(),
+            .targets = frame_.targetBytes(),
             .staging = stagingBytes_};
 }
 
@@ -451,8 +336,8 @@ void Renderer::clearChunks() {
     quads_ = QuadStore(quadSizes_);
     hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
-    passes_.shadowMap.forget();
-    passes_.cull.forget();
+    forgetShadows();
+    cull_.forget();
     setViewDistance(viewDistance_);
 }
 

@@ -1,5 +1,5 @@
-// Draws the view of the camera. Owns the quads and the light of the visible chunks, the passes of a frame and
-// their targets, and runs the passes in order. Used on the thread of the current OpenGL context.
+// Draws the view of the camera. Owns the world on the GPU (quads, light, textures) and the frame (frame.h)
+// that is built for the options. Used on the thread of the current OpenGL context.
 #pragma once
 
 #include <algorithm>
@@ -9,14 +9,13 @@
 #include "terrane/base/image.h"
 #include "terrane/gpu/timer.h"
 #include "terrane/render/cull/cull_pass.h"
-#include "terrane/render/frame/frame_passes.h"
+#include "terrane/render/frame/frame.h"
 #include "terrane/render/frame/frame_statistics.h"
 #include "terrane/render/frame/frame_uniforms.h"
 #include "terrane/render/land/land_textures.h"
 #include "terrane/render/land/tint_textures.h"
 #include "terrane/render/quads/block_textures.h"
 #include "terrane/render/quads/light_store.h"
-#include "terrane/render/shading/shading_pass.h"
 #include "terrane/render/sky/sky_texture.h"
 
 namespace terrane::render {
@@ -36,7 +35,7 @@ class Renderer {
     // Sets the size of the image in pixels and the options. Comes before the first frame and whenever one of
     // them changes. If the driver does not support them it fails, and the old configuration stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
-    const RenderOptions& options() const { return options_; }
+    const RenderOptions& options() const { return frame_.spec.options; }
     // Loads all shaders again, for the next frame. On failure the old ones stay.
     base::Result<void> reloadShaders();
 
@@ -77,7 +76,7 @@ class Renderer {
     base::Result<void> useLand(bool isUsed);
     bool hasLand() const { return land_.isUsed(); }
     // Whether frames with the current options need the land's tiles.
-    bool readsLand() const { return land_.isUsed() && render::readsLand(options_); }
+    bool readsLand() const { return land_.isUsed() && render::readsLand(options()); }
     // After useLand(true): sets the surface of a tile of the clipmap, and the view distance in blocks.
     void setLand(world::ChunkPos tile, const world::LandTile& land) { land_.map().set(tile, land); }
     void setLandReach(double blocks) { land_.map().setReach(blocks); }
@@ -96,12 +95,12 @@ class Renderer {
     // Draws into the renderer's own image.
     void draw(const FrameInput& input);
 
-    base::Image readImage() const { return gpu::readPixels(targets_.ldr); }  // waits for the GPU
+    base::Image readImage() const { return gpu::readPixels(*frame_.image); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
 
     // Statistics of the newest frame that the GPU has finished.
     FrameStatistics statistics() {
-        return statisticsOf(passes_.cull.counts(), passes_.shadowMap.drawnTriangles());
+        return statisticsOf(cull_.counts(), frame_.shadowMap ? frame_.shadowMap->drawnTriangles() : 0);
     }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
     // Triangles that one shadow map for this frame would draw.
@@ -111,33 +110,26 @@ class Renderer {
     const world::TopColors& topColors() const { return topColors_; }            // of the textures in use
     std::size_t lightBytes() const { return light_.usedBytes(); }
     std::size_t chunkCount() const { return std::max(light_.chunkCount(), quads_.chunks().size()); }
-    glm::ivec2 size() const { return targets_.size; }
+    glm::ivec2 size() const { return frame_.spec.size; }
+    const Frame& frame() const { return frame_; }  // for tests and documents
 
   private:
-    base::Result<void> configurePasses(const FrameTargets& targets, const RenderOptions& options,
-                                       const QuadFeatures& features);
+    // Builds the frame anew and swaps it in. If it fails, the old one stays.
+    base::Result<void> rebuild(const FrameSpec& spec);
     QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed(), land_.isUsed()}; }
-    void bindFrame(const FrameInput& input, const ViewMatrices& view);
+    FrameContext prepare(const FrameInput& input);
+    void writeUniforms(const FrameInput& input, const ViewMatrices& view);
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
-    void cull(CullPhase phase, const CullInput& input);
-    void drawShadows(const FrameInput& input);
-    void drawSurfaces();
-    void drawLate(const CullInput& cullInput);
-    void drawFigures(const FrameInput& input, const CullInput& cullInput);
-    void shadeSurfaces(const FrameInput& input);
-    bool drawTransparency(const FrameInput& input);
-    void drawImage(const FrameInput& input);
-    void drawFinal(const MsaaTexture& depth);
-    void drawDebugView();
-    QuadDraw quadDraw();
-    ShadingInputs shadingInputs(const FrameInput& input) const;
     bool hasShadows(const FrameInput& input) const;
+    void forgetShadows() {
+        if (frame_.shadowMap) frame_.shadowMap->forget();
+    }
     void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
     void shareBudget();
     void notePeak();
 
-    RenderOptions options_;
-    FrameTargets targets_;
+    std::unique_ptr<Programs> programs_;
+    Frame frame_;
     QuadStore quads_{{.arenaQuads = 1}};  // until clearChunks()
     MeshSectionTable meshSections_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
@@ -151,7 +143,9 @@ class Renderer {
     gpu::GpuTimer timer_;
     gpu::Pipeline pipeline_;
 
-    FramePasses passes_;
+    CullPass cull_;
+    FigurePass figures_;
+    gpu::VertexArray fullscreen_;
     SkyNoise noise_;
     SkyTexture sky_;
 

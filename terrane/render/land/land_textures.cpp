@@ -66,14 +66,15 @@ void LandTextures::update(const Camera& camera, const LandLight& light, int limi
     }
 }
 
-void LandTextures::bind(const Camera& camera, gpu::MappedRing& ring) const {
+void LandTextures::writeUniforms(const Camera& camera, gpu::MappedRing& ring) const {
     if (!isUsed()) return;
     const shared::LandFrame frame = landFrame(map_, camera);
     ring.writeUniform(shared::kLandBinding, frame);
-    shadows_.bind(shared::kLandShadowUnit);
-    sampler_.bind(shared::kLandShadowUnit);
-    ground_.bind(shared::kLandGroundUnit);
-    sampler_.bind(shared::kLandGroundUnit);
+}
+
+void LandTextures::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kLandShadowUnit, shadows_.id(), &sampler_)
+        .add(shared::kLandGroundUnit, ground_.id(), &sampler_);
 }
 
 // In doubles: a level's corner may be 2^31 blocks away from 0.

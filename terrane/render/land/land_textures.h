@@ -20,7 +20,8 @@ class LandTextures {
 
     // Computes and uploads up to `limit` levels that changed for this camera and light.
     void update(const Camera& camera, const LandLight& light, int limit);
-    void bind(const Camera& camera, gpu::MappedRing& ring) const;
+    void writeUniforms(const Camera& camera, gpu::MappedRing& ring) const;
+    void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return shadows_.sizeBytes() + ground_.sizeBytes(); }
 
   private:

@@ -30,12 +30,14 @@ void TintTextures::set(world::ChunkPos tile, const world::TintTile& colors) {
     clipmap_.set(tile);
 }
 
-void TintTextures::bind(const Camera& camera, gpu::MappedRing& ring) const {
+void TintTextures::writeUniforms(const Camera& camera, gpu::MappedRing& ring) const {
     if (!isUsed()) return;
     const shared::TintFrame frame = tintFrame(clipmap_, camera);
     ring.writeUniform(shared::kTintBinding, frame);
-    textures_.bind(shared::kTintUnit);
-    sampler_.bind(shared::kTintUnit);
+}
+
+void TintTextures::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kTintUnit, textures_.id(), &sampler_);
 }
 
 }  // namespace terrane::render

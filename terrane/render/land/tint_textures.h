@@ -20,7 +20,8 @@ class TintTextures {
 
     void set(world::ChunkPos tile, const world::TintTile& colors);
     // Binds the tint for a frame from the camera; does nothing without a tint.
-    void bind(const Camera& camera, gpu::MappedRing& ring) const;
+    void writeUniforms(const Camera& camera, gpu::MappedRing& ring) const;
+    void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return textures_.sizeBytes(); }
 
   private:

@@ -1,46 +1,55 @@
-#include "terrane/render/quads/gbuffer_pass.h"
-
-#include "terrane/gpu/debug.h"
-#include "terrane/shared/bindings.h"
+// Draws opaque and alpha-tested quads into the G-buffer.
+#include "terrane/render/frame/frame.h"
 
 namespace terrane::render {
 namespace {
 
 constexpr gpu::PipelineState kNearest{.depthTest = gpu::DepthTest::Greater};
 
+// The quads that the last culling selected.
+MaybePass makeQuads(FrameBuilder& build, bool isFirst) {
+    const RenderOptions& options = build.options();
+    const QuadFeatures& features = build.features();
+    GBufferVariant variant{.isSmooth = options.sharpFiltering,
+                           .hasFaceSampling = features.hasFaceSampling,
+                           .hasTint = features.hasTint};
+    const auto* opaque = TERRANE_TRY(build.programs.quads("quads/gbuffer", variant.defines()));
+    variant.alphaClass = mesh::AlphaClass::Tested;
+    variant.samples = options.msaaAlphaTest ? build.samples() : 1;
+    const auto* tested = TERRANE_TRY(build.programs.quads("quads/gbuffer", variant.defines()));
+    const SharedTargets& targets = build.frame.targets;
+    return Pass{.writes = {targets.surfaces, targets.depth},
+                .record =
+                    [=](FrameContext& context) {
+                        const gpu::Framebuffer& gbuffer = *context.frame.gbuffer;
+                        context.pipeline.set(kNearest);
+                        if (isFirst) {
+                            gbuffer.clearColor(0, glm::vec4(1));
+                            gbuffer.clearDepth(0.0f);
+                        }
+                        gbuffer.bind();
+                        context.worldTextures.bind();
+                        const QuadDraw quads = context.quadDraw();
+                        quads.bind();
+                        opaque->use();
+                        quads.draw(context.pipeline, kNearest, mesh::AlphaClass::Opaque);
+                        tested->use();
+                        quads.draw(context.pipeline, kNearest, mesh::AlphaClass::Tested);
+                    },
+                .drawnIn = DrawnIn::EveryView};
+}
+
 }  // namespace
 
-GBufferPass::GBufferPass(const gpu::ShaderLoader& shaders)
-    : opaque_(quadShaders(shaders, "quads/gbuffer", "opaque quads")),
-      tested_(quadShaders(shaders, "quads/gbuffer", "tested quads")) {}
-
-base::Result<void> GBufferPass::select(int alphaSamples, bool isSmooth, const QuadFeatures& features) {
-    const auto variant = [&](int alphaClass, int samples) {
-        return defined({{"PASS", 0},
-                        {"ALPHA_CLASS", alphaClass},
-                        {"MSAA_SAMPLES", samples},
-                        {"SMOOTH", isSmooth},
-                        {"FACE_SAMPLING", features.hasFaceSampling},
-                        {"TINT", features.hasTint}});
-    };
-    TERRANE_TRY(opaque_.select(variant(0, 1)));
-    return tested_.select(variant(1, alphaSamples));
+MaybePass makeSurfaces(FrameBuilder& build) {
+    return makeQuads(build, true);
 }
 
-void GBufferPass::clear(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
-    pipeline.set(kNearest);
-    targets.gbuffer.clearColor(0, glm::vec4(1));
-    targets.gbuffer.clearDepth(0.0f);
-}
-
-void GBufferPass::draw(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads) const {
-    const gpu::DebugGroup group("G-buffer");
-    targets.gbuffer.bind();
-    quads.bind();
-    opaque_.use();
-    quads.draw(pipeline, kNearest, mesh::AlphaClass::Opaque);
-    tested_.use();
-    quads.draw(pipeline, kNearest, mesh::AlphaClass::Tested);
+MaybePass makeLateSurfaces(FrameBuilder& build) {
+    if (!build.options().occlusionCulling) return std::nullopt;
+    auto pass = TERRANE_TRY(makeQuads(build, false));
+    pass->isNeeded = [](FrameContext& context) { return context.hidesHidden(); };
+    return pass;
 }
 
 }  // namespace terrane::render

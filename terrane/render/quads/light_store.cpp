@@ -191,9 +191,8 @@ void LightStore::remove(world::ChunkPos pos) {
     uploadEntries(pos, filled(shared::kLightUnknown));
 }
 
-void LightStore::bind() const {
-    grid_.bind(shared::kLightGridUnit);
-    pool_.bind(shared::kLightPoolUnit);
+void LightStore::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kLightGridUnit, grid_.id()).add(shared::kLightPoolUnit, pool_.id());
 }
 
 }  // namespace terrane::render

@@ -36,7 +36,7 @@ class LightStore {
     // sets all. False if some light tiles had no room: they get the light of their middle.
     bool set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void remove(world::ChunkPos pos);
-    void bind() const;
+    void addTo(gpu::TextureSet& textures) const;
 
     // Chunks along a side of the grid: a power of two.
     int gridChunks() const { return gridChunks_; }

@@ -3,7 +3,7 @@
 // SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 with ambient occlusion. LAND, FAR: see
 // land_light.glsl, lighting.glsl. OVER_SKY: 1 blends fading surfaces with the sky that was drawn behind them, 0
 // computes the sky here: without clouds its color is known, and no sky needs to be drawn or read. DIRECT: 1 writes
-// display colors (frame_targets.h).
+// display colors (target.h).
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/shading/light_sample.glsl"
 #include "terrane/render/sky/sky_color.glsl"

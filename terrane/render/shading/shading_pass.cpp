@@ -1,115 +1,141 @@
-#include "terrane/render/shading/shading_pass.h"
+// Shades the G-buffer over the sky, into the scene or directly into the image of the screen: see
+// isDirectImage().
+#include <array>
 
-#include "terrane/render/frame/camera.h"
-#include "terrane/render/frame/frame_targets.h"
-#include "terrane/render/frame/shader_variants.h"
+#include "terrane/render/frame/frame.h"
+#include "terrane/render/shading/pixel_mask.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
 
 namespace terrane::render {
 
-base::Result<void> PixelMask::select(int samples) {
-    return pass_.select(defined({{"MSAA_SAMPLES", samples}, {"OF", static_cast<int>(of_)}}));
+base::Result<PixelMask> PixelMask::make(FrameBuilder& build, MaskOf of) {
+    if (build.samples() == 1) return PixelMask();
+    return PixelMask{TERRANE_TRY(
+        build.programs.fullscreen("shading/pixel_mask", MaskVariant{build.samples(), of}.defines()))};
 }
 
-void PixelMask::draw(gpu::Pipeline& pipeline, const FrameTargets& targets) const {
+void PixelMask::draw(FrameContext& context, const gpu::TextureSet& textures) const {
     const gpu::PipelineState nearest{.depthTest = gpu::DepthTest::Always, .depthRange = {1, 1}};
-    pipeline.set(nearest);
-    targets.bindGBuffer();
-    targets.mask.bind();
-    targets.mask.clearDepth(0.0f);
-    pass_.draw(pipeline, nearest);
+    context.pipeline.set(nearest);
+    context.frame.mask->bind();
+    context.frame.mask->clearDepth(0.0f);
+    drawFullscreen(context, *program, nearest, context.frame.gbufferTextures().add(textures));
 }
 
 namespace {
 
-constexpr int kSimpleLight = 2;       // see light_sample.glsl
 constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
+
+// Surfaces fade into the sky, which is drawn behind them first.
+bool fadesOverSky(const FrameBuilder& build) {
+    return build.samples() > 1 || build.options().clouds;
+}
+
+// What sky and surfaces are drawn into.
+TargetRef shadedTarget(const FrameBuilder& build) {
+    return build.frame.isDirect() ? build.frame.targets.image : build.frame.targets.scene;
+}
+
+const gpu::Framebuffer& shadedFramebuffer(const FrameContext& context) {
+    return context.frame.isDirect() ? *context.frame.direct : *context.frame.scene;
+}
+
+// In air and under water, and in air distant pixels and those of far tiles.
+struct ShadePrograms {
+    std::array<const gpu::Program*, 2> shade{};
+    const gpu::Program *distant = nullptr, *far = nullptr;
+};
+
+base::Result<ShadePrograms> makeShadePrograms(FrameBuilder& build) {
+    const RenderOptions& options = build.options();
+    const ShadeVariant inAir{
+        .samples = build.samples(),
+        .isPerSample = options.shading != Shading::Pixel,
+        .hasOcclusion = options.occlusion != Occlusion::Off,
+        .isOverSky = fadesOverSky(build),
+        .isDirect = build.frame.isDirect(),
+        .light = options.light == LightSampling::Smooth ? LightDetail::Smooth : LightDetail::Classic,
+        .sun = SunVariant::of(options, build.features())};
+    const auto program = [&](const ShadeVariant& variant) {
+        return build.programs.fullscreen("shading/shade", variant.defines());
+    };
+    ShadeVariant underWater = inAir, distant = inAir, far = inAir;
+    underWater.isUnderWater = true;
+    distant.light = LightDetail::Simple;
+    far.light = LightDetail::Classic;
+    far.isFar = true;
+    ShadePrograms made;
+    made.shade = {TERRANE_TRY(program(inAir)), nullptr};
+    made.shade[1] = TERRANE_TRY(program(underWater));
+    if (build.samples() > 1 && inAir.light == LightDetail::Smooth)
+        made.distant = TERRANE_TRY(program(distant));
+    if (build.samples() > 1) made.far = TERRANE_TRY(program(far));
+    return made;
+}
 
 }  // namespace
 
-ShadingPass::ShadingPass(const gpu::ShaderLoader& shaders)
-    : sky_(shaders, "sky/sky"),
-      nightSky_(shaders, "sky/sky"),
-      shade_{FullscreenPass(shaders, "shading/shade"), FullscreenPass(shaders, "shading/shade")},
-      shadeDistant_(shaders, "shading/shade"),
-      shadeFar_(shaders, "shading/shade"),
-      skyMask_(shaders, PixelMask::Of::Sky),
-      surfaceMask_(shaders, PixelMask::Of::Surfaces) {}
-
-base::Result<void> ShadingPass::select(const RenderOptions& options, int samples, const LightVariant& sun) {
-    fadesOverSky_ = samples > 1 || options.clouds;
-    hasDistanceFog_ = options.distanceFog;
-    isDirect_ = isDirectImage(options, samples);
-    hasDistant_ = samples > 1 && options.light == LightSampling::Smooth;
-    const auto sky = [&](int night) {
-        return defined({{"CLOUDS", options.clouds}, {"NIGHT", night}, {"DIRECT", isDirect_}});
-    };
-    auto selected = sky_.select(sky(0));
-    if (selected) selected = nightSky_.select(sky(1));
-    if (selected && samples > 1) selected = skyMask_.select(samples);
-    if (selected && samples > 1) selected = surfaceMask_.select(samples);
-    const auto shade = [&](int light, int isUnderWater, int isFar) {
-        return defined({{"MSAA_SAMPLES", samples},
-                        {"PER_SAMPLE", options.shading != Shading::Pixel},
-                        {"LIGHT_SMOOTH", light},
-                        {"SHADOW", sun.shadowVariant},
-                        {"LAND", sun.knowsLand},
-                        {"OCCLUSION", options.occlusion != Occlusion::Off},
-                        {"OVER_SKY", fadesOverSky_},
-                        {"DIRECT", isDirect_},
-                        {"UNDER_WATER", isUnderWater},
-                        {"FAR", isFar}});
-    };
-    const int light = static_cast<int>(options.light);
-    for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater)
-        selected = shade_[static_cast<std::size_t>(isUnderWater)].select(shade(light, isUnderWater, 0));
-    if (selected && hasDistant_) selected = shadeDistant_.select(shade(kSimpleLight, 0, 0));
-    if (selected && samples > 1) selected = shadeFar_.select(shade(0, 0, 1));
-    return selected;
-}
-
 // Pixels are selected by the depth test: against the mask, or against the surfaces, with the triangle at the
 // depth where they begin to fade.
-void ShadingPass::drawSky(gpu::Pipeline& pipeline, const FrameTargets& targets, const ShadingInputs& inputs,
-                          const Sky& sky) const {
-    gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
-    if (targets.msaaSamples > 1) {
-        skyMask_.draw(pipeline, targets);
-    } else {
-        const float distance =
-            fadesOverSky_ && hasDistanceFog_ ? shared::kFadingBegins * sky.fogDistance : kSkyDistance;
-        state.depthRange.x = kNearPlane / distance;
-        state.depthTest = gpu::DepthTest::Greater;
-    }
-    inputs.bind();
-    (isDirect_ ? targets.direct : targets.scene).bind();
-    // By day a shader without stars and moon: software renderers run all branches.
-    (sky.isNight ? nightSky_ : sky_).draw(pipeline, state);
+MaybePass makeSky(FrameBuilder& build) {
+    const RenderOptions& options = build.options();
+    SkyVariant variant{.hasClouds = options.clouds, .isDirect = build.frame.isDirect()};
+    const auto* day = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));
+    variant.isNight = true;
+    const auto* night = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));
+    const PixelMask mask = TERRANE_TRY(PixelMask::make(build, MaskOf::Sky));
+    const bool fades = fadesOverSky(build) && options.distanceFog;
+    return Pass{.reads = {build.frame.targets.depth},
+                .writes = {shadedTarget(build)},
+                .record = [=](FrameContext& context) {
+                    const FrameInput& input = context.input;
+                    gpu::PipelineState state{.depthTest = gpu::DepthTest::Less, .writesDepth = false};
+                    if (mask.program) {
+                        mask.draw(context);
+                    } else {
+                        const float distance =
+                            fades ? shared::kFadingBegins * input.fogDistance : kSkyDistance;
+                        state.depthRange.x = kNearPlane / distance;
+                        state.depthTest = gpu::DepthTest::Greater;
+                    }
+                    // By day a shader without stars and moon: software renderers run all branches.
+                    const bool isNight = input.environment.starLight > 0 || input.environment.isMoon;
+                    shadedFramebuffer(context).bind();
+                    drawFullscreen(context, isNight ? *night : *day, state, context.shadingTextures());
+                }};
 }
 
 // Pixels are selected by the depth test. With one sample a pixel the triangle is at the far end, and all
 // surfaces are nearer. With more the mask is tested. It separates distant surfaces and far tiles, which in
 // air have shaders of their own that read less light or none.
-void ShadingPass::drawSurfaces(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                               const ShadingInputs& inputs, const AmbientOcclusion& occlusion) const {
-    const bool isMasked = targets.msaaSamples > 1, drawsFar = isMasked && !inputs.isUnderWater;
-    if (isMasked) surfaceMask_.draw(pipeline, targets);
-    targets.bindGBuffer();
-    inputs.bind();
-    if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
-    (isDirect_ ? targets.direct : targets.scene).bind();
-    gpu::PipelineState state{.depthTest = gpu::DepthTest::Less,
-                             .writesDepth = false,
-                             .blending = fadesOverSky_ ? gpu::Blending::Over : gpu::Blending::Off};
-    if (drawsFar)
-        state.depthRange.x = hasDistant_ ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
-    shade_[inputs.isUnderWater ? 1 : 0].draw(pipeline, state);
-    if (!drawsFar) return;
-    state.depthTest = gpu::DepthTest::Equal;
-    if (hasDistant_) shadeDistant_.draw(pipeline, state);
-    state.depthRange.x = shared::kFarSurfacesDepth;
-    shadeFar_.draw(pipeline, state);
+MaybePass makeShade(FrameBuilder& build) {
+    const ShadePrograms programs = TERRANE_TRY(makeShadePrograms(build));
+    const PixelMask mask = TERRANE_TRY(PixelMask::make(build, MaskOf::Surfaces));
+    const SharedTargets& targets = build.frame.targets;
+    const TargetRef occlusion = targets.occlusion;
+    const gpu::Blending blending = fadesOverSky(build) ? gpu::Blending::Over : gpu::Blending::Off;
+    std::vector<TargetRef> reads = {targets.surfaces, targets.depth};
+    if (occlusion) reads.push_back(occlusion);
+    return Pass{
+        .reads = std::move(reads), .writes = {shadedTarget(build)}, .record = [=](FrameContext& context) {
+            const bool drawsFar = mask.program && !context.isUnderWater();
+            if (mask.program) mask.draw(context);
+            gpu::TextureSet textures = context.shadingTextures().add(context.frame.gbufferTextures());
+            if (occlusion) textures.add(shared::kOcclusionUnit, occlusion->id());
+            gpu::PipelineState state{
+                .depthTest = gpu::DepthTest::Less, .writesDepth = false, .blending = blending};
+            if (drawsFar)
+                state.depthRange.x =
+                    programs.distant ? shared::kDistantSurfacesDepth : shared::kFarSurfacesDepth;
+            shadedFramebuffer(context).bind();
+            drawFullscreen(context, *programs.shade[context.isUnderWater() ? 1 : 0], state, textures);
+            if (!drawsFar) return;
+            state.depthTest = gpu::DepthTest::Equal;
+            if (programs.distant) drawFullscreen(context, *programs.distant, state, textures);
+            state.depthRange.x = shared::kFarSurfacesDepth;
+            drawFullscreen(context, *programs.far, state, textures);
+        }};
 }
 
 }  // namespace terrane::render

@@ -3,7 +3,7 @@
 // MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
 // OCCLUSION: 1 with ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
 // QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes display colors
-// (frame_targets.h).
+// (target.h).
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/shading/light_sample.glsl"
 #include "terrane/render/sky/sky_color.glsl"

@@ -1,214 +1,243 @@
-#include "terrane/render/shading/transparency_pass.h"
+// Transparency: blended faces, separated into layers from the nearest on by depth peeling, then lit and
+// blended over the image.
+#include <array>
 
-#include "terrane/gpu/debug.h"
 #include "terrane/gpu/pipeline_state.h"
-#include "terrane/render/frame/frame_targets.h"
+#include "terrane/render/effects/ambient_occlusion.h"
+#include "terrane/render/frame/frame.h"
+#include "terrane/render/shading/pixel_mask.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 namespace {
 
-GLenum targetOf(int samples) {
-    return samples > 1 ? GL_TEXTURE_2D_MULTISAMPLE : GL_TEXTURE_2D;
+constexpr int kMaxLayers = 3;
+
+// With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
+// A single layer has a background everywhere.
+bool showsAllLayers(const FrameBuilder& build) {
+    return build.options().singleTransparencyLayer == 0;
+}
+bool shadesQuads(const FrameBuilder& build) {
+    return build.samples() == 1 && showsAllLayers(build);
+}
+
+// Whether a layer has faces, as of the last peeling. Both passes use them.
+using LayerQueries = std::array<gpu::Handle<gpu::ObjectKind::Query>, kMaxLayers>;
+
+struct Peel {
+    const gpu::Program *first = nullptr, *next = nullptr;
+    std::vector<TargetRef> depths;
+    std::vector<std::shared_ptr<const gpu::Framebuffer>> framebuffers;
+    TargetRef surfaceDepth;
+    glm::ivec2 size{0};
+    int samples = 1;
+    bool isBounded = true;       // by rectangles
+    bool hasWholeDepth = false;  // other passes read the first layer's depth all over the screen
+    std::shared_ptr<LayerQueries> anyDrawn;
+
+    // A layer starts with the depth of the opaque surfaces: faces behind them fail the depth test, and pixels
+    // without a face keep that depth.
+    void copyDepth(const FrameContext& context, std::size_t number) const {
+        if (!isBounded || (number == 0 && hasWholeDepth))
+            return copyTarget(*surfaceDepth, *depths[number], {0, 0}, size);
+        for (const ScreenRect& rect : context.blendedRects)
+            copyTarget(*surfaceDepth, *depths[number], rect.min, rect.size());
+    }
+
+    void drawLayer(FrameContext& context, const QuadDraw& quads, std::size_t number) const {
+        framebuffers[number]->bind();
+        // No layers are behind one without faces: the GPU skips their drawing, not the copy above.
+        if (number > 0) {
+            glBeginConditionalRender((*anyDrawn)[number - 1].id(), GL_QUERY_WAIT);
+            gpu::TextureSet().add(shared::kTransparencyDepthUnit, depths[number - 1]->id()).bind();
+        }
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, (*anyDrawn)[number].id());
+        (number == 0 ? first : next)->use();
+        quads.draw(context.pipeline,
+                   {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples > 1},
+                   mesh::AlphaClass::Blended);
+        glEndQuery(GL_ANY_SAMPLES_PASSED);
+        if (number > 0) glEndConditionalRender();
+    }
+
+    void record(FrameContext& context) const {
+        context.nearestDepth = depths[0].get();
+        context.worldTextures.bind();
+        const QuadDraw quads = context.quadDraw();
+        quads.bind();
+        for (std::size_t number = 0; number < depths.size(); ++number) {
+            copyDepth(context, number);
+            drawLayer(context, quads, number);
+        }
+    }
+};
+
+struct ShadeLayers {
+    std::array<const gpu::Program*, 2> shade{};  // in air, under water
+    OcclusionPrograms occlusion{};
+    bool hasOcclusion = false, isDirect = false, drawsQuads = false, isBounded = true;
+    PixelMask mask;  // one sample, or a single layer: none
+    std::shared_ptr<const gpu::Framebuffer>
+        over;  // where quads are drawn: the scene or the image, with the first layer's depth
+    TargetRef scene;
+    std::vector<TargetRef> layers, depths;
+    glm::ivec2 size{0};
+    std::shared_ptr<const LayerQueries> anyDrawn;
+
+    gpu::TextureSet layerTextures() const {
+        gpu::TextureSet textures;
+        for (std::size_t k = 0; k < layers.size(); ++k) {
+            const auto unit = static_cast<GLuint>(k);
+            textures.add(shared::kTransparencyColorUnit + unit, layers[k]->id());
+            textures.add(shared::kTransparencyDepthUnit + unit, depths[k]->id());
+        }
+        return textures;
+    }
+
+    void drawOverQuads(FrameContext& context, const gpu::Program& program,
+                       const gpu::TextureSet& textures) const {
+        over->bind();
+        const QuadDraw quads = context.quadDraw();
+        quads.bind();
+        textures.bind();
+        program.use();
+        quads.draw(context.pipeline,
+                   {.depthTest = gpu::DepthTest::Equal,
+                    .writesDepth = false,
+                    .blending = isDirect ? gpu::Blending::Off : gpu::Blending::Through},
+                   mesh::AlphaClass::Blended);
+    }
+
+    void drawWithin(FrameContext& context, const gpu::Program& program, const gpu::TextureSet& textures,
+                    const ScreenRect& rect) const {
+        const gpu::Scissor scissor(rect.min, rect.size());
+        if (mask.program) mask.draw(context, layerTextures());
+        context.frame.scene->bind();
+        drawFullscreen(context, program,
+                       {.depthTest = mask.program ? gpu::DepthTest::Less : gpu::DepthTest::Off,
+                        .writesDepth = false,
+                        .blending = gpu::Blending::Through},
+                       textures);
+    }
+
+    void record(FrameContext& context) const {
+        const ScreenRect all{{0, 0}, size};
+        const std::span<const ScreenRect> rects =
+            isBounded ? std::span(context.blendedRects) : std::span(&all, 1);
+        glBeginConditionalRender((*anyDrawn)[0].id(), GL_QUERY_WAIT);
+        if (hasOcclusion) {
+            const ScreenRect bounds = boundsOf(rects);  // one rectangle: the blur reads beyond its edges
+            const gpu::Scissor scissor(bounds.min, bounds.size());
+            occlusion.draw(context, context.frame.gbufferTextures().add(layerTextures()));
+        }
+        // The scene is that of pixels without layers: see water_reflection.glsl.
+        gpu::TextureSet textures =
+            context.shadingTextures().add(context.frame.gbufferTextures()).add(layerTextures());
+        textures.add(shared::kSceneUnit, scene->id());
+        if (hasOcclusion) textures.add(shared::kOcclusionUnit, occlusion.visibility.target->id());
+        const gpu::Program& program = *shade[context.isUnderWater() ? 1 : 0];
+        if (drawsQuads) {
+            drawOverQuads(context, program, textures);
+        } else {
+            for (const ScreenRect& rect : rects) drawWithin(context, program, textures, rect);
+        }
+        glEndConditionalRender();
+    }
+};
+
+base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
+    SharedTargets& targets = build.frame.targets;
+    for (int k = 0; k < build.options().transparencyLayers; ++k) {
+        targets.layers.push_back(build.target({"layer", GL_RGBA16, peel.size, peel.samples}));
+        targets.layerDepths.push_back(
+            build.target({"layer depth", GL_DEPTH_COMPONENT32F, peel.size, peel.samples}));
+        peel.framebuffers.push_back(
+            TERRANE_TRY(build.framebuffer("layer", {targets.layers.back()}, targets.layerDepths.back())));
+        peel.framebuffers.back()->clearColor(0,
+                                             glm::vec4(0));  // pixels without a face are read, but never used
+    }
+    return {};
 }
 
 }  // namespace
 
-TransparencyPass::TransparencyPass(const gpu::ShaderLoader& shaders)
-    : first_(quadShaders(shaders, "shading/depth_peel", "first layer")),
-      next_(quadShaders(shaders, "shading/depth_peel", "next layer")),
-      shadeQuads_{quadShaders(shaders, "shading/transparency", "shade layers"),
-                  quadShaders(shaders, "shading/transparency", "shade layers")},
-      shade_{FullscreenPass(shaders, "shading/transparency"), FullscreenPass(shaders, "shading/transparency")},
-      mask_(shaders, PixelMask::Of::Layers) {
-    for (auto& query : anyDrawn_) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
+// Only within rectangles that contain all pixels with blended faces; costs nothing if no mesh section in view
+// has any.
+MaybePass makePeel(FrameBuilder& build) {
+    const RenderOptions& options = build.options();
+    if (options.transparencyLayers == 0) return std::nullopt;
+    PeelVariant variant{build.samples(), false, build.features().hasFaceSampling, build.features().hasTint};
+    Peel peel;
+    peel.first = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
+    variant.isNext = true;
+    if (options.transparencyLayers > 1)
+        peel.next = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
+    peel.size = build.frame.spec.size;
+    peel.samples = build.samples();
+    peel.isBounded = showsAllLayers(build);
+    peel.hasWholeDepth = options.occlusion != Occlusion::Off || options.depthOfField;
+    TERRANE_TRY(makeLayerTargets(build, peel));
+    SharedTargets& targets = build.frame.targets;
+    peel.depths = targets.layerDepths;
+    peel.surfaceDepth = targets.depth;
+    peel.anyDrawn = std::make_shared<LayerQueries>();
+    for (auto& query : *peel.anyDrawn) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
+    targets.anyLayer = peel.anyDrawn;
+    std::vector<TargetRef> writes = targets.layers;
+    writes.insert(writes.end(), targets.layerDepths.begin(), targets.layerDepths.end());
+    return Pass{.reads = {targets.depth},
+                .writes = std::move(writes),
+                .record = [peel](FrameContext& context) { peel.record(context); },
+                .isNeeded =
+                    [size = peel.size](FrameContext& context) {
+                        context.blendedRects = context.meshSections.blendedRects(
+                            cameraChunk(context.input.camera), context.view.viewProjection, size);
+                        return !context.blendedRects.empty();
+                    }};
 }
 
-base::Result<TransparencyPass::Target> TransparencyPass::makeTarget(const FrameTargets& targets) {
-    Target target;
-    target.color = MsaaTexture(targets.size, GL_RGBA16, targets.msaaSamples, "layer");
-    target.depth = MsaaTexture(targets.size, GL_DEPTH_COMPONENT32F, targets.msaaSamples, "layer depth");
-    auto framebuffer = TERRANE_TRY(
-        gpu::Framebuffer::create({{target.color.attachment()}, target.depth.attachment()}, "layer"));
-    framebuffer.clearColor(0, glm::vec4(0));  // once: pixels without a face are read, but never used
-    target.framebuffer = std::move(framebuffer);
-    return target;
-}
-
-base::Result<void> TransparencyPass::selectVariants(int samples, const RenderOptions& options,
-                                                    const LightVariant& light, const QuadFeatures& features) {
-    const int layers = options.transparencyLayers;
-    const auto peeling = [&](int next) {
-        return defined({{"PASS", 1},
-                        {"ALPHA_CLASS", 2},
-                        {"MSAA_SAMPLES", samples},
-                        {"NEXT", next},
-                        {"FACE_SAMPLING", features.hasFaceSampling},
-                        {"TINT", features.hasTint}});
-    };
-    auto selected = first_.select(peeling(0));
-    if (selected && layers > 1) selected = next_.select(peeling(1));
-    for (int isUnderWater = 0; selected && isUnderWater < 2; ++isUnderWater) {
-        const auto index = static_cast<std::size_t>(isUnderWater);
-        const gpu::ShaderDefines shading = defined({{"PASS", 1},
-                                                    {"ALPHA_CLASS", 2},
-                                                    {"MSAA_SAMPLES", samples},
-                                                    {"LAYERS", layers},
-                                                    {"SHADOW", light.shadowVariant},
-                                                    {"LAND", light.knowsLand},
-                                                    {"OCCLUSION", options.occlusion != Occlusion::Off},
-                                                    {"LIGHT_SMOOTH", static_cast<int>(options.light)},
-                                                    {"QUADS", shadesQuads_},
-                                                    {"DIRECT", isDirect_},
-                                                    {"OVER_SKY", !isDirect_},
-                                                    {"FACE_SAMPLING", 0},
-                                                    {"TINT", 0},
-                                                    {"WATER_DETAIL", options.water == Water::Full},
-                                                    {"UNDER_WATER", isUnderWater},
-                                                    {"FAR", 0}});
-        selected = shadesQuads_ ? shadeQuads_[index].select(shading) : shade_[index].select(shading);
+MaybePass makeShadeLayers(FrameBuilder& build) {
+    const RenderOptions& options = build.options();
+    if (options.transparencyLayers == 0) return std::nullopt;
+    const SharedTargets& targets = build.frame.targets;
+    ShadeLayers pass;
+    pass.drawsQuads = shadesQuads(build);
+    pass.isDirect = build.frame.isDirect();
+    pass.isBounded = showsAllLayers(build);
+    pass.hasOcclusion = options.occlusion != Occlusion::Off;
+    TransparencyVariant variant{
+        .samples = build.samples(),
+        .layers = options.transparencyLayers,
+        .sun = SunVariant::of(options, build.features()),
+        .hasOcclusion = pass.hasOcclusion,
+        .hasWaterDetail = options.water == Water::Full,
+        .light = options.light == LightSampling::Smooth ? LightDetail::Smooth : LightDetail::Classic,
+        .drawsQuads = pass.drawsQuads,
+        .isDirect = pass.isDirect};
+    for (const bool isUnderWater : {false, true}) {
+        variant.isUnderWater = isUnderWater;
+        pass.shade[isUnderWater ? 1 : 0] = TERRANE_TRY(
+            pass.drawsQuads ? build.programs.quads("shading/transparency", variant.defines())
+                            : build.programs.fullscreen("shading/transparency", variant.defines()));
     }
-    if (selected && isMasked_) selected = mask_.select(samples);
-    return selected;
-}
-
-// With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
-// A single layer has a background everywhere.
-base::Result<void> TransparencyPass::configure(const FrameTargets& targets, const RenderOptions& options,
-                                               const LightVariant& light, const QuadFeatures& features) {
-    shadesQuads_ = targets.msaaSamples == 1 && options.singleTransparencyLayer == 0;
-    isDirect_ = isDirectImage(options, targets.msaaSamples);
-    isMasked_ = targets.msaaSamples > 1 && options.singleTransparencyLayer == 0;
-    isBounded_ = options.singleTransparencyLayer == 0;
-    hasWholeDepth_ = options.occlusion != Occlusion::Off || options.depthOfField;
-    if (options.transparencyLayers > 0) {
-        TERRANE_TRY(selectVariants(targets.msaaSamples, options, light, features));
-    }
-    const bool isMade =
-        size_ == targets.size && samples_ == targets.msaaSamples && scene_ == targets.sceneColor.id();
-    if (options.transparencyLayers == layers_ && isMade) return {};
-    targets_ = {};
-    overQuads_ = {};
-    overQuadsDirect_ = {};
-    layers_ = 0;
-    for (int k = 0; k < options.transparencyLayers; ++k) {
-        auto target = TERRANE_TRY(makeTarget(targets));
-        targets_[static_cast<std::size_t>(k)] = std::move(target);
-    }
-    if (options.transparencyLayers > 0 && targets.msaaSamples == 1) {
-        const auto makeOver = [&](const gpu::Texture2D& color) {
-            return gpu::Framebuffer::create({{color}, targets_[0].depth.attachment()}, "over layers");
-        };
-        auto over = makeOver(targets.sceneColor), overDirect = makeOver(targets.ldrColor);
-        if (!over) return tl::unexpected(over.error());
-        if (!overDirect) return tl::unexpected(overDirect.error());
-        overQuads_ = std::move(*over);
-        overQuadsDirect_ = std::move(*overDirect);
-    }
-    layers_ = options.transparencyLayers;
-    size_ = targets.size;
-    samples_ = targets.msaaSamples;
-    scene_ = targets.sceneColor.id();
-    return {};
-}
-
-// A layer starts with the depth of the opaque surfaces: faces behind them fail the depth test, and pixels
-// without a face keep that depth.
-void TransparencyPass::copyDepth(const FrameTargets& targets, int number,
-                                 std::span<const ScreenRect> rects) const {
-    const Target& target = targets_[static_cast<std::size_t>(number)];
-    const GLenum kind = targetOf(samples_);
-    for (const ScreenRect& rect : rects)
-        glCopyImageSubData(targets.depth.id(), kind, 0, rect.min.x, rect.min.y, 0, target.depth.id(), kind, 0,
-                           rect.min.x, rect.min.y, 0, rect.size().x, rect.size().y, 1);
-}
-
-void TransparencyPass::peelLayer(gpu::Pipeline& pipeline, const QuadDraw& quads, int number) {
-    const auto index = static_cast<std::size_t>(number);
-    Target& target = targets_[index];
-    target.framebuffer.bind();
-    // No layers are behind one without faces: the GPU skips their drawing, not the copy above.
-    if (number > 0) {
-        glBeginConditionalRender(anyDrawn_[index - 1].id(), GL_QUERY_WAIT);
-        targets_[index - 1].depth.bind(shared::kTransparencyDepthUnit);
-    }
-    glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn_[index].id());
-    (number == 0 ? first_ : next_).use();
-    quads.draw(pipeline, {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples_ > 1},
-               mesh::AlphaClass::Blended);
-    glEndQuery(GL_ANY_SAMPLES_PASSED);
-    if (number > 0) glEndConditionalRender();
-}
-
-void TransparencyPass::peelLayers(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                                  std::span<const ScreenRect> rects) {
-    const gpu::DebugGroup group("layers");
-    const ScreenRect all{{0, 0}, size_};
-    quads.bind();
-    for (int number = 0; number < layers_; ++number) {
-        const bool needsAll = !isBounded_ || (number == 0 && hasWholeDepth_);
-        copyDepth(targets, number, needsAll ? std::span(&all, 1) : rects);
-        peelLayer(pipeline, quads, number);
-    }
-}
-
-std::size_t TransparencyPass::gpuBytes() const {
-    std::size_t bytes = 0;
-    for (const Target& target : targets_) bytes += target.color.sizeBytes() + target.depth.sizeBytes();
-    return bytes;
-}
-
-void TransparencyPass::bindLayers() const {
-    for (int k = 0; k < layers_; ++k) {
-        const Target& target = targets_[static_cast<std::size_t>(k)];
-        target.color.bind(shared::kTransparencyColorUnit + static_cast<GLuint>(k));
-        target.depth.bind(shared::kTransparencyDepthUnit + static_cast<GLuint>(k));
-    }
-}
-
-// Shades a rectangle of the screen, if quads are not drawn again.
-void TransparencyPass::shadeWithin(gpu::Pipeline& pipeline, const FrameTargets& targets,
-                                   const ScreenRect& rect, const ShadingInputs& inputs,
-                                   const AmbientOcclusion& occlusion) const {
-    const gpu::Scissor scissor(rect.min, rect.size());
-    if (isMasked_) mask_.draw(pipeline, targets);
-    if (occlusion.isOn()) occlusion.result().bind(shared::kOcclusionUnit);
-    targets.scene.bind();
-    shade_[inputs.isUnderWater ? 1 : 0].draw(
-        pipeline, {.depthTest = isMasked_ ? gpu::DepthTest::Less : gpu::DepthTest::Off,
-                   .writesDepth = false,
-                   .blending = gpu::Blending::Through});
-}
-
-void TransparencyPass::shade(gpu::Pipeline& pipeline, const FrameTargets& targets, const QuadDraw& quads,
-                             const ShadingInputs& inputs, const AmbientOcclusion& occlusion,
-                             std::span<const ScreenRect> rects) const {
-    const ScreenRect all{{0, 0}, size_};
-    if (!isBounded_) rects = std::span(&all, 1);
-    glBeginConditionalRender(anyDrawn_[0].id(), GL_QUERY_WAIT);
-    bindLayers();
-    if (occlusion.isOn()) {
-        const ScreenRect bounds = boundsOf(rects);  // one rectangle: the blur reads beyond its edges
-        const gpu::Scissor scissor(bounds.min, bounds.size());
-        occlusion.drawNearestLayer(pipeline, targets);
-        occlusion.result().bind(shared::kOcclusionUnit);
-    }
-    targets.bindGBuffer();
-    targets.sceneColor.bind(shared::kSceneUnit);  // of pixels without layers: see water_reflection.glsl
-    inputs.bind();
-    if (shadesQuads_) {
-        (isDirect_ ? overQuadsDirect_ : overQuads_).bind();
-        quads.bind();
-        shadeQuads_[inputs.isUnderWater ? 1 : 0].use();
-        quads.draw(pipeline,
-                   {.depthTest = gpu::DepthTest::Equal,
-                    .writesDepth = false,
-                    .blending = isDirect_ ? gpu::Blending::Off : gpu::Blending::Through},
-                   mesh::AlphaClass::Blended);
-    } else {
-        for (const ScreenRect& rect : rects) shadeWithin(pipeline, targets, rect, inputs, occlusion);
-    }
-    glEndConditionalRender();
+    if (pass.isBounded) pass.mask = TERRANE_TRY(PixelMask::make(build, MaskOf::Layers));
+    if (pass.hasOcclusion) pass.occlusion = TERRANE_TRY(OcclusionPrograms::make(build, true));
+    if (pass.drawsQuads)
+        pass.over = TERRANE_TRY(build.framebuffer(
+            "over layers", {pass.isDirect ? targets.image : targets.scene}, targets.layerDepths[0]));
+    pass.scene = targets.scene;
+    pass.layers = targets.layers;
+    pass.depths = targets.layerDepths;
+    pass.size = build.frame.spec.size;
+    pass.anyDrawn = std::static_pointer_cast<const LayerQueries>(targets.anyLayer);
+    std::vector<TargetRef> reads = {targets.surfaces, targets.depth, targets.scene};
+    reads.insert(reads.end(), targets.layers.begin(), targets.layers.end());
+    reads.insert(reads.end(), targets.layerDepths.begin(), targets.layerDepths.end());
+    return Pass{.reads = std::move(reads),
+                .writes = {pass.isDirect ? targets.image : targets.scene},
+                .record = [pass](FrameContext& context) { pass.record(context); },
+                .isNeeded = [](FrameContext& context) { return !context.blendedRects.empty(); }};
 }
 
 }  // namespace terrane::render

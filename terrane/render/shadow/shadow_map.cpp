@@ -60,38 +60,19 @@ void drawQuads(const shared::DrawCommand& command) {
 
 }  // namespace
 
-ShadowMap::ShadowMap(const gpu::ShaderLoader& shaders)
-    : opaque_(quadShaders(shaders, "shadow/shadow", "opaque shadows")),
-      tested_(quadShaders(shaders, "shadow/shadow", "tested shadows")),
-      compared_({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT, .compare = GL_GEQUAL}, "shadow map"),
-      plain_({.minFilter = GL_NEAREST, .magFilter = GL_NEAREST, .wrapS = GL_REPEAT, .wrapT = GL_REPEAT},
-             "depths of the shadow map") {}
-
-base::Result<void> ShadowMap::configure(const Shape& shape, bool hasFaceSampling) {
-    assert(shape.texels % kMapTiles == 0 && "tiles have whole texels");
-    if (shape.cascades > 0) {
-        auto selected =
-            opaque_.select(defined({{"PASS", 2}, {"ALPHA_CLASS", 0}, {"FACE_SAMPLING", 0}, {"TINT", 0}}));
-        if (selected)
-            selected = tested_.select(
-                defined({{"PASS", 2}, {"ALPHA_CLASS", 1}, {"FACE_SAMPLING", hasFaceSampling}, {"TINT", 0}}));
-        if (!selected) return selected;
-    }
-    if (shape == shape_) return {};
-    layers_.clear();
-    depths_ = {};
-    shape_ = {};
-    hasFigures_ = false;
-    canHaveFigures_ = true;
-    figureShadows_.forget();
-    clipmap_ = ShadowClipmap(shape.cascades);
-    if (shape.cascades == 0) return {};
-    auto depths = mapsOf(shape.texels, clipmap_.layers());
-    auto layers = TERRANE_TRY(layersOf(depths));
-    depths_ = std::move(depths);
-    layers_ = std::move(layers);
-    shape_ = shape;
-    return {};
+base::Result<ShadowMap> ShadowMap::create(const Shape& shape) {
+    assert(shape.cascades > 0 && shape.texels % kMapTiles == 0 && "tiles have whole texels");
+    ShadowMap map;
+    map.shape_ = shape;
+    map.clipmap_ = ShadowClipmap(shape.cascades);
+    map.depths_ = mapsOf(shape.texels, map.clipmap_.layers());
+    map.layers_ = TERRANE_TRY(layersOf(map.depths_));
+    map.compared_ =
+        gpu::Sampler({.wrapS = GL_REPEAT, .wrapT = GL_REPEAT, .compare = GL_GEQUAL}, "shadow map");
+    map.plain_ = gpu::Sampler(
+        {.minFilter = GL_NEAREST, .magFilter = GL_NEAREST, .wrapS = GL_REPEAT, .wrapT = GL_REPEAT},
+        "depths of the shadow map");
+    return map;
 }
 
 void ShadowMap::markChanged(std::span<const CasterBox> boxes) {
@@ -126,7 +107,8 @@ gpu::Scissor ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) c
 
 // Depth grows toward the light. Casters beyond the range are drawn too: their depth is clamped. The scissor
 // test stays on, so that no triangle leaves its tiles, whatever the driver clips to.
-void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const {
+void ShadowMap::draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, const Drawing& drawing,
+                     const QuadStore& quads) const {
     pipeline.set(kNearestToLight);
     const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
     const gpu::Scissor scissor = bindTiles(drawing.tiles, layer);
@@ -137,15 +119,15 @@ void ShadowMap::draw(gpu::Pipeline& pipeline, const Drawing& drawing, const Quad
         gpu::PipelineState state = kNearestToLight;
         state.cullsBackFaces = !mesh::bucketTwoSided(bucket);
         pipeline.set(state);
-        (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? opaque_ : tested_).use();
+        (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? programs.opaque : programs.tested)
+            ->use();
         quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
         for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
     }
 }
 
-void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
-                       glm::vec3 lightDirection, std::size_t maxTiles) {
-    const gpu::DebugGroup group("shadow map");
+void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const ShadowPrograms& programs,
+                       const Camera& camera, glm::vec3 lightDirection, std::size_t maxTiles) {
     const std::vector<ShadowTiles> tiles = clipmap_.update(camera, lightDirection, maxTiles);
     drawnTriangles_ = 0;
     if (tiles.empty()) return;
@@ -154,7 +136,7 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Ca
     for (std::size_t k = 0; k < drawings.size(); ++k) {
         uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
                               sizeof(shared::ShadowDraw));
-        draw(pipeline, drawings[k], casters.quads);
+        draw(pipeline, programs, drawings[k], casters.quads);
     }
 }
 
@@ -183,8 +165,8 @@ void ShadowMap::copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) 
                            static_cast<GLint>(figureLayer()), texels, texels, 1);
 }
 
-void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
-                            gpu::MappedRing& ring) {
+void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const ShadowPrograms& programs,
+                            const FigureCasters& figures, gpu::MappedRing& ring) {
     hasFigures_ = false;
     if (figures.records.empty() || !canHaveFigures_ || !addFigureLayer()) return;
     std::vector<glm::dvec3> feet;
@@ -203,12 +185,11 @@ void ShadowMap::drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, con
         const shared::ShadowDraw draw = uniformsOf(tiles);
         ring.writeUniform(shared::kShadowDrawBinding, draw);
         const gpu::Scissor scissor = bindTiles(tiles, figureLayer());
-        pass.drawShadows(figures.records.size());
+        pass.draw(*programs.figures, figures.records.size());
     }
 }
 
-void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {
-    if (!isOn()) return;
+void ShadowMap::writeUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const {
     shared::ShadowFrame frame{};
     if (isLit) frame = clipmap_.frame(camera, shape_.texels);
     if (isLit && hasFigures_) frame.layers[0] = static_cast<float>(figureLayer());
@@ -216,11 +197,9 @@ void ShadowMap::bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& 
     ring.writeUniform(shared::kShadowBinding, frame);
 }
 
-void ShadowMap::bind() const {
-    depths_.bind(shared::kShadowUnit);
-    compared_.bind(shared::kShadowUnit);
-    depths_.bind(shared::kShadowDepthsUnit);
-    plain_.bind(shared::kShadowDepthsUnit);
+void ShadowMap::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kShadowUnit, depths_.id(), &compared_)
+        .add(shared::kShadowDepthsUnit, depths_.id(), &plain_);
 }
 
 }  // namespace terrane::render

@@ -9,25 +9,25 @@
 #include "terrane/gpu/texture.h"
 #include "terrane/render/figures/figure_pass.h"
 #include "terrane/render/figures/figure_shadows.h"
-#include "terrane/render/frame/shader_variants.h"
 #include "terrane/render/quads/quad_resources.h"
 #include "terrane/render/shadow/shadow_casters.h"
 
 namespace terrane::render {
 
+struct ShadowPrograms {
+    const gpu::Program *opaque, *tested, *figures;
+};
+
 class ShadowMap {
   public:
-    ShadowMap() = default;
-    explicit ShadowMap(const gpu::ShaderLoader& shaders);
-
     struct Shape {
-        int cascades = 0;  // 0: no shadows
-        int texels = 0;    // along a side of each map; a multiple of kShadowTiles
+        int cascades = 1;
+        int texels = 1024;  // along a side of each map; a multiple of kShadowTiles
 
         bool operator==(const Shape&) const = default;
     };
-    base::Result<void> configure(const Shape& shape, bool hasFaceSampling);
-    bool isOn() const { return shape_.cascades > 0; }
+    static base::Result<ShadowMap> create(const Shape& shape);
+    const Shape& shape() const { return shape_; }
 
     // Marks the tiles of changed casters.
     void markChanged(std::span<const CasterBox> boxes);
@@ -43,8 +43,8 @@ class ShadowMap {
         const MeshSectionTable& meshSections;  // up to date
     };
     // Draws up to `maxTiles` missing or changed tiles.
-    void update(gpu::Pipeline& pipeline, const Casters& casters, const Camera& camera,
-                glm::vec3 lightDirection, std::size_t maxTiles);
+    void update(gpu::Pipeline& pipeline, const Casters& casters, const ShadowPrograms& programs,
+                const Camera& camera, glm::vec3 lightDirection, std::size_t maxTiles);
 
     struct FigureCasters {
         std::span<const shared::FigureRecord> records;  // within kFigureShadowReach
@@ -53,13 +53,13 @@ class ShadowMap {
     static constexpr std::size_t kFigureRingBytes = 1024;  // of the ring, for four rectangles
     // Comes after each update(): adds the shadows of figures to the nearest cascade, with the frame's
     // uniforms bound. The first figure adds a layer to the maps.
-    void drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const FigureCasters& figures,
-                     gpu::MappedRing& ring);
+    void drawFigures(gpu::Pipeline& pipeline, const FigurePass& pass, const ShadowPrograms& programs,
+                     const FigureCasters& figures, gpu::MappedRing& ring);
 
     // Comes after update(), for a frame from the camera. `isLit` is false without light that casts shadows;
     // then update() is not needed.
-    void bindUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const;
-    void bind() const;
+    void writeUniforms(const Camera& camera, bool isLit, gpu::MappedRing& ring) const;
+    void addTo(gpu::TextureSet& textures) const;
 
     std::size_t drawnTriangles() const { return drawnTriangles_; }  // by the last update()
     std::size_t gpuBytes() const { return depths_.sizeBytes(); }
@@ -70,13 +70,13 @@ class ShadowMap {
         std::vector<CasterList> lists;
     };
     std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
-    void draw(gpu::Pipeline& pipeline, const Drawing& drawing, const QuadStore& quads) const;
+    void draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, const Drawing& drawing,
+              const QuadStore& quads) const;
     bool addFigureLayer();
     void copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const;
     [[nodiscard]] gpu::Scissor bindTiles(const ShadowTiles& tiles, std::size_t layer) const;
     std::size_t figureLayer() const { return static_cast<std::size_t>(clipmap_.layers()); }
 
-    ShaderVariants opaque_, tested_;
     Shape shape_;
     ShadowClipmap clipmap_;
     gpu::Texture2DArray depths_;

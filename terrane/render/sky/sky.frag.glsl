@@ -1,5 +1,5 @@
 // The visible sky, also behind surfaces that fade. CLOUDS: 1 draws clouds. NIGHT: 1 draws stars and the face of the
-// moon. DIRECT: 1 writes display colors (frame_targets.h).
+// moon. DIRECT: 1 writes display colors (target.h).
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/sky/sky_color.glsl"
 #include "terrane/render/sky/clouds.glsl"

@@ -52,9 +52,8 @@ SkyNoise SkyNoise::create() {
     return noise;
 }
 
-void SkyNoise::bind() const {
-    texture_.bind(shared::kSkyNoiseUnit);
-    sampler_.bind(shared::kSkyNoiseUnit);
+void SkyNoise::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kSkyNoiseUnit, texture_.id(), &sampler_);
 }
 
 namespace {
@@ -108,9 +107,8 @@ MilkyWay MilkyWay::create() {
     return made;
 }
 
-void MilkyWay::bind() const {
-    texture_.bind(shared::kMilkyWayUnit);
-    sampler_.bind(shared::kMilkyWayUnit);
+void MilkyWay::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kMilkyWayUnit, texture_.id(), &sampler_);
 }
 
 namespace {
@@ -146,7 +144,7 @@ SkyTexture SkyTexture::create() {
 
 // The table is scaled by 1 / the ambient light of its step, and the frame multiplies it by its own: between
 // steps only the shape of the sky is constant, not its brightness.
-void SkyTexture::bind(const world::Environment& e, float altitudeZ, gpu::MappedRing& ring) {
+void SkyTexture::update(const world::Environment& e, float altitudeZ, gpu::MappedRing& ring) {
     const int step = static_cast<int>(std::lround(e.lightDirection.z * kSteps));
     if (step != step_ || e.isMoon != isMoon_) {
         TERRANE_ZONE("sky table");
@@ -163,9 +161,11 @@ void SkyTexture::bind(const world::Environment& e, float altitudeZ, gpu::MappedR
     }
     const shared::AirFrame frame = airUniforms(e, altitudeZ);
     ring.writeUniform(shared::kAirBinding, frame);
-    texture_.bind(shared::kSkyTableUnit);
-    sampler_.bind(shared::kSkyTableUnit);
-    milkyWay_.bind();
+}
+
+void SkyTexture::addTo(gpu::TextureSet& textures) const {
+    textures.add(shared::kSkyTableUnit, texture_.id(), &sampler_);
+    milkyWay_.addTo(textures);
 }
 
 }  // namespace terrane::render

@@ -46,7 +46,7 @@ class SkyNoise {
     // octaves; green: others; blue and alpha: slope of smooth bumps along x and y, 0.5 is level.
     static SkyNoise create();
 
-    void bind() const;
+    void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return texture_.sizeBytes(); }
 
   private:
@@ -63,7 +63,7 @@ class MilkyWay {
     // sky; rows: latitude, sine -0.6 … 0.6. sRGB.
     static MilkyWay create();
 
-    void bind() const;
+    void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return texture_.sizeBytes(); }
 
   private:
@@ -79,9 +79,10 @@ class SkyTexture {
     SkyTexture() = default;
     static SkyTexture create();  // 64 × 32 × 8 bytes = 16 KiB, and the Milky Way
 
-    // Binds everything for a frame. Takes some 2 ms if the sine of the light's elevation has moved by a step
-    // of 1/2,500: every half second of a day of 20 minutes.
-    void bind(const world::Environment& environment, float altitudeZ, gpu::MappedRing& ring);
+    // Writes the uniforms of a frame. Takes some 2 ms if the sine of the light's elevation has moved by a
+    // step of 1/2,500: every half second of a day of 20 minutes.
+    void update(const world::Environment& environment, float altitudeZ, gpu::MappedRing& ring);
+    void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return texture_.sizeBytes() + milkyWay_.gpuBytes(); }
 
   private:

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "terrane/base/machine.h"
+#include "terrane/render/frame/frame.h"
 
 namespace terrane::app {
 namespace {
@@ -24,7 +25,7 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
         "time_s,frame_ms,fps,min_fps,max_fps,frames_of_second,ram_mb,gpu_mb,active_chunks,visible_chunks,"
         "queued_chunks,opaque_triangles,transparent_triangles,shadow_triangles,load_ms,generate_ms,"
         "local_light_ms,light_ms,mesh_ms,tile_ms,passes_ms");
-    for (const std::string_view pass : render::kPassNames) fmt::print(log.out_, ",{}_ms", columnName(pass));
+    for (const std::string_view pass : render::passNames()) fmt::print(log.out_, ",{}_ms", columnName(pass));
     fmt::print(log.out_, "\n");
     if (!log.out_) return base::fail("{}: cannot be written", file.string());
     return log;
@@ -43,7 +44,7 @@ void PerfLog::add(double seconds, double frameSeconds, const Statistics& f) {
     double passes = 0;
     for (const gpu::GpuTiming& pass : *f.passes) passes += pass.milliseconds;
     fmt::print(out_, ",{:.3f}", passes);
-    for (const std::string_view name : render::kPassNames) {
+    for (const std::string_view name : render::passNames()) {
         const auto pass = std::ranges::find(*f.passes, name, &gpu::GpuTiming::name);
         fmt::print(out_, ",{:.3f}", pass == f.passes->end() ? 0 : pass->milliseconds);
     }

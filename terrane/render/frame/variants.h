@@ -1,0 +1,174 @@
+// The options of each shader that has variants, as types: what a pass asks for is what the shader's macros
+// say, and what tests compile. `samples`: of a pixel. Plain values; any thread.
+#pragma once
+
+#include <vector>
+
+#include "terrane/gpu/shader_loader.h"
+#include "terrane/render/frame/render_options.h"
+
+namespace terrane::render {
+
+// What the frame is built for, besides size and options: what the world's faces need in shaders. Without it
+// they are shorter.
+struct QuadFeatures {
+    bool hasFaceSampling = false;  // see needsFaceSampling()
+    bool hasTint = false;          // see TintTextures
+    bool hasLand = false;          // land to the horizon affects light: see LandTextures
+
+    bool operator==(const QuadFeatures&) const = default;
+};
+
+enum class ShadowEdges : std::uint8_t { None, Hard, Soft };         // SHADOW
+enum class LightDetail : std::uint8_t { Classic, Smooth, Simple };  // LIGHT_SMOOTH; Simple: far away, in air
+enum class QuadPass : std::uint8_t { Surfaces, Layers, Shadows };   // PASS
+
+// Whether a shader reads the land up to the horizon (land_map.h) with these options, if there is land.
+bool readsLand(const RenderOptions& options);
+bool castsShadows(const RenderOptions& options);
+
+// Light of sun and moon in shading.
+struct SunVariant {
+    ShadowEdges shadows = ShadowEdges::None;
+    bool knowsLand = false;
+
+    static SunVariant of(const RenderOptions& options, const QuadFeatures& features);
+};
+
+struct GBufferVariant {
+    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
+    int samples = 1;  // in which holes are tested; 1: the center of the pixel
+    bool isSmooth = false;
+    bool hasFaceSampling = false, hasTint = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<GBufferVariant> all();
+};
+
+struct ShadowVariant {
+    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
+    bool hasFaceSampling = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<ShadowVariant> all();
+};
+
+// depth_peel.frag.glsl
+struct PeelVariant {
+    int samples = 1;
+    bool isNext = false;  // a layer behind another
+    bool hasFaceSampling = false, hasTint = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<PeelVariant> all();
+};
+
+struct TransparencyVariant {
+    int samples = 1, layers = 1;
+    SunVariant sun;
+    bool hasOcclusion = false, hasWaterDetail = false, isUnderWater = false;
+    LightDetail light = LightDetail::Classic;
+    bool drawsQuads = false;  // instead of the whole screen: with one sample
+    bool isDirect = false;    // display colors: see isDirectImage()
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<TransparencyVariant> all();
+};
+
+struct ShadeVariant {
+    int samples = 1;
+    bool isPerSample = false, hasOcclusion = false, isUnderWater = false;
+    bool isOverSky = false, isDirect = false;
+    bool isFar = false;  // pixels of far tiles
+    LightDetail light = LightDetail::Classic;
+    SunVariant sun;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<ShadeVariant> all();
+};
+
+struct SkyVariant {
+    bool hasClouds = false, isNight = false, isDirect = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<SkyVariant> all();
+};
+
+// Pixels in which any sample has a surface; shows the sky or may fade into it; has a layer.
+enum class MaskOf : std::uint8_t { Surfaces, Sky, Layers };
+struct MaskVariant {
+    int samples = 4;
+    MaskOf of = MaskOf::Surfaces;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<MaskVariant> all();
+};
+
+struct OcclusionVariant {
+    int samples = 1;
+    bool isNearestLayer = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<OcclusionVariant> all();
+};
+
+enum class Axis : std::uint8_t { X, Y };
+// occlusion_blur.frag.glsl
+struct OcclusionBlurVariant {
+    OcclusionVariant occlusion;
+    Axis axis = Axis::X;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<OcclusionBlurVariant> all();
+};
+
+struct DepthOfFieldVariant {
+    int samples = 1;
+    Axis axis = Axis::X;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<DepthOfFieldVariant> all();
+};
+
+struct FinalVariant {
+    int samples = 1;
+    bool hasDepthOfField = false, hasGodRays = false, showsOcclusion = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<FinalVariant> all();
+};
+
+struct DebugViewVariant {
+    int samples = 1;
+    LightDetail light = LightDetail::Classic;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<DebugViewVariant> all();
+};
+
+struct HoleFillVariant {
+    int samples = 1;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<HoleFillVariant> all();
+};
+
+struct HiZVariant {
+    int samples = 1;
+    bool isFinest = true;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<HiZVariant> all();
+};
+
+struct FigureVariant {
+    QuadPass pass = QuadPass::Surfaces;
+
+    gpu::ShaderDefines defines() const;
+};
+
+// The defines of all variants of a shader, by its path without "terrane/render/" and ".glsl":
+// "effects/hole_fill.frag". Of a shader without variants: those of one empty variant.
+std::vector<gpu::ShaderDefines> allVariants(std::string_view shader);
+
+}  // namespace terrane::render
