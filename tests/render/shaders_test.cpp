@@ -158,14 +158,13 @@ TEST_F(Shaders, ReferenceCompilerAcceptsEveryVariant) {
         }
         EXPECT_EQ(complaints(folder_, *stage, texts), "") << file.path;
     }
-    EXPECT_GE(checked, atDepth(100, 1000));
+    EXPECT_GE(checked, atDepth(80, 400));
 }
 
 TEST(ShaderPairs, AllOccurInFewVariants) {
-    const auto all =
-        combined({{"A", {"0", "1"}}, {"B", {"0", "1", "2"}}, {"C", {"0", "1"}}, {"D", {"0", "1"}}});
+    const auto all = allVariants("shading/shade.frag");
     const auto chosen = coveringPairs(all);
-    EXPECT_LE(chosen.size(), 9u);  // of 24
+    EXPECT_LE(chosen.size(), all.size() / 8);
     std::set<Pair> wanted, found;
     for (const auto& variant : all)
         for (const Pair& pair : pairsOf(variant)) wanted.insert(pair);

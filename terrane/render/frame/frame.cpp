@@ -192,8 +192,12 @@ std::vector<std::string_view> passNames() {
 
 std::string textOf(const Frame& frame) {
     std::string text;
-    for (const Pass& pass : frame.passes)
-        text += fmt::format("{}: {} → {}\n", pass.name, labelsOf(pass.reads), labelsOf(pass.writes));
+    for (const Pass& pass : frame.passes) {
+        text += pass.name;
+        if (!pass.reads.empty()) text += ": " + labelsOf(pass.reads);
+        if (!pass.writes.empty()) text += " → " + labelsOf(pass.writes);
+        text += '\n';
+    }
     return text;
 }
 

@@ -11,7 +11,9 @@
 namespace terrane::render {
 namespace {
 
-constexpr int kMaxLayers = 3;
+constexpr std::array kLayerLabels = {"layer 1", "layer 2", "layer 3"};
+constexpr std::array kDepthLabels = {"depth 1", "depth 2", "depth 3"};
+constexpr std::size_t kMaxLayers = kLayerLabels.size();
 
 // With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
 // A single layer has a background everywhere.
@@ -134,7 +136,7 @@ struct ShadeLayers {
         // The scene is that of pixels without layers: see water_reflection.glsl.
         gpu::TextureSet textures =
             context.shadingTextures().add(context.frame.gbufferTextures()).add(layerTextures());
-        textures.add(shared::kSceneUnit, scene->id());
+        if (!isDirect) textures.add(shared::kSceneUnit, scene->id());
         if (hasOcclusion) textures.add(shared::kOcclusionUnit, occlusion.visibility.target->id());
         const gpu::Program& program = *shade[context.isUnderWater() ? 1 : 0];
         if (drawsQuads) {
@@ -148,10 +150,11 @@ struct ShadeLayers {
 
 base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
     SharedTargets& targets = build.frame.targets;
-    for (int k = 0; k < build.options().transparencyLayers; ++k) {
-        targets.layers.push_back(build.target({"layer", GL_RGBA16, peel.size, peel.samples}));
+    const auto count = static_cast<std::size_t>(build.options().transparencyLayers);
+    for (std::size_t k = 0; k < count; ++k) {
+        targets.layers.push_back(build.target({kLayerLabels[k], GL_RGBA16, peel.size, peel.samples}));
         targets.layerDepths.push_back(
-            build.target({"layer depth", GL_DEPTH_COMPONENT32F, peel.size, peel.samples}));
+            build.target({kDepthLabels[k], GL_DEPTH_COMPONENT32F, peel.size, peel.samples}));
         peel.framebuffers.push_back(
             TERRANE_TRY(build.framebuffer("layer", {targets.layers.back()}, targets.layerDepths.back())));
         peel.framebuffers.back()->clearColor(0,
@@ -231,7 +234,8 @@ MaybePass makeShadeLayers(FrameBuilder& build) {
     pass.depths = targets.layerDepths;
     pass.size = build.frame.spec.size;
     pass.anyDrawn = std::static_pointer_cast<const LayerQueries>(targets.anyLayer);
-    std::vector<TargetRef> reads = {targets.surfaces, targets.depth, targets.scene};
+    std::vector<TargetRef> reads = {targets.surfaces, targets.depth};
+    if (!pass.isDirect) reads.push_back(targets.scene);
     reads.insert(reads.end(), targets.layers.begin(), targets.layers.end());
     reads.insert(reads.end(), targets.layerDepths.begin(), targets.layerDepths.end());
     return Pass{.reads = std::move(reads),
