@@ -141,6 +141,18 @@ class Map(ProgramTest):
         self.assertGreater(len(image.colors()), 3)
 
 
+def blocks_of(tables):
+    """The tables of a file's blocks, each with the keys of the block that it is like."""
+    blocks = {}
+    for table in tables:
+        keys = dict(blocks.get(table.get("like"), {}))
+        if "texture" in table or "textures" in table:
+            keys.pop("texture", None)
+            keys.pop("textures", None)
+        blocks[table["name"]] = keys | table
+    return list(blocks.values())
+
+
 def textures_of(entry):
     return {entry["texture"]} if "texture" in entry else set(entry["textures"].values())
 
@@ -150,7 +162,7 @@ class Blocks(ProgramTest):
     def setUpClass(cls):
         super().setUpClass()
         file = tomllib.loads(BLOCKS_FILE.read_text())
-        cls.in_file, cls.shapes = file["block"], {shape["name"] for shape in file["shape"]}
+        cls.in_file, cls.shapes = blocks_of(file["block"]), {shape["name"] for shape in file["shape"]}
 
     def test_json_lists_the_blocks_of_the_file_in_its_order(self):
         listed = json.loads(self.succeed("blocks", "--json"))

@@ -32,10 +32,53 @@ struct BadLine {
 };
 
 constexpr std::string_view kAllKeys =
-    "name, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
+    "name, like, shape, texture, textures, alpha, animation, two_sided, wrap, sharp, inner_faces, opacity, "
     "emission, "
     "collides, selection, selectable, needs_ground, generated, growth, slots, surface_height, wave_height, "
     "behaviors, tint, climbable, replaceable, group, sound";
+
+// What the second of two blocks does not set is as in the first.
+constexpr std::string_view kLamp =
+    "[[block]]\nname = \"lamp\"\nshape = \"cube\"\ntextures = { top = \"a\", bottom = \"b\", side = \"c\" }\n"
+    "alpha = \"glow\"\nemission = [15, 0, 0]\nsound = \"glass\"\n";
+
+TEST(BlockParser, ABlockIsLikeAnother) {
+    const auto file =
+        parseBlocks(fmt::format("{}[[block]]\nname = \"dim\"\nlike = \"lamp\"\nemission = [3, 0, 0]\n"
+                                "[[block]]\nname = \"dark\"\nlike = \"dim\"\ntexture = \"d\"\n",
+                                kLamp),
+                    "blocks.toml");
+    ASSERT_TRUE(file) << file.error().message;
+    const BlockDescription &lamp = file->blocks[0], &dim = file->blocks[1], &dark = file->blocks[2];
+    EXPECT_EQ(dim.type.name, "dim");
+    EXPECT_EQ(dim.type.sound, SoundMaterial::Glass);
+    EXPECT_EQ(dim.type.opacity, lamp.type.opacity);
+    EXPECT_EQ(dim.type.emission[0], 3);
+    EXPECT_EQ(dim.faces[kFacePosZ].texture, "a");
+    EXPECT_EQ(dim.faces[kFaceNegX].alpha, AlphaMode::Glow);
+    EXPECT_EQ(dark.type.emission[0], 3) << "like a block that is like another";
+    for (const FaceLook& face : dark.faces) EXPECT_EQ(face.texture, "d") << "texture replaces textures";
+}
+
+TEST(BlockParser, ABlockIsLikeNoneButThoseAbove) {
+    const auto withLike = [](std::string_view name) {
+        return errorOf(fmt::format("{}[[block]]\nname = \"other\"\nlike = {}\n[[block]]\nname = \"below\"\n",
+                                   kLamp, name));
+    };
+    for (const std::string_view name : {"\"other\"", "\"below\"", "\"air\"", "\"missing\"", "3"})
+        EXPECT_EQ(
+            withLike(name),
+            fmt::format("blocks.toml:10: like: expected the name of a block above, in the same file, got {}",
+                        name));
+    EXPECT_EQ(errorOf(fmt::format("{}[[block]]\nlike = \"lamp\"\n", kLamp)), "blocks.toml:8: name: required");
+}
+
+// A wrong value is named where it stands, and not again in each block that is like it.
+TEST(BlockParser, ErrorsNameTheLineOfTheValue) {
+    EXPECT_EQ(
+        errorOf(fmt::format("{}[[block]]\nname = \"plant\"\nlike = \"lamp\"\nshape = \"liquid\"\n", kLamp)),
+        "blocks.toml:8: opacity: required: only opaque cubes have a default");
+}
 
 TEST(BlockParser, Sounds) {
     EXPECT_EQ(only(cubeWith("sound = \"wool\"")).type.sound, SoundMaterial::Wool);

@@ -125,8 +125,27 @@ TEST(BlockRegistry, NumberOfMaterials) {
               "blocks.toml:87381: texture: expected at most 65536 different faces in all blocks, got more");
 }
 
-toml::table contentFile() {
-    return toml::parse_file(TERRANE_SOURCE_DIR "/assets/blocks.toml");
+// The tables of the file's blocks, in its order, each with the keys of the block that it is like.
+std::vector<toml::table> contentFile() {
+    const toml::table file = toml::parse_file(TERRANE_SOURCE_DIR "/assets/blocks.toml");
+    std::vector<toml::table> blocks;
+    for (const toml::node& node : *file["block"].as_array()) {
+        toml::table block = *node.as_table();
+        const auto like = std::ranges::find_if(blocks, [&](const toml::table& other) {
+            return other["name"].value<std::string>() == block["like"].value<std::string>();
+        });
+        if (like != blocks.end()) {
+            toml::table keys = *like;
+            if (block.contains("texture") || block.contains("textures")) {
+                keys.erase("texture");
+                keys.erase("textures");
+            }
+            for (const auto& [key, value] : block) keys.insert_or_assign(key, value);
+            block = std::move(keys);
+        }
+        blocks.push_back(std::move(block));
+    }
+    return blocks;
 }
 
 // The textures of a table of the file: top, bottom and four sides.
@@ -142,11 +161,10 @@ std::vector<std::string> texturesIn(const toml::table& block) {
 }
 
 TEST(Content, HasTheBlocksOfTheFileInItsOrder) {
-    const toml::table file = contentFile();
-    const toml::array& blocks = *file["block"].as_array();
+    const std::vector<toml::table> blocks = contentFile();
     ASSERT_EQ(contentBlocks().types().size(), blocks.size() + 2) << "air first, missing last";
     for (std::size_t k = 0; k < blocks.size(); ++k) {
-        const toml::table& block = *blocks[k].as_table();
+        const toml::table& block = blocks[k];
         const BlockType& type = contentBlocks().types()[k + 1];
         ASSERT_EQ(type.name, block["name"].value<std::string>());
         SCOPED_TRACE(type.name);

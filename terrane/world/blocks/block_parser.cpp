@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <map>
 #include <optional>
 #include <unordered_set>
 #include <utility>
@@ -207,19 +208,21 @@ constexpr std::array<EnumName<Animation>, 4> kAnimations{{{"none", Animation::No
 constexpr std::array<EnumName<Wrap>, 3> kWraps{
     {{"quad", Wrap::Quad}, {"repeat", Wrap::Repeat}, {"clamp", Wrap::Clamp}}};
 
-constexpr std::array<std::string_view, 27> kBlockKeys{
-    "name",       "shape",        "texture",     "textures",    "alpha",    "animation",      "two_sided",
-    "wrap",       "sharp",        "inner_faces", "opacity",     "emission", "collides",       "selection",
-    "selectable", "needs_ground", "generated",   "growth",      "slots",    "surface_height", "wave_height",
-    "behaviors",  "tint",         "climbable",   "replaceable", "group",    "sound"};
+constexpr std::array<std::string_view, 28> kBlockKeys{
+    "name",        "like",       "shape",        "texture",     "textures",    "alpha",    "animation",
+    "two_sided",   "wrap",       "sharp",        "inner_faces", "opacity",     "emission", "collides",
+    "selection",   "selectable", "needs_ground", "generated",   "growth",      "slots",    "surface_height",
+    "wave_height", "behaviors",  "tint",         "climbable",   "replaceable", "group",    "sound"};
 
 // `texture` for all faces or `textures` with one a group: exactly one of them.
 Groups<std::string> readTextures(ContentTable& table) {
     const auto read = [&](const toml::node& value, std::string_view key) { return table.nameOf(value, key); };
-    const toml::node* one = table.node("texture");
-    const toml::node* several = table.node("textures");
-    if (one && several) table.expected(*several, "textures", "only one of texture and textures");
-    if (!one && !several) table.missing("texture", "or textures");
+    if (const toml::node* several = table.own("textures"); several && table.own("texture"))
+        table.expected(*several, "textures", "only one of texture and textures");
+    const toml::node* found = table.firstOf({"texture", "textures"});
+    if (!found) table.missing("texture", "or textures");
+    const toml::node* several = table.node("textures") == found ? found : nullptr;
+    const toml::node* one = several ? nullptr : found;
     if (one && one->is_table()) table.expected(*one, "texture", "a name of a-z, 0-9 and _");
     if (several && !several->is_table())
         table.expected(*several, "textures", "a table of top, bottom and side");
@@ -367,7 +370,7 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     BlockDescription block;
     block.line = table.line();
     table.rejectUnknown(kBlockKeys);
-    if (const toml::node* name = table.node("name"))
+    if (const toml::node* name = table.own("name"))
         block.type.name = table.nameOf(*name, "name");
     else
         table.missing("name");
@@ -406,12 +409,24 @@ const toml::array* tablesOf(ContentTable& top, std::string_view kind) {
     return tables;
 }
 
+// The tables of blocks above, by name: a block's own first, then those that it is like.
+using BlockTables = std::map<std::string, std::vector<const toml::table*>, std::less<>>;
+
+std::vector<const toml::table*> tablesAlike(ContentTable table, const BlockTables& above) {
+    const toml::node* like = table.own("like");
+    if (!like) return {};
+    const auto found = above.find(like->value_exact<std::string>().value_or(""));
+    if (found != above.end() && !found->second.empty()) return found->second;
+    table.expected(*like, "like", "the name of a block above, in the same file");
+    return {};
+}
+
 base::Result<BlockFile> readBlocks(const toml::table& root, std::string_view file,
                                    const BehaviorTable& behaviors, std::span<const ShapePtr> givenShapes) {
     std::optional<std::string> error;
     BlockFile read;
     std::vector<BlockDescription>& blocks = read.blocks;
-    std::unordered_set<std::string> names{"air", "missing"};
+    BlockTables tablesOfBlock{{"air", {}}, {"missing", {}}};
 
     ContentTable top(root, file, error);
     top.rejectUnknown(std::initializer_list<std::string_view>{"block", "shape"});
@@ -423,14 +438,17 @@ base::Result<BlockFile> readBlocks(const toml::table& root, std::string_view fil
     shapes.insert(shapes.end(), read.shapes.begin(), read.shapes.end());
     const toml::array* tables = tablesOf(top, "block");
     for (std::size_t i = 0; tables && !error && i < tables->size(); ++i) {
-        ContentTable table(*(*tables)[i].as_table(), file, error);
+        const toml::table& own = *(*tables)[i].as_table();
+        std::vector<const toml::table*> like = tablesAlike(ContentTable(own, file, error), tablesOfBlock);
+        ContentTable table(own, file, error, like);
         if (i == kMaxDescribedBlocks)
             table.wrong(table.line(), "block",
                         fmt::format("expected at most {}, got more", kMaxDescribedBlocks));
         blocks.push_back(readBlock(table, behaviors, shapes));
         blocks.back().file = file;
-        if (!names.insert(blocks.back().type.name).second && !error)
-            table.expected(*table.node("name"), "name", "a name not used before");
+        like.insert(like.begin(), &own);
+        if (!tablesOfBlock.emplace(blocks.back().type.name, std::move(like)).second && !error)
+            table.expected(*table.own("name"), "name", "a name not used before");
     }
     if (error) return tl::unexpected(oneLine(std::move(*error)));
     return read;

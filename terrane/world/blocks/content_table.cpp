@@ -34,6 +34,17 @@ std::string inOneLine(std::string message) {
     return message;
 }
 
+const toml::node* ContentTable::firstOf(std::initializer_list<std::string_view> keys) const {
+    const auto find = [&](const toml::table& table) -> const toml::node* {
+        for (const std::string_view key : keys)
+            if (const toml::node* value = table.get(key)) return value;
+        return nullptr;
+    };
+    const toml::node* found = find(table_);
+    for (std::size_t k = 0; !found && k < like_.size(); ++k) found = find(*like_[k]);
+    return found;
+}
+
 void ContentTable::wrong(int line, std::string_view key, std::string_view what) {
     if (!error_) error_ = fmt::format("{}:{}: {}: {}", file_, line, key, what);
 }

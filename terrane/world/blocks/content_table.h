@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <initializer_list>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -37,10 +39,15 @@ std::string inOneLine(std::string message);
 // arbitrary result. All tables of a file share one error, the first.
 class ContentTable {
   public:
-    ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error)
-        : table_(table), file_(file), error_(error) {}
+    // `like`: tables whose keys this one has where it does not set them, the nearest first.
+    ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error,
+                 std::span<const toml::table* const> like = {})
+        : table_(table), like_(like), file_(file), error_(error) {}
 
-    const toml::node* node(std::string_view key) const { return table_.get(key); }
+    const toml::node* own(std::string_view key) const { return table_.get(key); }
+    const toml::node* node(std::string_view key) const { return firstOf({key}); }
+    // The first of these keys, which exclude each other, in the nearest table that has one.
+    const toml::node* firstOf(std::initializer_list<std::string_view> keys) const;
     int line() const { return lineOf(table_); }
     // A table inside this one, whose errors join those of this one.
     ContentTable inner(const toml::table& table) const { return ContentTable(table, file_, error_); }
@@ -102,6 +109,7 @@ class ContentTable {
     static int lineOf(const toml::node& node) { return static_cast<int>(node.source().begin.line); }
 
     const toml::table& table_;
+    std::span<const toml::table* const> like_;
     std::string_view file_;
     std::optional<std::string>& error_;
 };
