@@ -204,17 +204,17 @@ base::Result<void> PostgresRecords::flush() {
     return base::fail(base::ErrorCode::Io, "{}", problem_);
 }
 
-net::SharedNews PostgresRecords::takeNews() {
+net::SharedChanges PostgresRecords::popChanges() {
     const std::lock_guard lock(mutex_);
     basis_ = heard_;
     told_ = committed_;
-    net::SharedNews next;
+    net::SharedChanges next;
     next.newest = news_.newest;
     next.saved = news_.saved;
     return std::exchange(news_, std::move(next));
 }
 
-void PostgresRecords::tellAddress(const std::string& address, const std::string& key) {
+void PostgresRecords::publishAddress(const std::string& address, const std::string& key) {
     const std::lock_guard lock(mutex_);
     name_.address = address;
     name_.key = key;
@@ -223,27 +223,27 @@ void PostgresRecords::tellAddress(const std::string& address, const std::string&
 void PostgresRecords::say(const net::SharedLine& line) {
     tell(LineNote{line});
 }
-void PostgresRecords::tellPlace(const net::PlaceChange& change) {
+void PostgresRecords::publishPlace(const net::PlaceChange& change) {
     tell(PlaceNote{change});
 }
 
-void PostgresRecords::tellTime(double timeDay) {
+void PostgresRecords::publishTime(double timeDay) {
     tell(TimeNote{static_cast<std::uint32_t>(timeDay * kTimeSteps)});
 }
-void PostgresRecords::tellPoses(std::span<const net::OtherPlayer> players) {
+void PostgresRecords::publishPoses(std::span<const net::OtherPlayer> players) {
     for (std::size_t first = 0; first < players.size(); first += kMaxPosesInNote) {
         const auto part = players.subspan(first, std::min(kMaxPosesInNote, players.size() - first));
         tell(PosesNote{{part.begin(), part.end()}});
     }
 }
-void PostgresRecords::tellTiles(std::span<const world::ChunkPos> tiles) {
+void PostgresRecords::publishTiles(std::span<const world::ChunkPos> tiles) {
     for (std::size_t first = 0; first < tiles.size(); first += kMaxTilesInNote) {
         const auto part = tiles.subspan(first, std::min(kMaxTilesInNote, tiles.size() - first));
         tell(TilesNote{{part.begin(), part.end()}});
     }
 }
 
-void PostgresRecords::tellJoined(game::PlayerId player) {
+void PostgresRecords::publishJoined(game::PlayerId player) {
     QueuedWrite write;
     write.commands.push_back(joinedCommand(player, server_));
     write.note = JoinedNote{player};
@@ -252,14 +252,14 @@ void PostgresRecords::tellJoined(game::PlayerId player) {
     const std::lock_guard lock(mutex_);
     std::erase(news_.joined, player);
 }
-void PostgresRecords::tellLeft(game::PlayerId player) {
+void PostgresRecords::publishLeft(game::PlayerId player) {
     QueuedWrite write;
     write.commands.push_back(leftCommand(player, server_));
     write.note = LeftNote{player};
     queue(std::move(write));
 }
 
-game::PlayerId PostgresRecords::takePlayerNumber() {
+game::PlayerId PostgresRecords::allocatePlayerId() {
     const std::lock_guard lock(mutex_);
     if (numbers_.empty()) return game::kNoPlayer;
     const game::PlayerId number = numbers_.back();
@@ -267,7 +267,7 @@ game::PlayerId PostgresRecords::takePlayerNumber() {
     return number;
 }
 
-void PostgresRecords::tellState(int players, std::int64_t saved) {
+void PostgresRecords::publishState(int players, std::int64_t saved) {
     const std::lock_guard lock(mutex_);
     state_.players = players;
     state_.saved = saved;
@@ -281,9 +281,9 @@ bool PostgresRecords::mayGrow(net::Region region) const {
     return Clock::now() < leasedUntil_ && leased_.contains(region);
 }
 
-void PostgresRecords::forgetServer(std::int64_t server) {
+void PostgresRecords::removeStoppedServer(std::int64_t server) {
     QueuedWrite write;
-    write.commands.push_back(forgetServerCommand(server));
+    write.commands.push_back(removeServerCommand(server));
     queue(std::move(write));
 }
 

@@ -48,30 +48,30 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void removeClaim(const std::string& name) override;
     void setText(const std::string& name, const std::string& text) override;
     std::uint64_t append(const std::vector<net::LoggedEdit>& edits) override;
-    void setSavedEdit(std::int64_t number) override;  // for copies: servers call tellState()
-    // The last write that is decided and was reported by takeNews().
+    void setSavedEdit(std::int64_t number) override;  // for copies: servers call publishState()
+    // The last write that is decided and was reported by applySharedChanges().
     std::uint64_t durable() const override;
     std::string problem() const override;
     [[nodiscard]] base::Result<void> flush() override;
     net::SharedWorld* shared() override { return this; }
 
     // Sets the address at which players reach the server.
-    void tellAddress(const std::string& address, const std::string& key);
+    void publishAddress(const std::string& address, const std::string& key);
 
-    net::SharedNews takeNews() override;
+    net::SharedChanges popChanges() override;
     void say(const net::SharedLine& line) override;
-    void tellTime(double timeDay) override;
-    void tellPlace(const net::PlaceChange& change) override;
-    void tellPoses(std::span<const net::OtherPlayer> players) override;
-    void tellTiles(std::span<const world::ChunkPos> tiles) override;
-    void tellJoined(game::PlayerId player) override;
-    void tellLeft(game::PlayerId player) override;
-    game::PlayerId takePlayerNumber() override;
-    void tellState(int players, std::int64_t saved) override;
+    void publishTime(double timeDay) override;
+    void publishPlace(const net::PlaceChange& change) override;
+    void publishPoses(std::span<const net::OtherPlayer> players) override;
+    void publishTiles(std::span<const world::ChunkPos> tiles) override;
+    void publishJoined(game::PlayerId player) override;
+    void publishLeft(game::PlayerId player) override;
+    game::PlayerId allocatePlayerId() override;
+    void publishState(int players, std::int64_t saved) override;
     void requestRegions(std::vector<net::Region> regions) override;
     bool mayGrow(net::Region region) const override;
 
-    void forgetServer(std::int64_t server) override;
+    void removeStoppedServer(std::int64_t server) override;
 
   private:
     using Clock = std::chrono::steady_clock;
@@ -123,7 +123,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     std::uint64_t queued_ = 0, committed_ = 0, told_ = 0;
     std::uint64_t attempts_ = 0;
     std::uint64_t basis_ = 0, heard_ = 0;  // last event reported to the server; last event in news_
-    net::SharedNews news_;
+    net::SharedChanges news_;
     std::vector<game::PlayerId> numbers_;  // for new players
     std::set<net::Region> requestedRegions_, leased_;
     Clock::time_point leasedUntil_{};

@@ -231,7 +231,7 @@ Command skipPlayerNumberCommand(game::PlayerId player) {
     return {&kSkipNumber, Parameters().number(std::int64_t{player})};
 }
 
-base::Result<std::vector<game::PlayerId>> takePlayerNumbers(Connection& connection, std::size_t count) {
+base::Result<std::vector<game::PlayerId>> allocatePlayerIds(Connection& connection, std::size_t count) {
     const auto rows =
         TERRANE_TRY(connection.run(kNumbers, Parameters().integer(static_cast<std::int32_t>(count))));
     return playersOf(rows);

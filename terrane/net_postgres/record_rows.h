@@ -53,7 +53,7 @@ store_postgres::Command setSavedCommand(std::int64_t number);
 // New players get numbers above this one.
 store_postgres::Command skipPlayerNumberCommand(game::PlayerId player);
 
-[[nodiscard]] base::Result<std::vector<game::PlayerId>> takePlayerNumbers(
+[[nodiscard]] base::Result<std::vector<game::PlayerId>> allocatePlayerIds(
     store_postgres::Connection& connection, std::size_t count);
 
 }  // namespace terrane::net_postgres

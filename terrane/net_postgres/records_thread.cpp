@@ -299,7 +299,7 @@ base::Result<void> PostgresRecords::reservePlayerNumbers() {
         const std::lock_guard lock(mutex_);
         if (numbers_.size() >= kPlayerNumbers / 2) return {};
     }
-    auto numbers = TERRANE_TRY(takePlayerNumbers(*connection_, kPlayerNumbers));
+    auto numbers = TERRANE_TRY(allocatePlayerIds(*connection_, kPlayerNumbers));
     const std::lock_guard lock(mutex_);
     // Numbers are taken from the back, the lowest first.
     numbers_.insert(numbers_.begin(), numbers.rbegin(), numbers.rend());

@@ -58,7 +58,7 @@ base::Result<void> removeServer(Connection& connection, std::int64_t server, std
     return connection.changeAll(commands);
 }
 
-Command forgetServerCommand(std::int64_t server) {
+Command removeServerCommand(std::int64_t server) {
     return {&kForgetServer, Parameters().number(server).number(kGoneSeconds)};
 }
 

@@ -26,7 +26,7 @@ struct ServerName {
                                               std::int64_t saved);
 
 // The same for another server, unless it has a recent heartbeat.
-store_postgres::Command forgetServerCommand(std::int64_t server);
+store_postgres::Command removeServerCommand(std::int64_t server);
 
 struct ServerBeat {
     std::int64_t server = 0, saved = 0;

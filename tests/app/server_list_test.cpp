@@ -34,8 +34,8 @@ TEST_F(ServerList, TheLastServerIsFirst) {
 TEST_F(ServerList, AServerIsForgotten) {
     remember("a.example:30110", "Ann");
     remember("b.example:30110", "Ann");
-    ASSERT_TRUE(forgetServer(file_, "a.example:30110"));
-    ASSERT_TRUE(forgetServer(file_, "c.example:30110"));
+    ASSERT_TRUE(removeServer(file_, "a.example:30110"));
+    ASSERT_TRUE(removeServer(file_, "c.example:30110"));
     EXPECT_THAT(readServers(file_), ElementsAre(PlayedServer{"b.example:30110", "Ann"}));
 }
 

@@ -137,7 +137,7 @@ class FuzzServer {
         connection.reader.add(bytes);
         while (true) {
             const auto frame = connection.reader.next();
-            if (!frame) return onNonsense(server(), connection.id, frame.error().message, now_);
+            if (!frame) return onMalformedMessage(server(), connection.id, frame.error().message, now_);
             if (!*frame) return read(connection);
             onMessage(server(), connection.id, **frame, now_);
         }

@@ -73,7 +73,7 @@ class RandomPlayer {
                 world_->onMessage(message);
             });
         }
-        if (const auto corrected = world_->takeCorrection()) pose_ = *corrected;
+        if (const auto corrected = world_->popCorrection()) pose_ = *corrected;
         session_->pipeline().setView(world::chunkOf(pose_.position), view_);
         session_->pipeline().update(server_.now);
         if (!wire_) return;

@@ -115,7 +115,7 @@ TEST_F(HostileConsole, OddLines) {
     EXPECT_TRUE(server_->state().passwordHash.empty()) << "no password is none";
     EXPECT_TRUE(run("password \"\x01\"").starts_with("a password")) << "nobody can type it";
     EXPECT_TRUE(server_->state().passwordHash.empty());
-    EXPECT_TRUE(server_->state().people.claims().all().empty());
+    EXPECT_TRUE(server_->state().knownPlayers.claims().all().empty());
     EXPECT_TRUE(plays(*bob));
     EXPECT_FALSE(server_->state().isStopping);
 }
@@ -144,7 +144,8 @@ TEST_F(HostileConsole, RandomLines) {
         (void)run(line);
         if (k % 50 == 0) (void)ann_->take();
     }
-    for (const game::Claim& claim : server_->state().people.claims().all()) EXPECT_TRUE(isName(claim.name));
+    for (const game::Claim& claim : server_->state().knownPlayers.claims().all())
+        EXPECT_TRUE(isName(claim.name));
 }
 
 }  // namespace

@@ -176,7 +176,7 @@ TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
     joined(bob)->close();
     joined(testIdentity("Cid"))->close();
     EXPECT_EQ(refusalOfName("Dan"), Refusal::Full);
-    EXPECT_EQ(server_->state().people.byName("Dan"), nullptr);
+    EXPECT_EQ(server_->state().knownPlayers.byName("Dan"), nullptr);
     EXPECT_TRUE(plays(*joined(bob)));  // a known player may return
     server_->now += std::chrono::minutes(20);
     EXPECT_TRUE(plays(*joined(testIdentity("Dan"))));

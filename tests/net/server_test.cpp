@@ -53,7 +53,7 @@ TEST_F(ServerTest, OfTwoWhoBuildAtOnePlaceOneIsTakenBack) {
     }));
     EXPECT_EQ(ann.block(pos), bob.block(pos));
     EXPECT_EQ(server.state().session.world().block(pos), ann.block(pos));
-    const auto decided = ann.world->takeDecided(), others = bob.world->takeDecided();
+    const auto decided = ann.world->popDecided(), others = bob.world->popDecided();
     EXPECT_EQ(decided.size() + others.size(), 1u) << "one hears of it";
 }
 
@@ -69,14 +69,14 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
         game::BuildOutcome::Result::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(ann.block(high), contentBlock("glass"));
-    auto decided = ann.world->takeDecided();
+    auto decided = ann.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<game::BuildOutcome>(decided[0]).changed, 64u);
     EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Undo).outcome,
               game::TakenBack::Outcome::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(ann.block(high), world::kAir);
-    decided = ann.world->takeDecided();
+    decided = ann.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);
     const auto& undone = std::get<DecidedTakeBack>(decided[0]);
     EXPECT_EQ(undone.way, game::HistoryWay::Undo);
@@ -84,7 +84,7 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Redo).outcome,
               game::TakenBack::Outcome::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
-    decided = ann.world->takeDecided();
+    decided = ann.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<DecidedTakeBack>(decided[0]).way, game::HistoryWay::Redo);
 }
@@ -140,10 +140,10 @@ TEST_F(ServerTest, PlayersSeeEachOtherAndTalk) {
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] {
         return std::abs(bob.world->players().begin()->second.pose.position.x - ann.pose.position.x) < 0.1;
     }));
-    (void)bob.world->takeChat();
+    (void)bob.world->popChat();
     ann.world->say("hello");
     step(server, {&ann, &bob});
-    const auto chat = bob.world->takeChat();
+    const auto chat = bob.world->popChat();
     ASSERT_EQ(chat.size(), 1u);
     EXPECT_EQ(chat[0].name, "Ann");
     EXPECT_EQ(chat[0].text, "hello");
@@ -175,9 +175,10 @@ TEST_F(ServerTest, TheListHasPlayersOfOtherServersOnce) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));
     ServerState& state = server.state();
-    const KnownPlayer& bob = state.people.add(testIdentity("Bob").key.publicKey, "Bob", game::Role::Guest);
+    const KnownPlayer& bob =
+        state.knownPlayers.add(testIdentity("Bob").key.publicKey, "Bob", game::Role::Guest);
     const game::PlayerId unknown = bob.id + 1;
-    for (const game::PlayerId id : {state.people.byName("Ann")->id, bob.id, unknown})
+    for (const game::PlayerId id : {state.knownPlayers.byName("Ann")->id, bob.id, unknown})
         state.sharing.players[id].at.id = id;
     ann.wire->say(AskPlayers{});
     const auto messages = ann.wire->take();
@@ -199,7 +200,7 @@ TEST_F(ServerTest, AClaimIsForItsOwner) {
     ASSERT_EQ(bob.put(pos, "glass"), game::EditResult::Applied) << "its client does not know";
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return bob.world->undecidedCount() == 0; }));
     EXPECT_EQ(bob.block(pos), world::kAir) << "it is taken back";
-    const auto decided = bob.world->takeDecided();
+    const auto decided = bob.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<game::EditResult>(decided[0]), game::EditResult::Claimed);
     ASSERT_EQ(ann.put(pos, "glass"), game::EditResult::Applied);
@@ -224,10 +225,10 @@ TEST_F(ServerTest, AGuestWhoIsMadeAPlayerBuildsAtOnce) {
 TEST_F(ServerTest, TextThatCannotTravelIsSaidAsItCan) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));
-    (void)ann.world->takeChat();
+    (void)ann.world->popChat();
     ann.world->say("a\u202eb\n" + std::string(2 * kMaxChatBytes, 'x'));
     step(server, {&ann});
-    const auto chat = ann.world->takeChat();
+    const auto chat = ann.world->popChat();
     ASSERT_EQ(chat.size(), 1u);
     EXPECT_EQ(chat[0].text.size(), kMaxChatBytes);
     EXPECT_TRUE(chat[0].text.starts_with("a\\xe2\\x80\\xaeb")) << chat[0].text;

@@ -172,7 +172,7 @@ TEST_F(SocketsTest, AnotherServerKeyIsNotTrusted) {
     ann.trusts = false;
     ASSERT_TRUE(runUntil([&] { return ann.link.stage() == ClientLink::Stage::Ended; }));
     EXPECT_NE(ann.link.reason().find("key has changed"), std::string::npos) << ann.link.reason();
-    EXPECT_EQ(server_->server.state().people.byName("Ann"), nullptr) << "nothing was said to it";
+    EXPECT_EQ(server_->server.state().knownPlayers.byName("Ann"), nullptr) << "nothing was said to it";
     expectNobodyElse(0);
 }
 

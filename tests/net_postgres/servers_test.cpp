@@ -194,7 +194,7 @@ TEST_F(SharedServersTest, OthersSaveWhatAKilledServerChanged) {
 TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna");
-    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().people.byName("Anna") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().knownPlayers.byName("Anna") != nullptr; }));
     Guest again(b, "Anna", anna.identity);
     ASSERT_EQ(again.id, anna.id) << "the other server knows her";
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.find<net::Refused>() != nullptr; }));
@@ -210,25 +210,25 @@ TEST_F(SharedServersTest, OfTwoServersTheOneJoinedLastKeepsThePlayer) {
     const auto a = PostgresRecords::open(servers_.address(), *blocks, {"a", "", ""}).value();
     const auto b = PostgresRecords::open(servers_.address(), *blocks, {"b", "", ""}).value();
     const game::PlayerId player = 7;
-    const auto hearsLine = [](PostgresRecords& records, net::SharedNews& news) {
+    const auto hearsLine = [](PostgresRecords& records, net::SharedChanges& news) {
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
         while (news.lines.empty() && std::chrono::steady_clock::now() < end) {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            net::SharedNews next = records.takeNews();
+            net::SharedChanges next = records.popChanges();
             news.joined.insert(news.joined.end(), next.joined.begin(), next.joined.end());
             news.lines = std::move(next.lines);
         }
         return !news.lines.empty();
     };
     for (int round = 0; round < 20; ++round) {
-        a->tellJoined(player);
+        a->publishJoined(player);
         ASSERT_TRUE(a->flush());
         if (round % 2 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        b->tellJoined(player);
+        b->publishJoined(player);
         ASSERT_TRUE(b->flush());
         a->say({"", "after a"});
         b->say({"", "after b"});
-        net::SharedNews newsOfA, newsOfB;
+        net::SharedChanges newsOfA, newsOfB;
         ASSERT_TRUE(hearsLine(*a, newsOfA) && hearsLine(*b, newsOfB));
         EXPECT_FALSE(newsOfA.joined.empty());
         EXPECT_TRUE(newsOfB.joined.empty());
@@ -274,12 +274,12 @@ TEST_F(SharedServersTest, PlayersSeeAndHearEachOtherAcrossServers) {
 TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna"), bert(b, "Bert");
-    ASSERT_TRUE(servers_.tickUntil([&] { return a.state().people.byName("Bert") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return a.state().knownPlayers.byName("Bert") != nullptr; }));
     EXPECT_EQ(net::runConsoleLine(a.state(), "guest Bert"), "Bert is a guest, who changes no blocks, now");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::RoleChanged>() != nullptr; }));
     EXPECT_EQ(bert.find<net::RoleChanged>()->role, game::Role::Guest);
     (void)net::runConsoleLine(a.state(), "claim farm -100 -100 100 100 Anna");
-    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().people.claims().find("farm") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().knownPlayers.claims().find("farm") != nullptr; }));
     EXPECT_NE(b.state().session.permissions.claims.find("farm"), nullptr);
     (void)net::runConsoleLine(a.state(), "password sesame");
     ASSERT_TRUE(servers_.tickUntil([&] { return !b.state().passwordHash.empty(); }));
@@ -367,7 +367,7 @@ TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
     EXPECT_EQ(a.state().passwordHash, "a hash");
-    EXPECT_EQ(a.state().people.claims().all().size(), 1u);
+    EXPECT_EQ(a.state().knownPlayers.claims().all().size(), 1u);
     const auto places = game::savedPlaces(a.state().session.store());
     ASSERT_EQ(places.size(), 1u);
     EXPECT_EQ(places[0].name, "The mill");
@@ -384,7 +384,7 @@ TEST_F(SharedServersTest, AServerThatHadOnlyStalledIsNotForgotten) {
     // The state of b before a reports again.
     b.state().sharing.orphans.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
     net::SharedWorld& shared = *b.state().records.shared();
-    shared.forgetServer(1);
+    shared.removeStoppedServer(1);
     ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.orphans.empty(); }));
     EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "2");
     servers_.stopAll();

@@ -38,7 +38,7 @@ class SharedServers {
         auto records = PostgresRecords::open(address_, *parts.blocks, {"test", "", ""}).value();
         // Another thread reserves player numbers: wait, so that guests can join at once.
         const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
-        while (records->takePlayerNumber() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
+        while (records->allocatePlayerId() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         servers_.push_back(
             std::make_unique<TestServer>(std::move(parts), std::move(records), net::patientSettings()));

@@ -127,7 +127,7 @@ void Bot::onJoined(const net::Joined& joined) {
     toldView_.reset();
     moved_ = builtAt_ = std::chrono::steady_clock::now();
     chooseGoal();
-    tellView();
+    sendView();
 }
 
 void Bot::onViewComplete() {
@@ -204,7 +204,7 @@ void Bot::build(BotTime now) {
     link_.send(net::Edit{number, pos, world::SetBlock{id, 0}, std::nullopt});
 }
 
-void Bot::tellView() {
+void Bot::sendView() {
     const world::ChunkPos center = world::chunkOf(pose_.position);
     if (toldView_ == center) return;
     toldView_ = center;
@@ -220,7 +220,7 @@ void Bot::update(BotTime now) {
     walk(std::chrono::duration<double>(now - moved_).count());
     moved_ = now;
     link_.send(net::Move{net::wirePose(pose_)});
-    tellView();
+    sendView();
     const std::chrono::duration<double> sinceEdit = now - builtAt_;
     if (builds_ && sinceEdit.count() * settings_.editsPerSecond >= 1) build(now);
 }

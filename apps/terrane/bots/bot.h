@@ -122,7 +122,7 @@ class Bot {
     void walk(double seconds);
     void chooseGoal();
     void build(BotTime now);
-    void tellView();
+    void sendView();
 
     BotWorld& world_;
     const BotSettings& settings_;

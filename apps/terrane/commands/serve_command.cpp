@@ -65,7 +65,8 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     boost::asio::io_context context;
     auto sockets = TERRANE_TRY(
         net::ServerSockets::open(context, *host.state, options.listen, withEnding(files, ".server.pem")));
-    if (records.tellAddress) records.tellAddress(publicAddress(options, sockets->port()), sockets->key());
+    if (records.publishAddress)
+        records.publishAddress(publicAddress(options, sockets->port()), sockets->key());
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
                   sockets->port(), host.state->world.identity.seed, host.state->world.identity.generator,
                   sockets->key());

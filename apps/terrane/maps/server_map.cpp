@@ -44,7 +44,7 @@ std::vector<web::NamedPlace> PlayerList::now() {
         add(client.player, client.name, net::poseOf(client.pose));
     });
     for (const auto& [id, other] : server_.sharing.players) {
-        const net::KnownPlayer* known = server_.people.byId(id);
+        const net::KnownPlayer* known = server_.knownPlayers.byId(id);
         if (known && !server_.playing.contains(id)) add(id, known->name, net::poseOf(other.at.pose));
     }
     return players;

@@ -22,7 +22,7 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
     auto records = TERRANE_TRY(net_postgres::PostgresRecords::open(address, blocks, {processName(), "", ""}));
     net_postgres::PostgresRecords* shared = records.get();
     return WorldRecords{std::move(records), [shared](const std::string& at, const std::string& key) {
-                            shared->tellAddress(at, key);
+                            shared->publishAddress(at, key);
                         }};
 }
 

@@ -16,7 +16,7 @@ struct WorldRecords {
     std::unique_ptr<net::ServerRecords> records;
     // Publishes this server's address and key to other servers of the world, and through them to players.
     // Empty for a world in a file.
-    std::function<void(const std::string& address, const std::string& key)> tellAddress;
+    std::function<void(const std::string& address, const std::string& key)> publishAddress;
 };
 
 // The records of an open world. Errors name the file or the database.

@@ -10,7 +10,9 @@
 
 namespace terrane::app {
 
-inline ImVec2 imVec(const glm::vec2& v) { return {v.x, v.y}; }
+inline ImVec2 imVec(const glm::vec2& v) {
+    return {v.x, v.y};
+}
 
 void setUiStyle(float scale);  // times the design's sizes
 

@@ -10,7 +10,8 @@ namespace terrane::gen {
 namespace {
 
 constexpr int kCurveSegments = 16;
-constexpr int kRegionMargin = 88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
+constexpr int kRegionMargin =
+    88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
 static_assert(kRegionMargin >= kNetworkMargin && kRegionMargin % (kTileSize / kCellSamples) == 0);
 
 // A node beside the sea that is no higher than this above it has water at sea level: an estuary. Without it
@@ -49,8 +50,7 @@ Control middle(const Control& a, const Control& b) {
 
 class CurveMaker {
   public:
-    CurveMaker(const DrainageHeights& heights, DrainageCell corner)
-        : spec_(heights.spec()) {
+    CurveMaker(const DrainageHeights& heights, DrainageCell corner) : spec_(heights.spec()) {
         region_.corner = corner;
         const int side = kRegionCells + 2 * kRegionMargin;
         DrainageNodes nodes = heights.nodes({corner.x - kRegionMargin, corner.y - kRegionMargin}, side);

@@ -328,13 +328,13 @@ void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
     noteToldView(view);
 }
 
-std::vector<ChatLine> ClientWorld::takeChat() {
+std::vector<ChatLine> ClientWorld::popChat() {
     return std::exchange(chat_, {});
 }
-std::vector<Decided> ClientWorld::takeDecided() {
+std::vector<Decided> ClientWorld::popDecided() {
     return std::exchange(decided_, {});
 }
-std::optional<world::Pose> ClientWorld::takeCorrection() {
+std::optional<world::Pose> ClientWorld::popCorrection() {
     return std::exchange(correction_, std::nullopt);
 }
 

@@ -102,10 +102,10 @@ class ClientWorld {
     const std::optional<PlayerList>& playerList() const { return playerList_; }
 
     // Chat lines and decisions received since the last call.
-    std::vector<ChatLine> takeChat();
-    std::vector<Decided> takeDecided();
+    std::vector<ChatLine> popChat();
+    std::vector<Decided> popDecided();
     // The pose that the server set because it rejected a move.
-    std::optional<world::Pose> takeCorrection();
+    std::optional<world::Pose> popCorrection();
     std::size_t undecidedCount() const { return waiting_.size(); }
 
   private:

@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "terrane/net/server/people.h"
+#include "terrane/net/server/known_players.h"
 #include "terrane/net/server/sqlite_records.h"
 #include "terrane/store/chunks/chunk_key.h"
 #include "terrane/store/sqlite/schema.h"

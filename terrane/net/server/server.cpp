@@ -80,7 +80,7 @@ base::Result<void> prepare(ServerState& server) {
     for (const world::ChunkPos pos : edited) server.edited.add(pos);
     auto password = TERRANE_TRY(server.records.text(kPasswordText));
     server.passwordHash = std::move(password);
-    server.session.permissions.claims = server.people.claims();
+    server.session.permissions.claims = server.knownPlayers.claims();
     server.session.clock.dayMinutes = server.settings.dayMinutes;
     std::uint64_t random = 0;
     fillRandom(std::as_writable_bytes(std::span(&random, 1)));
@@ -111,7 +111,7 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
     return server;
 }
 
-void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles) {
+void addWrittenTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles) {
     const std::lock_guard lock(written.mutex);
     written.tiles.insert(written.tiles.end(), tiles.begin(), tiles.end());
 }
@@ -139,7 +139,7 @@ void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
         onLoginMessage(server, *client, *message);
 }
 
-void onNonsense(ServerState& server, ConnectionId id, const std::string& what, Time now) {
+void onMalformedMessage(ServerState& server, ConnectionId id, const std::string& what, Time now) {
     server.now = std::max(server.now, now);
     if (ServerClient* client = clientOf(server, id)) refuse(server, *client, Refusal::ProtocolError, what);
 }
@@ -153,8 +153,8 @@ void onClosed(ServerState& server, ConnectionId id, Time now) {
 void tick(ServerState& server, Time now) {
     server.now = std::max(server.now, now);
     ++server.tick;
-    takeNews(server);
-    tellChangedBlocks(server);
+    applySharedChanges(server);
+    sendChangedBlocks(server);
     updateLogins(server);
     // At both calls of update() no change waits to be sent, so chunks may be unloaded. It runs twice because
     // a chunk that is not in the store takes two jobs while a command waits for it.
@@ -164,15 +164,15 @@ void tick(ServerState& server, Time now) {
     continueRollbacks(server);
     if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
     server.session.advance(std::chrono::duration<double>(kServerTick).count(), growingChunks(server));
-    tellChangedBlocks(server);
+    sendChangedBlocks(server);
     server.session.pipeline().update(server.now);
     completeLoaded(server);
-    tellDecisions(server);
-    tellViews(server);
-    tellSight(server);
-    keepInTouch(server);
-    keepSaving(server);
-    keepSharing(server);
+    sendDecisions(server);
+    sendViews(server);
+    broadcastVisibility(server);
+    sendKeepAlives(server);
+    autosave(server);
+    updateSharing(server);
     forgetHistories(server);
 }
 

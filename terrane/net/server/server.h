@@ -10,18 +10,19 @@
 namespace terrane::net {
 
 // Opens a server that is ready for players; edits that a crash kept out of the world's store are applied
-// again. The tile listener (SessionParts::tileListener) must call noteTiles() with the same WrittenTiles.
+// again. The tile listener (SessionParts::tileListener) must call addWrittenTiles() with the same
+// WrittenTiles.
 [[nodiscard]] base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                                                                     const ServerSettings& settings,
                                                                     std::shared_ptr<WrittenTiles> tiles);
-void noteTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles);
+void addWrittenTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles);
 
 // A new connection. `channel`: its exported keying material. Ids are never reused.
 void onOpened(ServerState& server, ConnectionId id, Bytes channel, ClientAddress address, Time now);
 // One message of a client; may be any bytes.
 void onMessage(ServerState& server, ConnectionId id, ByteView message, Time now);
 // The client sent bytes that cannot be a message: it is disconnected.
-void onNonsense(ServerState& server, ConnectionId id, const std::string& what, Time now);
+void onMalformedMessage(ServerState& server, ConnectionId id, const std::string& what, Time now);
 // The connection was closed.
 void onClosed(ServerState& server, ConnectionId id, Time now);
 

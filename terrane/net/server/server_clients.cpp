@@ -40,15 +40,15 @@ void setTimeHere(ServerState& server, double timeDay) {
     forEachPlaying(server, [&](ServerClient& client) { send(client, clockOf(server)); });
 }
 
-void sayHere(ServerState& server, const std::string& name, const std::string& text) {
+void broadcastChatLocally(ServerState& server, const std::string& name, const std::string& text) {
     for (const std::string_view line : linesOf(text)) {
         const Bytes message = encode(ServerMessage(Said{name, plainText(line, kMaxChatBytes)}));
         forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
     }
 }
 
-void sayToAll(ServerState& server, const std::string& name, const std::string& text) {
-    sayHere(server, name, text);
+void broadcastChat(ServerState& server, const std::string& name, const std::string& text) {
+    broadcastChatLocally(server, name, text);
     if (!server.sharing.shared) return;
     for (const std::string_view line : linesOf(text))
         server.sharing.shared->say({name, plainText(line, kMaxChatBytes)});
@@ -74,12 +74,12 @@ std::string banText(const std::string& reason) {
 void leave(ServerState& server, ServerClient& client) {
     if (client.stage != ServerClient::Stage::Playing) return;
     client.stage = ServerClient::Stage::Closed;
-    server.people.setPose(client.player, poseOf(client.pose));
+    server.knownPlayers.setPose(client.player, poseOf(client.pose));
     server.playing.erase(client.player);
-    if (server.sharing.shared) server.sharing.shared->tellLeft(client.player);
+    if (server.sharing.shared) server.sharing.shared->publishLeft(client.player);
     server.left.insert_or_assign(client.player, FormerClient{server.now, client.buckets});
     base::logInfo("{} left", client.name);
-    sayToAll(server, {}, client.name + " left");
+    broadcastChat(server, {}, client.name + " left");
 }
 
 ServerClient* playingClient(ServerState& server, game::PlayerId player) {
@@ -88,7 +88,7 @@ ServerClient* playingClient(ServerState& server, game::PlayerId player) {
 }
 
 ServerClient* playingClient(ServerState& server, std::string_view name) {
-    const KnownPlayer* known = server.people.byName(name);
+    const KnownPlayer* known = server.knownPlayers.byName(name);
     return known ? playingClient(server, known->id) : nullptr;
 }
 

@@ -20,8 +20,8 @@ Clock clockOf(const ServerState& server);
 // Sets the time of day on this server and tells its players.
 void setTimeHere(ServerState& server, double timeDay);
 // Sends chat lines to the players of this server, or of all servers. An empty name means the server.
-void sayHere(ServerState& server, const std::string& name, const std::string& text);
-void sayToAll(ServerState& server, const std::string& name, const std::string& text);
+void broadcastChatLocally(ServerState& server, const std::string& name, const std::string& text);
+void broadcastChat(ServerState& server, const std::string& name, const std::string& text);
 
 // Sends Refused with the reason (any bytes) and disconnects the client; its further messages are ignored.
 void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);

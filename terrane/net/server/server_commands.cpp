@@ -216,7 +216,7 @@ void loadAround(ServerState& server, const ServerClient& client) {
 
 }  // namespace
 
-void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
+void enqueueCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
     client.waitingBytes += dataBytes(command);
     if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
         return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
@@ -233,8 +233,8 @@ void takePlace(ServerState& server, ServerClient& client, const Place& place) {
             decoded && dataBytes(*decoded) <= kMaxPlacedData)
             *structure = std::move(*decoded);
     dropOtherData(*structure, server.session.blocks());
-    takeCommand(server, client,
-                {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
+    enqueueCommand(server, client,
+                   {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
 }
 
 void runCommands(ServerState& server) {
@@ -245,7 +245,7 @@ void runCommands(ServerState& server) {
     });
 }
 
-void tellDecisions(ServerState& server) {
+void sendDecisions(ServerState& server) {
     const std::uint64_t durable = server.records.durable();
     forEachPlaying(server, [&](ServerClient& client) {
         for (; !client.decisions.empty(); client.decisions.pop_front()) {

@@ -6,12 +6,12 @@
 
 namespace terrane::net {
 
-void takeCommand(ServerState& server, ServerClient& client, WaitingCommand command);
+void enqueueCommand(ServerState& server, ServerClient& client, WaitingCommand command);
 // An invalid structure changes nothing.
 void takePlace(ServerState& server, ServerClient& client, const Place& place);
 // Runs the commands that are ready. Call in each tick.
 void runCommands(ServerState& server);
 // Sends the results of commands whose changes are durable. Call after the changes were sent.
-void tellDecisions(ServerState& server);
+void sendDecisions(ServerState& server);
 
 }  // namespace terrane::net

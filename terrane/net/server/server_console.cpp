@@ -41,7 +41,7 @@ std::string unknownPlayer(const std::string& name) {
 }
 
 std::string sayLine(ServerState& server, Words words) {
-    sayToAll(server, {}, joined(words));
+    broadcastChat(server, {}, joined(words));
     return "said";
 }
 
@@ -56,7 +56,7 @@ std::string list(ServerState& server, Words) {
                                                                 : "");
     });
     for (const auto& [id, other] : server.sharing.players) {
-        const KnownPlayer* known = server.people.byId(id);
+        const KnownPlayer* known = server.knownPlayers.byId(id);
         if (known && !server.playing.contains(id)) text += fmt::format("\n{} on another server", known->name);
     }
     return text;
@@ -72,28 +72,28 @@ std::string kick(ServerState& server, Words words) {
 }
 
 std::string ban(ServerState& server, Words words) {
-    const KnownPlayer* player = server.people.byName(words[0]);
+    const KnownPlayer* player = server.knownPlayers.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
     std::string reason = plainText(joined(words.subspan(1)), kMaxReasonBytes);
     if (reason.empty()) reason = "no reason given";
-    server.people.setBan(player->id, reason);
+    server.knownPlayers.setBan(player->id, reason);
     if (ServerClient* client = playingClient(server, player->id))
         refuse(server, *client, Refusal::Banned, banText(reason));
     return player->name + " is banned";
 }
 
 std::string unban(ServerState& server, Words words) {
-    const KnownPlayer* player = server.people.byName(words[0]);
+    const KnownPlayer* player = server.knownPlayers.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
     if (player->ban.empty()) return player->name + " is not banned";
-    server.people.setBan(player->id, {});
+    server.knownPlayers.setBan(player->id, {});
     return player->name + " may come again";
 }
 
 std::string setRole(ServerState& server, const std::string& name, game::Role role, std::string_view what) {
-    const KnownPlayer* player = server.people.byName(name);
+    const KnownPlayer* player = server.knownPlayers.byName(name);
     if (!player) return unknownPlayer(name);
-    server.people.setRole(player->id, role);
+    server.knownPlayers.setRole(player->id, role);
     server.session.permissions.roles[player->id] = role;
     if (ServerClient* client = playingClient(server, player->id)) {
         client->role = role;
@@ -131,28 +131,28 @@ std::string claim(ServerState& server, Words words) {
     if (!isName(words[0])) return nameRule();
     game::Claim made{words[0], *area, game::kNoPlayer, {}};
     for (const std::string& name : words.subspan(5)) {
-        const KnownPlayer* player = server.people.byName(name);
+        const KnownPlayer* player = server.knownPlayers.byName(name);
         if (!player) return unknownPlayer(name);
         if (made.owner == game::kNoPlayer)
             made.owner = player->id;
         else
             made.members.push_back(player->id);
     }
-    if (const auto added = server.people.addClaim(made); !added) return added.error().message;
-    server.session.permissions.claims = server.people.claims();
+    if (const auto added = server.knownPlayers.addClaim(made); !added) return added.error().message;
+    server.session.permissions.claims = server.knownPlayers.claims();
     return fmt::format("{} is claimed for {}", words[0], words[5]);
 }
 
 std::string unclaim(ServerState& server, Words words) {
-    if (!server.people.removeClaim(words[0])) return fmt::format("there is no claim {}", words[0]);
-    server.session.permissions.claims = server.people.claims();
+    if (!server.knownPlayers.removeClaim(words[0])) return fmt::format("there is no claim {}", words[0]);
+    server.session.permissions.claims = server.knownPlayers.claims();
     return fmt::format("the claim {} is gone", words[0]);
 }
 
 std::string claims(ServerState& server, Words) {
-    std::string text = fmt::format("claims: {}", server.people.claims().all().size());
-    for (const game::Claim& one : server.people.claims().all()) {
-        const KnownPlayer* owner = server.people.byId(one.owner);
+    std::string text = fmt::format("claims: {}", server.knownPlayers.claims().all().size());
+    for (const game::Claim& one : server.knownPlayers.claims().all()) {
+        const KnownPlayer* owner = server.knownPlayers.byId(one.owner);
         text += fmt::format("\n{} {} {} {} {} {}", one.name, one.area.x0, one.area.y0, one.area.x1,
                             one.area.y1, owner ? owner->name : "nobody");
     }
@@ -162,7 +162,7 @@ std::string claims(ServerState& server, Words) {
 std::string rollbackLine(ServerState& server, Words words) {
     EditFilter filter;
     if (words[0] != "*") {
-        const KnownPlayer* player = server.people.byName(words[0]);
+        const KnownPlayer* player = server.knownPlayers.byName(words[0]);
         if (!player) return unknownPlayer(words[0]);
         filter.player = player->id;
     }
@@ -206,7 +206,7 @@ std::string setTime(ServerState& server, Words words) {
     const auto time = numberFrom<double>(words[0]);
     if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
     setTimeHere(server, *time);
-    if (server.sharing.shared) server.sharing.shared->tellTime(*time);
+    if (server.sharing.shared) server.sharing.shared->publishTime(*time);
     return "the time is set";
 }
 

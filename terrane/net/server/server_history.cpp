@@ -16,7 +16,7 @@ constexpr std::size_t kRollbackChunks = 8;
 base::Result<void> decideAll(ServerState& server) {
     if (!server.sharing.shared) return {};
     auto flushed = server.records.flush();
-    takeNews(server);
+    applySharedChanges(server);
     return flushed;
 }
 
@@ -28,7 +28,7 @@ void logChanges(ServerState& server, game::PlayerId player, std::span<const game
     if (edits.empty()) return;
     if (!server.sharing.shared) history.newest = edits.back().number;
     history.lastWrite = server.records.append(edits);
-    noteWrite(server, history.lastWrite, std::move(edits));
+    trackWrite(server, history.lastWrite, std::move(edits));
 }
 
 std::int64_t newestEdit(const ServerState& server) {
@@ -58,8 +58,8 @@ base::Result<void> restoreEdits(ServerState& server) {
     return saveEverything(server);
 }
 
-void keepSaving(ServerState& server) {
-    if (server.sharing.shared) return keepSharedSaved(server);
+void autosave(ServerState& server) {
+    if (server.sharing.shared) return autosaveShared(server);
     ServerHistory& history = server.history;
     store::ChunkStore& store = server.session.store();
     if (history.saving && store.status().durable >= history.saving->save) {
@@ -85,8 +85,8 @@ base::Result<void> saveEverything(ServerState& server) {
     game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
     TERRANE_TRY(server.session.save());
     if (server.sharing.shared) {
-        tellSavedPlaces(server);
-        server.sharing.shared->tellState(0, server.sharing.newest);
+        publishSavedPlaces(server);
+        server.sharing.shared->publishState(0, server.sharing.newest);
     }
     if (server.history.saved < server.history.newest) {
         server.history.saved = server.history.newest;

@@ -21,7 +21,7 @@ std::int64_t newestEdit(const ServerState& server);
 constexpr std::chrono::seconds kHistorySaveEvery{5};
 // Sends edited chunks to the store every kHistorySaveEvery, and notes in the history once they are saved.
 // Call in each tick.
-void keepSaving(ServerState& server);
+void autosave(ServerState& server);
 // Saves all changes to the store and the records. Blocks.
 [[nodiscard]] base::Result<void> saveEverything(ServerState& server);
 

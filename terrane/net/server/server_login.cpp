@@ -63,9 +63,9 @@ void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
 
 // Refuses the login if the ban, the name or a player limit forbids it.
 void refuseStranger(ServerState& server, ServerClient& client) {
-    const KnownPlayer* known = server.people.byKey(client.key);
+    const KnownPlayer* known = server.knownPlayers.byKey(client.key);
     if (known && !known->ban.empty()) return refuse(server, client, Refusal::Banned, banText(known->ban));
-    const KnownPlayer* named = server.people.byName(client.name);
+    const KnownPlayer* named = server.knownPlayers.byName(client.name);
     if (named && named != known)
         return refuse(server, client, Refusal::Name,
                       fmt::format("the name {} belongs to another player: choose another", client.name));
@@ -177,9 +177,10 @@ bool mayComeNew(ServerState& server, const ClientAddress& address) {
 
 // The player's row with its current name, added for a new player.
 const KnownPlayer& rowOf(ServerState& server, const ServerClient& client, game::PlayerId newNumber) {
-    const KnownPlayer* known = server.people.byKey(client.key);
-    if (!known) known = &server.people.add(client.key, client.name, server.settings.newcomers, newNumber);
-    if (known->name != client.name) server.people.setName(known->id, client.name);
+    const KnownPlayer* known = server.knownPlayers.byKey(client.key);
+    if (!known)
+        known = &server.knownPlayers.add(client.key, client.name, server.settings.newcomers, newNumber);
+    if (known->name != client.name) server.knownPlayers.setName(known->id, client.name);
     return *known;
 }
 
@@ -200,8 +201,8 @@ world::Pose lastPose(const ServerState& server, const KnownPlayer& player) {
 }
 
 void join(ServerState& server, ServerClient& client) {
-    const bool needsNumber = server.sharing.shared && !server.people.byKey(client.key);
-    const game::PlayerId number = needsNumber ? server.sharing.shared->takePlayerNumber() : game::kNoPlayer;
+    const bool needsNumber = server.sharing.shared && !server.knownPlayers.byKey(client.key);
+    const game::PlayerId number = needsNumber ? server.sharing.shared->allocatePlayerId() : game::kNoPlayer;
     if (needsNumber && number == game::kNoPlayer)
         return refuse(server, client, Refusal::Full, "too many new players come at once: try again soon");
     const KnownPlayer& player = rowOf(server, client, number);
@@ -215,7 +216,7 @@ void join(ServerState& server, ServerClient& client) {
     client.pose = wirePose(pose);
     client.heardAt = server.now;
     server.playing[player.id] = client.id;
-    if (server.sharing.shared) server.sharing.shared->tellJoined(player.id);
+    if (server.sharing.shared) server.sharing.shared->publishJoined(player.id);
     server.left.erase(player.id);
     server.session.setPlayer(player.id, pose);
     server.session.permissions.roles[player.id] = player.role;
@@ -223,7 +224,7 @@ void join(ServerState& server, ServerClient& client) {
                         client.pose});
     send(client, clockOf(server));
     base::logInfo("{} joined from {}", client.name, client.address.shown);
-    sayToAll(server, {}, client.name + " joined");
+    broadcastChat(server, {}, client.name + " joined");
     if (!server.sharing.servers.empty()) send(client, otherServers(server));
     if (!server.settings.welcome.empty()) say(client, server.settings.welcome);
 }
@@ -235,7 +236,7 @@ void onProof(ServerState& server, ServerClient& client, const Proof& proof) {
                       "your program generates a different world than the server: use the same program");
     refuseStranger(server, client);
     if (client.stage != Stage::Proof) return;
-    if (!server.people.byKey(client.key) && !mayComeNew(server, client.address))
+    if (!server.knownPlayers.byKey(client.key) && !mayComeNew(server, client.address))
         return refuse(server, client, Refusal::Full,
                       "too many new players came from your address: try again later");
     join(server, client);

@@ -16,7 +16,7 @@ namespace terrane::net {
 struct ServerHost {
     std::unique_ptr<game::Session> session;
     std::unique_ptr<ServerRecords> records;
-    std::unique_ptr<People> people;
+    std::unique_ptr<KnownPlayers> knownPlayers;
     std::unique_ptr<ServerState> state;
 };
 

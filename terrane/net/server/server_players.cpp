@@ -44,19 +44,19 @@ void applyPlaceChange(ServerState& server, const PlaceChange& change) {
     (void)changeHere(server, change);
 }
 
-void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places) {
+void replacePlaces(ServerState& server, const std::vector<game::Place>& places) {
     std::vector<game::Place> all = places;
     for (const auto& [save, change] : server.sharing.untoldPlaces) makeChange(all, change);
     if (game::textOf(all) != game::textOf(game::savedPlaces(server.session.store())))
         game::savePlaces(server.session.store(), all);
 }
 
-void tellSavedPlaces(ServerState& server) {
+void publishSavedPlaces(ServerState& server) {
     auto& untold = server.sharing.untoldPlaces;
     if (untold.empty()) return;
     const store::SaveNumber durable = server.session.store().status().durable;
     for (; !untold.empty() && untold.front().first <= durable; untold.pop_front())
-        server.sharing.shared->tellPlace(untold.front().second);
+        server.sharing.shared->publishPlace(untold.front().second);
 }
 
 std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {
@@ -125,7 +125,7 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (message.text.empty()) return;
     if (message.text.front() != '/') {
         base::logInfo("<{}> {}", client.name, message.text);
-        return sayToAll(server, client.name, message.text);
+        return broadcastChat(server, client.name, message.text);
     }
     constexpr std::string_view kMark = "/mark ";
     if (message.text.starts_with(kMark))
@@ -146,7 +146,7 @@ void onAskPlayers(ServerState& server, ServerClient& client) {
                                     static_cast<std::uint16_t>(std::clamp<std::int64_t>(latency, 0, 65535))});
     });
     for (const auto& [id, other] : server.sharing.players) {
-        const KnownPlayer* known = server.people.byId(id);
+        const KnownPlayer* known = server.knownPlayers.byId(id);
         if (known && !server.playing.contains(id) && list.players.size() < kMaxPlayersInMessage)
             list.players.push_back({known->name, known->role, 0});
     }
@@ -159,12 +159,12 @@ std::uint32_t pingTime(Time now) {
     return static_cast<std::uint32_t>(since.count());
 }
 
-void tellSightTo(ServerState& server, ServerClient& client, const PlayerGrid& grid) {
+void sendVisibility(ServerState& server, ServerClient& client, const PlayerGrid& grid) {
     const SightChanges changes =
         client.sight.update(server.tick, grid.around({client.player, client.pose, client.swungTick}));
     for (const std::uint16_t slot : changes.disappeared) send(client, Disappears{slot});
     for (const auto& [slot, player] : changes.appeared) {
-        const KnownPlayer* known = server.people.byId(player->id);
+        const KnownPlayer* known = server.knownPlayers.byId(player->id);
         send(client, Appears{slot, player->id, known ? known->name : std::string(), player->pose});
     }
     if (!changes.poses.empty()) send(client, Poses{changes.poses});
@@ -177,14 +177,14 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
                    [&](const Move& move) { onMove(server, client, move); },
                    [&](const View& view) { onView(client, view); },
                    [&](Edit& edit) {
-                       takeCommand(server, client, {std::move(edit), server.tick});
+                       enqueueCommand(server, client, {std::move(edit), server.tick});
                    },
                    [&](const Fill& fill) {
-                       takeCommand(server, client, {Build{fill.number, fill.fill}, server.tick});
+                       enqueueCommand(server, client, {Build{fill.number, fill.fill}, server.tick});
                    },
                    [&](const Place& place) { takePlace(server, client, place); },
                    [&](const TakeBack& takeBack) {
-                       takeCommand(server, client, {takeBack, server.tick});
+                       enqueueCommand(server, client, {takeBack, server.tick});
                    },
                    [&](const Say& text) { onSay(server, client, text); },
                    [&](const AskPlayers&) { onAskPlayers(server, client); },
@@ -197,7 +197,7 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
                message);
 }
 
-void tellSight(ServerState& server) {
+void broadcastVisibility(ServerState& server) {
     std::vector<PlayerAt> players;
     forEachPlaying(server, [&](const ServerClient& client) {
         players.push_back({client.player, client.pose, client.swungTick});
@@ -207,11 +207,11 @@ void tellSight(ServerState& server) {
     const PlayerGrid grid(players);
     // Updates half of the clients in each tick, to spread the traffic over time.
     forEachPlaying(server, [&](ServerClient& client) {
-        if ((server.tick + client.id) % kTicksPerSight == 0) tellSightTo(server, client, grid);
+        if ((server.tick + client.id) % kTicksPerSight == 0) sendVisibility(server, client, grid);
     });
 }
 
-void keepInTouch(ServerState& server) {
+void sendKeepAlives(ServerState& server) {
     forEachPlaying(server, [&](ServerClient& client) {
         if (server.now - client.heardAt > server.settings.silentAfter)
             return refuse(server, client, Refusal::Silent, "no message from you for too long");

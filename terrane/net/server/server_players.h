@@ -26,17 +26,17 @@ std::string markHere(ServerState& server, const ServerClient& client, std::strin
 void applyPlaceChange(ServerState& server, const PlaceChange& change);
 // Replaces all places by those of the world's store, since changes of other servers may have been missed. Own
 // changes that wait to be saved are kept.
-void takeAllPlaces(ServerState& server, const std::vector<game::Place>& places);
+void replacePlaces(ServerState& server, const std::vector<game::Place>& places);
 // Tells other servers of own changes once the store has them, so a server that misses the message finds them
 // there.
-void tellSavedPlaces(ServerState& server);
+void publishSavedPlaces(ServerState& server);
 
 // Handles a message of a playing client.
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message);
 
 // Tells all players who appears, moves and disappears. Call in each tick.
-void tellSight(ServerState& server);
+void broadcastVisibility(ServerState& server);
 // Sends the time and pings; disconnects clients that do not answer. Call in each tick.
-void keepInTouch(ServerState& server);
+void sendKeepAlives(ServerState& server);
 
 }  // namespace terrane::net

@@ -66,7 +66,7 @@ base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         to.append({edit});
         if (++waiting % kEditsAtOnce != 0) return {};
-        if (SharedWorld* shared = to.shared()) (void)shared->takeNews();  // else it would keep all edits
+        if (SharedWorld* shared = to.shared()) (void)shared->popChanges();  // else it would keep all edits
         return to.flush();
     };
     const EditFilter rest{.afterNumber = after};
@@ -113,7 +113,7 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
     if (end.newest != ends->newest)
         return base::fail(base::ErrorCode::Incompatible, "the copy's history ends with edit {}, expected {}",
                           end.newest, ends->newest);
-    if (to.shared()) to.shared()->tellState(0, ends->newest);
+    if (to.shared()) to.shared()->publishState(0, ends->newest);
     return RecordsCopied{players.size(), claims.size(), ends->newest};
 }
 

@@ -178,7 +178,7 @@ void ServerSockets::Impl::takeFrames(const ConnectionPtr& connection, std::size_
     while (true) {
         const auto frame = connection->reader.next();
         if (!frame) {
-            onNonsense(server, connection->id, frame.error().message, now);
+            onMalformedMessage(server, connection->id, frame.error().message, now);
             break;
         }
         if (!*frame) break;

@@ -22,7 +22,7 @@
 #include "terrane/game/session.h"
 #include "terrane/net/server/edit_log.h"
 #include "terrane/net/server/edited_chunks.h"
-#include "terrane/net/server/people.h"
+#include "terrane/net/server/known_players.h"
 #include "terrane/net/server/server_client.h"
 #include "terrane/net/sharing/server_sharing.h"
 
@@ -58,7 +58,7 @@ struct OfferedPack {
 struct ServerParts {
     game::Session& session;
     ServerRecords& records;
-    People& people;
+    KnownPlayers& knownPlayers;
     std::string program;           // and its version
     WorldFingerprint fingerprint;  // of the session's world
     std::vector<OfferedPack> packs = {};
@@ -105,7 +105,7 @@ struct ServerState {
     ServerState(const ServerParts& serverParts, const ServerSettings& serverSettings)
         : session(serverParts.session),
           records(serverParts.records),
-          people(serverParts.people),
+          knownPlayers(serverParts.knownPlayers),
           program(serverParts.program),
           packs(serverParts.packs),
           settings(serverSettings),
@@ -113,7 +113,7 @@ struct ServerState {
 
     game::Session& session;
     ServerRecords& records;
-    People& people;
+    KnownPlayers& knownPlayers;
     std::string program;
     std::vector<OfferedPack> packs;
     ServerSettings settings;

@@ -54,7 +54,7 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
 }
 
 // Sends the nearest available differences until the client's buffer is full.
-void tellView(ServerState& server, ServerClient& client) {
+void sendView(ServerState& server, ServerClient& client) {
     std::size_t pending = 0;
     for (std::size_t k = client.toTell.size(); k-- > 0 && pending < kLooksAhead;) {
         if (client.outgoing.size() + client.unsent >= kUnsentBytes) return;
@@ -95,7 +95,7 @@ void takeWrittenTiles(ServerState& server) {
         tiles.swap(server.writtenTiles->tiles);
     }
     onTilesChanged(server, tiles);
-    if (server.sharing.shared && !tiles.empty()) server.sharing.shared->tellTiles(tiles);
+    if (server.sharing.shared && !tiles.empty()) server.sharing.shared->publishTiles(tiles);
 }
 
 ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<world::BlockIndex>& indices) {
@@ -114,7 +114,7 @@ void onTilesChanged(ServerState& server, std::span<const ChunkPos> tiles) {
     if (server.onChanged && !tiles.empty()) server.onChanged(tiles);
 }
 
-void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
+void sendBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
     const bool isNew = server.edited.add(pos);
     server.edited.onChanged(pos, blocks);
     if (server.onChanged) server.onChanged(std::span(&pos, 1));
@@ -131,19 +131,19 @@ void tellBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks
     });
 }
 
-void tellChangedBlocks(ServerState& server) {
+void sendChangedBlocks(ServerState& server) {
     for (auto& [chunk, indices] : server.changed)
-        tellBlocks(server, chunk, valuesNow(server.session.world(), chunk, indices));
+        sendBlocks(server, chunk, valuesNow(server.session.world(), chunk, indices));
     server.changed.clear();
 }
 
-void tellViews(ServerState& server) {
+void sendViews(ServerState& server) {
     server.edited.update();
     takeWrittenTiles(server);
     tellChangedTiles(server);
     forEachPlaying(server, [&](ServerClient& client) {
         if (client.askedView) setClientView(server, client, *std::exchange(client.askedView, std::nullopt));
-        if (client.view) tellView(server, client);
+        if (client.view) sendView(server, client);
     });
 }
 

@@ -8,13 +8,13 @@ namespace terrane::net {
 
 // Sends blocks that changed since the last tick to the clients that have their chunks in view. Call in each
 // tick.
-void tellChangedBlocks(ServerState& server);
+void sendChangedBlocks(ServerState& server);
 // Sends blocks of one chunk, which need not be loaded, to the clients that have it in view.
-void tellBlocks(ServerState& server, world::ChunkPos chunk, const ChunkDifference& blocks);
+void sendBlocks(ServerState& server, world::ChunkPos chunk, const ChunkDifference& blocks);
 // Notes changed tiles of the store; clients are told in a later tick.
 void onTilesChanged(ServerState& server, std::span<const world::ChunkPos> tiles);
 // Updates the views of clients, and sends missing differences as fast as each client reads. Call in each
-// tick, after tellChangedBlocks().
-void tellViews(ServerState& server);
+// tick, after sendChangedBlocks().
+void sendViews(ServerState& server);
 
 }  // namespace terrane::net

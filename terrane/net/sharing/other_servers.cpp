@@ -22,8 +22,8 @@ constexpr std::size_t kOrphans = 8, kOrphansAhead = 32;
 
 }  // namespace
 
-void takePoses(ServerState& server, const SharedNews& news) {
-    for (const OtherPlayer& other : news.poses) {
+void applyPoses(ServerState& server, const SharedChanges& changes) {
+    for (const OtherPlayer& other : changes.poses) {
         SharingState::OtherAt& known = server.sharing.players[other.id];
         known.at.id = other.id;
         known.at.pose = other.pose;
@@ -34,7 +34,7 @@ void takePoses(ServerState& server, const SharedNews& news) {
                   [&](const auto& entry) { return server.now - entry.second.heardAt > kForgetAfter; });
 }
 
-void tellPosesIfDue(ServerState& server) {
+void publishPosesIfDue(ServerState& server) {
     if (server.tick % kTicksPerPoses != 0) return;
     const bool isAll = server.tick % kTicksPerAllPoses == 0;
     std::vector<OtherPlayer> moved;
@@ -47,10 +47,10 @@ void tellPosesIfDue(ServerState& server) {
         told[client.player] = client.pose;
     });
     server.sharing.toldPoses = std::move(told);
-    if (!moved.empty()) server.sharing.shared->tellPoses(moved);
+    if (!moved.empty()) server.sharing.shared->publishPoses(moved);
 }
 
-void takeServers(ServerState& server, std::vector<OtherServer> servers) {
+void setOtherServers(ServerState& server, std::vector<OtherServer> servers) {
     SharingState& sharing = server.sharing;
     for (const OtherServer& other : servers) {
         const auto isItsOwn = [&](const SharingState::Orphans& orphans) {
@@ -96,7 +96,7 @@ void saveOrphans(ServerState& server) {
     // A running save may have begun before the last chunk was loaded.
     if (!orphans.savedBy) orphans.savedBy = sharing.savesBegun + 1;
     if (sharing.savesDone < *orphans.savedBy || sharing.ownSaved < orphans.newest) return;
-    sharing.shared->forgetServer(orphans.server);
+    sharing.shared->removeStoppedServer(orphans.server);
     sharing.forgotten.insert(orphans.server);
     sharing.orphans.pop_front();
 }

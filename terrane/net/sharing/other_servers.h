@@ -8,11 +8,11 @@
 
 namespace terrane::net {
 
-void takePoses(ServerState& server, const SharedNews& news);
+void applyPoses(ServerState& server, const SharedChanges& changes);
 // Sends the poses of own players to the other servers a few times per second.
-void tellPosesIfDue(ServerState& server);
+void publishPosesIfDue(ServerState& server);
 // Takes the list of all other servers that run, or stopped without saving. Tells clients of changes.
-void takeServers(ServerState& server, std::vector<OtherServer> servers);
+void setOtherServers(ServerState& server, std::vector<OtherServer> servers);
 // Loads and saves the chunks that a stopped server changed and did not save.
 void saveOrphans(ServerState& server);
 // The list of servers as sent to clients.

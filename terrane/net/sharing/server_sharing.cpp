@@ -44,7 +44,7 @@ void applyOther(ServerState& server, const LoggedEdit& edit) {
         const auto found = sharing.settled.find(world::blockPos(edit.chunk, block.index));
         if (found != sharing.settled.end()) found->second.value = block.value;
     }
-    if (!server.session.world().maybeChunkAt(edit.chunk)) return tellBlocks(server, edit.chunk, edit.after);
+    if (!server.session.world().maybeChunkAt(edit.chunk)) return sendBlocks(server, edit.chunk, edit.after);
     server.session.setBlocks(placedBlocks(edit.chunk, edit.after));
     noteUnsaved(server, edit.chunk, edit.number);
 }
@@ -118,9 +118,9 @@ void dropTail(ServerState& server, std::int64_t nowSaved) {
     std::erase_if(sharing.tail, [](const auto& entry) { return entry.second.empty(); });
 }
 
-void takePeople(ServerState& server, const SharedNews& news) {
-    for (const KnownPlayer& player : news.players) {
-        server.people.learn(player);
+void applyPlayers(ServerState& server, const SharedChanges& changes) {
+    for (const KnownPlayer& player : changes.players) {
+        server.knownPlayers.learn(player);
         server.session.permissions.roles[player.id] = player.role;
         ServerClient* client = playingClient(server, player.id);
         if (client && client->role != player.role) {
@@ -129,18 +129,18 @@ void takePeople(ServerState& server, const SharedNews& news) {
         }
         if (client && !player.ban.empty()) refuse(server, *client, Refusal::Banned, banText(player.ban));
     }
-    for (const game::PlayerId id : news.refused) {
+    for (const game::PlayerId id : changes.refused) {
         if (ServerClient* client = playingClient(server, id))
             refuse(server, *client, Refusal::Name, "another player took the name at the same time");
-        server.people.forget(id);
+        server.knownPlayers.forget(id);
     }
-    for (const game::PlayerId id : news.joined)
+    for (const game::PlayerId id : changes.joined)
         if (ServerClient* client = playingClient(server, id))
             refuse(server, *client, Refusal::Replaced, "you joined again elsewhere");
-    for (const game::PlayerId id : news.left) server.sharing.players.erase(id);
-    if (news.claims) {
-        server.people.learnClaims(*news.claims);
-        server.session.permissions.claims = server.people.claims();
+    for (const game::PlayerId id : changes.left) server.sharing.players.erase(id);
+    if (changes.claims) {
+        server.knownPlayers.setClaims(*changes.claims);
+        server.session.permissions.claims = server.knownPlayers.claims();
     }
 }
 
@@ -155,7 +155,7 @@ base::Result<void> beginSharing(ServerState& server) {
     sharing.saved = ends.saved;
     sharing.ownSaved = ends.newest;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
-        if (edit.number > sharing.newest) return {};  // takeNews() will deliver it
+        if (edit.number > sharing.newest) return {};  // applySharedChanges() will deliver it
         addToTail(sharing, edit.chunk, edit.number, edit.after);
         server.edited.add(edit.chunk);
         return {};
@@ -170,7 +170,7 @@ base::Result<void> beginSharing(ServerState& server) {
     return {};
 }
 
-void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits) {
+void trackWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
     for (const LoggedEdit& edit : edits) {
@@ -183,28 +183,28 @@ void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit>
     sharing.undecided.emplace(write, std::move(edits));
 }
 
-void takeNews(ServerState& server) {
+void applySharedChanges(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
-    SharedNews news = sharing.shared->takeNews();
-    for (const HistoryEvent& event : news.history) {
+    SharedChanges changes = sharing.shared->popChanges();
+    for (const HistoryEvent& event : changes.history) {
         if (const auto* edit = std::get_if<LoggedEdit>(&event))
             applyOther(server, *edit);
         else
             applyDecision(server, std::get<WriteDecision>(event));
     }
-    sharing.newest = std::max(sharing.newest, news.newest);
+    sharing.newest = std::max(sharing.newest, changes.newest);
     server.session.store().setVersion(sharing.newest);
-    dropTail(server, news.saved);
-    takePeople(server, news);
-    takePoses(server, news);
-    for (const SharedLine& line : news.lines) sayHere(server, line.name, line.text);
-    onTilesChanged(server, news.tiles);
-    if (news.allPlaces) takeAllPlaces(server, *news.allPlaces);
-    for (const PlaceChange& change : news.places) applyPlaceChange(server, change);
-    if (news.passwordHash) server.passwordHash = *news.passwordHash;
-    if (news.timeDay) setTimeHere(server, *news.timeDay);
-    if (news.servers) takeServers(server, std::move(*news.servers));
+    dropTail(server, changes.saved);
+    applyPlayers(server, changes);
+    applyPoses(server, changes);
+    for (const SharedLine& line : changes.lines) broadcastChatLocally(server, line.name, line.text);
+    onTilesChanged(server, changes.tiles);
+    if (changes.allPlaces) replacePlaces(server, *changes.allPlaces);
+    for (const PlaceChange& change : changes.places) applyPlaceChange(server, change);
+    if (changes.passwordHash) server.passwordHash = *changes.passwordHash;
+    if (changes.timeDay) setTimeHere(server, *changes.timeDay);
+    if (changes.servers) setOtherServers(server, std::move(*changes.servers));
 }
 
 void completeLoaded(ServerState& server) {
@@ -225,19 +225,19 @@ void completeLoaded(ServerState& server) {
     }
 }
 
-void keepSharing(ServerState& server) {
+void updateSharing(ServerState& server) {
     SharingState& sharing = server.sharing;
     if (!sharing.shared) return;
     sharing.refused.clear();  // the players were told, unless they left
-    tellPosesIfDue(server);
+    publishPosesIfDue(server);
     saveOrphans(server);
-    tellSavedPlaces(server);
+    publishSavedPlaces(server);
     if (server.now < sharing.nextState) return;
     sharing.nextState = server.now + kStateEvery;
-    sharing.shared->tellState(static_cast<int>(server.playing.size()), sharing.ownSaved);
+    sharing.shared->publishState(static_cast<int>(server.playing.size()), sharing.ownSaved);
 }
 
-void keepSharedSaved(ServerState& server) {
+void autosaveShared(ServerState& server) {
     SharingState& sharing = server.sharing;
     ServerHistory& history = server.history;
     store::ChunkStore& store = server.session.store();

@@ -73,16 +73,16 @@ struct SharingState {
 // Call once, before players join.
 [[nodiscard]] base::Result<void> beginSharing(ServerState& server);
 // Call after append() of an own write.
-void noteWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits);
+void trackWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits);
 // Applies the changes of other servers. Call at the beginning of each tick.
-void takeNews(ServerState& server);
+void applySharedChanges(ServerState& server);
 // Applies the tail to newly loaded chunks. Call after each update of the pipeline.
 void completeLoaded(ServerState& server);
 // Tells other servers about players, saved places and this server's state, and saves the chunks of stopped
 // servers. Call in each tick.
-void keepSharing(ServerState& server);
-// Replaces keepSaving() for a shared world: saves, and notes what is saved.
-void keepSharedSaved(ServerState& server);
+void updateSharing(ServerState& server);
+// Replaces autosave() for a shared world: saves, and notes what is saved.
+void autosaveShared(ServerState& server);
 // Whether time may pass in a chunk on this server.
 bool mayGrow(const ServerState& server, world::ChunkPos chunk);
 // Requests the leases of the regions of `chunks`, in which time passes on this server.

@@ -47,13 +47,13 @@ struct OtherServer {
     std::int64_t number = 0;
     std::string name, address, key;  // "host:port" where players reach it, its public key
     bool isAlive = true;
-    // If the server stopped without saving: the chunks that it changed and did not save. Call forgetServer()
-    // once they are in the store.
+    // If the server stopped without saving: the chunks that it changed and did not save. Call
+    // removeStoppedServer() once they are in the store.
     std::vector<world::ChunkPos> unsaved = {};
 };
 
 // Events since the last call, in order.
-struct SharedNews {
+struct SharedChanges {
     std::vector<HistoryEvent> history;
     std::int64_t newest = 0;  // all edits up to this one were reported
     std::int64_t saved = 0;   // all edits up to this one are in the world's store
@@ -85,26 +85,26 @@ class SharedWorld {
     virtual ~SharedWorld() = default;
 
     // A later append() counts as made with knowledge of all news returned here.
-    virtual SharedNews takeNews() = 0;
+    virtual SharedChanges popChanges() = 0;
 
     virtual void say(const SharedLine& line) = 0;
-    virtual void tellTime(double timeDay) = 0;
-    virtual void tellPoses(std::span<const OtherPlayer> players) = 0;  // players that moved
-    virtual void tellPlace(const PlaceChange& change) = 0;
-    virtual void tellTiles(std::span<const world::ChunkPos> tiles) = 0;
+    virtual void publishTime(double timeDay) = 0;
+    virtual void publishPoses(std::span<const OtherPlayer> players) = 0;  // players that moved
+    virtual void publishPlace(const PlaceChange& change) = 0;
+    virtual void publishTiles(std::span<const world::ChunkPos> tiles) = 0;
     // A player is on one server at a time: other servers disconnect it.
-    virtual void tellJoined(game::PlayerId player) = 0;
-    virtual void tellLeft(game::PlayerId player) = 0;
+    virtual void publishJoined(game::PlayerId player) = 0;
+    virtual void publishLeft(game::PlayerId player) = 0;
     // A number for a new player; kNoPlayer if none is available at the moment.
-    virtual game::PlayerId takePlayerNumber() = 0;
+    virtual game::PlayerId allocatePlayerId() = 0;
 
     // Call once a second. `saved`: all changes of this server up to this edit are in the store.
-    virtual void tellState(int players, std::int64_t saved) = 0;
+    virtual void publishState(int players, std::int64_t saved) = 0;
     // Requests leases of these regions instead of earlier ones. Time passes in a region only if mayGrow().
     virtual void requestRegions(std::vector<Region> regions) = 0;
     virtual bool mayGrow(Region region) const = 0;
 
-    virtual void forgetServer(std::int64_t server) = 0;
+    virtual void removeStoppedServer(std::int64_t server) = 0;
 };
 
 }  // namespace terrane::net

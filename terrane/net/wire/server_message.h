@@ -11,7 +11,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/game/permissions.h"
-#include "terrane/net/server/people.h"
+#include "terrane/net/server/known_players.h"
 #include "terrane/net/wire/chunk_difference.h"
 #include "terrane/net/wire/message_codec.h"
 #include "terrane/net/wire/wire.h"

@@ -1,9 +1,10 @@
 // A frame as data: its targets, and the passes in their order. buildFrame() makes it as a whole for options
 // and a size, or fails and leaves everything as it was. Used on the thread of the OpenGL context.
 //
-// A pass is a function in a file of its own. It looks at the options, asks the builder for programs and targets, and returns what it
-// reads, what it writes and how it is recorded, or nothing where it is off. frame.cpp lists the passes in the order of a frame;
-// timer zones, memory and the list in docs/rendering.md follow.
+// A pass is a function in a file of its own. It looks at the options, asks the builder for programs and
+// targets, and returns what it reads, what it writes and how it is recorded, or nothing where it is off.
+// frame.cpp lists the passes in the order of a frame; timer zones, memory and the list in docs/rendering.md
+// follow.
 #pragma once
 
 #include <functional>

@@ -59,9 +59,9 @@ RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const Play
     net::ClientWorld& world = play.world();
     const auto now = std::chrono::steady_clock::now();
     world.update(pose, settings.graphics.viewDistance, settings.graphics.horizon, now);
-    RemoteStep step{.correction = world.takeCorrection()};
-    for (const net::ChatLine& line : world.takeChat()) remote.chat.add(line, seconds);
-    for (const net::Decided& decided : world.takeDecided())
+    RemoteStep step{.correction = world.popCorrection()};
+    for (const net::ChatLine& line : world.popChat()) remote.chat.add(line, seconds);
+    for (const net::Decided& decided : world.popDecided())
         if (std::string text = textOf(decided, tr); !text.empty()) notices.say(std::move(text));
     updatePlayers(remote.others, world, now);
     const Stage stage = play.stage();

@@ -12,7 +12,7 @@
 #include "apps/terrane/window/widgets.h"
 #include "terrane/base/files.h"
 #include "terrane/net/client/client_socket.h"
-#include "terrane/net/server/people.h"
+#include "terrane/net/server/known_players.h"
 
 namespace terrane::app {
 
@@ -55,7 +55,7 @@ base::Result<void> rememberServer(const std::filesystem::path& file, const Playe
     return writeServers(file, servers);
 }
 
-base::Result<void> forgetServer(const std::filesystem::path& file, const std::string& server) {
+base::Result<void> removeServer(const std::filesystem::path& file, const std::string& server) {
     std::vector<PlayedServer> servers = readServers(file);
     if (std::erase_if(servers, [&](const PlayedServer& known) { return known.server == server; }) == 0)
         return {};
@@ -114,7 +114,7 @@ bool JoinDialog::check() {
 }
 
 void JoinDialog::forget() {
-    if (const auto done = forgetServer(listFile_, options_.server); !done) {
+    if (const auto done = removeServer(listFile_, options_.server); !done) {
         problem_ = done.error().message;
         return;
     }

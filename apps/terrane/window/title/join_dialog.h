@@ -30,7 +30,7 @@ std::vector<PlayedServer> readServers(const std::filesystem::path& file);
 // Moves a server to the front. Creates the file and its folder.
 [[nodiscard]] base::Result<void> rememberServer(const std::filesystem::path& file,
                                                 const PlayedServer& played);
-[[nodiscard]] base::Result<void> forgetServer(const std::filesystem::path& file, const std::string& server);
+[[nodiscard]] base::Result<void> removeServer(const std::filesystem::path& file, const std::string& server);
 
 class JoinDialog {
   public:

@@ -21,10 +21,10 @@ std::string nameRule();  // the rule above, as text for the player
 // Whether two names are equal, ignoring ASCII case.
 bool isSameName(std::string_view a, std::string_view b);
 
-class People {
+class KnownPlayers {
   public:
     // Reads all players and claims. Keeps a reference to `records`.
-    [[nodiscard]] static base::Result<People> read(ServerRecords& records);
+    [[nodiscard]] static base::Result<KnownPlayers> read(ServerRecords& records);
 
     // Null if there is no such player. Names are compared ignoring ASCII case. The pointers stay valid until
     // forget().
@@ -37,7 +37,7 @@ class People {
                            game::PlayerId number = game::kNoPlayer);
     // Takes over changes made by another server; does not write to the records.
     void learn(const KnownPlayer& player);
-    void learnClaims(const std::vector<game::Claim>& claims);
+    void setClaims(const std::vector<game::Claim>& claims);
     void forget(game::PlayerId id);
     // `id` must be a known player.
     void setName(game::PlayerId id, const std::string& name);
@@ -50,7 +50,7 @@ class People {
     bool removeClaim(std::string_view name);
 
   private:
-    explicit People(ServerRecords& records) : records_(&records) {}
+    explicit KnownPlayers(ServerRecords& records) : records_(&records) {}
 
     ServerRecords* records_;
     std::map<game::PlayerId, KnownPlayer> players_;

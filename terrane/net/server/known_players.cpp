@@ -1,4 +1,4 @@
-#include "terrane/net/server/people.h"
+#include "terrane/net/server/known_players.h"
 
 #include <algorithm>
 #include <cassert>
@@ -25,36 +25,36 @@ bool isSameName(std::string_view a, std::string_view b) {
     return std::ranges::equal(a, b, {}, folded, folded);
 }
 
-base::Result<People> People::read(ServerRecords& records) {
-    People people(records);
+base::Result<KnownPlayers> KnownPlayers::read(ServerRecords& records) {
+    KnownPlayers knownPlayers(records);
     auto players = TERRANE_TRY(records.players());
-    for (KnownPlayer& player : players) people.players_.insert({player.id, std::move(player)});
+    for (KnownPlayer& player : players) knownPlayers.players_.insert({player.id, std::move(player)});
     const auto claims = TERRANE_TRY(records.claims());
     for (const game::Claim& claim : claims)
-        if (auto added = people.claims_.add(claim); !added)
+        if (auto added = knownPlayers.claims_.add(claim); !added)
             return base::fail(base::ErrorCode::Damaged, "the records of the server are damaged: {}",
                               added.error().message);
-    return people;
+    return knownPlayers;
 }
 
-const KnownPlayer* People::byId(game::PlayerId id) const {
+const KnownPlayer* KnownPlayers::byId(game::PlayerId id) const {
     const auto found = players_.find(id);
     return found == players_.end() ? nullptr : &found->second;
 }
 
-const KnownPlayer* People::byKey(const PublicKey& key) const {
+const KnownPlayer* KnownPlayers::byKey(const PublicKey& key) const {
     const auto found = std::ranges::find_if(players_, [&](const auto& p) { return p.second.key == key; });
     return found == players_.end() ? nullptr : &found->second;
 }
 
-const KnownPlayer* People::byName(std::string_view name) const {
+const KnownPlayer* KnownPlayers::byName(std::string_view name) const {
     const auto found =
         std::ranges::find_if(players_, [&](const auto& p) { return isSameName(p.second.name, name); });
     return found == players_.end() ? nullptr : &found->second;
 }
 
-const KnownPlayer& People::add(const PublicKey& key, const std::string& name, game::Role role,
-                               game::PlayerId number) {
+const KnownPlayer& KnownPlayers::add(const PublicKey& key, const std::string& name, game::Role role,
+                                     game::PlayerId number) {
     assert(!byKey(key) && !byName(name) && "somebody new");
     const game::PlayerId next = players_.empty() ? kFirstPlayer : players_.rbegin()->first + 1;
     const game::PlayerId id = number == game::kNoPlayer ? next : number;
@@ -63,46 +63,46 @@ const KnownPlayer& People::add(const PublicKey& key, const std::string& name, ga
     return player;
 }
 
-void People::learn(const KnownPlayer& player) {
+void KnownPlayers::learn(const KnownPlayer& player) {
     players_[player.id] = player;
 }
 
-void People::learnClaims(const std::vector<game::Claim>& claims) {
+void KnownPlayers::setClaims(const std::vector<game::Claim>& claims) {
     claims_ = {};
     for (const game::Claim& claim : claims) (void)claims_.add(claim);  // invalid claims are dropped
 }
 
-void People::forget(game::PlayerId id) {
+void KnownPlayers::forget(game::PlayerId id) {
     players_.erase(id);
 }
 
-void People::setName(game::PlayerId id, const std::string& name) {
+void KnownPlayers::setName(game::PlayerId id, const std::string& name) {
     players_.at(id).name = name;
     records_->changePlayer(id, {.name = name});
 }
 
-void People::setRole(game::PlayerId id, game::Role role) {
+void KnownPlayers::setRole(game::PlayerId id, game::Role role) {
     players_.at(id).role = role;
     records_->changePlayer(id, {.role = role});
 }
 
-void People::setPose(game::PlayerId id, const world::Pose& pose) {
+void KnownPlayers::setPose(game::PlayerId id, const world::Pose& pose) {
     players_.at(id).pose = pose;
     records_->changePlayer(id, {.pose = pose});
 }
 
-void People::setBan(game::PlayerId id, const std::string& reason) {
+void KnownPlayers::setBan(game::PlayerId id, const std::string& reason) {
     players_.at(id).ban = reason;
     records_->changePlayer(id, {.ban = reason});
 }
 
-base::Result<void> People::addClaim(const game::Claim& claim) {
+base::Result<void> KnownPlayers::addClaim(const game::Claim& claim) {
     TERRANE_TRY(claims_.add(claim));
     records_->addClaim(claim);
     return {};
 }
 
-bool People::removeClaim(std::string_view name) {
+bool KnownPlayers::removeClaim(std::string_view name) {
     if (!claims_.remove(name)) return false;
     records_->removeClaim(std::string(name));
     return true;
