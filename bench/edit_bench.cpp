@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/bench_content.h"
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 #include "terrane/game/session.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/overlay_store.h"

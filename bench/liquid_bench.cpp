@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "bench/bench_content.h"
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 #include "terrane/world/changes/random_ticks.h"
 #include "tests/world/dam.h"
 

@@ -26,6 +26,14 @@ std::size_t residentBytes();      // 0 if unknown
 std::size_t peakResidentBytes();  // so far
 double cpuSeconds();              // of all threads, so far
 
+// Names for people on other machines.
+std::string machineName();  // "localhost" if it has no name
+std::string processName();  // "mill process 123"
+
+// Raises this process's limit on open files, and so on connections, to the hard limit, which needs no
+// privileges.
+void raiseOpenFileLimit();
+
 constexpr double megabytes(std::size_t bytes) {
     return static_cast<double>(bytes) / 1e6;
 }

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <fstream>
 
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 #include "terrane/game/player.h"
 #include "terrane/view/camera_path.h"
 

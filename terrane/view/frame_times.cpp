@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "terrane/base/machine.h"
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 
 namespace terrane::view {
 

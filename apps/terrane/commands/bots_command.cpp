@@ -9,12 +9,11 @@
 #include "apps/terrane/bots/bot.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/quantile.h"
-#include "apps/terrane/serve/open_file_limit.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
+#include "terrane/base/statistics.h"
 
 namespace terrane::app {
 namespace {
@@ -68,13 +67,13 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
                                    {"seconds", seconds},
                                    {"edits", world.edits},
                                    {"refused", world.refused},
-                                   {"joined_kb_median", quantile(world.joinedKb, 0.5)},
-                                   {"joined_ms_median", quantile(world.joinedMs, 0.5)},
+                                   {"joined_kb_median", base::quantileOf(world.joinedKb, 0.5)},
+                                   {"joined_ms_median", base::quantileOf(world.joinedMs, 0.5)},
                                    {"seen", world.seenMs.size()},
-                                   {"seen_ms_median", quantile(world.seenMs, 0.5)},
-                                   {"seen_ms_p99", quantile(world.seenMs, 0.99)},
-                                   {"decided_ms_median", quantile(world.decidedMs, 0.5)},
-                                   {"decided_ms_p99", quantile(world.decidedMs, 0.99)},
+                                   {"seen_ms_median", base::quantileOf(world.seenMs, 0.5)},
+                                   {"seen_ms_p99", base::quantileOf(world.seenMs, 0.99)},
+                                   {"decided_ms_median", base::quantileOf(world.decidedMs, 0.5)},
+                                   {"decided_ms_p99", base::quantileOf(world.decidedMs, 0.99)},
                                    {"received_kb_s_player", perPlayer(receivedBytes(bots) - since.received)},
                                    {"sent_kb_s_player", perPlayer(sentBytes(bots) - since.sent)},
                                    {"corrections", world.corrections},
@@ -111,7 +110,7 @@ base::Result<void> runBots(BotsOptions& options) {
         auto address = TERRANE_TRY(net::serverAddress(server));
         options.bots.servers.push_back(address);
     }
-    raiseOpenFileLimit();
+    base::raiseOpenFileLimit();
     BotWorld world(ClientPacks{.cache = {}, .acceptsAll = true, .accepted = {}, .packs = {}, .missing = {}});
     boost::asio::io_context context;
     std::deque<Bot> bots;

@@ -12,7 +12,7 @@
 #include "terrane/base/image.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/view/camera_path.h"
 #include "terrane/view/frame_times.h"

@@ -5,16 +5,15 @@
 
 #include "apps/terrane/client_packs.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/machine_name.h"
 #include "apps/terrane/maps/server_map.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/serve/open_file_limit.h"
 #include "apps/terrane/serve/serve_options.h"
 #include "apps/terrane/serve/server_statistics.h"
 #include "apps/terrane/serve/world_records.h"
 #include "apps/terrane/settings.h"
 #include "terrane/base/log.h"
+#include "terrane/base/machine.h"
 #include "terrane/net/server/server_console.h"
 #include "terrane/net/server/server_loop.h"
 #include "terrane/store_postgres/any_world.h"
@@ -40,7 +39,7 @@ std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
     if (!options.publicAddress.empty()) return options.publicAddress;
     const std::string& address = options.listen.address;
     const bool isAll = address == "::" || address == "0.0.0.0";
-    const std::string name = isAll ? machineName() : address;
+    const std::string name = isAll ? base::machineName() : address;
     return name.find(':') == std::string::npos ? fmt::format("{}:{}", name, port)
                                                : fmt::format("[{}]:{}", name, port);
 }
@@ -61,7 +60,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     auto records = TERRANE_TRY(openRecords(world, *parts.blocks));
     auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
                                                 fmt::format("terrane {}", TERRANE_VERSION), content));
-    raiseOpenFileLimit();
+    base::raiseOpenFileLimit();
     boost::asio::io_context context;
     auto sockets = TERRANE_TRY(
         net::ServerSockets::open(context, *host.state, options.listen, withEnding(files, ".server.pem")));

@@ -5,9 +5,9 @@
 
 #include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
-#include "apps/terrane/serve/open_file_limit.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
+#include "terrane/base/machine.h"
 #include "terrane/base/process.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/web/map_site.h"
@@ -49,7 +49,7 @@ base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
     parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
     parts.edited = world->edited;
     parts.places = [all = allPlaces(*opened.store, places)] { return all; };
-    raiseOpenFileLimit();
+    base::raiseOpenFileLimit();
     boost::asio::io_context context;
     auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
     base::logInfo("the map is at {}", urlOf(address, site->port()));

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/terrane/quantile.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
+#include "terrane/base/statistics.h"
 #include "terrane/net/server/server_history.h"
 
 namespace terrane::app {
@@ -38,8 +38,8 @@ void ServerStatistics::write(const net::ServerState& server) {
     std::size_t chunks = server.session.world().chunkCount();
     const nlohmann::json line = {{"players", server.playing.size()},
                                  {"ticks", ticks_.size()},
-                                 {"tick_ms_median", quantile(ticks_, 0.5)},
-                                 {"tick_ms_p99", quantile(ticks_, 0.99)},
+                                 {"tick_ms_median", base::quantileOf(ticks_, 0.5)},
+                                 {"tick_ms_p99", base::quantileOf(ticks_, 0.99)},
                                  {"tick_ms_max", std::ranges::max(ticks_)},
                                  {"cpu_seconds", cpu - cpuSeconds_},
                                  {"memory_mb", base::megabytes(base::residentBytes())},

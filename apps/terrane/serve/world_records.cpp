@@ -1,8 +1,8 @@
 #include "apps/terrane/serve/world_records.h"
 
-#include "apps/terrane/machine_name.h"
 #include "apps/terrane/serve/file_records.h"
 #include "terrane/base/digest.h"
+#include "terrane/base/machine.h"
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/store/saves/save_path.h"
 
@@ -19,7 +19,8 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) return openFileRecords(world, blocks);
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    auto records = TERRANE_TRY(net_postgres::PostgresRecords::open(address, blocks, {processName(), "", ""}));
+    auto records =
+        TERRANE_TRY(net_postgres::PostgresRecords::open(address, blocks, {base::processName(), "", ""}));
     net_postgres::PostgresRecords* shared = records.get();
     return WorldRecords{std::move(records), [shared](const std::string& at, const std::string& key) {
                             shared->publishAddress(at, key);
@@ -33,8 +34,8 @@ base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store:
         return std::move(records.records);
     }
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    auto records =
-        TERRANE_TRY(net_postgres::PostgresRecords::openToRead(address, blocks, {processName(), "", ""}));
+    auto records = TERRANE_TRY(
+        net_postgres::PostgresRecords::openToRead(address, blocks, {base::processName(), "", ""}));
     return records;
 }
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 
 namespace terrane::app {
 

@@ -1,4 +1,4 @@
-#include "terrane/base/median.h"
+#include "terrane/base/statistics.h"
 
 #include <stdexcept>
 
