@@ -159,12 +159,14 @@ TEST_F(GraphicsTest, AResourcePackIsLoadedWhileOnePlays) {
 
 TEST_F(GraphicsTest, ShadersAreReadAgainWhileOnePlays) {
     makeWorld("home", {{"camera", kDown}, {"movement", "medium"}});
-    const std::filesystem::path shader = folder() / "root" / "terrane" / "render" / "shade.frag.glsl";
+    const std::filesystem::path shaders = folder() / "root" / "terrane" / "render";
+    const std::filesystem::path shader = shaders / "shading" / "shade.frag.glsl";
     const auto fill = [&](const std::string& color) {
         write(shader,
               "layout(location = 0) out vec4 picture;\nvoid main() { picture = vec4(" + color + "); }\n");
     };
     create_directories(shader.parent_path());
+    create_directories(shaders / "frame");
     Program program = play("home", {"--shader-root", (folder() / "root").string()});
     program.untilDrawn();
     const glm::ivec3 kRed(255, 0, 0), kBlue(0, 0, 255);
@@ -172,7 +174,7 @@ TEST_F(GraphicsTest, ShadersAreReadAgainWhileOnePlays) {
     fill("1, 0, 0, 1");
     program.until("a red image", [&] { return color(program) == kRed; });
     // A shader with errors is not used.
-    const std::filesystem::path wrong = shader.parent_path() / "debug_view.frag.glsl";
+    const std::filesystem::path wrong = shaders / "frame" / "debug_view.frag.glsl";
     const std::string complaint = "debug_view.frag.glsl: the shader does not compile";
     write(wrong, "this is no shader\n");
     const auto lastComplaint = [&] { return log().rfind(complaint); };
