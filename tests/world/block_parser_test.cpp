@@ -70,14 +70,14 @@ TEST(BlockParser, ABlockIsLikeNoneButThoseAbove) {
             withLike(name),
             fmt::format("blocks.toml:10: like: expected the name of a block above, in the same file, got {}",
                         name));
-    EXPECT_EQ(errorOf(fmt::format("{}[[block]]\nlike = \"lamp\"\n", kLamp)), "blocks.toml:8: name: required");
+    EXPECT_EQ(errorOf(fmt::format("{}[[block]]\nlike = \"lamp\"\n", kLamp)),
+              "blocks.toml:8: name: missing (required)");
 }
 
-// A wrong value is named where it stands, and not again in each block that is like it.
-TEST(BlockParser, ErrorsNameTheLineOfTheValue) {
+TEST(BlockParser, ABlockThatIsLikeAnotherMayLackAKey) {
     EXPECT_EQ(
         errorOf(fmt::format("{}[[block]]\nname = \"plant\"\nlike = \"lamp\"\nshape = \"liquid\"\n", kLamp)),
-        "blocks.toml:8: opacity: required: only opaque cubes have a default");
+        "blocks.toml:8: opacity: missing (only opaque cubes have a default)");
 }
 
 TEST(BlockParser, Sounds) {
