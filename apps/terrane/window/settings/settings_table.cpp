@@ -56,7 +56,9 @@ ChoiceSetting languageChoice() {
 Setting graphicsSetting(const render::GraphicsRow& row) {
     Setting setting{.name = row.name,
                     .help = row.description,
-                    .section = row.label ? Section::Details : Section::Hidden,
+                    .section = !row.label       ? Section::Hidden
+                               : row.isOfPreset ? Section::Details
+                                                : Section::View,
                     .label = row.label,
                     .tip = row.tip,
                     .graphics = &row};
