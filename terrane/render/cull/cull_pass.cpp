@@ -6,6 +6,7 @@
 #include <span>
 
 #include "terrane/gpu/debug.h"
+#include "terrane/render/frame/frame.h"
 #include "terrane/render/quads/quad_store.h"
 #include "terrane/shared/bindings.h"
 
@@ -259,6 +260,29 @@ std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list, std::
                            std::as_writable_bytes(std::span(commands)));
     }
     return commands;
+}
+
+// Culling within a frame: everything in view at once, or with occlusion culling what was visible in the frame
+// before, then what its depth does not hide.
+MaybePass makeCull(FrameBuilder&) {
+    return Pass{.record =
+                    [](FrameContext& context) {
+                        const CullPhase phase = context.hidesHidden() ? CullPhase::Early : CullPhase::All;
+                        context.cull.run(phase, context.culling, context.meshSections, context.ring);
+                    },
+                .drawnIn = DrawnIn::EveryView};
+}
+
+MaybePass makeLateCull(FrameBuilder& build) {
+    if (!build.options().occlusionCulling) return std::nullopt;
+    return Pass{.reads = {build.frame.targets.hiZ},
+                .record =
+                    [](FrameContext& context) {
+                        context.cull.run(CullPhase::Late, context.culling, context.meshSections,
+                                         context.ring);
+                    },
+                .isNeeded = [](FrameContext& context) { return context.hidesHidden(); },
+                .drawnIn = DrawnIn::EveryView};
 }
 
 }  // namespace terrane::render

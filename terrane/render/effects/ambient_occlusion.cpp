@@ -18,7 +18,8 @@ base::Result<OcclusionPrograms> OcclusionPrograms::make(FrameBuilder& build, boo
     const auto targetNamed = [&](std::string_view label,
                                  const TargetRef& there) -> base::Result<FrameBuilder::Drawn> {
         if (!there) return build.drawnTarget(label, GL_R8, build.frame.spec.size);
-        return FrameBuilder::Drawn{there, TERRANE_TRY(build.framebuffer(label, {there}))};
+        const auto framebuffer = TERRANE_TRY(build.framebuffer(label, {there}));
+        return FrameBuilder::Drawn{there, framebuffer};
     };
     SharedTargets& targets = build.frame.targets;
     made.visibility = TERRANE_TRY(targetNamed("ambient occlusion", targets.occlusion));

@@ -116,7 +116,8 @@ base::Result<std::shared_ptr<const gpu::Framebuffer>> FrameBuilder::framebuffer(
     gpu::FramebufferOptions options;
     for (const TargetRef& color : colors) options.colors.push_back(color->attachment());
     if (depth) options.depth = depth->attachment();
-    return std::make_shared<const gpu::Framebuffer>(TERRANE_TRY(gpu::Framebuffer::create(options, label)));
+    auto made = TERRANE_TRY(gpu::Framebuffer::create(options, label));
+    return std::make_shared<const gpu::Framebuffer>(std::move(made));
 }
 
 base::Result<FrameBuilder::Drawn> FrameBuilder::drawnTarget(std::string_view label, GLenum format,
@@ -155,10 +156,12 @@ base::Result<void> FrameBuilder::makeShadowMap() {
     const int cascades =
         options().shadows == ShadowReach::Near ? 1 : static_cast<int>(shared::kShadowCascades);
     const ShadowMap::Shape shape{cascades, options().shadowSize};
-    if (before_.shadowMap && before_.shadowMap->shape() == shape)
+    if (before_.shadowMap && before_.shadowMap->shape() == shape) {
         frame.shadowMap = before_.shadowMap;
-    else
-        frame.shadowMap = std::make_shared<ShadowMap>(TERRANE_TRY(ShadowMap::create(shape)));
+        return {};
+    }
+    auto made = TERRANE_TRY(ShadowMap::create(shape));
+    frame.shadowMap = std::make_shared<ShadowMap>(std::move(made));
     return {};
 }
 
@@ -202,12 +205,16 @@ std::string textOf(const Frame& frame) {
 }
 
 void drawFullscreen(FrameContext& context, const gpu::Program& program, const gpu::PipelineState& state,
-                    const gpu::TextureSet& textures) {
+                    const gpu::TextureSet& textures, std::span<const ScreenRect> within) {
     context.pipeline.set(state);
     program.use();
     textures.bind();
     context.fullscreen.bind();
-    glDrawArrays(GL_TRIANGLES, 0, 3);
+    if (within.empty()) glDrawArrays(GL_TRIANGLES, 0, 3);
+    for (const ScreenRect& rect : within) {
+        const gpu::Scissor scissor(rect.min, rect.size());
+        glDrawArrays(GL_TRIANGLES, 0, 3);
+    }
 }
 
 }  // namespace terrane::render

@@ -10,6 +10,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -34,6 +35,7 @@
 namespace terrane::render {
 
 struct Frame;
+struct LayerQueries;
 
 // What passes draw with: the world on the GPU, and this frame's camera. One object for each frame; passes
 // write its last members for those after them.
@@ -93,7 +95,7 @@ struct SharedTargets {
         mask;  // selects pixels of full-screen passes, with several samples a pixel: see pixel_mask.frag.glsl
     TargetRef hiZ, occlusion, occlusionBetween, godRays, depthOfField;  // null: off
     std::vector<TargetRef> layers, layerDepths;                         // from the nearest
-    std::shared_ptr<const void> anyLayer;  // whether layers have faces: transparency_pass.cpp
+    std::shared_ptr<const LayerQueries> anyLayer;  // whether layers have faces: transparency_pass.cpp
 };
 
 struct Frame {
@@ -156,8 +158,9 @@ std::vector<std::string_view> passNames();
 // The passes with what they read and write, a line each: "shade: G-buffer, depth → scene".
 std::string textOf(const Frame& frame);
 
-// Draws one triangle over the bound framebuffer, at depth 0 (farthest).
+// Draws over the bound framebuffer, at depth 0 (farthest): one triangle over all of it, or one for each of
+// the rectangles.
 void drawFullscreen(FrameContext& context, const gpu::Program& program, const gpu::PipelineState& state,
-                    const gpu::TextureSet& textures);
+                    const gpu::TextureSet& textures, std::span<const ScreenRect> within = {});
 
 }  // namespace terrane::render

@@ -21,7 +21,8 @@ base::Result<const gpu::Program*> Programs::find(std::string_view name, const gp
     std::string key(name);
     for (const auto& [macro, value] : defines) key += fmt::format(" {}={}", macro, value);
     if (const auto found = programs_.find(key); found != programs_.end()) return found->second.get();
-    auto program = std::make_unique<gpu::Program>(TERRANE_TRY(compile()));
+    auto compiled = TERRANE_TRY(compile());
+    auto program = std::make_unique<gpu::Program>(std::move(compiled));
     return programs_.emplace(std::move(key), std::move(program)).first->second.get();
 }
 

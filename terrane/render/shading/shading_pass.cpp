@@ -11,16 +11,22 @@ namespace terrane::render {
 
 base::Result<PixelMask> PixelMask::make(FrameBuilder& build, MaskOf of) {
     if (build.samples() == 1) return PixelMask();
-    return PixelMask{TERRANE_TRY(
-        build.programs.fullscreen("shading/pixel_mask", MaskVariant{build.samples(), of}.defines()))};
+    const auto* program = TERRANE_TRY(
+        build.programs.fullscreen("shading/pixel_mask", MaskVariant{build.samples(), of}.defines()));
+    return PixelMask{program};
 }
 
-void PixelMask::draw(FrameContext& context, const gpu::TextureSet& textures) const {
+void PixelMask::draw(FrameContext& context, const gpu::TextureSet& textures,
+                     std::span<const ScreenRect> within) const {
     const gpu::PipelineState nearest{.depthTest = gpu::DepthTest::Always, .depthRange = {1, 1}};
     context.pipeline.set(nearest);
     context.frame.mask->bind();
-    context.frame.mask->clearDepth(0.0f);
-    drawFullscreen(context, *program, nearest, context.frame.gbufferTextures().add(textures));
+    if (within.empty()) context.frame.mask->clearDepth(0.0f);
+    for (const ScreenRect& rect : within) {
+        const gpu::Scissor scissor(rect.min, rect.size());
+        context.frame.mask->clearDepth(0.0f);
+    }
+    drawFullscreen(context, *program, nearest, context.frame.gbufferTextures().add(textures), within);
 }
 
 namespace {
@@ -66,7 +72,7 @@ base::Result<ShadePrograms> makeShadePrograms(FrameBuilder& build) {
     far.light = LightDetail::Classic;
     far.isFar = true;
     ShadePrograms made;
-    made.shade = {TERRANE_TRY(program(inAir)), nullptr};
+    made.shade[0] = TERRANE_TRY(program(inAir));
     made.shade[1] = TERRANE_TRY(program(underWater));
     if (build.samples() > 1 && inAir.light == LightDetail::Smooth)
         made.distant = TERRANE_TRY(program(distant));

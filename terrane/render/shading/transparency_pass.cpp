@@ -9,11 +9,18 @@
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
+
+constexpr std::size_t kMaxLayers = 3;
+
+// Whether a layer has faces, as of the last peeling. Both passes use them.
+struct LayerQueries {
+    std::array<gpu::Handle<gpu::ObjectKind::Query>, kMaxLayers> ofLayer;
+};
+
 namespace {
 
-constexpr std::array kLayerLabels = {"layer 1", "layer 2", "layer 3"};
-constexpr std::array kDepthLabels = {"depth 1", "depth 2", "depth 3"};
-constexpr std::size_t kMaxLayers = kLayerLabels.size();
+constexpr std::array<std::string_view, kMaxLayers> kLayerLabels = {"layer 1", "layer 2", "layer 3"};
+constexpr std::array<std::string_view, kMaxLayers> kDepthLabels = {"depth 1", "depth 2", "depth 3"};
 
 // With one sample a pixel the layers' quads are drawn once more to shade exactly the pixels that they cover.
 // A single layer has a background everywhere.
@@ -23,9 +30,6 @@ bool showsAllLayers(const FrameBuilder& build) {
 bool shadesQuads(const FrameBuilder& build) {
     return build.samples() == 1 && showsAllLayers(build);
 }
-
-// Whether a layer has faces, as of the last peeling. Both passes use them.
-using LayerQueries = std::array<gpu::Handle<gpu::ObjectKind::Query>, kMaxLayers>;
 
 struct Peel {
     const gpu::Program *first = nullptr, *next = nullptr;
@@ -51,10 +55,10 @@ struct Peel {
         framebuffers[number]->bind();
         // No layers are behind one without faces: the GPU skips their drawing, not the copy above.
         if (number > 0) {
-            glBeginConditionalRender((*anyDrawn)[number - 1].id(), GL_QUERY_WAIT);
+            glBeginConditionalRender(anyDrawn->ofLayer[number - 1].id(), GL_QUERY_WAIT);
             gpu::TextureSet().add(shared::kTransparencyDepthUnit, depths[number - 1]->id()).bind();
         }
-        glBeginQuery(GL_ANY_SAMPLES_PASSED, (*anyDrawn)[number].id());
+        glBeginQuery(GL_ANY_SAMPLES_PASSED, anyDrawn->ofLayer[number].id());
         (number == 0 ? first : next)->use();
         quads.draw(context.pipeline,
                    {.depthTest = gpu::DepthTest::Greater, .readsSampleId = number > 0 && samples > 1},
@@ -112,22 +116,21 @@ struct ShadeLayers {
     }
 
     void drawWithin(FrameContext& context, const gpu::Program& program, const gpu::TextureSet& textures,
-                    const ScreenRect& rect) const {
-        const gpu::Scissor scissor(rect.min, rect.size());
-        if (mask.program) mask.draw(context, layerTextures());
+                    std::span<const ScreenRect> rects) const {
+        if (mask.program) mask.draw(context, layerTextures(), rects);
         context.frame.scene->bind();
         drawFullscreen(context, program,
                        {.depthTest = mask.program ? gpu::DepthTest::Less : gpu::DepthTest::Off,
                         .writesDepth = false,
                         .blending = gpu::Blending::Through},
-                       textures);
+                       textures, rects);
     }
 
     void record(FrameContext& context) const {
         const ScreenRect all{{0, 0}, size};
         const std::span<const ScreenRect> rects =
             isBounded ? std::span(context.blendedRects) : std::span(&all, 1);
-        glBeginConditionalRender((*anyDrawn)[0].id(), GL_QUERY_WAIT);
+        glBeginConditionalRender(anyDrawn->ofLayer[0].id(), GL_QUERY_WAIT);
         if (hasOcclusion) {
             const ScreenRect bounds = boundsOf(rects);  // one rectangle: the blur reads beyond its edges
             const gpu::Scissor scissor(bounds.min, bounds.size());
@@ -142,7 +145,7 @@ struct ShadeLayers {
         if (drawsQuads) {
             drawOverQuads(context, program, textures);
         } else {
-            for (const ScreenRect& rect : rects) drawWithin(context, program, textures, rect);
+            drawWithin(context, program, textures, rects);
         }
         glEndConditionalRender();
     }
@@ -155,10 +158,10 @@ base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
         targets.layers.push_back(build.target({kLayerLabels[k], GL_RGBA16, peel.size, peel.samples}));
         targets.layerDepths.push_back(
             build.target({kDepthLabels[k], GL_DEPTH_COMPONENT32F, peel.size, peel.samples}));
-        peel.framebuffers.push_back(
-            TERRANE_TRY(build.framebuffer("layer", {targets.layers.back()}, targets.layerDepths.back())));
-        peel.framebuffers.back()->clearColor(0,
-                                             glm::vec4(0));  // pixels without a face are read, but never used
+        auto framebuffer =
+            TERRANE_TRY(build.framebuffer("layer", {targets.layers.back()}, targets.layerDepths.back()));
+        framebuffer->clearColor(0, glm::vec4(0));  // pixels without a face are read, but never used
+        peel.framebuffers.push_back(std::move(framebuffer));
     }
     return {};
 }
@@ -185,7 +188,7 @@ MaybePass makePeel(FrameBuilder& build) {
     peel.depths = targets.layerDepths;
     peel.surfaceDepth = targets.depth;
     peel.anyDrawn = std::make_shared<LayerQueries>();
-    for (auto& query : *peel.anyDrawn) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
+    for (auto& query : peel.anyDrawn->ofLayer) query = gpu::createQuery(GL_ANY_SAMPLES_PASSED);
     targets.anyLayer = peel.anyDrawn;
     std::vector<TargetRef> writes = targets.layers;
     writes.insert(writes.end(), targets.layerDepths.begin(), targets.layerDepths.end());
@@ -233,7 +236,7 @@ MaybePass makeShadeLayers(FrameBuilder& build) {
     pass.layers = targets.layers;
     pass.depths = targets.layerDepths;
     pass.size = build.frame.spec.size;
-    pass.anyDrawn = std::static_pointer_cast<const LayerQueries>(targets.anyLayer);
+    pass.anyDrawn = targets.anyLayer;
     std::vector<TargetRef> reads = {targets.surfaces, targets.depth};
     if (!pass.isDirect) reads.push_back(targets.scene);
     reads.insert(reads.end(), targets.layers.begin(), targets.layers.end());
