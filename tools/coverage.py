@@ -49,7 +49,7 @@ def run_tests(folder, depth):
     raw.mkdir(exist_ok=True)
     for old in raw.iterdir():
         old.unlink()
-    environment = {**os.environ, "TERRANE_DEPTH": depth, "LLVM_PROFILE_FILE": f"{raw}/%4m.profraw"}  # %4m: programs share four files
+    environment = {**os.environ, "TERRANE_DEPTH": depth, "LLVM_PROFILE_FILE": f"{raw}/%4m.profraw"}  # %4m: four files for each program
     tests = subprocess.run(["ctest", "--test-dir", folder, "--parallel", "3", "--timeout", "7200"], env=environment, check=False)
     if tests.returncode != 0:
         print(f"coverage: tests failed at depth {depth}", file=sys.stderr)

@@ -4,6 +4,10 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <variant>
+
+#include "terrane/base/match.h"
 
 namespace terrane::base {
 namespace {
@@ -49,6 +53,51 @@ TEST(Result, CopiesAreCopies) {
     EXPECT_EQ(*moved, std::nullopt);
     Result<std::unique_ptr<int>> owner = std::make_unique<int>(3);
     EXPECT_EQ(**owner, 3);
+}
+
+Result<std::unique_ptr<int>> halfOf(int number) {
+    if (number % 2 != 0) return fail(ErrorCode::BadInput, "{} is odd", number);
+    return std::make_unique<int>(number / 2);
+}
+
+Result<int> quarterOf(int number) {
+    const auto half = TERRANE_TRY(halfOf(number));
+    const auto quarter = TERRANE_TRY(halfOf(*half));
+    return *quarter;
+}
+
+Result<void> checkQuarter(int number) {
+    (void)TERRANE_TRY(quarterOf(number));
+    return {};
+}
+
+Result<std::string> textOfQuarter(int number) {
+    TERRANE_TRY(checkQuarter(number));
+    return std::string("good");
+}
+
+TEST(Try, GivesTheValueOrReturnsTheError) {
+    EXPECT_EQ(quarterOf(12).value(), 3);
+    EXPECT_EQ(textOfQuarter(12).value(), "good");
+    for (const int odd : {5, 6}) {
+        const auto failed = textOfQuarter(odd);
+        ASSERT_FALSE(failed);
+        EXPECT_EQ(failed.error().code, ErrorCode::BadInput);
+        EXPECT_EQ(failed.error().message, odd == 5 ? "5 is odd" : "3 is odd");
+    }
+}
+
+TEST(Match, CallsTheFunctionOfTheAlternative) {
+    struct Closed {};
+    using Event = std::variant<int, std::string, Closed>;
+    const auto said = [](const Event& event) {
+        return std::visit(Match{[](int number) { return std::to_string(number); },
+                                on<std::string, Closed>([] { return std::string("other"); })},
+                          event);
+    };
+    EXPECT_EQ(said(7), "7");
+    EXPECT_EQ(said("a"), "other");
+    EXPECT_EQ(said(Closed()), "other");
 }
 
 }  // namespace
