@@ -263,11 +263,11 @@ class FuzzServer {
         server().left.clear();
         server().rollbacks.clear();
         server().isStopping = false;
-        while (!server().people.claims().all().empty())
-            require(server().people.removeClaim(std::string(server().people.claims().all().front().name)));
+        while (!server().knownPlayers.claims().all().empty())
+            require(server().knownPlayers.removeClaim(std::string(server().knownPlayers.claims().all().front().name)));
         server().session.permissions.claims = {};
         for (const net::ClientIdentity& identity : identities_) {
-            const net::KnownPlayer* player = server().people.byName(identity.name);
+            const net::KnownPlayer* player = server().knownPlayers.byName(identity.name);
             if (player && !player->ban.empty()) (void)runConsoleLine(server(), "unban " + identity.name);
             if (player && player->role != game::Role::Player)
                 (void)runConsoleLine(server(), "deop " + identity.name);
