@@ -1,7 +1,5 @@
 #include "apps/terrane/options.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -9,6 +7,7 @@
 #include <filesystem>
 #include <thread>
 
+#include "apps/terrane/output_files.h"
 #include "terrane/base/digest.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/save_path.h"
@@ -106,44 +105,11 @@ world::ChunkArea parseArea(const std::string& text) {
     return area;
 }
 
-// An error unless the text names a file, existing or not, in an existing folder.
-std::string isInAFolder(const std::string& text) {
-    const std::filesystem::path path(text), folder = path.parent_path();
-    std::error_code ignored;
-    if (!path.has_filename() || std::filesystem::is_directory(path, ignored))
-        return fmt::format("\"{}\" does not name a file", text);
-    if (!folder.empty() && !std::filesystem::is_directory(folder, ignored))
-        return fmt::format("\"{}\": there is no folder {}", text, folder.string());
-    return {};
-}
-
 // An error unless the text can be a store::WorldLocation.
 std::string isALocation(const std::string& text) {
     if (text.empty()) return "\"\" does not name a world";
     const bool isFile = store::worldLocation(text).kind == store::WorldLocation::Kind::File;
     return isFile ? isInAFolder(text) : std::string();
-}
-
-// An error unless base::writeFile() can write the file: it writes a temporary file beside it and renames
-// that, so the folder must be writable.
-std::string isWritable(const std::string& text) {
-    const std::filesystem::path path(text);
-    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
-    std::error_code ignored;
-    const std::filesystem::file_status status = std::filesystem::status(path, ignored);
-    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
-        return fmt::format("\"{}\" is not a regular file", text);
-    if (::access(folder.c_str(), W_OK) == 0) return {};
-    return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
-}
-
-// Checks that a file of this name can be written.
-CLI::Validator newFile() {
-    const auto check = [](const std::string& text) {
-        const std::string wrong = isInAFolder(text);
-        return wrong.empty() ? isWritable(text) : wrong;
-    };
-    return CLI::Validator(check, "");
 }
 
 // Checks the ending of a file name, which selects the format.
@@ -188,16 +154,17 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
     return numbers;
 }
 
-base::Result<std::vector<std::int32_t>> parseWholeNumbers(const std::string& text, std::size_t count,
-                                                          const std::string& form, std::int32_t low,
-                                                          std::int32_t high) {
-    std::vector<std::int32_t> whole;
+base::Result<std::vector<std::int64_t>> parseWholeNumbers(const std::string& text, std::size_t count,
+                                                          const std::string& form, std::int64_t low,
+                                                          std::int64_t high) {
+    std::vector<std::int64_t> whole;
     for (const double number : parseNumbers(text, count, form)) {
-        if (number != std::floor(number) || number < low || number > high)
+        if (number != std::floor(number) || number < static_cast<double>(low) ||
+            number > static_cast<double>(high))
             return base::fail(base::ErrorCode::BadInput,
                               "{}: expected whole numbers within the world, got \"{}\"",
                               form.substr(0, form.find(':')), text);
-        whole.push_back(static_cast<std::int32_t>(number));
+        whole.push_back(static_cast<std::int64_t>(number));
     }
     return whole;
 }
@@ -241,11 +208,7 @@ void addContentOption(CLI::App& command, WorldOptions& options) {
 
 void addOutputOption(CLI::App& command, std::string& output, const std::vector<std::string>& endings,
                      const std::string& description) {
-    command.add_option("-o,--output", output, description)
-        ->check(newFile())
-        ->check(endingIn(endings))
-        ->type_name("FILE")
-        ->required();
+    writesFile(command.add_option("-o,--output", output, description))->check(endingIn(endings))->required();
 }
 
 void addResourcePackOption(CLI::App& command, std::string& folder) {
@@ -257,17 +220,13 @@ void addResourcePackOption(CLI::App& command, std::string& folder) {
 }
 
 void addTraceOption(CLI::App& command, std::string& trace) {
-    command.add_option("--trace", trace, "Write a trace for Perfetto or chrome://tracing (JSON)")
-        ->check(newFile())
-        ->type_name("FILE")
+    writesFile(command.add_option("--trace", trace, "Write a trace for Perfetto or chrome://tracing (JSON)"))
         ->configurable(false);
 }
 
 void addReportOption(CLI::App& command, std::string& report) {
-    command
-        .add_option("--report", report, "Write counts of what was read and what was not understood (JSON)")
-        ->check(newFile())
-        ->type_name("FILE");
+    writesFile(command.add_option("--report", report,
+                                  "Write counts of what was read and what was not understood (JSON)"));
 }
 
 void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description) {

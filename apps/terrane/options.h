@@ -174,9 +174,9 @@ std::vector<double> parseNumbers(const std::string& text, std::size_t count, con
 
 // As parseNumbers(), but fails for numbers that are not integers from `low` to `high`. `form` starts with the
 // option and a colon.
-[[nodiscard]] base::Result<std::vector<std::int32_t>> parseWholeNumbers(const std::string& text,
+[[nodiscard]] base::Result<std::vector<std::int64_t>> parseWholeNumbers(const std::string& text,
                                                                         std::size_t count,
                                                                         const std::string& form,
-                                                                        std::int32_t low, std::int32_t high);
+                                                                        std::int64_t low, std::int64_t high);
 
 }  // namespace terrane::app

@@ -12,6 +12,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/help/argument_errors.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
@@ -104,7 +105,8 @@ int runProgram(int argc, char** argv) try {
     if (const auto exitCode = parseArguments(parser, argumentsOf(argc, argv))) return *exitCode;
     for (const CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
-        const base::Result<void> result = runTraced(command, trace);
+        base::Result<void> result = checkOutputs(*command.parser);
+        if (result) result = runTraced(command, trace);
         if (result) return withOutputWritten(command.exitCode());
         base::logError("{}", result.error().message);
         return kBadInput;

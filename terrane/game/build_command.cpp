@@ -61,12 +61,18 @@ template <class Function>
 void forEachBlock(const BlockBox& box, Function function) {
     for (std::int32_t chunkY = box.low.y >> 4; chunkY <= box.high.y >> 4; ++chunkY)
         for (std::int32_t chunkX = box.low.x >> 4; chunkX <= box.high.x >> 4; ++chunkX) {
+            // Offsets in the chunk: a counter of coordinates could not pass the last one of the world.
             const BlockPos corner = world::blockPos({chunkX, chunkY}, 0);
-            const std::int32_t x0 = std::max(box.low.x, corner.x), x1 = std::min(box.high.x, corner.x + 15);
-            const std::int32_t y0 = std::max(box.low.y, corner.y), y1 = std::min(box.high.y, corner.y + 15);
+            const auto first = [](std::int32_t low, std::int32_t from) { return std::max(low, from) - from; };
+            const auto last = [](std::int32_t high, std::int32_t from) {
+                return static_cast<std::int32_t>(
+                    std::min(std::int64_t{high} - from, std::int64_t{world::kChunkSize - 1}));
+            };
+            const std::int32_t x1 = last(box.high.x, corner.x), y1 = last(box.high.y, corner.y);
             for (std::int32_t z = box.low.z; z <= box.high.z; ++z)
-                for (std::int32_t y = y0; y <= y1; ++y)
-                    for (std::int32_t x = x0; x <= x1; ++x) function(BlockPos{x, y, z});
+                for (std::int32_t y = first(box.low.y, corner.y); y <= y1; ++y)
+                    for (std::int32_t x = first(box.low.x, corner.x); x <= x1; ++x)
+                        function(BlockPos{corner.x + x, corner.y + y, z});
         }
 }
 

@@ -36,9 +36,9 @@ class SessionTest : public testing::Test {
   protected:
     SessionTest() { load(2); }
 
-    // Updates until all chunks up to `distance` around the origin are lit and meshed.
-    void load(int distance) {
-        session_.pipeline().setView({0, 0}, distance);
+    // Updates until all chunks up to `distance` around the chunk are lit and meshed.
+    void load(int distance, world::ChunkPos center = {0, 0}) {
+        session_.pipeline().setView(center, distance);
         settle();
     }
     void settle() {

@@ -90,6 +90,20 @@ TEST_F(WorldList, TheLastPlayedComesFirst) {
     EXPECT_THAT(order, ElementsAre("b", "a", "c"));
 }
 
+// The order of a folder is arbitrary: the one that was played last must not depend on it.
+TEST_F(WorldList, AFullFolderListsTheWorldsThatWerePlayedLast) {
+    const auto now = fs::file_time_type::clock::now();
+    for (std::size_t k = 0; k < kMaxListedWorlds + 20; ++k) {
+        const fs::path file = folder_ / fmt::format("w{:04}.sqlite", k * 7 % (kMaxListedWorlds + 20));
+        writeAll(file, "x");
+        fs::last_write_time(file, now - std::chrono::seconds(k));
+    }
+    const std::vector<WorldEntry> worlds = listWorlds(folder_, blocks_);
+    ASSERT_EQ(worlds.size(), kMaxListedWorlds);
+    EXPECT_EQ(worlds.front().name, "w0000");
+    EXPECT_EQ(worlds.back().lastPlayed, now - std::chrono::seconds(kMaxListedWorlds - 1));
+}
+
 TEST_F(WorldList, WhatIsNoWorldIsListedWithTheReason) {
     make("home");
     make("cut");

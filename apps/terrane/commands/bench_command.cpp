@@ -13,6 +13,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/graphics_options.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
@@ -206,8 +207,8 @@ CommandEntry addBench(CLI::App& app) {
     auto options = std::make_shared<BenchOptions>();
     CLI::App* command =
         app.add_subcommand("bench", "Measure, for the tables that tools/bench_report.py makes");
-    command->add_option("-o,--output", options->output, "Folder for results.jsonl; created if needed")
-        ->type_name("DIR");
+    writesFolder(
+        command->add_option("-o,--output", options->output, "Folder for results.jsonl; created if needed"));
     const auto isTable = [](const std::string& text) -> std::string {
         const std::vector<std::string> names = tableNames();
         return std::ranges::find(names, text) != names.end() ? "" : base::notOneOf(names, text);

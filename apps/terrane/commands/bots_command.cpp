@@ -9,6 +9,7 @@
 #include "apps/terrane/bots/bot.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
@@ -188,11 +189,10 @@ CommandEntry addBots(CLI::App& app) {
         ->add_option("--keys", options->bots.keyFolder,
                      "Folder for the bots' keys, so that a server recognizes them in the next run")
         ->type_name("DIR");
-    command
-        ->add_option("--acknowledged", options->acknowledged,
-                     "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "
-                     "NAME is ? if a newer edit is not decided")
-        ->type_name("FILE");
+    writesFile(command->add_option(
+        "--acknowledged", options->acknowledged,
+        "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "
+        "NAME is ? if a newer edit is not decided"));
     return {command, [options] { return runBots(*options); }};
 }
 

@@ -6,6 +6,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "apps/terrane/serve/world_records.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
@@ -89,6 +90,7 @@ CommandEntry addCopy(CLI::App& app) {
         app.add_subcommand("copy", "Copy a world; exit code 1 if damaged chunks were left out");
     addWorldArgument(*command, "from", options->from, "The world");
     addWorldArgument(*command, "to", options->to, "A new world, or an unfinished copy");
+    writesWorld(command->get_option("to"));
     command->add_flag("--json", options->json, "Print the result as JSON");
     return {command, [options] { return copy(*options); },
             [options] { return options->foundDamage ? 1 : 0; }};

@@ -4,6 +4,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "apps/terrane/window/game/play_flow.h"
 #include "apps/terrane/window/glfw_window.h"
 #include "apps/terrane/window/settings/key_help.h"
@@ -97,8 +98,8 @@ CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
         ->type_name("NUMBER");
     command->add_option("--time", options->time, "Time of day: 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk")
         ->check(numberFrom(0, 1));
-    command->add_option("--collect-perf-data", options->perfData, "Write statistics of each frame (CSV)")
-        ->type_name("FILE");
+    writesFile(command->add_option("--collect-perf-data", options->perfData,
+                                   "Write statistics of each frame (CSV)"));
     addSettings(*command, options->settings);
     addBackendOption(*command, options->backend, "Device that generates, lights and meshes");
     addGraphicsOptions(*command, options->graphics, "auto");

@@ -6,6 +6,7 @@
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script.h"
 #include "terrane/base/files.h"
@@ -106,10 +107,8 @@ CommandEntry addRecord(CLI::App& app) {
         ->required();
     addOutputOption(*command, options->output, {".mp4", ".mkv"}, "The video, .mp4 or .mkv; made by ffmpeg");
     command->get_option("--output")->required(false);
-    command
-        ->add_option("--frames-dir", options->framesFolder,
-                     "Write frames as PNG files into this folder instead")
-        ->type_name("DIR")
+    writesFolder(command->add_option("--frames-dir", options->framesFolder,
+                                     "Write frames as PNG files into this folder instead"))
         ->excludes("--output");
     command->add_option("--fps", options->framesPerSecond, "Frames per second")
         ->check(numberFrom(1, 240))

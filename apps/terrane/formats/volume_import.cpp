@@ -29,11 +29,24 @@ using VolumeReader = base::Result<formats::BlockVolume> (*)(std::string_view byt
 
 base::Result<world::BlockPos> cornerOf(const std::string& at) {
     if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
-    // Leaves room for the size of a box, so that its corners do not overflow.
-    constexpr std::int32_t kFarthest = 2'000'000'000;
     const auto numbers =
-        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest));
-    return world::BlockPos{numbers[0], numbers[1], numbers[2]};
+        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", INT32_MIN, INT32_MAX));
+    const auto number = [&](std::size_t axis) { return static_cast<std::int32_t>(numbers[axis]); };
+    return world::BlockPos{number(0), number(1), number(2)};
+}
+
+// Columns of the volume that lie past the end of the world are an error; layers above or below it are
+// counted.
+base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos corner) {
+    const auto isBeyond = [](std::int32_t low, std::int32_t size) {
+        return std::int64_t{low} + size - 1 > INT32_MAX;
+    };
+    if (!isBeyond(corner.x, volume.size.x) && !isBeyond(corner.y, volume.size.y) &&
+        !isBeyond(corner.z, volume.size.z))
+        return {};
+    return base::fail(base::ErrorCode::BadInput,
+                      "--at: {}×{}×{} blocks at {},{},{} reach past the end of the world", volume.size.x,
+                      volume.size.y, volume.size.z, corner.x, corner.y, corner.z);
 }
 
 // Copies the blocks of the volume in one chunk; `corner` is the volume's lowest block.
@@ -131,6 +144,7 @@ base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
         // Read before a world is created.
         auto content = TERRANE_TRY(loadContent(options.world, options.save));
         const auto volume = TERRANE_TRY(readSource(options, content, reader, report.counts));
+        TERRANE_TRY(checkFits(volume, corner));
         auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
         TERRANE_TRY(placeVolume(options, world, volume, corner));
         countOutside(volume, corner.z, report.counts);

@@ -3,6 +3,7 @@
 #include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 
 namespace terrane::app {
 namespace {
@@ -59,12 +60,11 @@ base::Result<void> checkMapSite(const MapSiteOptions& options) {
 }
 
 void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
-    command
-        .add_option("--tiles", options.folder,
-                    "Write the map as a folder with a web page and its images; existing images stay unless "
-                    "their land was edited")
-        ->check(notEmpty())
-        ->type_name("DIR");
+    writesFolder(command.add_option(
+                     "--tiles", options.folder,
+                     "Write the map as a folder with a web page and its images; existing images stay unless "
+                     "their land was edited"))
+        ->check(notEmpty());
     command
         .add_option("--max-zoom", options.maxZoom,
                     "The finest images of --tiles: 2 has 4 pixels per block, -1 two blocks per pixel")

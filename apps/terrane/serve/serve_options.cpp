@@ -1,6 +1,7 @@
 #include "apps/terrane/serve/serve_options.h"
 
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 
 namespace terrane::app {
 
@@ -64,10 +65,8 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->type_name("TEXT");
     command.add_flag("--read-only", options.isReadOnly,
                      "Newcomers are guests: they look and talk, but change nothing");
-    command
-        .add_option("--statistics", options.statistics,
-                    "Write a line (JSON) each ten seconds: ticks, players, memory")
-        ->type_name("FILE");
+    writesFile(command.add_option("--statistics", options.statistics,
+                                  "Write a line (JSON) each ten seconds: ticks, players, memory"));
     addMapSiteOptions(command, options.map, true);
 }
 

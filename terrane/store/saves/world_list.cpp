@@ -64,6 +64,16 @@ std::vector<fs::path> databasesOf(const fs::path& world) {
     return databases;
 }
 
+std::vector<fs::path> filesOf(const fs::path& world) {
+    std::vector<fs::path> files, databases{world};
+    for (const char* ending : kDatabasesBeside) databases.push_back(withEnding(world, ending));
+    for (const fs::path& database : databases)
+        for (const char* ending : {"", "-wal", "-shm", "-journal", "-lock"})
+            files.push_back(beside(database, ending));
+    for (const char* ending : kFilesBeside) files.push_back(withEnding(world, ending));
+    return files;
+}
+
 base::Result<std::vector<FileLock>> lockAll(const std::vector<fs::path>& files) {
     std::vector<FileLock> locks;
     for (const fs::path& file : files) {
@@ -122,7 +132,6 @@ base::Result<void> removeDatabase(const fs::path& file) {
 namespace {
 
 constexpr std::string_view kSaveEnding = ".sqlite";
-constexpr std::size_t kMaxListedWorlds = 1000;
 
 fs::file_time_type lastWritten(const fs::path& save) {
     fs::file_time_type last = fs::file_time_type::min();
@@ -140,12 +149,12 @@ std::string reasonOf(const base::Error& error, const fs::path& path) {
     return error.message.starts_with(prefix) ? error.message.substr(prefix.size()) : error.message;
 }
 
-WorldEntry entryOf(const fs::path& path, const world::BlockRegistry& blocks) {
+WorldEntry entryOf(const fs::path& path, fs::file_time_type lastPlayed, const world::BlockRegistry& blocks) {
     WorldEntry entry;
     entry.name = path.stem().string();
     entry.path = path;
     entry.sizeBytes = bytesOnDisk({WorldLocation::Kind::File, path.string()});
-    entry.lastPlayed = lastWritten(path);
+    entry.lastPlayed = lastPlayed;
     auto file = openToRead(path, blocks);
     if (!file) {
         entry.problem = reasonOf(file.error(), path);
@@ -221,19 +230,30 @@ std::string freeWorldName(const fs::path& folder, std::string_view name) {
 }
 
 std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockRegistry& blocks) {
-    std::vector<WorldEntry> worlds;
+    struct Candidate {
+        fs::file_time_type lastPlayed;
+        fs::path path;
+    };
+    std::vector<Candidate> candidates;
     std::error_code error;
     fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
-    for (; !error && at != fs::directory_iterator() && worlds.size() < kMaxListedWorlds;
-         at.increment(error)) {
+    for (; !error && at != fs::directory_iterator(); at.increment(error)) {
         const fs::path& path = at->path();
         std::error_code ignored;
         if (path.extension() != kSaveEnding || belongsToAWorld(path) || at->is_directory(ignored)) continue;
-        if (checkSaveName(path.stem().string())) worlds.push_back(entryOf(path, blocks));
+        if (checkSaveName(path.stem().string())) candidates.push_back({lastWritten(path), path});
     }
-    std::ranges::sort(worlds, [](const WorldEntry& a, const WorldEntry& b) {
-        return a.lastPlayed != b.lastPlayed ? a.lastPlayed > b.lastPlayed : a.name < b.name;
+    std::ranges::sort(candidates, [](const Candidate& a, const Candidate& b) {
+        return a.lastPlayed != b.lastPlayed ? a.lastPlayed > b.lastPlayed : a.path < b.path;
     });
+    if (candidates.size() > kMaxListedWorlds) {
+        base::logWarning("{}: {} worlds; the {} that were played last are listed", folder.string(),
+                         candidates.size(), kMaxListedWorlds);
+        candidates.resize(kMaxListedWorlds);
+    }
+    std::vector<WorldEntry> worlds;
+    for (const Candidate& candidate : candidates)
+        worlds.push_back(entryOf(candidate.path, candidate.lastPlayed, blocks));
     return worlds;
 }
 

@@ -26,6 +26,9 @@ bool belongsToAWorld(const std::filesystem::path& path);
 
 // The world's databases: the save first, then those beside it.
 std::vector<std::filesystem::path> databasesOf(const std::filesystem::path& save);
+// All files that a world can have, whether they exist or not: its databases with their logs and locks, and a
+// server's key and settings. Pure.
+std::vector<std::filesystem::path> filesOf(const std::filesystem::path& save);
 [[nodiscard]] base::Result<std::vector<FileLock>> lockAll(const std::vector<std::filesystem::path>& files);
 // Checkpoints the log into the database, so that its file is complete.
 [[nodiscard]] base::Result<void> endLog(const std::filesystem::path& database);
@@ -50,7 +53,11 @@ struct WorldEntry {
     std::string problem;  // why it cannot be read, one line; identity and metadata are then empty
 };
 
-// Sorted by lastPlayed, newest first; empty if there is no folder. Opens at most 1,000 saves.
+// Each save of the list is opened: in a folder with more saves, those that were played longest ago are left
+// out, and a warning says how many there are.
+constexpr std::size_t kMaxListedWorlds = 1000;
+
+// Sorted by lastPlayed, newest first; empty if there is no folder.
 std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const world::BlockRegistry& blocks);
 
 // Fails for a name that a new world cannot have: one that checkSaveName() rejects, or that ends with

@@ -1,0 +1,133 @@
+#include "apps/terrane/output_files.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include "terrane/store/saves/save_path.h"
+#include "terrane/store/saves/world_list.h"
+
+namespace terrane::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kOutput = "output";  // name of the validators that mark an option
+
+// An error unless base::writeFile() can write the file: it writes a temporary file beside it and renames
+// that, so the folder must be writable.
+std::string isWritable(const std::string& text) {
+    const fs::path path(text);
+    if (text.empty()) return {};  // none
+    if (std::string wrong = isInAFolder(text); !wrong.empty()) return wrong;
+    const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
+    std::error_code ignored;
+    const fs::file_status status = fs::status(path, ignored);
+    if (fs::exists(status) && !fs::is_regular_file(status))
+        return fmt::format("\"{}\" is not a regular file", text);
+    if (::access(folder.c_str(), W_OK) == 0) return {};
+    return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
+}
+
+bool isOutput(CLI::Option& option) {
+    try {
+        return option.get_validator(kOutput) != nullptr;
+    } catch (const CLI::OptionNotFound&) {
+        return false;
+    }
+}
+
+// The path without links, dots and double slashes, whether the file exists or not.
+fs::path resolved(const fs::path& path) {
+    std::error_code error;
+    const fs::path absolute = fs::absolute(path, error);
+    const fs::path canonical = fs::weakly_canonical(absolute, error);
+    return error ? absolute.lexically_normal() : canonical;
+}
+
+bool isSame(const fs::path& a, const fs::path& b) {
+    std::error_code ignored;
+    return resolved(a) == resolved(b) || fs::equivalent(a, b, ignored);
+}
+
+bool liesIn(const fs::path& path, const fs::path& folder) {
+    std::error_code ignored;
+    if (!fs::is_directory(folder, ignored)) return false;
+    const fs::path file = resolved(path), above = resolved(folder);
+    return std::ranges::mismatch(above, file).in1 == above.end();
+}
+
+struct UsedPath {
+    const CLI::Option* option = nullptr;
+    fs::path path;
+    bool isWritten = false;
+};
+
+// The paths that an option names: all files of a world; none for a URL, or if it names no path.
+std::vector<fs::path> pathsOf(const CLI::Option& option) {
+    const std::string type = option.get_type_name();
+    const auto has = [&](std::string_view word) { return type.find(word) != std::string::npos; };
+    std::vector<fs::path> paths;
+    for (const std::string& text : option.results()) {
+        if (text.empty()) continue;
+        if (has("URL")) {
+            const auto file = store::fileOf(store::worldLocation(text));
+            if (!file) continue;
+            for (fs::path& path : store::filesOf(*file)) paths.push_back(std::move(path));
+        } else if (has("FILE") || has("DIR") || has("PATH") || has("PACK")) {
+            paths.emplace_back(text);
+        }
+    }
+    return paths;
+}
+
+}  // namespace
+
+std::string isInAFolder(const std::string& text) {
+    const fs::path path(text), folder = path.parent_path();
+    std::error_code ignored;
+    if (!path.has_filename() || fs::is_directory(path, ignored))
+        return fmt::format("\"{}\" does not name a file", text);
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+        return fmt::format("\"{}\": there is no folder {}", text, folder.string());
+    return {};
+}
+
+CLI::Option* writesFile(CLI::Option* option) {
+    return option->check(CLI::Validator(isWritable, "", kOutput))->type_name("FILE");
+}
+
+CLI::Option* writesFolder(CLI::Option* option) {
+    return writesWorld(option)->type_name("DIR");
+}
+
+CLI::Option* writesWorld(CLI::Option* option) {
+    return option->check(CLI::Validator([](const std::string&) { return std::string(); }, "", kOutput));
+}
+
+base::Result<void> checkOutputs(CLI::App& command) {
+    std::vector<UsedPath> used;
+    for (CLI::Option* option : command.get_options())
+        for (fs::path& path : pathsOf(*option)) used.push_back({option, std::move(path), isOutput(*option)});
+    for (const UsedPath& output : used) {
+        if (!output.isWritten) continue;
+        for (const UsedPath& other : used) {
+            if (other.option == output.option) continue;
+            const bool isInside = !other.isWritten && liesIn(output.path, other.path);
+            if (!isInside && !isSame(output.path, other.path)) continue;
+            return base::fail(base::ErrorCode::BadInput, "{}: {} {} {}", output.option->get_name(),
+                              output.path.string(),
+                              isInside ? "would be written into the folder of" : "is also a file of",
+                              other.option->get_name());
+        }
+    }
+    return {};
+}
+
+}  // namespace terrane::app

@@ -1,0 +1,113 @@
+// Play at the four corners of the world, where coordinates are the first and last 32-bit numbers. Under the
+// sanitizers, an overflow ends the test.
+#include <algorithm>
+#include <limits>
+
+#include "terrane/game/block_interaction.h"
+#include "terrane/game/build_command.h"
+#include "terrane/game/selection.h"
+#include "terrane/game/sounds.h"
+#include "tests/game/session_fixture.h"
+
+namespace terrane::game {
+namespace {
+
+using world::BlockPos;
+
+constexpr std::int32_t kFirst = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();
+constexpr PlayerId kBuilder = 7;
+
+struct Corner {
+    std::int32_t x = 0, y = 0;
+    // The block so far from the corner, toward the middle of the world.
+    BlockPos inward(std::int32_t dx, std::int32_t dy, std::int32_t z) const {
+        return {x < 0 ? x + dx : x - dx, y < 0 ? y + dy : y - dy, z};
+    }
+};
+
+class WorldEdgeTest : public SessionTest, public testing::WithParamInterface<Corner> {
+  protected:
+    WorldEdgeTest() {
+        load(3, world::chunkOf(corner(0)));
+        session_.setPlayer(kBuilder, {.position = eyes()});
+    }
+    BlockPos corner(std::int32_t z) const { return GetParam().inward(0, 0, z); }
+    BlockPos inward(std::int32_t dx, std::int32_t dy, std::int32_t z) const {
+        return GetParam().inward(dx, dy, z);
+    }
+    glm::dvec3 eyes() const {
+        const BlockPos at = inward(3, 3, kGroundHeight + 2);
+        return {at.x + 0.5, at.y + 0.5, at.z};
+    }
+    void put(BlockPos pos, std::string_view name) {
+        EXPECT_EQ(session_.edit({kNoPlayer, pos, world::SetBlock{contentBlock(name)}, {}}),
+                  EditResult::Applied);
+    }
+};
+
+// The box from the corner to a block that lies 3 columns inward.
+TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
+    const BlockPos a = corner(kGroundHeight), b = inward(3, 3, kGroundHeight + 1);
+    const world::BlockBox box{{std::min(a.x, b.x), std::min(a.y, b.y), a.z},
+                              {std::max(a.x, b.x), std::max(a.y, b.y), b.z}};
+    const BuildOutcome outcome = session_.build({kBuilder, FillBox{box, contentBlock("sand"), 0, {}}});
+    ASSERT_EQ(outcome.result, BuildOutcome::Result::Done);
+    EXPECT_EQ(outcome.changed, 32u);
+    EXPECT_EQ(session_.world().block(a), contentBlock("sand"));
+    EXPECT_EQ(session_.world().block(b), contentBlock("sand"));
+
+    const auto structure =
+        std::make_shared<const world::Structure>(world::copyBlocks(session_.world(), session_.blocks(), box));
+    EXPECT_EQ(session_.takeBack(kBuilder, HistoryWay::Undo).blocks, 32u);
+    EXPECT_EQ(session_.world().block(a), world::kAir);
+    EXPECT_EQ(session_.build({kBuilder, PlaceStructure{structure, box.low}}).changed, 32u);
+
+    Selection selection;
+    selection.setClipboard(*structure);
+    (void)selection.pasteCorner(a);  // may lie outside; placing it there is refused
+    const BuildOutcome cut = session_.build({kBuilder, PlaceStructure{structure, a}});
+    EXPECT_EQ(cut.result, GetParam().x < 0 && GetParam().y < 0 ? BuildOutcome::Result::Done
+                                                               : BuildOutcome::Result::OutOfWorld);
+}
+
+TEST_P(WorldEdgeTest, WaterAndPlantsLiveToTheLastColumn) {
+    put(corner(kGroundHeight), "stone");
+    put(corner(kGroundHeight + 1), "water");
+    put(inward(2, 2, kGroundHeight + 3), "water");
+    put(inward(1, 0, kGroundHeight), "dirt");
+    put(inward(1, 0, kGroundHeight + 1), "poppy");
+    for (int k = 0; k < 400; ++k) session_.advance(0.25, world::chunkOf(corner(0)));
+    EXPECT_EQ(session_.world().block(corner(kGroundHeight + 1)), contentBlock("water"));
+    EXPECT_EQ(session_.world().block(inward(2, 2, kGroundHeight)), contentBlock("water"));
+    put(corner(kGroundHeight), "air");
+    settle();
+}
+
+TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
+    for (float yaw = 0; yaw < 360; yaw += 45) {
+        Player player({.position = eyes(), .yaw = yaw, .pitch = -30}, Movement::Gravity);
+        BlockInteraction interaction{contentBlocks()};
+        takeInHand(interaction.hotbar, contentBlock("sand"));
+        for (int k = 0; k < 200; ++k) {
+            player.move(session_.world(), session_.blocks(), {.forward = true, .jump = k % 3 == 0}, 0.05);
+            session_.setPlayer(kBuilder, player.pose());
+            interaction.building.press();
+            interaction.act(session_, kBuilder, player, 0.01);
+            interaction.building.release();
+            (void)ambienceAt(session_.world(), session_.blocks(), player.pose().position);
+        }
+        player.placeAt(player.pose(), Movement::Fast);
+        for (int k = 0; k < 100; ++k)
+            player.move(session_.world(), session_.blocks(), {.forward = true}, 0.25);
+        EXPECT_LE(std::abs(player.pose().position.x), 2147483648.0);
+        EXPECT_LE(std::abs(player.pose().position.y), 2147483648.0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Corners, WorldEdgeTest,
+                         testing::Values(Corner{kFirst, kFirst}, Corner{kFirst, kLast}, Corner{kLast, kFirst},
+                                         Corner{kLast, kLast}));
+
+}  // namespace
+}  // namespace terrane::game
