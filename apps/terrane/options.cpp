@@ -8,7 +8,6 @@
 #include <thread>
 
 #include "apps/terrane/output_files.h"
-#include "terrane/base/digest.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/save_path.h"
 
@@ -60,29 +59,8 @@ std::vector<std::string> withCurrentNames(std::span<const char* const> arguments
 
 namespace {
 
-bool isWholeNumber(std::string_view text) {
-    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
-    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
-}
-
-}  // namespace
-
-base::Result<WrittenSeed> seedFrom(std::string_view text) {
-    std::uint64_t seed = 0;
-    const char* end = text.data() + text.size();
-    const auto [next, error] = std::from_chars(text.data(), end, seed);
-    if (error == std::errc() && next == end) return WrittenSeed{seed, ""};
-    if (text.empty() || isWholeNumber(text))
-        return base::fail(base::ErrorCode::BadInput,
-                          "expected a whole number from 0 to {}, or another text, got \"{}\"", UINT64_MAX,
-                          text);
-    return WrittenSeed{base::hash64(text), std::string(text)};
-}
-
-namespace {
-
 void parseSeed(const std::string& text, WorldOptions& options) {
-    auto seed = seedFrom(text);
+    auto seed = store::seedFrom(text);
     if (!seed) throw CLI::ValidationError("--seed", seed.error().message);
     options.seed = seed->seed;
     options.seedText = std::move(seed->text);
@@ -184,7 +162,7 @@ void addWorldOptions(CLI::App& command, WorldOptions& options) {
     command
         .add_option_function<std::string>(
             "--seed", [&](const std::string& text) { parseSeed(text, options); },
-            "Seed of the world: a whole number, or a text, whose xxHash64 is the seed")
+            "Seed of the world: a whole number, also a negative one, or a text, whose xxHash64 is the seed")
         ->type_name("NUMBER|TEXT")
         ->default_str(std::to_string(WorldOptions::kDefaultSeed));
     command

@@ -74,16 +74,6 @@ using EnumNames = std::span<const std::pair<std::string, T>>;
 
 namespace terrane::app {
 
-// Parses a seed: a number or any text. Pure; any thread.
-struct WrittenSeed {
-    std::uint64_t seed = 0;
-    std::string text;  // the text whose base::hash64 is the seed; empty for a number
-};
-
-// A number from 0 to 2^64 − 1, or any other text. Fails for an empty text, and for a whole number out of
-// range: hashed as a text it would give a world that the number does not identify.
-[[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
-
 void addWorldOptions(CLI::App& command, WorldOptions& options);
 // Adds --content alone; addWorldOptions() includes it.
 void addContentOption(CLI::App& command, WorldOptions& options);

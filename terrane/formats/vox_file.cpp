@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <unordered_map>
+#include <unordered_set>
 
 #include "terrane/formats/block_volume.h"
 #include "terrane/formats/vox_file_internal.h"
@@ -309,6 +310,8 @@ class VoxPartsReader {
         }
         if (reader.isBad()) return bad("it is cut off");
         if (parts_.models.empty()) return bad("it has no model");
+        // Layers follow the nodes in the file.
+        for (auto& [id, node] : parts_.nodes) node.isHidden |= hiddenLayers_.contains(node.layer);
         return std::move(parts_);
     }
 
@@ -327,6 +330,8 @@ class VoxPartsReader {
             readColors(reader);
         else if (kind == "nTRN" || kind == "nGRP" || kind == "nSHP")
             readNode(kind, reader);
+        else if (kind == "LAYR")
+            readLayer(reader);
         if (reader.isBad() && problem_.empty()) problem_ = fmt::format("a part {} is cut off", kind);
     }
 
@@ -355,6 +360,11 @@ class VoxPartsReader {
         }
     }
 
+    void readLayer(VoxReader& reader) {
+        const std::int32_t id = reader.number();
+        if (valueOf(reader.dictionary(), "_hidden") == "1") hiddenLayers_.insert(id);
+    }
+
     void readNode(std::string_view kind, VoxReader& reader) {
         const std::int32_t id = reader.number();
         const VoxDictionary attributes = reader.dictionary();
@@ -363,7 +373,8 @@ class VoxPartsReader {
         if (kind == "nTRN") {
             node.kind = VoxNode::Kind::Transform;
             node.children.push_back(reader.number());
-            reader.take(8);  // reserved, layer
+            reader.number();  // reserved
+            node.layer = reader.number();
             if (reader.count() > 0) {
                 const VoxDictionary frame = reader.dictionary();
                 const auto rotation = rotationOf(valueOf(frame, "_r"));
@@ -380,6 +391,7 @@ class VoxPartsReader {
     }
 
     VoxParts parts_;
+    std::unordered_set<std::int32_t> hiddenLayers_;
     glm::ivec3 size_{0};
     std::string problem_;
 };

@@ -33,7 +33,8 @@ glm::ivec3 placed(const VoxTransform& transform, glm::ivec3 modelSize, glm::ivec
 struct VoxNode {
     enum class Kind : std::uint8_t { Transform, Group, Shape };
     Kind kind = Kind::Group;
-    bool isHidden = false;
+    bool isHidden = false;    // itself or its layer
+    std::int32_t layer = -1;  // -1: none; only transforms have one
     VoxTransform transform;
     std::vector<std::int32_t> children;  // nodes; of a shape: its models
 };

@@ -74,7 +74,7 @@ CASES = [
     ((*MAP, "--generator", "nope"), '"nope"'),
     ((*GENERATE, "--seed", ""), '""'),
     ((*GENERATE, "--seed", "+1"), '"+1"'),
-    ((*GENERATE, "--seed", "-1"), '"-1"'),
+    ((*GENERATE, "--seed=-9223372036854775809"), '"-9223372036854775809"'),
     ((*GENERATE, "--seed", "99999999999999999999999"), "99999999999999999999999"),
     ((*GENERATE, "--threads", "0"), '"0"'),
     ((*GENERATE, "--threads", "-1"), '"-1"'),

@@ -149,6 +149,18 @@ TEST(VoxFile, LeavesOutWhatIsHidden) {
     EXPECT_THAT(voxError(scene(hidden)), HasSubstr("no model"));
 }
 
+// A part LAYR has its number, attributes and a reserved number. The transform is in layer 0.
+TEST(VoxFile, LeavesOutHiddenLayers) {
+    const std::string hidden = voxNumber(1) + voxText("_hidden") + voxText("1");
+    const auto scene = [&](int layer, const std::string& attributes) {
+        return voxFile(model() + transform(0, 1, voxNumber(0), voxNumber(0)) + shape(1, 0) +
+                       voxPart("LAYR", voxNumber(layer) + attributes + voxNumber(-1)));
+    };
+    EXPECT_EQ(voxError(scene(0, voxNumber(0))), "");
+    EXPECT_EQ(voxError(scene(1, hidden)), "");
+    EXPECT_THAT(voxError(scene(0, hidden)), HasSubstr("no model"));
+}
+
 TEST(VoxFile, TellsWhatIsWrong) {
     EXPECT_THAT(voxError("VOXX"), HasSubstr("header"));
     EXPECT_THAT(voxError(voxFile("")), HasSubstr("no model"));

@@ -10,6 +10,18 @@ namespace {
 using base::ErrorCode;
 using testing::HasSubstr;
 
+TEST(SeedFrom, ANegativeSeedIsTheSame64Bits) {
+    EXPECT_EQ(seedFrom("0")->seed, 0u);
+    EXPECT_EQ(seedFrom("-1")->seed, UINT64_MAX);
+    EXPECT_EQ(seedFrom("-4172144997902289642")->seed, 14274599075807261974u);
+    EXPECT_EQ(seedFrom("-9223372036854775808")->seed, std::uint64_t{1} << 63);
+    EXPECT_EQ(seedFrom("18446744073709551615")->seed, UINT64_MAX);
+    for (const char* number : {"-1", "12"}) EXPECT_EQ(seedFrom(number)->text, "");
+    for (const char* bad : {"", "+1", "-9223372036854775809", "18446744073709551616"})
+        EXPECT_FALSE(seedFrom(bad)) << bad;
+    EXPECT_EQ(seedFrom("- 1")->text, "- 1");
+}
+
 TEST(RequireSame, SaysHowTheyDiffer) {
     EXPECT_TRUE(requireSame(kIdentity, kIdentity, "a.sqlite"));
     WorldIdentity other = kIdentity;

@@ -2,6 +2,7 @@
 
 #include <charconv>
 
+#include "terrane/base/digest.h"
 #include "terrane/store/derived_rows.h"
 #include "terrane/store/sqlite/metadata_table.h"
 
@@ -21,17 +22,38 @@ base::Result<std::string> textOf(const Metadata& metadata, const char* name, con
 }
 
 template <class T>
-base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::string& where) {
-    const auto text = TERRANE_TRY(textOf(metadata, name, where));
+std::optional<T> wholeNumber(std::string_view text) {
     T value{};
     const char* end = text.data() + text.size();
     const auto [next, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && next == end) return value;
+    return error == std::errc() && next == end ? std::optional(value) : std::nullopt;
+}
+
+template <class T>
+base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::string& where) {
+    const auto text = TERRANE_TRY(textOf(metadata, name, where));
+    if (const auto value = wholeNumber<T>(text)) return *value;
     return base::fail(ErrorCode::Damaged, "{}: damaged: the setting {} is \"{}\", expected a number", where,
                       name, text);
 }
 
+bool isWholeNumber(std::string_view text) {
+    if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
+    return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
+}
+
 }  // namespace
+
+base::Result<WrittenSeed> seedFrom(std::string_view text) {
+    if (const auto seed = wholeNumber<std::uint64_t>(text)) return WrittenSeed{*seed, ""};
+    if (const auto seed = wholeNumber<std::int64_t>(text))
+        return WrittenSeed{static_cast<std::uint64_t>(*seed), ""};
+    if (text.empty() || isWholeNumber(text))
+        return base::fail(ErrorCode::BadInput,
+                          "expected a whole number from {} to {}, or another text, got \"{}\"", INT64_MIN,
+                          UINT64_MAX, text);
+    return WrittenSeed{base::hash64(text), std::string(text)};
+}
 
 bool isReserved(std::string_view name) {
     return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark ||

@@ -26,6 +26,17 @@ struct WorldIdentity {
     bool operator==(const WorldIdentity&) const = default;
 };
 
+// A seed as a player writes it.
+struct WrittenSeed {
+    std::uint64_t seed = 0;
+    std::string text;  // the text whose base::hash64 is the seed; empty for a number
+};
+
+// A number from 0 to 2^64 − 1; a negative one from −2^63, as other programs show the same 64 bits; or any
+// other text. Fails for an empty text, and for a whole number out of range: hashed as a text it would give a
+// world that the number does not identify. Pure; any thread.
+[[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
+
 // Chunks to regenerate with the program's version of the generator.
 enum class Regenerate : std::uint8_t {
     None,

@@ -142,10 +142,10 @@ NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSe
     return form;
 }
 
-base::Result<WrittenSeed> seedOf(const NewWorldForm& form) {
+base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form) {
     const std::string_view text = trimmed(form.seed);
-    if (text.empty()) return WrittenSeed{form.randomSeed, ""};
-    return seedFrom(text);
+    if (text.empty()) return store::WrittenSeed{form.randomSeed, ""};
+    return store::seedFrom(text);
 }
 
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {
