@@ -252,9 +252,12 @@ TEST_F(WebRequestsTest, AListenerWhoDoesNotReadIsDropped) {
     const std::string data(50000, 'x');
     std::size_t told = 0, heard = 0;
     EXPECT_TRUE(runUntil([&] {
-        hub_.tell("edits", data, false);
-        told += data.size();
+        // The other one hears each event before the next, so that it never falls behind.
         heard = good.text().size();
+        if (heard >= told) {
+            hub_.tell("edits", data, false);
+            told += data.size();
+        }
         return hub_.count() == 1 || told > (64u << 20);
     }));
     EXPECT_EQ(hub_.count(), 1u) << "after " << told << " bytes";
