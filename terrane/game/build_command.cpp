@@ -174,6 +174,10 @@ BuildOutcome Session::build(const BuildCommand& command) {
     world::BlockUpdate update(world_, *blocks_, edits, player == players_.end() ? nullptr : &recorder);
     update.restore(plan.blocks, isFill ? world::RestoreScope::All : world::RestoreScope::Border);
     update.run();
+    if (breaksForeign(command.player, edits)) {
+        takeBackAll(recorder.take(), edits, 0);
+        return {Result::NotAllowed};
+    }
     if (player != players_.end()) {
         EditStep step = tellStep(command.player, recorder);
         player->second.history.add(std::move(step));

@@ -9,7 +9,6 @@
 #include "terrane/base/log.h"
 #include "terrane/stream/edited_tiles.h"
 #include "terrane/world/blocks/sign.h"
-#include "terrane/world/changes/liquid_flow.h"
 #include "terrane/world/changes/random_ticks.h"
 
 namespace terrane::game {
@@ -115,12 +114,28 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
-    // Changes by nobody are one step, recorded only for a listener of all changes.
-    const bool isRecorded = command.player != kNoPlayer || tellsAll_;
+    // Changes by nobody are one step, recorded only for a listener.
+    const bool isRecorded = command.player != kNoPlayer || changeListener_;
+    world::BlockRecorder recorder;
+    world::applyChange(world_, *blocks_, command.pos, command.change, edits,
+                       isRecorded ? &recorder : nullptr);
+    std::vector<world::PlacedBlock> former = recorder.take();
+    if (breaksForeign(command.player, std::span(edits).subspan(before))) {
+        takeBackAll(former, edits, before);
+        return EditResult::Claimed;
+    }
     world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
-    world::BlockRecorder* const recorder = isRecorded ? &recorded : nullptr;
-    world::applyChange(world_, *blocks_, command.pos, command.change, edits, recorder);
+    for (world::PlacedBlock& block : former) recorded.note(block.pos, std::move(block.value));
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+}
+
+// Whether a consequence of a player's change replaces a block that the player may not change, such as a torch
+// on the other side of a claim's border. States may change: a fence gets an arm.
+bool Session::breaksForeign(PlayerId player, std::span<const world::BlockEdit> edits) const {
+    if (permissions.claims.all().empty()) return false;
+    return std::ranges::any_of(edits, [&](const world::BlockEdit& edit) {
+        return edit.before != edit.after && refusal(permissions, player, edit.pos);
+    });
 }
 
 TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
@@ -140,6 +155,10 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
+    if (breaksForeign(player, edits)) {
+        takeBackAll(recorder.take(), edits, 0);
+        return {Outcome::NotAllowed};
+    }
     EditStep reverse = tellStep(player, recorder);
     found->second.history.takenBack(way, std::move(reverse));
     tellEdits(player, edits);
@@ -172,7 +191,16 @@ std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command)
     return isEmpty ? std::nullopt : std::optional(EditResult::NotEmpty);
 }
 
+// Takes back a change that is refused, before anyone hears of it.
+void Session::takeBackAll(std::span<const world::PlacedBlock> former, std::vector<world::BlockEdit>& edits,
+                          std::size_t firstEdit) {
+    std::vector<world::BlockEdit> ignored;
+    world::BlockUpdate(world_, *blocks_, ignored).restore(former, world::RestoreScope::None);
+    edits.resize(firstEdit);
+}
+
 void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
+    if (changeListener_ && player != kNoPlayer) flow_.note(world_, *blocks_, edits, player);
     pipeline_.onEdits(edits);
     if (editListener_ && !edits.empty()) editListener_(player, edits);
 }
@@ -194,6 +222,17 @@ void Session::setBlocks(std::span<const world::PlacedBlock> blocks) {
     std::vector<world::BlockEdit> edits;
     world::BlockUpdate update(world_, *blocks_, edits);
     update.restore(blocks, world::RestoreScope::None);
+    tellEdits(kNoPlayer, edits);
+}
+
+void Session::runRules(std::span<const world::BlockPos> positions) {
+    std::vector<world::PlacedBlock> blocks;
+    for (const world::BlockPos pos : positions)
+        if (isLoaded(world_, pos)) blocks.push_back({pos, world::blockValue(world_, pos)});
+    std::vector<world::BlockEdit> edits;
+    world::BlockRecorder recorder;
+    world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
+    tellStep(kNoPlayer, recorder);
     tellEdits(kNoPlayer, edits);
 }
 
@@ -219,13 +258,24 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
         for (const world::BlockPos pos : world::blocksToTick(world_, *blocks_, ticks_++, chunks))
             ticks.push_back({kNoPlayer, pos, world::RunTick{}, std::nullopt});
         edit(ticks);
-        if (ticks_ % world::kTicksPerFlow != 0) continue;
-        std::vector<world::BlockEdit> edits;
-        world::BlockRecorder recorder;
-        world::flowLiquids(world_, *blocks_, chunks, edits, tellsAll_ ? &recorder : nullptr);
-        tellStep(kNoPlayer, recorder);
-        tellEdits(kNoPlayer, edits);
+        if (ticks_ % world::kTicksPerFlow == 0) flow(chunks);
     }
+}
+
+// Liquid does not flow into a claim from outside: it would wash away what others may not break.
+void Session::flow(std::span<const world::ChunkPos> chunks) {
+    const Claims& claims = permissions.claims;
+    const std::function<bool(world::BlockPos, world::BlockPos)> mayFlow = [&](world::BlockPos from,
+                                                                              world::BlockPos to) {
+        const Claim* claim = claims.at(to);
+        return !claim || claim == claims.at(from);
+    };
+    std::vector<world::BlockEdit> edits;
+    world::flowLiquids(world_, *blocks_, chunks, edits,
+                       {claims.all().empty() ? nullptr : &mayFlow, changeListener_ ? &flow_ : nullptr});
+    for (auto& [cause, changes] : flow_.changes) tellStep(static_cast<PlayerId>(cause), changes);
+    flow_.changes.clear();
+    tellEdits(kNoPlayer, edits);
 }
 
 base::Result<void> Session::save() {

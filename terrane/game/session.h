@@ -23,6 +23,7 @@
 #include "terrane/stream/chunk_pipeline.h"
 #include "terrane/stream/tile_pipeline.h"
 #include "terrane/world/blocks/block_registry.h"
+#include "terrane/world/changes/liquid_flow.h"
 #include "terrane/world/pose.h"
 #include "terrane/world/world.h"
 
@@ -56,8 +57,9 @@ class Session {
     void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
 
     // Called with the blocks that a player's edit, building or undoing changed, each once: for a history of
-    // who changed what. With `tellsAll` also with changes that nobody can undo: growth and flow, as
-    // kNoPlayer's, and liquid that becomes unsettled.
+    // who changed what. Flow is a change by the player whose edit made the liquid flow; growth, and flow that
+    // nobody is known to have caused, are changes by kNoPlayer. With `tellsAll` also with changes that nobody
+    // can undo: liquid that becomes unsettled.
     using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
     void setChangeListener(ChangeListener listener, bool tellsAll = false) {
         changeListener_ = std::move(listener);
@@ -67,6 +69,9 @@ class Session {
     // Sets exactly these blocks, as a server or a history gives them: nothing is checked and no behavior is
     // called. Blocks in chunks that are not loaded are left out.
     void setBlocks(std::span<const world::PlacedBlock> blocks);
+    // Runs the rules of these blocks and their neighbors, as after a change: liquid runs dry or flows, plants
+    // without ground and loose sand fall. For blocks that setBlocks() has set. A change by kNoPlayer.
+    void runRules(std::span<const world::BlockPos> positions);
 
     // From now on the authority decides on players' commands; with an empty one the session itself decides
     // again.
@@ -117,6 +122,10 @@ class Session {
     EditResult apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                      PlayerChanges& changes);
     bool canReach(PlayerId player, world::BlockPos pos) const;
+    bool breaksForeign(PlayerId player, std::span<const world::BlockEdit> edits) const;
+    void takeBackAll(std::span<const world::PlacedBlock> former, std::vector<world::BlockEdit>& edits,
+                     std::size_t firstEdit);
+    void flow(std::span<const world::ChunkPos> chunks);
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
     void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
     EditStep tellStep(PlayerId player, world::BlockRecorder& recorder);
@@ -139,6 +148,7 @@ class Session {
     EditListener editListener_;
     ChangeListener changeListener_;
     bool tellsAll_ = false;
+    world::FlowRecord flow_;  // who made liquid flow; kept only for a change listener
     Authority authority_;
     double untilTick_ = 0;  // seconds of game time that are not yet a whole tick
     std::uint64_t ticks_ = 0;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "tests/game/session_fixture.h"
 
 namespace terrane::game {
@@ -59,6 +61,69 @@ TEST_F(PermissionsTest, NobodyUndoesWhatBecameAClaimOfOthers) {
     EXPECT_EQ(at(kOutside), contentBlock("glass"));
     session_.permissions.claims.remove("later");
     EXPECT_EQ(session_.takeBack(kNeighbor, HistoryWay::Undo).outcome, TakenBack::Outcome::Done);
+}
+
+// Water beside a claim would wash away what its owner planted.
+TEST_F(PermissionsTest, LiquidDoesNotFlowIntoAClaim) {
+    const world::BlockPos flower{5, 5, kGroundHeight - 1};
+    const auto set = [&](world::BlockPos pos, std::string_view name, PlayerId player) {
+        return session_.edit({player, pos, world::SetBlock{contentBlock(name)}, {}});
+    };
+    ASSERT_EQ(set({5, 5, kGroundHeight - 2}, "dirt", kOwner), EditResult::Applied);
+    ASSERT_EQ(set(flower, "poppy", kOwner), EditResult::Applied);
+    ASSERT_EQ(set({6, 5, kGroundHeight - 1}, "water", kNeighbor), EditResult::Applied);
+    ASSERT_EQ(set({6, 5, kGroundHeight}, "water", kNeighbor), EditResult::Applied);
+    const auto flow = [&] {
+        for (int k = 0; k < 40; ++k) session_.advance(0.25, {0, 0});
+    };
+    flow();
+    EXPECT_EQ(at(flower), contentBlock("poppy"));
+    EXPECT_EQ(at(kInClaim), world::kAir);
+    EXPECT_EQ(at({9, 5, kGroundHeight}), contentBlock("water")) << "outside it flows";
+    // The owner's own water flows, also out of the claim.
+    ASSERT_EQ(set({2, 5, kGroundHeight}, "water", kOwner), EditResult::Applied);
+    flow();
+    EXPECT_EQ(at(kInClaim), contentBlock("water"));
+    EXPECT_EQ(at(flower), contentBlock("water"));
+}
+
+// What stands on a block outside must not fall.
+TEST_F(PermissionsTest, NoConsequenceOfAnEditBreaksABlockInAClaim) {
+    const world::BlockId torch = contentBlock("torch");
+    const world::BlockPos wall{6, 5, kGroundHeight};
+    int refused = 0;
+    for (std::uint16_t facing = 0; facing < 4; ++facing) {
+        (void)put(wall, kNeighbor);
+        const auto leaning = static_cast<std::uint16_t>(world::kStateOther | facing);
+        session_.setBlocks(std::vector<world::PlacedBlock>{{kInClaim, {torch, leaning, nullptr}}});
+        if (session_.edit({kNeighbor, wall, world::SetBlock{world::kAir}, {}}) == EditResult::Claimed) {
+            ++refused;
+            EXPECT_EQ(at(wall), contentBlock("glass")) << "refused as a whole";
+        }
+        EXPECT_EQ(at(kInClaim), torch);
+    }
+    EXPECT_EQ(refused, 1) << "the torch leans on the wall with one facing";
+}
+
+// A flood is a change by the player who let the water flow, and can be found and taken back.
+TEST_F(PermissionsTest, FlowIsAChangeByWhoCausedIt) {
+    std::map<PlayerId, std::size_t> changed;
+    session_.setChangeListener(
+        [&](PlayerId player, std::span<const ChangedBlock> changes) { changed[player] += changes.size(); });
+    const auto set = [&](world::BlockPos pos, std::string_view name, PlayerId player) {
+        return session_.edit({player, pos, world::SetBlock{contentBlock(name)}, {}});
+    };
+    ASSERT_EQ(set({9, 5, kGroundHeight}, "water", kNeighbor), EditResult::Applied);
+    for (int k = 0; k < 40; ++k) session_.advance(0.25, {0, 0});
+    EXPECT_GT(changed[kNeighbor], 20u);
+    EXPECT_EQ(changed[kNoPlayer], 0u);
+    // Who breaks the source causes what runs dry.
+    const std::size_t flooded = changed[kNeighbor];
+    ASSERT_EQ(set({9, 5, kGroundHeight}, "air", kOperator), EditResult::Applied);
+    for (int k = 0; k < 80; ++k) session_.advance(0.25, {0, 0});
+    EXPECT_EQ(changed[kNeighbor], flooded);
+    EXPECT_GT(changed[kOperator], 20u);
+    EXPECT_EQ(at({10, 5, kGroundHeight}), world::kAir);
 }
 
 TEST_F(PermissionsTest, TheWorldItselfMayEverything) {

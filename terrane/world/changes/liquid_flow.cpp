@@ -57,9 +57,13 @@ struct FlowCell {
 // be copied.
 class FlowCells {
   public:
-    FlowCells(const World& world, const FlowRules& rules) : world_(world), rules_(rules) {}
+    FlowCells(const World& world, const FlowRules& rules, const FlowOptions& options)
+        : world_(world), rules_(rules), options_(options) {}
 
     const FlowRules& rules() const { return rules_; }
+    bool mayFlow(BlockPos from, BlockPos to) const {
+        return !options_.mayFlow || (*options_.mayFlow)(from, to);
+    }
     const Chunk* chunk(ChunkPos pos) {
         if (last_ && lastPos_ == pos) return last_;
         const auto [known, isNew] = chunks_.try_emplace(pos);
@@ -93,6 +97,7 @@ class FlowCells {
   private:
     const World& world_;
     const FlowRules& rules_;
+    const FlowOptions& options_;
     std::unordered_map<ChunkPos, ChunkPtr, ChunkPosHash> chunks_;
     const Chunk* last_ = nullptr;
     ChunkPos lastPos_;
@@ -105,7 +110,7 @@ FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
     for (const Face side : kFlowSides) {
         const BlockPos next = beside(pos, side);
         const FlowCell cell = cells.at(next);
-        if (!cell.is(liquid)) continue;
+        if (!cell.is(liquid) || !cells.mayFlow(next, pos)) continue;
         sources += cell.form == 0;
         if (cell.form == 0 || cells.at(beside(next, kFaceNegZ)).isGroundFor(liquid))
             level = std::min(level, (cell.form & kLiquidLevel) + 1);
@@ -159,6 +164,7 @@ struct CellChange {
     BlockPos pos;
     BlockId before = kAir;
     FlowCell after;
+    BlockPos by;  // the unsettled cell for which it was computed
 };
 
 struct NextValues {
@@ -170,18 +176,18 @@ NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) 
     NextValues next;
     for (const BlockId liquid : cells.rules().liquids) {
         BlockSet seen;
-        const auto look = [&](BlockPos pos) {
+        const auto look = [&](BlockPos pos, BlockPos by) {
             if (!isInHeight(pos.z) || !seen.insert(pos)) return;
             const FlowCell before = cells.at(pos), after = nextCell(cells, pos, liquid);
             if (before.id != after.id || before.form != after.form)
-                next.changes.push_back({pos, before.id, after});
+                next.changes.push_back({pos, before.id, after, by});
         };
         for (const BlockPos pos : unsettled) {
             if (!cells.at(pos).is(liquid)) continue;
             next.settled.push_back(pos);
-            look(pos);
-            for (const Face side : kFlowSides) look(beside(pos, side));
-            look(beside(pos, kFaceNegZ));
+            look(pos, pos);
+            for (const Face side : kFlowSides) look(beside(pos, side), pos);
+            look(beside(pos, kFaceNegZ), pos);
         }
     }
     return next;
@@ -209,30 +215,59 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
     return surface * (kMaxLiquidLevel + 1 - form) / (kMaxLiquidLevel + 1);
 }
 
+void FlowRecord::note(const World& world, const BlockRegistry& blocks, std::span<const BlockEdit> edits,
+                      FlowCause cause) {
+    for (const BlockEdit& edit : edits) {
+        const bool flows = isFlowing(blocks.type(world.block(edit.pos))) &&
+                           (world.blockState(edit.pos) & kLiquidUnsettled) != 0;
+        if (!flows) continue;
+        if (cause == 0)
+            causes.erase(edit.pos);
+        else if (causes.size() < kMaxCauses || causes.contains(edit.pos))
+            causes[edit.pos] = cause;
+    }
+}
+
 // Writes call behaviors, which unsettle the neighbors of changed blocks. If a behavior has put another block
 // into a cell by then, that stays.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
-                        std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
+                        std::vector<BlockEdit>& edits, const FlowOptions& options) {
     const FlowRules rules(blocks);
     if (rules.liquids.empty()) return 0;
     Unsettled unsettled;
     NextValues next;
     {
-        FlowCells cells(world, rules);
+        FlowCells cells(world, rules, options);
         unsettled = findUnsettled(cells, chunks);
         next = nextValues(cells, unsettled.cells);
     }
+    FlowRecord* const record = options.record;
+    // Causes of this tick: those of cells that its changes unsettle are for the next one.
+    std::unordered_map<BlockPos, FlowCause, BlockPosHash> causes;
+    if (record) std::swap(causes, record->causes);
+    const auto causeOf = [&](BlockPos pos) {
+        const auto found = causes.find(pos);
+        return found == causes.end() ? FlowCause{0} : found->second;
+    };
+    const auto apply = [&](BlockPos pos, const BlockChange& change, FlowCause cause) {
+        const std::size_t before = edits.size();
+        applyChange(world, blocks, pos, change, edits, record ? &record->changes[cause] : nullptr);
+        if (record) record->note(world, blocks, std::span(edits).subspan(before), cause);
+    };
     for (const BlockPos pos : unsettled.former) BlockUpdate(world, blocks, edits).compactState(pos);
     for (const BlockPos pos : next.settled) {
         const std::uint16_t state = world.blockState(pos) & kLiquidForm;
-        applyChange(world, blocks, pos, SetState{state}, edits, recorder);
+        apply(pos, SetState{state}, causeOf(pos));
     }
     for (const CellChange& change : next.changes) {
         if (world.block(change.pos) != change.before) continue;
         const auto state = static_cast<std::uint16_t>(change.after.form | kLiquidUnsettled);
         const bool isDry = change.after.id == kAir;
-        applyChange(world, blocks, change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state},
-                    edits, recorder);
+        apply(change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state}, causeOf(change.by));
+    }
+    if (record) {  // cells that wait keep their causes
+        for (const BlockPos pos : next.settled) causes.erase(pos);
+        record->causes.merge(causes);
     }
     return unsettled.cells.size();
 }

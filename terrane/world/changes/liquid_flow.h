@@ -12,7 +12,10 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <span>
+#include <unordered_map>
 #include <vector>
 
 #include "terrane/world/changes/block_edit.h"
@@ -39,6 +42,31 @@ bool isFlowing(const BlockType& type);
 // The height of the liquid in the cell at `pos`, 0…1; 0 if there is none.
 double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos pos);
 
+// Who made liquid flow, such as a player: whose edit let cells flow that were at rest. 0: nobody, as in a
+// world that was loaded while liquid flowed.
+using FlowCause = std::uint64_t;
+
+// For a history of who changed what. The caller keeps the causes from tick to tick, and adds those of cells
+// that an edit unsettles.
+struct FlowRecord {
+    // The most cells whose cause is known: 65,536 × about 40 bytes = 2.6 MB. Others have cause 0.
+    static constexpr std::size_t kMaxCauses = 65536;
+
+    std::unordered_map<BlockPos, FlowCause, BlockPosHash> causes;  // of unsettled cells
+    std::map<FlowCause, BlockRecorder> changes;                    // of the last tick
+
+    // Notes who unsettled the cells of these edits that hold flowing liquid.
+    void note(const World& world, const BlockRegistry& blocks, std::span<const BlockEdit> edits,
+              FlowCause cause);
+};
+
+// Limits of a tick, and what is recorded of it. Plain values; the pointers may be null.
+struct FlowOptions {
+    // Whether liquid may flow from a column to the one beside it.
+    const std::function<bool(BlockPos from, BlockPos to)>* mayFlow = nullptr;
+    FlowRecord* record = nullptr;
+};
+
 // One tick of the cells of these chunks. A cell's next value is that of the first rule that holds:
 //   1. A source stays one.
 //   2. With two sources beside it, on ground or on a source, it becomes a source.
@@ -49,9 +77,8 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
 // Liquid flows into air and washes away loose blocks that bodies can pass: plants, torches. All next values
 // are computed before the first is written. Cells with a chunk within two blocks that is not loaded wait, and
 // so do those over the limit, in the order of `chunks` and of blocks in a chunk. Returns the number of
-// computed cells, and appends an event for each block that changed and each that is settled now. `recorder`
-// may be null.
+// computed cells, and appends an event for each block that changed and each that is settled now.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
-                        std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
+                        std::vector<BlockEdit>& edits, const FlowOptions& options = {});
 
 }  // namespace terrane::world
