@@ -114,8 +114,9 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
-    // Changes by nobody are one step, recorded only for a listener.
-    const bool isRecorded = command.player != kNoPlayer || changeListener_;
+    // Changes by nobody are one step, recorded only for a listener: of scripts if it hears all, and growth.
+    const bool isGrowth = std::holds_alternative<world::RunTick>(command.change);
+    const bool isRecorded = command.player != kNoPlayer || tellsAll_ || (isGrowth && changeListener_);
     world::BlockRecorder recorder;
     world::applyChange(world_, *blocks_, command.pos, command.change, edits,
                        isRecorded ? &recorder : nullptr);

@@ -14,11 +14,11 @@ namespace {
 
 using world::BlockPos;
 
-constexpr std::int32_t kFirst = std::numeric_limits<std::int32_t>::min();
-constexpr std::int32_t kLast = std::numeric_limits<std::int32_t>::max();
-constexpr PlayerId kBuilder = 7;
+constexpr std::int32_t kFirstColumn = std::numeric_limits<std::int32_t>::min();
+constexpr std::int32_t kLastColumn = std::numeric_limits<std::int32_t>::max();
+constexpr PlayerId kVisitor = 7;
 
-struct Corner {
+struct WorldCorner {
     std::int32_t x = 0, y = 0;
     // The block so far from the corner, toward the middle of the world.
     BlockPos inward(std::int32_t dx, std::int32_t dy, std::int32_t z) const {
@@ -26,11 +26,11 @@ struct Corner {
     }
 };
 
-class WorldEdgeTest : public SessionTest, public testing::WithParamInterface<Corner> {
+class WorldEdgeTest : public SessionTest, public testing::WithParamInterface<WorldCorner> {
   protected:
     WorldEdgeTest() {
         load(3, world::chunkOf(corner(0)));
-        session_.setPlayer(kBuilder, {.position = eyes()});
+        session_.setPlayer(kVisitor, {.position = eyes()});
     }
     BlockPos corner(std::int32_t z) const { return GetParam().inward(0, 0, z); }
     BlockPos inward(std::int32_t dx, std::int32_t dy, std::int32_t z) const {
@@ -51,7 +51,7 @@ TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
     const BlockPos a = corner(kGroundHeight), b = inward(3, 3, kGroundHeight + 1);
     const world::BlockBox box{{std::min(a.x, b.x), std::min(a.y, b.y), a.z},
                               {std::max(a.x, b.x), std::max(a.y, b.y), b.z}};
-    const BuildOutcome outcome = session_.build({kBuilder, FillBox{box, contentBlock("sand"), 0, {}}});
+    const BuildOutcome outcome = session_.build({kVisitor, FillBox{box, contentBlock("sand"), 0, {}}});
     ASSERT_EQ(outcome.result, BuildOutcome::Result::Done);
     EXPECT_EQ(outcome.changed, 32u);
     EXPECT_EQ(session_.world().block(a), contentBlock("sand"));
@@ -59,14 +59,14 @@ TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
 
     const auto structure =
         std::make_shared<const world::Structure>(world::copyBlocks(session_.world(), session_.blocks(), box));
-    EXPECT_EQ(session_.takeBack(kBuilder, HistoryWay::Undo).blocks, 32u);
+    EXPECT_EQ(session_.takeBack(kVisitor, HistoryWay::Undo).blocks, 32u);
     EXPECT_EQ(session_.world().block(a), world::kAir);
-    EXPECT_EQ(session_.build({kBuilder, PlaceStructure{structure, box.low}}).changed, 32u);
+    EXPECT_EQ(session_.build({kVisitor, PlaceStructure{structure, box.low}}).changed, 32u);
 
     Selection selection;
     selection.setClipboard(*structure);
     (void)selection.pasteCorner(a);  // may lie outside; placing it there is refused
-    const BuildOutcome cut = session_.build({kBuilder, PlaceStructure{structure, a}});
+    const BuildOutcome cut = session_.build({kVisitor, PlaceStructure{structure, a}});
     EXPECT_EQ(cut.result, GetParam().x < 0 && GetParam().y < 0 ? BuildOutcome::Result::Done
                                                                : BuildOutcome::Result::OutOfWorld);
 }
@@ -91,9 +91,9 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
         takeInHand(interaction.hotbar, contentBlock("sand"));
         for (int k = 0; k < 200; ++k) {
             player.move(session_.world(), session_.blocks(), {.forward = true, .jump = k % 3 == 0}, 0.05);
-            session_.setPlayer(kBuilder, player.pose());
+            session_.setPlayer(kVisitor, player.pose());
             interaction.building.press();
-            interaction.act(session_, kBuilder, player, 0.01);
+            interaction.act(session_, kVisitor, player, 0.01);
             interaction.building.release();
             (void)ambienceAt(session_.world(), session_.blocks(), player.pose().position);
         }
@@ -106,8 +106,10 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Corners, WorldEdgeTest,
-                         testing::Values(Corner{kFirst, kFirst}, Corner{kFirst, kLast}, Corner{kLast, kFirst},
-                                         Corner{kLast, kLast}));
+                         testing::Values(WorldCorner{kFirstColumn, kFirstColumn},
+                                         WorldCorner{kFirstColumn, kLastColumn},
+                                         WorldCorner{kLastColumn, kFirstColumn},
+                                         WorldCorner{kLastColumn, kLastColumn}));
 
 }  // namespace
 }  // namespace terrane::game
