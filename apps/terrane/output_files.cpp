@@ -24,7 +24,6 @@ constexpr const char* kOutput = "output";  // name of the validators that mark a
 // that, so the folder must be writable.
 std::string isWritable(const std::string& text) {
     const fs::path path(text);
-    if (text.empty()) return {};  // none
     if (std::string wrong = isInAFolder(text); !wrong.empty()) return wrong;
     const std::string folder = path.has_parent_path() ? path.parent_path().string() : ".";
     std::error_code ignored;

@@ -1,7 +1,10 @@
 #include "apps/terrane/program.h"
 
 #include <execinfo.h>
+#include <poll.h>
+#include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -27,8 +30,8 @@ base::Result<void> run(const CommandEntry& command) {
     try {
         return command.run();
     } catch (const std::exception& error) {
-        // A text longer than the buffer already fails while it is printed.
-        if (std::ferror(stdout) != 0) return base::fail("standard output cannot be written");
+        // A text longer than the buffer already fails while it is printed: withOutputWritten() reports it.
+        if (std::ferror(stdout) != 0) return {};
         return base::fail("{}: {}", command.parser->get_name(), base::textOf(error));
     }
 }
@@ -42,10 +45,25 @@ base::Result<void> runTraced(const CommandEntry& command, const std::string& tra
     return result ? written : result;
 }
 
-// The exit code of the program: a run whose results could not be written has failed.
+// A reader that ends or a limit of file sizes makes a write fail; by default it would end the program, even a
+// server with players.
+void ignoreFailedWrites() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+}
+
+// Whether standard output is a pipe whose reader has ended, as in `terrane blocks | head -1`.
+bool isReaderGone() {
+    pollfd output{STDOUT_FILENO, POLLOUT, 0};
+    return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+// The exit code of the program: a run whose results could not be written has failed. If the reader of a pipe
+// has ended, it is the code that shells show for SIGPIPE, without a message, as of other programs.
 int withOutputWritten(int exitCode) {
     std::cout.flush();
     if (std::cout && std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exitCode;
+    if (isReaderGone()) return 128 + SIGPIPE;
     base::logError("standard output cannot be written");
     return kBadInput;
 }
@@ -92,6 +110,7 @@ std::optional<int> parseArguments(CLI::App& parser, const std::vector<std::strin
 
 int runProgram(int argc, char** argv) try {
     loadUnwinder();
+    ignoreFailedWrites();
     base::setThreadName("main");
     const bool plays = defaultCommand() != nullptr;
     CLI::App parser(plays ? "Terrane: large voxel worlds. Without a command it plays."

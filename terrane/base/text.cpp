@@ -7,6 +7,7 @@
 #include <array>
 #include <cassert>
 #include <cstddef>
+#include <cstdio>
 #include <vector>
 
 namespace terrane::base {
@@ -78,7 +79,8 @@ std::string printable(std::string_view text) {
 namespace detail {
 
 void printLine(fmt::string_view format, fmt::format_args args) {
-    fmt::print("{}\n", printable(fmt::vformat(format, args)));
+    const std::string line = printable(fmt::vformat(format, args)) + '\n';
+    std::fwrite(line.data(), 1, line.size(), stdout);
 }
 
 }  // namespace detail

@@ -273,6 +273,44 @@ class BadInput(ProgramTest):
             self.assertEqual(done.returncode, 2, f"{arguments}: {done.stderr}")
             self.assertIn("terrane: error: standard output cannot be written\n", done.stderr, arguments)
 
+    # As in `terrane blocks | head -1`: quiet, and the exit code that shells show for SIGPIPE.
+    def test_output_whose_reader_ends(self):
+        for arguments in (("blocks",), ("info", "--json"), ("generate", "--radius", "0", "--json"), ("man",), ("--help",),
+                          ("--version",), ("completion", "bash")):
+            reader, writer = os.pipe()
+            os.close(reader)
+            done = subprocess.run([support.program(), *arguments], stdout=writer, stderr=subprocess.PIPE, text=True,
+                                  timeout=support.HANG_SECONDS, env=support.environment(), check=False)
+            os.close(writer)
+            self.assertEqual(done.returncode, 141, f"{arguments}: {done.stderr}")
+            self.assertNotIn("error", done.stderr, arguments)
+
+    # A server goes on without readers of its output and its messages, answers its console, and saves.
+    def test_a_server_whose_readers_end(self):
+        world = self.folder / "served.sqlite"
+        reader, writer = os.pipe()
+        process = subprocess.Popen([support.program(), "serve", "--world", str(world), "--generator", "flat", "--address",
+                                    "127.0.0.1", "--port", "0", "--threads", "1"], stdin=subprocess.PIPE, stdout=writer,
+                                   stderr=writer, text=True, env=support.environment())
+        os.close(writer)
+        with os.fdopen(reader, encoding="utf-8") as lines:
+            port = next(found.group(1) for line in lines if (found := re.search(r"on port (\d+)", line)))
+            self.assertTrue(port)
+        try:
+            for _ in range(3):
+                process.stdin.write("list\nsave\n")
+                process.stdin.flush()
+            bots = run("bots", "--connect", f"127.0.0.1:{port}", "--count", "1", "--seconds", "1")
+            self.assertEqual(bots.returncode, 0, bots.stderr)
+            self.assertIsNone(process.poll())
+            process.stdin.write("stop\n")
+            process.stdin.flush()
+            self.assertGreaterEqual(process.wait(support.HANG_SECONDS), 0)
+        finally:
+            process.kill()
+            process.wait()
+        self.succeed("check", world)
+
     # A window needs a display.
     def test_play_without_a_display(self):
         for arguments in ((), ("play",), ("--view-distance", "2")):

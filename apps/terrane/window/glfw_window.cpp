@@ -1,5 +1,6 @@
 #include "apps/terrane/window/glfw_window.h"
 
+#define GLFW_INCLUDE_NONE  // epoxy declares OpenGL
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
 #include <glm/geometric.hpp>
