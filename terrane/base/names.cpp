@@ -204,14 +204,23 @@ NameLooks looksOf(std::string_view name) {
     return {skeletonOf(text), skeletonOf(normalized(nfkcCaseFolded(), text))};
 }
 
+namespace {
+
+bool isLike(const NameLooks& looks, std::string_view name) {
+    const NameLooks other = looksOf(name);
+    return looks.written == other.written || looks.folded == other.folded;
+}
+
+}  // namespace
+
 bool isConfusable(std::string_view a, std::string_view b) {
-    const NameLooks one = looksOf(a), other = looksOf(b);
-    return one.written == other.written || one.folded == other.folded;
+    return isLike(looksOf(a), b);
 }
 
 std::string nameLike(std::string_view name, std::span<const std::string> known) {
+    const NameLooks looks = looksOf(name);
     const auto found =
-        std::ranges::find_if(known, [&](const std::string& other) { return isConfusable(name, other); });
+        std::ranges::find_if(known, [&](const std::string& other) { return isLike(looks, other); });
     return found == known.end() ? std::string() : *found;
 }
 

@@ -10,6 +10,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
+#include "terrane/base/names.h"
 #include "terrane/game/player_state.h"
 
 namespace terrane::game {
@@ -61,7 +62,27 @@ std::string placeName(std::string_view typed) {
     return name;
 }
 
-bool namePlace(std::vector<Place>& places, std::string_view typed, const world::Pose& pose) {
+base::Result<std::string> namedPlace(const std::vector<Place>& places, std::string_view typed) {
+    std::vector<std::string> known;
+    for (const Place& place : places) known.push_back(place.name);
+    std::string former = placeName(typed);
+    if (std::ranges::count(known, former) > 0) return former;
+    auto name = TERRANE_TRY(base::checkName(former, kMaxPlaceName));
+    const std::string like = std::ranges::count(known, name) > 0 ? name : base::nameLike(name, known);
+    if (!like.empty() && like != name)
+        return base::fail(base::ErrorCode::BadInput, "the name {} looks like that of the place {}", name,
+                          like);
+    return name;
+}
+
+base::Result<void> namePlace(std::vector<Place>& places, std::string_view typed, const world::Pose& pose) {
+    const auto name = TERRANE_TRY(namedPlace(places, typed));
+    if (!putPlace(places, name, pose))
+        return base::fail(base::ErrorCode::BadInput, "there are {} named places, the maximum", kMaxPlaces);
+    return {};
+}
+
+bool putPlace(std::vector<Place>& places, std::string_view typed, const world::Pose& pose) {
     const std::string name = placeName(typed);
     if (name.empty()) return false;
     const auto same = std::ranges::find(places, name, &Place::name);

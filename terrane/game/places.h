@@ -32,9 +32,15 @@ std::vector<Place> placesFrom(std::string_view text);
 // The typed text with control characters as spaces and without spaces at its ends, cut to kMaxPlaceName bytes
 // between characters.
 std::string placeName(std::string_view typed);
-// Adds a place with this name; a place of the same name moves there. False if there are kMaxPlaces already or
-// the name is empty.
-bool namePlace(std::vector<Place>& places, std::string_view name, const world::Pose& pose);
+// Adds a place with the typed name; a place of the same name moves there. An error, one line for the player,
+// if the name breaks the rule of base/names.h or looks like that of another place, or if there are kMaxPlaces
+// already.
+[[nodiscard]] base::Result<void> namePlace(std::vector<Place>& places, std::string_view typed,
+                                           const world::Pose& pose);
+// The name of a place for namePlace(): one of `places`, or a new one by that rule.
+[[nodiscard]] base::Result<std::string> namedPlace(const std::vector<Place>& places, std::string_view typed);
+// Adds a place that has its name, or moves it. False if there are kMaxPlaces already or the name is empty.
+bool putPlace(std::vector<Place>& places, std::string_view name, const world::Pose& pose);
 
 // The key in the store's metadata.
 inline constexpr const char* kPlacesMetadata = "places";

@@ -22,8 +22,8 @@ TEST(Places, ComeBackFromTheWorld) {
 
 TEST(Places, ANameIsThereOnce) {
     std::vector<Place> places;
-    namePlace(places, "home", kPose);
-    namePlace(places, "home", kOther);
+    EXPECT_TRUE(namePlace(places, "home", kPose));
+    EXPECT_TRUE(namePlace(places, "home", kOther));
     ASSERT_EQ(places.size(), 1u);
     EXPECT_EQ(places[0].pose, kOther);
     EXPECT_FALSE(namePlace(places, " \n\t", kPose));
@@ -34,6 +34,28 @@ TEST(Places, NamesAreOneLineOfBoundedLength) {
     std::string czech;
     for (int k = 0; k < 50; ++k) czech += "č";
     EXPECT_EQ(placeName("x" + czech).size(), 59u) << "cut between characters of two bytes";
+}
+
+TEST(Places, NewNamesFollowTheRule) {
+    std::vector<Place> places;
+    ASSERT_TRUE(namePlace(places, "Mill", kPose));
+    for (const char* bad : {"\u3164", "Mill\u200b", "mill", "Mi1l", "\u039cill", "\xff"})
+        EXPECT_FALSE(namePlace(places, bad, kOther)) << bad;
+    EXPECT_EQ(namePlace(places, "Mi1l", kOther).error().message,
+              "the name Mi1l looks like that of the place Mill");
+    EXPECT_EQ(places, (std::vector<Place>{{"Mill", kPose}}));
+    EXPECT_TRUE(namePlace(places, "Cafe\u0301", kPose));
+    EXPECT_TRUE(namePlace(places, "Café", kOther)) << "the same name";
+    EXPECT_EQ(places.size(), 2u);
+}
+
+// They were named before the rule.
+TEST(Places, OldNamesStay) {
+    std::vector<Place> places = placesFrom("1 2 70 0 0 Mill\u200b\n1 2 70 0 0 Mill\n");
+    ASSERT_EQ(places.size(), 2u);
+    EXPECT_TRUE(namePlace(places, "Mill\u200b", kOther)) << "it moves";
+    EXPECT_EQ(places[0].pose, kOther);
+    EXPECT_EQ(placesFrom(textOf(places)), places);
 }
 
 TEST(Places, ThereIsAMaximum) {

@@ -67,10 +67,14 @@ bool drawNaming(PlacesState& state, std::vector<game::Place>& places, const worl
     const bool isEntered = ui::textField("##name", tr("name of this place"), state.name.data(),
                                          state.name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
     ImGui::SameLine();
-    if (!ui::button(tr("Add"), {-1, 0}) && !isEntered) return false;
-    const bool isNamed = game::namePlace(places, state.name.data(), here);
-    if (isNamed) state.name = {};
-    return isNamed;
+    const bool isAsked = ui::button(tr("Add"), {-1, 0}) || isEntered;
+    if (isAsked) {
+        const auto named = game::namePlace(places, state.name.data(), here);
+        state.problem = named ? std::string() : named.error().message;
+        if (named) state.name = {};
+    }
+    if (!state.problem.empty()) ImGui::TextWrapped("%s", state.problem.c_str());
+    return isAsked && state.problem.empty();
 }
 
 }  // namespace

@@ -28,8 +28,9 @@ void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr);
 struct PlacesState {
     bool isOpen = false;
     std::array<char, game::kMaxPlaceName + 1> name{};
+    std::string problem;  // why the typed name was refused; empty: it was not
 
-    void open() { *this = {.isOpen = true, .name = {}}; }
+    void open() { *this = {.isOpen = true, .name = {}, .problem = {}}; }
 };
 
 struct PlacesAnswer {
