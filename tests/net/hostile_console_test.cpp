@@ -110,7 +110,12 @@ TEST_F(HostileConsole, OddLines) {
     EXPECT_EQ(run("   "), "");
     EXPECT_EQ(run("claim \"the hall\" -2147483648 -2147483648 2147483647 2147483647 ann"),
               "the hall is claimed for ann");
+    EXPECT_EQ(run("claim \"The Hall\" 0 0 0 0 ann"),
+              "the name The Hall looks like that of the claim the hall");
+    EXPECT_EQ(run("claim \u3164 0 0 0 0 ann"), "a name cannot have the character U+3164");
     EXPECT_EQ(run("unclaim \"the hall\""), "the claim the hall is gone");
+    EXPECT_EQ(run("claim cafe\u0301 0 0 0 0 ann"), "caf\u00e9 is claimed for ann");
+    EXPECT_EQ(run("unclaim cafe\u0301"), "the claim cafe\u0301 is gone");
     EXPECT_EQ(run("time -0"), "the time is set");
     EXPECT_TRUE(server_->state().passwordHash.empty()) << "no password is none";
     EXPECT_TRUE(run("password \"\x01\"").starts_with("a password")) << "nobody can type it";

@@ -82,6 +82,54 @@ TEST_F(HostileLogin, BadNames) {
     EXPECT_EQ(refusalOfName("123456789012345678901234"), Refusal::Count) << "24 bytes are a name";
 }
 
+TEST_F(HostileLogin, NamesThatLookAlikeOrAreInvisible) {
+    start();
+    for (const char* name : {"Ann\u200b", "\u3164", "Ann\u00ad", "\u2800", "\u00a0", "\ufeffAnn", "\u0391nn",
+                             "\U000e0041nn", "A\uff4en", "Server", "ANN", "a  b"})
+        EXPECT_EQ(refusalOfName(name), Refusal::Name) << name;
+    for (const char* name : {"\u041c\u0438\u0440", "\u4e16\u754c", "Bob 2", "\U0001f438"})
+        EXPECT_EQ(refusalOfName(name), Refusal::Count) << name;
+    const auto ian = joined("Ian");
+    EXPECT_EQ(refusalOfName("lan"), Refusal::Name) << "like a capital I";
+    TestWire wire(*server_);
+    wire.say(greetedLogin(wire, testIdentity("I\u0430n")));  // Cyrillic
+    const auto refused = refusedIn(wire.take());
+    ASSERT_TRUE(refused);
+    EXPECT_EQ(refused->reason,
+              "a name has letters of scripts that are easily confused, such as Latin and Cyrillic");
+    TestWire like(*server_);
+    like.say(greetedLogin(like, testIdentity("1an")));
+    EXPECT_EQ(refusedIn(like.take())->reason,
+              "the name 1an looks like Ian, the name of another player: choose another");
+}
+
+TEST_F(HostileLogin, ANameIsKeptInItsNormalForm) {
+    start();
+    const ClientIdentity anna = testIdentity("A\u0301nna");
+    for (int k = 0; k < 2; ++k) {  // the same player comes again
+        const auto wire = joined(anna);
+        EXPECT_EQ(clientOf(*wire).name, "\u00c1nna");
+        wire->close();
+    }
+    EXPECT_EQ(refusalOfName("\u00c1nna"), Refusal::Name);
+    EXPECT_EQ(runConsoleLine(server_->state(), "op A\u0301nna"), "\u00c1nna is an operator now");
+}
+
+// The player was known before the rule.
+TEST_F(HostileLogin, AKnownPlayerKeepsItsName) {
+    start();
+    const ClientIdentity old = testIdentity("Ann\u200b");
+    server_->state().knownPlayers.add(old.key.publicKey, old.name, game::Role::Player);
+    joined(old)->close();
+    ClientIdentity renamed = old;
+    renamed.name = "\u3164";
+    TestWire wire(*server_);
+    EXPECT_EQ(refusalOfLogin(wire, greetedLogin(wire, renamed)), Refusal::Name);
+    renamed.name = "Bob";
+    joined(renamed)->close();
+    EXPECT_EQ(server_->state().knownPlayers.byName(old.name), nullptr) << "the old name is free";
+}
+
 TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
     start();
     TestWire version(*server_), magic(*server_), world(*server_);

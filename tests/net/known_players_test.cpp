@@ -65,6 +65,35 @@ TEST_F(KnownPlayersTest, DamagedRowsAreRefused) {
     }
 }
 
+TEST_F(KnownPlayersTest, LookAlikesAreFound) {
+    const game::PlayerId anna = known_.add(keyOf(1), "Anna", game::Role::Player).id;
+    reopen();
+    const auto like = [&](std::string_view name, game::PlayerId id = game::kNoPlayer) {
+        const KnownPlayer* player = known_.byLooks(name, id);
+        return player ? player->id : game::kNoPlayer;
+    };
+    for (const char* name : {"Anna", "ANNA", "\u0391nna", "Anna\u200b"}) EXPECT_EQ(like(name), anna) << name;
+    EXPECT_EQ(like("Anna", anna), game::kNoPlayer) << "it is the player itself";
+    EXPECT_EQ(like("Ann"), game::kNoPlayer);
+    known_.setName(anna, "Berta");
+    EXPECT_EQ(like("Anna"), game::kNoPlayer);
+    EXPECT_EQ(like("berta"), anna);
+    known_.learn({anna, keyOf(1), "Carla", game::Role::Player, {}, {}});
+    EXPECT_EQ(like("berta"), game::kNoPlayer);
+    EXPECT_EQ(like("CARLA"), anna);
+    known_.forget(anna);
+    EXPECT_EQ(like("Carla"), game::kNoPlayer);
+}
+
+TEST(NewName, FollowsTheRule) {
+    for (const char* good : {"A", "Žofie", "a b", "123456789012345678901234"})
+        EXPECT_TRUE(newName(good)) << good;
+    for (const char* bad : {"", " a", "a\"b", "*", "Server", "server", "Ann\u200b", "\u0391nn", "\xFF",
+                            "1234567890123456789012345"})
+        EXPECT_FALSE(newName(bad)) << bad;
+    EXPECT_EQ(newName("A\u0301nna").value(), "\u00c1nna");
+}
+
 TEST(IsName, TakesPlainShortNames) {
     for (const char* good : {"A", "Žofie", "a b", "123456789012345678901234"})
         EXPECT_TRUE(isName(good)) << good;

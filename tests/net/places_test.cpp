@@ -47,13 +47,56 @@ TEST_F(MarkedPlaces, APlayerNamesWhereItStands) {
 
 TEST_F(MarkedPlaces, OperatorsAloneMoveThem) {
     EXPECT_EQ(run("mark 10 -20.5 80 The mill"), "The mill is marked");
-    EXPECT_EQ(answer(ann_, "/mark The mill"), "there is a place The mill: only operators can move it");
+    EXPECT_EQ(answer(ann_, "/mark The mill"),
+              "there is a place The mill of another: only operators can move it");
     EXPECT_EQ(places()[0].pose.position, glm::dvec3(10, -20.5, 80));
     (void)run("op Ann");
     (void)ann_.take();
     EXPECT_EQ(answer(ann_, "/mark The mill"), "The mill is marked");
     EXPECT_NE(places()[0].pose.position, glm::dvec3(10, -20.5, 80));
     EXPECT_EQ(places().size(), 1u);
+}
+
+TEST_F(MarkedPlaces, NamesFollowTheRule) {
+    ASSERT_EQ(run("mark 1 2 70 Mill"), "Mill is marked");
+    EXPECT_EQ(answer(ann_, "/mark \u3164"), "a name cannot have the character U+3164");
+    EXPECT_EQ(answer(ann_, "/mark Mi1l"), "the name Mi1l looks like that of the place Mill");
+    EXPECT_EQ(run("mark 1 2 70 Mi\u200bll"), "a name cannot have the character U+200B");
+    EXPECT_EQ(places().size(), 1u);
+    EXPECT_EQ(answer(ann_, "/mark Cafe\u0301"), "Caf\u00e9 is marked");
+    EXPECT_EQ(run("unmark Cafe\u0301"), "Caf\u00e9 is no longer marked");
+}
+
+TEST_F(MarkedPlaces, APlayerHasAShare) {
+    const std::size_t share = server_.state().settings.maxPlacesOfPlayer;
+    for (std::size_t k = 0; k < share; ++k) {
+        EXPECT_EQ(answer(ann_, fmt::format("/mark spam {}", k)), fmt::format("spam {} is marked", k));
+        server_.now += std::chrono::seconds(2);
+        server_.tick();
+    }
+    EXPECT_EQ(answer(ann_, "/mark one more"),
+              "you have named 5 places, the maximum of a player: remove one with /unmark NAME");
+    EXPECT_EQ(answer(ann_, "/mark spam 1"), "spam 1 is marked") << "its own place moves";
+    TestWire bob(server_);
+    (void)logIn(bob, testIdentity("Bob"));
+    server_.tick();
+    (void)bob.take();
+    (void)ann_.take();
+    EXPECT_EQ(answer(bob, "/unmark spam 1"), "you have named no place spam 1");
+    EXPECT_EQ(answer(bob, "/mark home"), "home is marked") << "others still have their share";
+    EXPECT_EQ(answer(ann_, "/unmark spam 1"), "spam 1 is no longer marked");
+    EXPECT_EQ(answer(ann_, "/mark one more"), "one more is marked");
+    (void)run("unmark spam 2");
+    EXPECT_EQ(answer(ann_, "/mark spam 2"), "spam 2 is marked") << "what an operator removes is free";
+}
+
+TEST_F(MarkedPlaces, TheLastOnesAreForOperators) {
+    for (std::size_t k = 0; k + kPlacesOfOperators < game::kMaxPlaces; ++k)
+        (void)run(fmt::format("mark 0 0 70 {}", k));
+    EXPECT_EQ(answer(ann_, "/mark home"), "there are 160 named places: only operators can name more");
+    (void)run("op Ann");
+    (void)ann_.take();
+    EXPECT_EQ(answer(ann_, "/mark home"), "home is marked");
 }
 
 TEST_F(MarkedPlaces, GuestsMarkNothing) {
@@ -90,6 +133,28 @@ TEST(SavedPlaces, StayWithTheWorld) {
         (void)runConsoleLine(server.state(), "mark 1 2 70 home");
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
+}
+
+TEST(SavedPlaces, KeepTheirOwner) {
+    base::TempFolder folder;
+    const auto answers = [](TestServer& server, const std::string& line) {
+        TestWire ann(server);
+        (void)logIn(ann, testIdentity("Ann"));
+        server.tick();
+        (void)ann.take();
+        ann.say(Say{line});
+        std::string text;
+        for (const ServerMessage& message : ann.take())
+            if (const auto* said = std::get_if<Said>(&message)) text += said->text;
+        return text;
+    };
+    {
+        TestServer server(folder.path());
+        EXPECT_EQ(answers(server, "/mark home"), "home is marked");
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    TestServer server(folder.path());
+    EXPECT_EQ(answers(server, "/unmark home"), "home is no longer marked");
 }
 
 // Edits are reported at once, the tiles above them once the world is saved.

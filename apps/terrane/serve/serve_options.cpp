@@ -54,6 +54,11 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->check(numberFrom(1, 131072))
         ->capture_default_str();
     command
+        .add_option("--max-places-of-player", options.server.maxPlacesOfPlayer,
+                    "Maximum number of places that a player who is no operator may name")
+        ->check(numberFrom(0, 200))
+        ->capture_default_str();
+    command
         .add_option("--spawn-radius", options.server.spawnRadius,
                     "Newcomers appear up to this many blocks from the spawn")
         ->check(numberFrom(0, 1000000))

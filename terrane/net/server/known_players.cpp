@@ -5,10 +5,17 @@
 #include <utility>
 #include <vector>
 
+#include "terrane/base/names.h"
 #include "terrane/net/server/server_records.h"
 #include "terrane/net/wire/wire.h"
 
 namespace terrane::net {
+
+namespace {
+
+constexpr std::string_view kServerName = "server";
+
+}  // namespace
 
 bool isName(std::string_view name) {
     return !name.empty() && name.size() <= kMaxNameBytes && isPlainText(name) && name.front() != ' ' &&
@@ -20,6 +27,14 @@ std::string nameRule() {
                        kMaxNameBytes);
 }
 
+base::Result<std::string> newName(std::string_view typed) {
+    auto name = TERRANE_TRY(base::checkName(typed, kMaxNameBytes));
+    if (!isName(name)) return base::fail(base::ErrorCode::BadInput, "{}", nameRule());
+    if (base::isConfusable(name, kServerName))
+        return base::fail(base::ErrorCode::BadInput, "the name {} looks like the server's own", name);
+    return name;
+}
+
 bool isSameName(std::string_view a, std::string_view b) {
     const auto folded = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
     return std::ranges::equal(a, b, {}, folded, folded);
@@ -28,7 +43,7 @@ bool isSameName(std::string_view a, std::string_view b) {
 base::Result<KnownPlayers> KnownPlayers::read(ServerRecords& records) {
     KnownPlayers knownPlayers(records);
     auto players = TERRANE_TRY(records.players());
-    for (KnownPlayer& player : players) knownPlayers.players_.insert({player.id, std::move(player)});
+    for (KnownPlayer& player : players) knownPlayers.put(std::move(player));
     const auto claims = TERRANE_TRY(records.claims());
     for (const game::Claim& claim : claims)
         if (auto added = knownPlayers.claims_.add(claim); !added)
@@ -48,9 +63,39 @@ const KnownPlayer* KnownPlayers::byKey(const PublicKey& key) const {
 }
 
 const KnownPlayer* KnownPlayers::byName(std::string_view name) const {
-    const auto found =
-        std::ranges::find_if(players_, [&](const auto& p) { return isSameName(p.second.name, name); });
-    return found == players_.end() ? nullptr : &found->second;
+    const auto find = [&](std::string_view wanted) -> const KnownPlayer* {
+        const auto found =
+            std::ranges::find_if(players_, [&](const auto& p) { return isSameName(p.second.name, wanted); });
+        return found == players_.end() ? nullptr : &found->second;
+    };
+    const KnownPlayer* player = find(name);
+    return player ? player : find(base::normalizedName(name));
+}
+
+const KnownPlayer* KnownPlayers::byLooks(std::string_view name, game::PlayerId id) const {
+    const base::NameLooks looks = base::looksOf(name);
+    for (const std::string& text : {looks.written, looks.folded})
+        for (auto [at, end] = looks_.equal_range(text); at != end; ++at)
+            if (at->second != id) return byId(at->second);
+    return nullptr;
+}
+
+KnownPlayer& KnownPlayers::put(KnownPlayer player) {
+    const base::NameLooks looks = base::looksOf(player.name);
+    const auto [at, isNew] = players_.try_emplace(player.id);
+    if (!isNew) removeLooks(at->second);
+    for (const std::string& text : {looks.written, looks.folded}) looks_.emplace(text, player.id);
+    at->second = std::move(player);
+    return at->second;
+}
+
+void KnownPlayers::removeLooks(const KnownPlayer& player) {
+    const base::NameLooks looks = base::looksOf(player.name);
+    for (const std::string& text : {looks.written, looks.folded}) {
+        const auto [begin, end] = looks_.equal_range(text);
+        const auto own = std::find_if(begin, end, [&](const auto& look) { return look.second == player.id; });
+        if (own != end) looks_.erase(own);
+    }
 }
 
 const KnownPlayer& KnownPlayers::add(const PublicKey& key, const std::string& name, game::Role role,
@@ -58,13 +103,13 @@ const KnownPlayer& KnownPlayers::add(const PublicKey& key, const std::string& na
     assert(!byKey(key) && !byName(name) && "somebody new");
     const game::PlayerId next = players_.empty() ? kFirstPlayer : players_.rbegin()->first + 1;
     const game::PlayerId id = number == game::kNoPlayer ? next : number;
-    const KnownPlayer& player = players_.insert({id, {id, key, name, role, {}, {}}}).first->second;
+    const KnownPlayer& player = put({id, key, name, role, {}, {}});
     records_->addPlayer(player);
     return player;
 }
 
 void KnownPlayers::learn(const KnownPlayer& player) {
-    players_[player.id] = player;
+    put(player);
 }
 
 void KnownPlayers::setClaims(const std::vector<game::Claim>& claims) {
@@ -73,11 +118,16 @@ void KnownPlayers::setClaims(const std::vector<game::Claim>& claims) {
 }
 
 void KnownPlayers::forget(game::PlayerId id) {
-    players_.erase(id);
+    const auto found = players_.find(id);
+    if (found == players_.end()) return;
+    removeLooks(found->second);
+    players_.erase(found);
 }
 
 void KnownPlayers::setName(game::PlayerId id, const std::string& name) {
-    players_.at(id).name = name;
+    KnownPlayer player = players_.at(id);
+    player.name = name;
+    put(std::move(player));
     records_->changePlayer(id, {.name = name});
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <unordered_map>
 
 #include "terrane/game/permissions.h"
 #include "terrane/net/server/server_records.h"
@@ -14,10 +15,14 @@
 
 namespace terrane::net {
 
-// A name has 1 to kMaxNameBytes bytes of plain text (wire.h) without leading or trailing spaces. It contains
-// no quotation mark, which quotes console arguments, and is not "*", which stands for all players there.
+// A name that a Login may hold: 1 to kMaxNameBytes bytes of plain text (wire.h) without leading or trailing
+// spaces. It contains no quotation mark, which quotes console arguments, and is not "*", which stands for all
+// players there.
 bool isName(std::string_view name);
 std::string nameRule();  // the rule above, as text for the player
+// The normal form of a new name of a player or a claim: one that isName() and base::checkName() accept. The
+// error is one line for the player.
+[[nodiscard]] base::Result<std::string> newName(std::string_view typed);
 // Whether two names are equal, ignoring ASCII case.
 bool isSameName(std::string_view a, std::string_view b);
 
@@ -30,7 +35,10 @@ class KnownPlayers {
     // forget().
     const KnownPlayer* byId(game::PlayerId id) const;
     const KnownPlayer* byKey(const PublicKey& key) const;
+    // A name in another normal form is found, too.
     const KnownPlayer* byName(std::string_view name) const;
+    // Another player than `id` with a name that looks like this one (base/names.h).
+    const KnownPlayer* byLooks(std::string_view name, game::PlayerId id) const;
 
     // Adds a player. `key` and `name` must be unknown. kNoPlayer as number assigns the next one.
     const KnownPlayer& add(const PublicKey& key, const std::string& name, game::Role role,
@@ -52,8 +60,12 @@ class KnownPlayers {
   private:
     explicit KnownPlayers(ServerRecords& records) : records_(&records) {}
 
+    KnownPlayer& put(KnownPlayer player);  // added, or in place of the player with its number
+    void removeLooks(const KnownPlayer& player);
+
     ServerRecords* records_;
     std::map<game::PlayerId, KnownPlayer> players_;
+    std::unordered_multimap<std::string, game::PlayerId> looks_;  // both texts of base::looksOf()
     game::Claims claims_;
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <span>
 
+#include "terrane/base/names.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_history.h"
 #include "terrane/net/server/server_players.h"
@@ -128,8 +129,12 @@ std::optional<game::ColumnArea> areaFrom(Words words) {
 std::string claim(ServerState& server, Words words) {
     const auto area = areaFrom(words.subspan(1));
     if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
-    if (!isName(words[0])) return nameRule();
-    game::Claim made{words[0], *area, game::kNoPlayer, {}};
+    const auto claimName = newName(words[0]);
+    if (!claimName) return claimName.error().message;
+    for (const game::Claim& other : server.knownPlayers.claims().all())
+        if (other.name != *claimName && base::isConfusable(other.name, *claimName))
+            return fmt::format("the name {} looks like that of the claim {}", *claimName, other.name);
+    game::Claim made{*claimName, *area, game::kNoPlayer, {}};
     for (const std::string& name : words.subspan(5)) {
         const KnownPlayer* player = server.knownPlayers.byName(name);
         if (!player) return unknownPlayer(name);
@@ -140,11 +145,13 @@ std::string claim(ServerState& server, Words words) {
     }
     if (const auto added = server.knownPlayers.addClaim(made); !added) return added.error().message;
     server.session.permissions.claims = server.knownPlayers.claims();
-    return fmt::format("{} is claimed for {}", words[0], words[5]);
+    return fmt::format("{} is claimed for {}", *claimName, words[5]);
 }
 
 std::string unclaim(ServerState& server, Words words) {
-    if (!server.knownPlayers.removeClaim(words[0])) return fmt::format("there is no claim {}", words[0]);
+    if (!server.knownPlayers.removeClaim(words[0]) &&
+        !server.knownPlayers.removeClaim(base::normalizedName(words[0])))
+        return fmt::format("there is no claim {}", words[0]);
     server.session.permissions.claims = server.knownPlayers.claims();
     return fmt::format("the claim {} is gone", words[0]);
 }
@@ -191,7 +198,7 @@ std::string mark(ServerState& server, Words words) {
         pose.position[k] = *number;
     }
     if (!world::isInWorld(world::chunkOf(pose.position))) return "this place is not in the world";
-    return markPlace(server, joined(words.subspan(3)), pose, true);
+    return markPlace(server, joined(words.subspan(3)), pose);
 }
 
 std::string unmark(ServerState& server, Words words) {

@@ -65,10 +65,16 @@ void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
 void refuseStranger(ServerState& server, ServerClient& client) {
     const KnownPlayer* known = server.knownPlayers.byKey(client.key);
     if (known && !known->ban.empty()) return refuse(server, client, Refusal::Banned, banText(known->ban));
-    const KnownPlayer* named = server.knownPlayers.byName(client.name);
-    if (named && named != known)
-        return refuse(server, client, Refusal::Name,
-                      fmt::format("the name {} belongs to another player: choose another", client.name));
+    // A player keeps the name by which the server knows it.
+    const bool isKept = known && known->name == client.name;
+    const game::PlayerId own = known ? known->id : game::kNoPlayer;
+    if (const KnownPlayer* named = isKept ? nullptr : server.knownPlayers.byLooks(client.name, own))
+        return refuse(
+            server, client, Refusal::Name,
+            isSameName(named->name, client.name)
+                ? fmt::format("the name {} belongs to another player: choose another", client.name)
+                : fmt::format("the name {} looks like {}, the name of another player: choose another",
+                              client.name, named->name));
     const auto isHere = [&](const ServerClient& other) {
         return other.stage == Stage::Playing && other.address.network == client.address.network &&
                other.key != client.key;
@@ -98,8 +104,14 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
     const Bytes text = loginText(client.channel, client.nonce, login.name);
     if (!isSignedBy(login.key, text, login.signature))
         return refuse(server, client, Refusal::WrongKey, "the signature does not fit the key");
-    client.name = login.name;
     client.key = login.key;
+    client.name = login.name;
+    const KnownPlayer* known = server.knownPlayers.byKey(login.key);
+    if (!known || known->name != login.name) {
+        auto name = newName(login.name);
+        if (!name) return refuse(server, client, Refusal::Name, name.error().message);
+        client.name = std::move(*name);
+    }
     refuseStranger(server, client);
     if (client.stage == Stage::Closed) return;
     if (server.passwordHash.empty()) return offerWorld(server, client);
@@ -220,6 +232,7 @@ void join(ServerState& server, ServerClient& client) {
     server.left.erase(player.id);
     server.session.setPlayer(player.id, pose);
     server.session.permissions.roles[player.id] = player.role;
+    if (server.sharing.shared) server.placeOwners.forget(player.id);
     send(client, Joined{player.id, player.role, static_cast<std::uint8_t>(server.settings.maxViewDistance),
                         client.pose});
     send(client, clockOf(server));

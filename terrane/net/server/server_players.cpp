@@ -6,6 +6,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/match.h"
+#include "terrane/base/names.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_commands.h"
 #include "terrane/net/server/server_console.h"
@@ -19,7 +20,7 @@ void makeChange(std::vector<game::Place>& places, const PlaceChange& change) {
     if (change.isGone)
         std::erase_if(places, [&](const game::Place& place) { return place.name == change.name; });
     else
-        (void)game::namePlace(places, change.name, poseOf(change.pose));
+        (void)game::putPlace(places, change.name, poseOf(change.pose));
 }
 
 store::SaveNumber changeHere(ServerState& server, const PlaceChange& change) {
@@ -34,8 +35,18 @@ void change(ServerState& server, const PlaceChange& change) {
     if (server.sharing.shared) server.sharing.untoldPlaces.push_back({save, change});
 }
 
-bool hasPlace(ServerState& server, const std::string& name) {
-    return std::ranges::count(game::savedPlaces(server.session.store()), name, &game::Place::name) > 0;
+std::vector<game::Place> placesOf(ServerState& server) {
+    return game::savedPlaces(server.session.store());
+}
+
+bool hasPlace(const std::vector<game::Place>& places, std::string_view name) {
+    return std::ranges::count(places, name, &game::Place::name) > 0;
+}
+
+// The known name that was typed, in another normal form if need be.
+std::string knownName(const std::vector<game::Place>& places, std::string_view typed) {
+    const std::string name = game::placeName(typed);
+    return hasPlace(places, name) ? name : base::normalizedName(name);
 }
 
 }  // namespace
@@ -59,22 +70,22 @@ void publishSavedPlaces(ServerState& server) {
         server.sharing.shared->publishPlace(untold.front().second);
 }
 
-std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose, bool mayMove) {
-    const std::string name = game::placeName(typed);
-    if (name.empty()) return "a place needs a name: mark NAME";
-    if (!isPlainText(name)) return "the name of a place is text in UTF-8 without control characters";
-    const bool isTaken = hasPlace(server, name);
-    if (isTaken && !mayMove) return fmt::format("there is a place {}: only operators can move it", name);
-    if (!isTaken && game::savedPlaces(server.session.store()).size() >= game::kMaxPlaces)
+std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose) {
+    if (game::placeName(typed).empty()) return "a place needs a name: mark NAME";
+    const std::vector<game::Place> all = placesOf(server);
+    const auto name = game::namedPlace(all, typed);
+    if (!name) return name.error().message;
+    if (!hasPlace(all, *name) && all.size() >= game::kMaxPlaces)
         return fmt::format("there are {} named places, the maximum: remove one with unmark",
                            game::kMaxPlaces);
-    change(server, {name, wirePose(pose), false});
-    return fmt::format("{} is marked", name);
+    change(server, {*name, wirePose(pose), false});
+    return fmt::format("{} is marked", *name);
 }
 
 std::string unmarkPlace(ServerState& server, std::string_view typed) {
-    const std::string name = game::placeName(typed);
-    if (!hasPlace(server, name)) return fmt::format("there is no place {}: marks lists them", name);
+    const std::vector<game::Place> all = placesOf(server);
+    const std::string name = knownName(all, typed);
+    if (!hasPlace(all, name)) return fmt::format("there is no place {}: marks lists them", name);
     change(server, {name, {}, true});
     return fmt::format("{} is no longer marked", name);
 }
@@ -89,9 +100,41 @@ std::string placeList(ServerState& server) {
     return text;
 }
 
-std::string markHere(ServerState& server, const ServerClient& client, std::string_view name) {
+std::string markHere(ServerState& server, const ServerClient& client, std::string_view typed) {
     if (client.role == game::Role::Guest) return "guests cannot mark places";
-    return markPlace(server, name, poseOf(client.pose), client.role == game::Role::Operator);
+    const world::Pose pose = poseOf(client.pose);
+    if (client.role == game::Role::Operator) return markPlace(server, typed, pose);
+    const std::vector<game::Place> all = placesOf(server);
+    if (game::placeName(typed).empty()) return "a place needs a name: mark NAME";
+    const auto name = game::namedPlace(all, typed);
+    if (!name) return name.error().message;
+    auto own = server.placeOwners.placesOf(client.player, all);
+    if (!own) return own.error().message;
+    if (std::erase_if(*own, [&](const game::Place& place) { return place.name == *name; }) == 0) {
+        if (hasPlace(all, *name))
+            return fmt::format("there is a place {} of another: only operators can move it", *name);
+        if (own->size() >= server.settings.maxPlacesOfPlayer)
+            return fmt::format(
+                "you have named {} places, the maximum of a player: remove one with /unmark NAME",
+                own->size());
+        if (all.size() + kPlacesOfOperators >= game::kMaxPlaces)
+            return fmt::format("there are {} named places: only operators can name more", all.size());
+    }
+    const std::string answer = markPlace(server, *name, pose);
+    for (const game::Place& place : placesOf(server))
+        if (place.name == *name) own->push_back(place);
+    server.placeOwners.set(client.player, *own);
+    return answer;
+}
+
+std::string unmarkOwn(ServerState& server, const ServerClient& client, std::string_view typed) {
+    const std::vector<game::Place> all = placesOf(server);
+    if (client.role == game::Role::Guest) return "guests cannot unmark places";
+    const std::string name = knownName(all, typed);
+    const auto own = server.placeOwners.placesOf(client.player, all);
+    if (!own) return own.error().message;
+    if (!hasPlace(*own, name)) return fmt::format("you have named no place {}", name);
+    return unmarkPlace(server, name);
 }
 
 namespace {
@@ -130,7 +173,11 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     constexpr std::string_view kMark = "/mark ";
     if (message.text.starts_with(kMark))
         return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
-    if (client.role != game::Role::Operator) return say(client, "only operators can give commands");
+    constexpr std::string_view kUnmark = "/unmark ";
+    const bool isOperator = client.role == game::Role::Operator;
+    if (message.text.starts_with(kUnmark) && !isOperator)
+        return say(client, unmarkOwn(server, client, std::string_view(message.text).substr(kUnmark.size())));
+    if (!isOperator) return say(client, "only operators can give commands");
     // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
     say(client, runConsoleLine(server, message.text.substr(1)));

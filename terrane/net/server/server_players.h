@@ -14,13 +14,16 @@ namespace terrane::net {
 // operators any position. On the server's thread.
 // Each returns a line for the player who asked. Other servers of the world are told.
 //
-// markPlace() moves an existing place if `mayMove`; otherwise the name is taken.
-std::string markPlace(ServerState& server, std::string_view name, const world::Pose& pose, bool mayMove);
+// markPlace() moves an existing place.
+std::string markPlace(ServerState& server, std::string_view name, const world::Pose& pose);
 std::string unmarkPlace(ServerState& server, std::string_view name);
 std::string placeList(ServerState& server);
 
-// The chat command "/mark NAME". Guests may not use it; only operators may move an existing place.
+// The chat commands "/mark NAME" and, for players who are no operators, "/unmark NAME". Guests may not use
+// them; only operators may move or remove places of others. Players have a share of the places
+// (place_owners.h).
 std::string markHere(ServerState& server, const ServerClient& client, std::string_view name);
+std::string unmarkOwn(ServerState& server, const ServerClient& client, std::string_view name);
 
 // Applies a change of another server.
 void applyPlaceChange(ServerState& server, const PlaceChange& change);

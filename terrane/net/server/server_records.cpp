@@ -4,6 +4,7 @@
 #include <charconv>
 
 #include "terrane/game/player_state.h"
+#include "terrane/net/server/place_owners.h"
 #include "terrane/net/sharing/shared_world.h"
 
 namespace terrane::net {
@@ -106,6 +107,11 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
     for (const game::Claim& claim : claims) to.addClaim(claim);
     const auto password = TERRANE_TRY(from.text(kPasswordText));
     to.setText(kPasswordText, password);
+    for (const KnownPlayer& player : players) {
+        const std::string name = placesTextOf(player.id);
+        const auto places = TERRANE_TRY(from.text(name));
+        if (!places.empty()) to.setText(name, places);
+    }
     TERRANE_TRY(copyEdits(from, to, begun->newest));
     to.setSavedEdit(ends->newest);
     TERRANE_TRY(to.flush());

@@ -23,6 +23,7 @@
 #include "terrane/net/server/edit_log.h"
 #include "terrane/net/server/edited_chunks.h"
 #include "terrane/net/server/known_players.h"
+#include "terrane/net/server/place_owners.h"
 #include "terrane/net/server/server_client.h"
 #include "terrane/net/sharing/server_sharing.h"
 
@@ -40,6 +41,7 @@ struct ServerSettings {
     game::Role newcomers = game::Role::Player;  // Guest: may look and chat only
     double dayMinutes = 20;
     std::size_t maxFillBlocks = 65536;         // in one command
+    std::size_t maxPlacesOfPlayer = 5;         // named places; operators are not limited
     std::size_t maxUnsentBytes = 4 << 20;      // for a client that does not read
     std::chrono::seconds loginWithin{10};      // from connecting to joining
     std::chrono::seconds silentAfter{20};      // time without a message of a player
@@ -109,6 +111,7 @@ struct ServerState {
           program(serverParts.program),
           packs(serverParts.packs),
           settings(serverSettings),
+          placeOwners(serverParts.records),
           edited({session.generators(), session.store(), session.world(), jobs}) {}
 
     game::Session& session;
@@ -117,6 +120,7 @@ struct ServerState {
     std::string program;
     std::vector<OfferedPack> packs;
     ServerSettings settings;
+    PlaceOwners placeOwners;
 
     WorldFingerprint world;
     SamplePositions samples{};
