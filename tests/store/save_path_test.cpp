@@ -48,5 +48,31 @@ TEST(SavePath, NamesThatAreFiles) {
               "\"a\\nb\": the name of a save has neither slashes nor control characters");
 }
 
+TEST(SavePath, NewNamesFollowTheRule) {
+    const base::TempFolder folder;
+    const SavePlaces places{folder.path().string(), ""};
+    const std::filesystem::path worlds = folder / "terrane";
+    for (const char* bad : {"w\u200b", "\u3164", "\u0391nn", "\xff", "a  b", "a "})
+        EXPECT_FALSE(savePath(bad, places)) << bad;
+    EXPECT_EQ(*savePath("cafe\u0301", places), worlds / "caf\u00e9.sqlite") << "its normal form";
+    std::filesystem::create_directories(worlds);
+    writeAll(worlds / "Ian.sqlite", "");
+    EXPECT_EQ(savePath("lan", places).error().message,
+              "\"lan\": there is no such world, and a new one cannot have a name that looks like \"Ian\"");
+    EXPECT_TRUE(savePath("Jan", places));
+}
+
+// Saves that have such a name from before the rule still open.
+TEST(SavePath, OldNamesStay) {
+    const base::TempFolder folder;
+    const SavePlaces places{folder.path().string(), ""};
+    const std::filesystem::path worlds = folder / "terrane";
+    std::filesystem::create_directories(worlds);
+    for (const char* old : {"w\u200b", "\u3164", "w", "W", "cafe\u0301", "a "}) {
+        writeAll(worlds / (std::string(old) + ".sqlite"), "");
+        EXPECT_EQ(*savePath(old, places), worlds / (std::string(old) + ".sqlite")) << old;
+    }
+}
+
 }  // namespace
 }  // namespace terrane::store

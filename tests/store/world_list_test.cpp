@@ -291,6 +291,22 @@ TEST_F(WorldList, AServerThatRunsKeepsItsFiles) {
     EXPECT_TRUE(fs::exists(folder_ / "home.sqlite") && fs::exists(folder_ / "home.server.sqlite"));
 }
 
+TEST_F(WorldList, NamesThatLookAlikeAreRefused) {
+    make("Ian");
+    make("old\u200b");
+    for (const char* name : {"lan", "IAN", "Ian\u200b", "\u0406an", "\u3164", "cafe\u0301"}) {
+        EXPECT_EQ(codeOf(checkNewWorld(folder_, name)), ErrorCode::BadInput) << name;
+        EXPECT_EQ(codeOf(renameWorld(folder_, "old\u200b", name)), ErrorCode::BadInput) << name;
+    }
+    EXPECT_EQ(codeOf(checkNewWorld(folder_, "old")), ErrorCode::BadInput);
+    EXPECT_TRUE(renameWorld(folder_, "old\u200b", "old"));
+    EXPECT_EQ(checkNewWorld(folder_, "lan").error().message,
+              "\"lan\" looks like the name of the world \"Ian\"");
+    EXPECT_TRUE(renameWorld(folder_, "Ian", "IAN")) << "like its own name";
+    EXPECT_EQ(freeWorldName(folder_, "ian"), "ian 2");
+    EXPECT_TRUE(checkWorldName("\u0421\u0432\u0456\u0442 2"));
+}
+
 TEST_F(WorldList, ProposesAFreeName) {
     EXPECT_EQ(freeWorldName(folder_, "World"), "World");
     make("World");

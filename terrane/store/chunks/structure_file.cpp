@@ -211,7 +211,10 @@ base::Result<fs::path> structurePath(const fs::path& folder, std::string_view na
                           "{:?}: a name has 1 to {} bytes, neither slashes nor control characters, and no "
                           "dot or space in front",
                           name, kMaxSaveName);
-    return folder / (std::string(name) + std::string(kEnding));
+    const fs::path path = folder / (std::string(name) + std::string(kEnding));
+    std::error_code ignored;
+    if (!fs::exists(path, ignored)) TERRANE_TRY(checkNewName(name));  // names that exist stay
+    return path;
 }
 
 base::Result<void> writeStructure(const fs::path& file, const Structure& structure) {

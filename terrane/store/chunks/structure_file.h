@@ -26,7 +26,8 @@ constexpr std::size_t kMaxStructureBytes = 32u << 20;
 // Accepts any bytes. The error for an invalid structure says why.
 [[nodiscard]] base::Result<world::Structure> decodeStructure(ByteView bytes);
 
-// A name has 1 to 100 bytes, no slashes or control characters, and no leading dot or space.
+// A name has 1 to 100 bytes, no slashes or control characters, and no leading dot or space. A name that no
+// file has follows the rule of base/names.h, too.
 [[nodiscard]] base::Result<std::filesystem::path> structurePath(const std::filesystem::path& folder,
                                                                 std::string_view name);
 // Creates the folder if needed. Errors name the file.

@@ -5,6 +5,9 @@
 #include <string_view>
 #include <system_error>
 #include <utility>
+#include <vector>
+
+#include "terrane/base/names.h"
 
 namespace terrane::store {
 
@@ -99,14 +102,44 @@ base::Result<fs::path> dataFolder(const SavePlaces& places) {
                       "no folder for worlds: neither XDG_DATA_HOME nor HOME names an absolute path");
 }
 
-base::Result<fs::path> savePath(std::string_view name, const SavePlaces& places) {
+base::Result<void> checkNewName(std::string_view name) {
     TERRANE_TRY(checkSaveName(name));
+    const auto checked = base::checkName(name, kMaxSaveName);
+    if (!checked) return base::fail(checked.error().code, "{:?}: {}", name, checked.error().message);
+    if (*checked != name)
+        return base::fail(base::ErrorCode::BadInput, "{:?}: a name is in Unicode's normal form NFC", name);
+    return {};
+}
+
+std::string saveLike(const fs::path& folder, std::string_view name, std::string_view former) {
+    std::vector<std::string> names;
+    std::error_code error;
+    fs::directory_iterator at(folder, fs::directory_options::skip_permission_denied, error);
+    for (; !error && at != fs::directory_iterator(); at.increment(error))
+        if (at->path().extension() == ".sqlite") names.push_back(at->path().stem().string());
+    std::erase_if(names, [&](const std::string& other) { return other == name || other == former; });
+    std::ranges::sort(names);
+    return base::nameLike(name, names);
+}
+
+base::Result<fs::path> savePath(std::string_view typed, const SavePlaces& places) {
+    TERRANE_TRY(checkSaveName(typed));
     const auto folder = dataFolder(places);
-    if (!folder) return base::fail(folder.error().code, "{:?}: {}", name, folder.error().message);
-    const std::string file = std::string(name) + ".sqlite";
-    std::error_code ignored;
-    const bool isFormer = !fs::exists(*folder / file, ignored) && fs::exists(places.former / file, ignored);
-    return isFormer ? places.former / file : *folder / file;
+    if (!folder) return base::fail(folder.error().code, "{:?}: {}", typed, folder.error().message);
+    const std::string name = base::normalizedName(typed);
+    for (const std::string& one : {std::string(typed), name}) {
+        const std::string file = one + ".sqlite";
+        std::error_code ignored;
+        if (fs::exists(*folder / file, ignored)) return *folder / file;
+        if (fs::exists(places.former / file, ignored)) return places.former / file;
+    }
+    TERRANE_TRY(checkNewName(name));
+    if (const std::string like = saveLike(*folder, name); !like.empty())
+        return base::fail(
+            base::ErrorCode::BadInput,
+            "{:?}: there is no such world, and a new one cannot have a name that looks like {:?}", typed,
+            like);
+    return *folder / (name + ".sqlite");
 }
 
 }  // namespace terrane::store

@@ -50,8 +50,16 @@ constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, inc
 // character, or with a leading dot or space.
 [[nodiscard]] base::Result<void> checkSaveName(std::string_view name);
 
+// Also fails for a name that no new save or structure can have: see base/names.h. Names that exist stay.
+[[nodiscard]] base::Result<void> checkNewName(std::string_view name);
+// Another save in the folder whose name is confusable with this one; empty if there is none. `former`: a save
+// that gets this name, which does not count.
+[[nodiscard]] std::string saveLike(const std::filesystem::path& folder, std::string_view name,
+                                   std::string_view former = {});
+
 // NAME.sqlite in the data folder, or in the former folder if it exists only there; then the path is relative.
-// Errors of checkSaveName(). Creates no folders.
+// A name that no file has is found in its normal form; errors of checkSaveName(), and if there is no file, of
+// checkNewName() and for a name that looks like that of another save. Creates no folders.
 [[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
 
 }  // namespace terrane::store

@@ -180,8 +180,9 @@ base::Result<fs::path> ownFile(const fs::path& folder, std::string_view name) {
     return path;
 }
 
-base::Result<fs::path> newFile(const fs::path& folder, std::string_view name) {
-    TERRANE_TRY(checkNewWorld(folder, name));
+// `former`: the world's name until now; empty for a world of its own.
+base::Result<fs::path> newFile(const fs::path& folder, std::string_view name, std::string_view former) {
+    TERRANE_TRY(checkNewWorld(folder, name, former));
     return worldFile(folder, name);
 }
 
@@ -193,20 +194,22 @@ void moveThumbnail(const fs::path& from, const fs::path& to) {
 }  // namespace
 
 base::Result<void> checkWorldName(std::string_view name) {
-    TERRANE_TRY(checkSaveName(name));
-    if (name.ends_with(kSaveEnding) || name.back() == ' ' || name.back() == '.')
+    TERRANE_TRY(checkNewName(name));
+    if (name.ends_with(kSaveEnding) || name.back() == '.')
         return base::fail(ErrorCode::BadInput,
-                          "{:?}: the name of a world ends with neither \".sqlite\" nor a space nor a dot",
-                          name);
+                          "{:?}: the name of a world ends with neither \".sqlite\" nor a dot", name);
     if (name.ends_with(".server") || name.ends_with(".map"))
         return base::fail(ErrorCode::BadInput,
                           "{:?}: the name of a world ends with neither \".server\" nor \".map\"", name);
     return {};
 }
 
-base::Result<void> checkNewWorld(const fs::path& folder, std::string_view name) {
+base::Result<void> checkNewWorld(const fs::path& folder, std::string_view name, std::string_view former) {
     TERRANE_TRY(checkWorldName(name));
-    return checkFree(worldFile(folder, name));
+    TERRANE_TRY(checkFree(worldFile(folder, name)));
+    if (const std::string like = saveLike(folder, name, former); !like.empty())
+        return base::fail(ErrorCode::BadInput, "\"{}\" looks like the name of the world \"{}\"", name, like);
+    return {};
 }
 
 fs::path worldFile(const fs::path& folder, std::string_view name) {
@@ -222,10 +225,11 @@ std::string freeWorldName(const fs::path& folder, std::string_view name) {
     std::size_t bytes = std::min(name.size(), kRoom);
     if (bytes < name.size())  // at a UTF-8 character boundary
         while (bytes > 0 && (static_cast<unsigned char>(name[bytes]) & 0xC0) == 0x80) --bytes;
+    while (bytes > 0 && name[bytes - 1] == ' ') --bytes;
     const std::string stem(name.substr(0, bytes));
     for (int number = 1;; ++number) {
         std::string unused = number == 1 ? stem : fmt::format("{} {}", stem, number);
-        if (checkFree(worldFile(folder, unused))) return unused;
+        if (checkFree(worldFile(folder, unused)) && saveLike(folder, unused).empty()) return unused;
     }
 }
 
@@ -260,7 +264,7 @@ std::vector<WorldEntry> listWorlds(const fs::path& folder, const world::BlockReg
 base::Result<void> renameWorld(const fs::path& folder, std::string_view name, std::string_view newName) {
     const auto from = TERRANE_TRY(ownFile(folder, name));
     if (name == newName) return {};
-    const auto to = TERRANE_TRY(newFile(folder, newName));
+    const auto to = TERRANE_TRY(newFile(folder, newName, name));
     const auto moves = TERRANE_TRY(movesOf(from, to));
     if (const std::string lost = lostLog(from); !lost.empty()) base::logWarning("{}", lost);
     const auto locks = TERRANE_TRY(lockAll(databasesOf(from)));
@@ -285,7 +289,7 @@ base::Result<void> copySave(const fs::path& folder, const SaveCopy& copy, const 
                             const CopyProgress& progress) {
     TERRANE_TRY(checkSaveName(copy.name));
     const fs::path from = worldFile(folder, copy.name);
-    const auto to = TERRANE_TRY(newFile(folder, copy.newName));
+    const auto to = TERRANE_TRY(newFile(folder, copy.newName, {}));
     const auto lock = TERRANE_TRY(FileLock::acquire(to, FileLock::Kind::Exclusive));
     auto source = TERRANE_TRY(openToRead(from, blocks));
     // Under another name until it is complete, so that no list shows a partial copy.

@@ -60,12 +60,14 @@ constexpr std::size_t kMaxListedWorlds = 1000;
 // Sorted by lastPlayed, newest first; empty if there is no folder.
 std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const world::BlockRegistry& blocks);
 
-// Fails for a name that a new world cannot have: one that checkSaveName() rejects, or that ends with
-// ".sqlite", ".server", ".map", a space or a dot.
+// Fails for a name that a new world cannot have: one that checkNewName() rejects, or that ends with
+// ".sqlite", ".server", ".map" or a dot. base::normalizedName() gives the normal form of what was typed.
 [[nodiscard]] base::Result<void> checkWorldName(std::string_view name);
 
-// Also fails if there is such a world, or a file that one left and the new one would take over.
-[[nodiscard]] base::Result<void> checkNewWorld(const std::filesystem::path& folder, std::string_view name);
+// Also fails if there is such a world or one whose name looks alike, or a file that one left and the new one
+// would take over. `former`: the name until now of a world that gets this one.
+[[nodiscard]] base::Result<void> checkNewWorld(const std::filesystem::path& folder, std::string_view name,
+                                               std::string_view former = {});
 
 std::filesystem::path worldFile(const std::filesystem::path& folder, std::string_view name);
 // The world's thumbnail beside the save; may not exist.

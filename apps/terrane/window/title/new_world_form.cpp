@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "terrane/base/job_system.h"
+#include "terrane/base/names.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
 #include "terrane/map/area_image.h"
@@ -149,7 +150,7 @@ base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form) {
 }
 
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {
-    const std::string name(trimmed(form.name));
+    const std::string name = base::normalizedName(trimmed(form.name));
     if (name.empty()) return base::fail(base::ErrorCode::BadInput, "a world needs a name");
     TERRANE_TRY(store::checkNewWorld(folder, name));
     auto seed = seedOf(form);

@@ -10,6 +10,7 @@
 #include "apps/terrane/window/ui_style.h"
 #include "apps/terrane/window/widgets.h"
 #include "terrane/base/log.h"
+#include "terrane/base/names.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/framebuffer.h"
 
@@ -392,6 +393,7 @@ void TitleScreen::changeChosen(Change change) {
 
 void TitleScreen::changeName() {
     const bool isRename = pages_.back() == Page::Rename;
+    nameText_ = base::normalizedName(nameText_);
     if (auto good = store::checkWorldName(nameText_); !good) return showMessage(good.error().message);
     pages_.pop_back();
     if (isRename) return changeChosen([&] { return shelf_.rename(nameText_); });
