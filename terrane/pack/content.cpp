@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "terrane/base/names.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
 #include "terrane/lua/script.h"
@@ -22,6 +23,14 @@ base::Result<void> checkRequired(const std::vector<Pack>& packs) {
         if (!names.insert(pack.info.name).second)
             return base::fail(base::ErrorCode::BadInput, "{}/pack.toml: name: there is another pack \"{}\"",
                               pack.where, pack.info.name);
+    std::vector<std::string> known{std::string(kBuiltInPack)};
+    for (const Pack& pack : packs) {
+        if (const std::string like = base::nameLike(pack.info.name, known); !like.empty())
+            return base::fail(base::ErrorCode::BadInput,
+                              "{}/pack.toml: name: \"{}\" looks like the name of the pack \"{}\"", pack.where,
+                              pack.info.name, like);
+        known.push_back(pack.info.name);
+    }
     for (const Pack& pack : packs)
         for (const std::string& name : pack.info.requiredPacks)
             if (!names.contains(name))

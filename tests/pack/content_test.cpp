@@ -90,6 +90,13 @@ TEST(Content, AGeneratorsVersionDoesNotDependOnOtherPacks) {
     EXPECT_NE(gen::versionOf(alone.generators, "isles:flat"), gen::versionOf(other.generators, "isles:flat"));
 }
 
+TEST(Content, PacksWhoseNamesLookAlikeAreRefused) {
+    const auto both = loadContent({packOfFiles(glowFiles("isles1")), packOfFiles(glowFiles("islesl"))});
+    ASSERT_FALSE(both);
+    EXPECT_EQ(both.error().message,
+              "p/pack.toml: name: \"islesl\" looks like the name of the pack \"isles1\"");
+}
+
 TEST(Content, RequiredPacksComeFirst) {
     PackFiles needs = glowFiles("a");
     needs["pack.toml"] = infoOf("a", "requires = [\"b\"]\n");
