@@ -5,9 +5,11 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <memory>
 
 #include "terrane/base/result.h"
 #include "terrane/game/session.h"
+#include "terrane/world/blocks/inventory.h"
 #include "terrane/world/blocks/sign.h"
 
 namespace terrane::game {
@@ -93,6 +95,16 @@ void requireWhole(const world::Structure& structure) {
                   "PlaceStructure: a cell is no index into the structure's palette");
 }
 
+// The data as a block of the type may hold it; null if it may not.
+world::BlockEntityDataPtr fittingData(const world::BlockType& type, const world::BlockEntityDataPtr& data) {
+    if (world::holdsText(type)) return world::decodeSign(*data) ? data : nullptr;
+    if (type.slots == 0) return data;
+    auto fitted = world::fittedInventory(*data, type.slots);
+    if (!fitted) return nullptr;
+    if (*fitted == *data) return data;
+    return std::make_shared<const world::BlockEntityData>(std::move(*fitted));
+}
+
 void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceStructure& place) {
     const world::Structure& structure = *place.structure;
     requireWhole(structure);
@@ -103,8 +115,7 @@ void planStructure(Plan& plan, const world::BlockRegistry& blocks, const PlaceSt
         BlockValue value = values[structure.cells[cell]];
         const auto data = std::ranges::lower_bound(structure.data, cell, {}, &world::StructureData::cell);
         if (data != structure.data.end() && data->cell == cell) {
-            const bool isText = world::holdsText(blocks.type(value.id));
-            if (!isText || world::decodeSign(*data->data)) value.data = data->data;
+            value.data = fittingData(blocks.type(value.id), data->data);
         }
         plan.add(pos, std::move(value));
     });

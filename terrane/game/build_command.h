@@ -25,7 +25,8 @@ struct FillBox {
     std::uint16_t state = 0;
     std::optional<world::BlockId> replaced;
 };
-// Replaces all blocks of the box that begins at `low`, by air too. Invalid texts of signs are left out.
+// Replaces all blocks of the box that begins at `low`, by air too. Invalid texts of signs are left out, and
+// inventories get the slots of their block (world::fittedInventory()).
 struct PlaceStructure {
     std::shared_ptr<const world::Structure> structure;  // not null
     world::BlockPos low;

@@ -126,6 +126,15 @@ base::Result<world::Inventory> itemsOf(const world::World& world, const world::B
     return items;
 }
 
+bool maySetItems(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos,
+                 const world::BlockEntityData& data) {
+    const int slots = blocks.type(world.block(pos)).slots;
+    if (slots == 0 || data.empty()) return true;
+    const auto next = world::decodeSlots(data);
+    const auto former = itemsOf(world, blocks, pos);
+    return next && world::mayReplace(former.value_or(world::Inventory()), *next, slots);
+}
+
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
                world::BlockId& inHand) {
     if (click.slot >= items.size()) return false;

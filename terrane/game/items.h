@@ -65,6 +65,11 @@ bool isContainer(const world::World& world, const world::BlockRegistry& blocks, 
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos);
 
+// Whether an edit may give the block this data: for a container an inventory that world::mayReplace()
+// accepts, or nothing. True for blocks that hold no items.
+bool maySetItems(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos,
+                 const world::BlockEntityData& data);
+
 // Applies a click to `items`. Players have unlimited blocks: putting keeps `inHand`, taking sets it to the
 // block of the item. False if nothing changed. Items that are no blocks of this program cannot be taken.
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,

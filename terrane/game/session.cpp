@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/game/items.h"
 #include "terrane/stream/edited_tiles.h"
 #include "terrane/world/blocks/sign.h"
 #include "terrane/world/changes/random_ticks.h"
@@ -112,6 +113,7 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     const auto* data = std::get_if<world::SetEntityData>(&command.change);
     const bool isText = data && world::holdsText(blocks_->type(world_.block(command.pos)));
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
+    if (data && !maySetItems(world_, *blocks_, command.pos, data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
     // Changes by nobody are one step, recorded only for a listener: of scripts if it hears all, and growth.

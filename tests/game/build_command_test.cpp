@@ -7,6 +7,7 @@
 #include "terrane/light/light_chunk.h"
 #include "terrane/store/chunks/structure_file.h"
 #include "terrane/world/blocks/block_model.h"
+#include "terrane/world/blocks/inventory.h"
 #include "terrane/world/blocks/sign.h"
 #include "tests/game/session_fixture.h"
 
@@ -175,7 +176,10 @@ TEST_F(BuildTest, ACopyGoesThroughAFileAndIsPlacedWithItsData) {
     put({4, 3, kGroundHeight}, "sign", 2);
     const auto text = world::encodeSign({"hello", "", "", "there"});
     session_.edit({kNoPlayer, {4, 3, kGroundHeight}, world::SetEntityData{text}, std::nullopt});
-    session_.edit({kNoPlayer, {3, 3, kGroundHeight}, world::SetEntityData{world::BlockEntityData(9)}, {}});
+    world::Inventory things(27);
+    things[3] = {"sand", 9};
+    session_.edit(
+        {kNoPlayer, {3, 3, kGroundHeight}, world::SetEntityData{world::encodeInventory(things)}, {}});
     put({5, 4, kGroundHeight + 2}, "oak_stairs", 5);
     const world::Structure before = copy(room);
     const auto read = store::decodeStructure(*store::encodeStructure(before));
@@ -195,13 +199,35 @@ TEST_F(BuildTest, ACopyGoesThroughAFileAndIsPlacedWithItsData) {
 TEST_F(BuildTest, AContainerThatIsFilledOverComesBackWithItsThings) {
     const BlockPos pos{3, 3, kGroundHeight};
     put(pos, "chest");
-    session_.edit({kNoPlayer, pos, world::SetEntityData{world::BlockEntityData(9)}, std::nullopt});
+    const auto things = world::encodeInventory(world::Inventory(27, {"sand", 9}));
+    session_.edit({kNoPlayer, pos, world::SetEntityData{things}, std::nullopt});
     fill(kCube, "air");
     EXPECT_EQ(block(pos), world::kAir);
     session_.takeBack(kBuilder, HistoryWay::Undo);
     EXPECT_EQ(block(pos), contentBlock("chest"));
     ASSERT_TRUE(session_.world().blockEntityData(pos));
-    EXPECT_EQ(session_.world().blockEntityData(pos)->size(), 9u);
+    EXPECT_EQ(*session_.world().blockEntityData(pos), things);
+}
+
+TEST_F(BuildTest, InventoriesOfStructuresGetTheSlotsOfTheirBlock) {
+    world::Inventory many(301), few(1, {"sand", 9}), full(28, {"sand", 500});
+    many[300] = {"stone", 1};
+    world::Structure structure{
+        .size = {4, 1, 1}, .palette = {{"chest", 0}}, .cells = {0, 0, 0, 0}, .data = {}};
+    std::uint32_t cell = 0;
+    for (const world::BlockEntityData& data : {world::encodeInventory(many), world::encodeInventory(few),
+                                               world::encodeInventory(full), world::BlockEntityData(9)})
+        structure.data.push_back({cell++, std::make_shared<const world::BlockEntityData>(data)});
+    EXPECT_EQ(place(structure, {3, 3, kGroundHeight}).result, Result::Done);
+    const auto itemsAt = [&](int x) {
+        const world::BlockEntityData* data = session_.world().blockEntityData({x, 3, kGroundHeight});
+        return data ? world::decodeSlots(*data).value() : world::Inventory();
+    };
+    for (const auto& [x, count] : {std::pair(3, 1), {4, 9}, {5, 27 * 99}}) {
+        EXPECT_EQ(itemsAt(x).size(), 27u);
+        EXPECT_EQ(countItems(itemsAt(x), x == 3 ? "stone" : "sand"), count);
+    }
+    EXPECT_EQ(itemsAt(6), world::Inventory()) << "no inventory";
 }
 
 TEST_F(BuildTest, UnknownNamesAreMissingAndTextThatIsNoneIsLeftOut) {

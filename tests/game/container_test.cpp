@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
 
@@ -72,6 +74,44 @@ TEST_F(ContainerTest, DataThatIsNoInventoryIsNamed) {
     const auto items = itemsOf(world_, blocks_, kChest);
     ASSERT_FALSE(items);
     EXPECT_EQ(items.error().message, "the chest at 3,4,50: not an inventory of version 1");
+}
+
+TEST_F(ContainerTest, TakesInventoriesWithItsSlotsAlone) {
+    const auto may = [&](const world::Inventory& items, world::BlockPos pos = kChest) {
+        return maySetItems(world_, blocks_, pos, world::encodeInventory(items));
+    };
+    world::Inventory hidden(301);
+    hidden[300] = {"stone", 1};
+    EXPECT_TRUE(may(world::Inventory(27)));
+    EXPECT_TRUE(maySetItems(world_, blocks_, kChest, {})) << "nothing";
+    EXPECT_FALSE(may(hidden));
+    EXPECT_FALSE(may(world::Inventory(26)));
+    EXPECT_FALSE(maySetItems(world_, blocks_, kChest, world::BlockEntityData(9)));
+    EXPECT_TRUE(may(hidden, kStone)) << "not its subject";
+}
+
+// From a save of version 0.2 or older.
+TEST_F(ContainerTest, WithTooManySlotsCanBeEmptied) {
+    world::Inventory old(301);
+    for (std::size_t slot = 0; slot < 29; ++slot) old[slot] = {"sand", 1};
+    old[300] = {"stone", 2};
+    std::vector<world::BlockEdit> edits;
+    world::applyChange(world_, blocks_, kChest, world::SetEntityData{world::encodeInventory(old)}, edits);
+    world::BlockId hand = world::kAir;
+    std::size_t clicks = 0;
+    for (auto items = itemsOf(world_, blocks_, kChest).value(); clicks < 40; ++clicks) {
+        EXPECT_LE(items.size(), 30u);
+        const auto full = std::ranges::find_if(items, [](const world::ItemStack& s) { return s.count > 0; });
+        if (full == items.end()) break;
+        const auto slot = static_cast<std::size_t>(full - items.begin());
+        ASSERT_TRUE(clickSlot(items, blocks_, {.slot = slot, .takes = true, .wholeStack = true}, hand));
+        const world::BlockEntityData data = world::encodeInventory(items);
+        ASSERT_TRUE(maySetItems(world_, blocks_, kChest, data));
+        world::applyChange(world_, blocks_, kChest, world::SetEntityData{data}, edits);
+        items = itemsOf(world_, blocks_, kChest).value();
+    }
+    EXPECT_EQ(clicks, 30u);
+    EXPECT_EQ(itemsOf(world_, blocks_, kChest).value(), world::Inventory(27));
 }
 
 TEST_F(ContainerTest, AClickBesideTheSlotsChangesNothing) {

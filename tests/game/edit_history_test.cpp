@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "terrane/world/blocks/inventory.h"
 #include "tests/game/session_fixture.h"
 
 namespace terrane::game {
@@ -100,14 +101,15 @@ TEST_F(UndoTest, WhatOthersChangedSinceStays) {
 
 TEST_F(UndoTest, AChestThatGotThingsSinceStays) {
     put(kPlace, "chest");
-    session_.edit({kBert, kPlace, world::SetEntityData{world::BlockEntityData(3)}, std::nullopt});
+    const auto things = world::encodeInventory(world::Inventory(27));
+    session_.edit({kBert, kPlace, world::SetEntityData{things}, std::nullopt});
     EXPECT_EQ(undo().kept, 1u);
     EXPECT_EQ(at(kPlace), "chest");
 }
 
 TEST_F(UndoTest, ABrokenChestComesBackWithItsThings) {
     put(kPlace, "chest");
-    const world::BlockEntityData things(3, std::byte{7});
+    const auto things = world::encodeInventory(world::Inventory(27));
     session_.edit({kAnna, kPlace, world::SetEntityData{things}, std::nullopt});
     put(kPlace, "air");
     undo();

@@ -7,6 +7,7 @@
 
 #include "terrane/store/chunks/structure_file.h"
 #include "terrane/world/blocks/inventory.h"
+#include "terrane/world/blocks/sign.h"
 
 namespace terrane::net {
 namespace {
@@ -23,11 +24,10 @@ class HostileBuilding : public HostileTest {
     Fill fill(CommandNumber number, world::BlockPos low, world::BlockPos high) const {
         return {number, {{low, high}, contentBlock("glass"), 0, {}}};
     }
-    // Contents of a chest whose items have long names.
-    static Bytes chestData(std::size_t nameBytes) {
+    static Bytes chestData(const std::string& item) {
         const int slots = contentBlocks().find("chest")->slots;
         world::Inventory inventory(static_cast<std::size_t>(slots));
-        for (world::ItemStack& stack : inventory) stack = {std::string(nameBytes, 'x'), 1};
+        for (world::ItemStack& stack : inventory) stack = {item, 1};
         return world::encodeInventory(inventory);
     }
     // A row of blocks along x, each with data.
@@ -116,12 +116,24 @@ TEST_F(HostileBuilding, DataIsForBlocksThatKeepSome) {
     const world::BlockPos pos = nearSpawn();
     loadAround(pos);
     const auto bob = joined("Bob");
-    const world::SetEntityData data{chestData(1)}, noise{Bytes(100)};
+    const world::SetEntityData data{chestData("stone")}, noise{Bytes(100)};
     expectDecision(*bob, put(1, pos), 1, EditResult::Applied);
     expectDecision(*bob, Edit{2, pos, data, {}}, 2, EditResult::BadData);
     expectDecision(*bob, put(3, pos, "chest"), 3, EditResult::Applied);
     expectDecision(*bob, Edit{4, pos, noise, {}}, 4, EditResult::BadData);
     expectDecision(*bob, Edit{5, pos, data, {}}, 5, EditResult::Applied);
+    const auto refused = [&](CommandNumber number, const Bytes& bytes) {
+        expectDecision(*bob, Edit{number, pos, world::SetEntityData{bytes}, {}}, number, EditResult::BadData);
+    };
+    world::Inventory hidden(301), large(27);
+    hidden[300] = {"stone", 1};
+    large[0] = {"stone", 65535};
+    refused(6, world::encodeInventory(hidden));
+    refused(7, world::encodeInventory(world::Inventory(10000)));
+    refused(8, world::encodeInventory(large));
+    refused(9, chestData("\x1b[31m\n<script>"));
+    refused(10, chestData("no_such_block"));
+    refused(11, chestData(std::string(255, 'x')));
 }
 
 TEST_F(HostileBuilding, DataOfStructuresIsForBlocksThatKeepSome) {
@@ -131,8 +143,9 @@ TEST_F(HostileBuilding, DataOfStructuresIsForBlocksThatKeepSome) {
     const auto bob = joined("Bob");
     expectDecision(
         *bob,
-        Place{1, pos, structureWith({"stone", "chest", "chest"}, {Bytes(100), Bytes(100), chestData(1)})}, 1,
-        BuildResult::Done);
+        Place{1, pos,
+              structureWith({"stone", "chest", "chest"}, {Bytes(100), Bytes(100), chestData("stone")})},
+        1, BuildResult::Done);
     const world::World& world = server_->state().session.world();
     EXPECT_EQ(world::blockValue(world, pos).data, nullptr);
     EXPECT_EQ(world::blockValue(world, {pos.x + 1, pos.y, pos.z}).data, nullptr);
@@ -146,16 +159,25 @@ TEST_F(HostileBuilding, DataOfAChunkIsBounded) {
     const world::BlockPos pos = nearSpawn();
     loadAround(pos);
     const auto bob = joined("Bob");
-    const Bytes full = chestData(255);
-    const std::vector<std::string> names(8, "chest");
-    const std::vector<Bytes> data(8, full);
-    CommandNumber number = 0;
+    // Signs on stone: 128 of the longest texts, 50 KB.
+    std::string line;
+    for (std::size_t k = 0; k < world::kSignColumns; ++k) line += "\U0001f438";
+    const auto text =
+        std::make_shared<const world::BlockEntityData>(world::encodeSign({line, line, line, line}));
+    world::Structure signs;
+    signs.size = {8, 8, 4};
+    signs.palette = {{"stone", 0}, {"sign", 0}};
+    for (std::uint32_t cell = 0; cell < 256; ++cell) {
+        signs.cells.push_back(cell / 64 % 2);
+        if (cell / 64 % 2 == 1) signs.data.push_back({cell, text});
+    }
+    const Bytes structure = store::encodeStructure(signs).value();
     int placed = 0;
     const world::ChunkPos chunk = world::chunkOf(pos);
-    for (int z = 1; z < 80; ++z) {
-        const world::BlockPos low{chunk.x * 16 + 2, chunk.y * 16 + 2, pos.z + z % 4};
-        const Place place{++number, {low.x, low.y + z / 4 % 8, low.z}, structureWith(names, data)};
-        const auto done = decision(*bob, (bob->say(place), number));
+    for (int k = 0; k < 32; ++k) {
+        const auto number = static_cast<CommandNumber>(k + 1);
+        const world::BlockPos low{chunk.x * 16 + k % 2 * 8, chunk.y * 16 + k / 2 % 2 * 8, pos.z + k / 4 * 4};
+        const auto done = decision(*bob, (bob->say(Place{number, low, structure}), number));
         ASSERT_TRUE(done);
         placed += static_cast<BuildResult>(done->result) == BuildResult::Done;
         server_->now += std::chrono::seconds(1);

@@ -76,17 +76,30 @@ bool isKnown(const ServerState& server, world::BlockId id) {
     return id < server.session.blocks().types().size();
 }
 
+// Whether all items are blocks of the server, or were there before: other names are only a load.
+bool hasKnownItems(const world::BlockRegistry& blocks, const world::Inventory& items,
+                   const world::Inventory& former) {
+    return std::ranges::all_of(items, [&](const world::ItemStack& stack) {
+        return stack.count == 0 || blocks.find(stack.item) || world::countItems(former, stack.item) > 0;
+    });
+}
+
 // Whether `data` is valid block entity data for the type: other data is only a load on disk and network.
-bool keepsData(const world::BlockType& type, const world::BlockEntityData& data) {
+// `former`: the data that it replaces, or null.
+bool keepsData(const world::BlockRegistry& blocks, const world::BlockType& type,
+               const world::BlockEntityData& data, const world::BlockEntityData* former = nullptr) {
     if (world::holdsText(type)) return world::decodeSign(data).has_value();
-    return type.slots > 0 && data.size() <= kMaxBlockData && world::decodeInventory(data, type.slots);
+    if (type.slots == 0 || data.size() > kMaxBlockData) return false;
+    const auto items = world::decodeSlots(data);
+    const auto before = former ? world::decodeSlots(*former) : world::Inventory();
+    return items && hasKnownItems(blocks, *items, before.value_or(world::Inventory()));
 }
 
 // Removes invalid block entity data.
 void dropOtherData(world::Structure& structure, const world::BlockRegistry& blocks) {
     const std::vector<world::BlockValue> values = world::paletteValues(structure, blocks);
     std::erase_if(structure.data, [&](const world::StructureData& data) {
-        return !keepsData(blocks.type(values[structure.cells[data.cell]].id), *data.data);
+        return !keepsData(blocks, blocks.type(values[structure.cells[data.cell]].id), *data.data);
     });
 }
 
@@ -110,8 +123,8 @@ bool isSensible(const ServerState& server, const Edit& edit) {
     const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
     const world::BlockEntityData* former = server.session.world().blockEntityData(edit.pos);
     const std::size_t freed = former ? std::min(former->size(), data->data.size()) : 0;
-    return data->data.empty() ||
-           (keepsData(type, data->data) && hasRoom(server, {edit.pos, edit.pos}, data->data.size() - freed));
+    return data->data.empty() || (keepsData(server.session.blocks(), type, data->data, former) &&
+                                  hasRoom(server, {edit.pos, edit.pos}, data->data.size() - freed));
 }
 bool isSensible(const ServerState& server, const Build& build) {
     if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(server, fill->id);

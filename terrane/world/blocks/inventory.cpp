@@ -1,9 +1,12 @@
 #include "terrane/world/blocks/inventory.h"
 
 #include <algorithm>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "terrane/base/result.h"
+#include "terrane/base/text.h"
 
 namespace terrane::world {
 namespace {
@@ -77,7 +80,7 @@ BlockEntityData encodeInventory(const Inventory& inventory) {
     return out;
 }
 
-base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) {
+base::Result<Inventory> decodeSlots(const BlockEntityData& data) {
     if (data.size() < kHeaderBytes || data[0] != kVersion) return base::fail("not an inventory of version 1");
     std::span<const std::byte> rest(data);
     const std::size_t slotCount = read16(rest.subspan(1));
@@ -96,8 +99,60 @@ base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) 
         rest = rest.subspan(kSlotBytes + length);
     }
     if (!rest.empty()) return base::fail("an inventory with {} bytes too many", rest.size());
-    if (inventory.size() < static_cast<std::size_t>(slots)) inventory.resize(static_cast<std::size_t>(slots));
     return inventory;
+}
+
+namespace {
+
+Inventory withSlots(Inventory inventory, std::size_t slots) {
+    if (inventory.size() <= slots) {
+        inventory.resize(slots);
+        return inventory;
+    }
+    Inventory beyond(std::make_move_iterator(inventory.begin() + static_cast<std::ptrdiff_t>(slots)),
+                     std::make_move_iterator(inventory.end()));
+    inventory.resize(slots);
+    std::erase_if(beyond, [](const ItemStack& stack) { return stack.count == 0; });
+    auto next = beyond.begin();
+    for (ItemStack& stack : inventory)
+        if (stack.count == 0 && next != beyond.end()) stack = std::move(*next++);
+    inventory.insert(inventory.end(), std::make_move_iterator(next), std::make_move_iterator(beyond.end()));
+    return inventory;
+}
+
+}  // namespace
+
+base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots) {
+    auto inventory = TERRANE_TRY(decodeSlots(data));
+    return withSlots(std::move(inventory), static_cast<std::size_t>(slots));
+}
+
+namespace {
+
+bool isUsual(const ItemStack& stack) {
+    return stack.count <= kMaxStack && base::printable(stack.item) == stack.item;
+}
+
+}  // namespace
+
+bool mayReplace(const Inventory& former, const Inventory& next, int slots) {
+    const auto wanted = static_cast<std::size_t>(slots);
+    if (next.size() != wanted && (next.size() < wanted || next.size() > former.size())) return false;
+    return std::ranges::all_of(next, [&](const ItemStack& stack) {
+        return isUsual(stack) || std::ranges::any_of(former, [&](const ItemStack& before) {
+                   return before.item == stack.item && before.count >= stack.count;
+               });
+    });
+}
+
+base::Result<BlockEntityData> fittedInventory(const BlockEntityData& data, int slots) {
+    auto inventory = TERRANE_TRY(decodeInventory(data, slots));
+    inventory.resize(static_cast<std::size_t>(slots));
+    for (ItemStack& stack : inventory) {
+        if (base::printable(stack.item) != stack.item) stack = {};
+        stack.count = std::min(stack.count, kMaxStack);
+    }
+    return encodeInventory(inventory);
 }
 
 }  // namespace terrane::world

@@ -39,7 +39,20 @@ int countItems(const Inventory& inventory, std::string_view item);
 // Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the
 // length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
 BlockEntityData encodeInventory(const Inventory& inventory);
-// An error if the bytes are no such inventory. `slots`: the block's; items beyond them are kept.
+// The slots as the bytes have them; an error if the bytes are no such inventory.
+[[nodiscard]] base::Result<Inventory> decodeSlots(const BlockEntityData& data);
+// The items of a block. `slots`: the block's. Stacks of slots beyond them, which
+// programs up to 0.2 accepted, move into empty slots; those that find none follow as further slots, so that
+// all can be seen and taken out.
 [[nodiscard]] base::Result<Inventory> decodeInventory(const BlockEntityData& data, int slots);
+
+// Whether an edit may replace the items of a block by these: in as many slots as the block has, with stacks
+// of at most kMaxStack and names without control characters. Of items that are not so, from older programs,
+// there may be as many as before.
+bool mayReplace(const Inventory& former, const Inventory& next, int slots);
+
+// The data as a block with so many slots may get it: in a structure, for example. Stacks that find no room
+// are left out. An error if the bytes are no inventory.
+[[nodiscard]] base::Result<BlockEntityData> fittedInventory(const BlockEntityData& data, int slots);
 
 }  // namespace terrane::world
