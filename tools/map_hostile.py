@@ -60,7 +60,7 @@ class Attack:
                     break
                 if len(clients) % 4 == 0:  # requests a large answer, and never reads it
                     client.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 4096)
-                    client.sendall(b"GET /leaflet.js HTTP/1.1\r\nHost: x\r\n\r\n" * 50)
+                    client.sendall(b"GET /leaflet.js HTTP/1.1\r\nHost: localhost\r\n\r\n" * 50)
                 clients.append(client)
             for client in list(clients):
                 try:

@@ -22,7 +22,7 @@ class Client:
     def ask(self, path):
         self.received, self.expected = bytearray(), None
         self.begun = time.perf_counter()
-        self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: map\r\n\r\n".encode())
+        self.socket.sendall(f"GET {path} HTTP/1.1\r\nHost: localhost\r\n\r\n".encode())
 
     def take(self):
         """Reads available data. Returns the seconds since ask() once the answer is complete, None before. Raises

@@ -2,6 +2,8 @@
 #include <algorithm>
 #include <boost/asio/read_until.hpp>
 #include <boost/asio/write.hpp>
+#include <optional>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -51,6 +53,28 @@ bool WebServer::Impl::mayAsk(Connection& connection) {
     return !connection.isLimited || use.requests.take(1, use.seen);
 }
 
+namespace {
+
+// Status and text for a request that names another host, or comes from a page of another site. Every browser
+// sends Host.
+std::optional<std::pair<int, std::string_view>> refusalOfHost(const http::request<http::empty_body>& request,
+                                                              const OwnHosts& own) {
+    const auto textOf = [&](http::field field) {
+        const auto found = request.find(field);
+        return found == request.end() ? std::string_view()
+                                      : std::string_view(found->value().data(), found->value().size());
+    };
+    const std::string_view host = textOf(http::field::host);
+    if (request.count(http::field::host) > 1) return std::pair(400, "one request has one host\n");
+    if (request.count(http::field::host) == 1 && !isOwnHost(host, own))
+        return std::pair(421, "this host is no name of the map: its server allows names with --map-host\n");
+    if (request.count(http::field::origin) > 0 && !isOwnOrigin(textOf(http::field::origin), host, own))
+        return std::pair(403, "pages of other sites get no answers\n");
+    return std::nullopt;
+}
+
+}  // namespace
+
 void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParser& parser) {
     const auto& request = parser.get();
     ++statistics.requests;
@@ -65,6 +89,8 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
         return reply(connection, busyAnswer(429, "too many requests\n"));
     }
     if (hasBody) return reply(connection, textAnswer(413, "requests have no body here\n"));
+    if (const auto refusal = refusalOfHost(request, own))
+        return reply(connection, textAnswer(refusal->first, std::string(refusal->second)));
     if (request.method() != http::verb::get && !connection->isHead)
         return reply(connection, textAnswer(405, "only GET and HEAD are allowed\n"));
     const auto target = parseTarget({request.target().data(), request.target().size()});

@@ -54,6 +54,7 @@ namespace asio = boost::asio;
 
 base::Result<void> WebServer::Impl::listen(const WebAddress& address) {
     TERRANE_TRY(base::listenAt(acceptor, address.address, address.port));
+    own = {address.address, address.hosts};
     accept();
     return {};
 }

@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "terrane/base/result.h"
 #include "terrane/web/event_hub.h"
@@ -59,6 +60,9 @@ namespace terrane::web {
 struct WebAddress {
     std::string address = "127.0.0.1";
     std::uint16_t port = 0;  // 0: any free port
+    // Names of the server besides localhost and its address (host_check.h): requests for other hosts and from
+    // pages of other sites are refused.
+    std::vector<std::string> hosts = {};
 };
 
 struct WebLimits {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "terrane/web/host_check.h"
 #include "terrane/web/web_connection_internal.h"
 #include "terrane/web/web_server.h"
 
@@ -40,6 +41,7 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
     }
 
     Tcp::acceptor acceptor;
+    OwnHosts own;
     AnswerRoute answer;
     EventHub& events;
     WebLimits limits;

@@ -59,7 +59,7 @@ class Browser {
 
     void send(std::string_view text) { (void)::send(socket_, text.data(), text.size(), MSG_NOSIGNAL); }
     void get(const std::string& target, const std::string& fields = {}) {
-        send("GET " + target + " HTTP/1.1\r\nHost: here\r\n" + fields + "\r\n");
+        send("GET " + target + " HTTP/1.1\r\nHost: localhost\r\n" + fields + "\r\n");
     }
     void close() {
         if (socket_ >= 0) ::close(std::exchange(socket_, -1));

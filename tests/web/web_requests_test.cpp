@@ -10,7 +10,7 @@ class WebRequestsTest : public WebServerTest {};
 
 TEST_F(WebRequestsTest, AnswersGet) {
     start();
-    const Received page = answerTo("GET / HTTP/1.1\r\nHost: here\r\n\r\n");
+    const Received page = answerTo("GET / HTTP/1.1\r\nHost: localhost\r\n\r\n");
     EXPECT_EQ(page.status, 200);
     EXPECT_EQ(page.body, "the page");
     EXPECT_EQ(page.field("Content-Length"), "8");
@@ -18,6 +18,26 @@ TEST_F(WebRequestsTest, AnswersGet) {
     EXPECT_EQ(answerTo("GET /a.css?x=1 HTTP/1.1\r\n\r\n").body, "a.css") << "also without a host";
     EXPECT_EQ(server_->statistics().answers2xx, 2u);
     EXPECT_EQ(server_->statistics().requests, 2u);
+}
+
+// DNS rebinding: a page of evil.example asks this machine under its own name.
+TEST_F(WebRequestsTest, OtherHostsAndPagesOfOtherSitesAreRefused) {
+    start({}, {.hosts = {"map.example.org"}});
+    const auto answer = [&](const std::string& fields, const std::string& path = "/") {
+        return answerTo("GET " + path + " HTTP/1.1\r\n" + fields + "\r\n");
+    };
+    for (const char* path : {"/", "/api/edits", "/api/block?x=1&y=2", "/metrics"}) {
+        const Received refused = answer("Host: evil.example\r\n", path);
+        EXPECT_EQ(refused.status, 421) << path;
+        EXPECT_EQ(refused.body, "this host is no name of the map: its server allows names with --map-host\n");
+    }
+    EXPECT_EQ(answer("Host: localhost\r\nOrigin: http://evil.example\r\n", "/api/edits").status, 403);
+    EXPECT_EQ(answer("Host: localhost\r\nOrigin: null\r\n").status, 403);
+    EXPECT_EQ(answer("Host: localhost\r\nHost: evil.example\r\n").status, 400);
+    for (const char* host : {"localhost", "127.0.0.1:80", "map.example.org", "Map.Example.Org:443"})
+        EXPECT_EQ(answer(std::string("Host: ") + host + "\r\n").body, "the page") << host;
+    EXPECT_EQ(answer("Host: localhost:80\r\nOrigin: http://localhost:80\r\n").body, "the page");
+    EXPECT_EQ(answer("Host: 127.0.0.1\r\nOrigin: https://map.example.org\r\n").body, "the page");
 }
 
 TEST_F(WebRequestsTest, HeadHasNoBody) {

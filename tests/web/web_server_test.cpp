@@ -27,7 +27,7 @@ TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
     server.tick();
     EXPECT_TRUE(isClosedSoon(silent)) << "the first request is due at once";
     EXPECT_FALSE(patient.isClosed()) << "there is no request to wait for";
-    for (const char* part : {"G", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nHost: here\r\n"}) {
+    for (const char* part : {"G", "GET / HTTP/1.1\r\n", "GET / HTTP/1.1\r\nHost: localhost\r\n"}) {
         Browser slow = browser();
         slow.get("/b");
         EXPECT_EQ(next(slow).body, "b");

@@ -74,7 +74,7 @@ base::Result<void> checkOptions(const MapOptions& options, const CLI::App& comma
                name == "--map-places";
     };
     for (const char* name : {"--radius", "--area", "--level", "--max-zoom", "--layers", "--map-places",
-                             "--map-disk", "--map-memory"}) {
+                             "--map-disk", "--map-host", "--map-memory"}) {
         const CLI::Option* option = command.get_option_no_throw(name);
         if (option && !option->empty() && !belongs(name))
             return base::fail(base::ErrorCode::BadInput, "{} cannot be used with {}", name,

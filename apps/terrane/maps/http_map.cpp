@@ -34,7 +34,8 @@ std::filesystem::path cacheFile(const SaveOptions& save, const std::string& orig
 
 base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
                            const std::string& resourcePack, const MapSiteOptions& options) {
-    const auto address = TERRANE_TRY(webAddressFrom(options.http));
+    auto address = TERRANE_TRY(webAddressFrom(options.http));
+    address.hosts = options.hosts;
     const auto places = TERRANE_TRY(readPlaceFile(options.places));
     const auto world = TERRANE_TRY(openMapWorld(worldOptions, save, resourcePack));
     const auto spawn = TERRANE_TRY(spawnOf(*world));

@@ -4,6 +4,7 @@
 #include "apps/terrane/maps/site_parts.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
+#include "terrane/web/host_check.h"
 
 namespace terrane::app {
 namespace {
@@ -12,6 +13,15 @@ constexpr double kMaxMegabytes = 1e6;
 
 CLI::Validator notEmpty() {
     return CLI::Validator([](const std::string& value) { return value.empty() ? "is empty" : ""; }, "");
+}
+
+CLI::Validator hostName() {
+    return CLI::Validator(
+        [](const std::string& value) {
+            return web::isHostName(value) ? std::string()
+                                          : value + " is no host name, such as map.example.org";
+        },
+        "");
 }
 
 void addPlayerOption(CLI::App& command, MapSiteOptions& options) {
@@ -31,6 +41,12 @@ void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer
             "such as 0.0.0.0:8080 or [::]:8080, to others")
         ->check(notEmpty())
         ->type_name("[ADDRESS:]PORT");
+    command
+        .add_option("--map-host", options.hosts,
+                    "Name under which browsers reach the map, such as map.example.org; again for each name. "
+                    "Without it they reach it as localhost and by its address")
+        ->check(hostName())
+        ->type_name("NAME");
     command
         .add_option("--map-disk", options.diskMegabytes, "Megabytes of the cache file for maps; 0: no file")
         ->check(numberFrom(0, kMaxMegabytes))

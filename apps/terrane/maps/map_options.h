@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "terrane/base/result.h"
 
@@ -17,7 +18,8 @@ namespace terrane::app {
 enum class ShownPlayers : std::uint8_t { None, Surface, All };
 
 struct MapSiteOptions {
-    std::string http;  // "PORT" or "ADDRESS:PORT"; empty: no map
+    std::string http;                // "PORT" or "ADDRESS:PORT"; empty: no map
+    std::vector<std::string> hosts;  // names of the map besides localhost and its address
     int diskMegabytes = 300, memoryMegabytes = 64;
     unsigned threads = 1;
     std::string places;  // file; empty: none

@@ -90,7 +90,8 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
                                                          const std::filesystem::path& files,
                                                          const world::TextureSource& textures) {
     if (options.http.empty()) return nullptr;
-    const auto address = TERRANE_TRY(webAddressFrom(options.http));
+    auto address = TERRANE_TRY(webAddressFrom(options.http));
+    address.hosts = options.hosts;
     auto places = TERRANE_TRY(readPlaceFile(options.places));
     game::Session& session = server.session;
     auto impl = std::make_unique<Impl>(server);
