@@ -130,6 +130,28 @@ TEST_F(HostileLogin, AKnownPlayerKeepsItsName) {
     EXPECT_EQ(server_->state().knownPlayers.byName(old.name), nullptr) << "the old name is free";
 }
 
+TEST_F(HostileLogin, AFullQueueOfPasswordsHasRoomForOtherAddresses) {
+    start();
+    (void)runConsoleLine(server_->state(), "password secret");
+    std::vector<std::unique_ptr<TestWire>> wires;
+    const auto comeFrom = [&](const std::string& address) {
+        wires.push_back(std::make_unique<TestWire>(*server_));
+        TestWire& wire = *wires.back();
+        clientOf(wire).address.network = address;
+        wire.say(greetedLogin(wire, testIdentity(fmt::format("Player {}", wires.size()))));
+        return clientOf(wire).stage == ServerClient::Stage::Password;
+    };
+    for (int address = 0; address < 8; ++address) {
+        for (int k = 0; k < 4; ++k) EXPECT_TRUE(comeFrom(fmt::format("crowd {}", address)));
+        EXPECT_FALSE(comeFrom(fmt::format("crowd {}", address))) << "an address has a share";
+    }
+    EXPECT_TRUE(comeFrom("somewhere else"));
+    EXPECT_LE(server_->state().passwordQueue.size(), 32u);
+    std::size_t waiting = 0;
+    for (const auto& wire : wires) waiting += clientOf(*wire).stage == ServerClient::Stage::Password;
+    EXPECT_EQ(waiting, server_->state().passwordQueue.size());
+}
+
 TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
     start();
     TestWire version(*server_), magic(*server_), world(*server_);

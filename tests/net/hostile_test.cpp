@@ -101,6 +101,23 @@ TEST_F(HostileTestOfPlay, WhoTalksTooFastIsToldAndStays) {
     EXPECT_EQ(std::get<Said>(answers.back()).text, "you chat too fast");
 }
 
+TEST_F(HostileTestOfPlay, ManyPlayersOfAnAddressShareTheChat) {
+    start();
+    std::vector<std::unique_ptr<TestWire>> crowd;
+    for (int k = 0; k < 12; ++k) {
+        crowd.push_back(joined(fmt::format("Crowd {}", k)));
+        clientOf(*crowd.back()).address.network = "crowd";
+    }
+    (void)ann_->take();
+    for (int k = 0; k < 8; ++k)
+        for (const auto& wire : crowd) wire->say(Say{"spam"});
+    std::size_t heard = 0;
+    for (const ServerMessage& message : ann_->take()) heard += std::holds_alternative<Said>(message);
+    EXPECT_LE(heard, 40u) << "not 96";
+    EXPECT_GT(heard, 8u);
+    EXPECT_EQ(std::get<Said>(crowd.back()->take().back()).text, "too many lines come from your address");
+}
+
 // ——— moves and views
 
 TEST_F(HostileTestOfPlay, MovesThatAreNotBelieved) {

@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <deque>
+#include <map>
 #include <optional>
 #include <string>
 #include <unordered_set>
@@ -62,6 +63,12 @@ struct ClientAddress {
     std::string network;  // key of the limits per address: base::networkOf()
     bool isOwnMachine = false;
 };
+
+// Rate limits by ClientAddress::network.
+using AddressBuckets = std::map<std::string, base::TokenBucket>;
+// Takes one from the bucket of the address, which begins as `full`. This machine has no limit.
+bool takeOfAddress(AddressBuckets& buckets, const ClientAddress& address, const base::TokenBucket& full,
+                   Time now);
 
 struct ServerClient {
     enum class Stage : std::uint8_t { Hello, Login, Password, Proof, Playing, Closed };

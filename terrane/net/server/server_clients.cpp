@@ -18,6 +18,15 @@ std::vector<std::string_view> linesOf(std::string_view text) {
 
 }  // namespace
 
+bool takeOfAddress(AddressBuckets& buckets, const ClientAddress& address, const base::TokenBucket& full,
+                   Time now) {
+    // Bounds the memory; beyond it the limits are reset.
+    constexpr std::size_t kMaxAddresses = 4096;
+    if (address.isOwnMachine) return true;
+    if (buckets.size() >= kMaxAddresses) buckets.clear();
+    return buckets.try_emplace(address.network, full).first->second.take(1, now);
+}
+
 void send(ServerClient& client, const ServerMessage& message) {
     sendEncoded(client, encode(message));
 }

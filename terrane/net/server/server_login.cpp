@@ -1,6 +1,8 @@
 #include "terrane/net/server/server_login.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -48,8 +50,6 @@ using Stage = ServerClient::Stage;
 
 constexpr std::size_t kMaxWaitingPasswords = 32;
 constexpr std::ptrdiff_t kMaxPasswordsOfAddress = 4;
-// Bounds the memory of the limits per address; beyond it they are reset.
-constexpr std::size_t kMaxAddresses = 4096;
 
 void onHello(ServerState& server, ServerClient& client, const Hello& hello) {
     if (hello.version != kProtocolVersion)
@@ -99,6 +99,25 @@ void offerWorld(ServerState& server, ServerClient& client) {
     send(client, offer);
 }
 
+// In a full queue, the address with the most waiting clients loses its last one to an address with fewer.
+bool hasRoomForPassword(ServerState& server, std::ptrdiff_t ofAddress) {
+    std::deque<WaitingPassword>& queue = server.passwordQueue;
+    if (queue.size() < kMaxWaitingPasswords) return true;
+    const auto networkOf = [&](const WaitingPassword& waiting) -> const std::string& {
+        return server.clients.at(waiting.client).address.network;
+    };
+    std::map<std::string, std::ptrdiff_t> counts;
+    for (const WaitingPassword& waiting : queue) ++counts[networkOf(waiting)];
+    const auto most = std::ranges::max_element(counts, {}, [](const auto& entry) { return entry.second; });
+    if (most->second <= ofAddress + 1) return false;
+    const auto last = std::find_if(queue.rbegin(), queue.rend(), [&](const WaitingPassword& waiting) {
+        return networkOf(waiting) == most->first;
+    });
+    refuse(server, server.clients.at(last->client), Refusal::Full, "too many players log in: try again soon");
+    queue.erase(std::next(last).base());
+    return true;
+}
+
 void onLogin(ServerState& server, ServerClient& client, const Login& login) {
     if (!isName(login.name)) return refuse(server, client, Refusal::Name, nameRule());
     const Bytes text = loginText(client.channel, client.nonce, login.name);
@@ -124,8 +143,7 @@ void onLogin(ServerState& server, ServerClient& client, const Login& login) {
         return server.clients.at(waiting.client).address.network == client.address.network;
     });
     const bool isOwn = client.address.isOwnMachine;
-    if (server.passwordQueue.size() >= kMaxWaitingPasswords ||
-        (!isOwn && ofAddress >= kMaxPasswordsOfAddress))
+    if ((!isOwn && ofAddress >= kMaxPasswordsOfAddress) || !hasRoomForPassword(server, ofAddress))
         return refuse(server, client, Refusal::Full, "too many players log in: try again soon");
     client.stage = Stage::Password;
     server.passwordQueue.push_back({client.id, login.password});
@@ -180,11 +198,8 @@ void replaceFormer(ServerState& server, const KnownPlayer& player) {
 
 // Rate limit for new players: each adds a permanent row to the records.
 bool mayComeNew(ServerState& server, const ClientAddress& address) {
-    if (address.isOwnMachine) return true;
-    if (server.newPlayers.size() >= kMaxAddresses) server.newPlayers.clear();
     const double most = server.settings.newPlayersPerHour;
-    return server.newPlayers.try_emplace(address.network, most / 3600, most)
-        .first->second.take(1, server.now);
+    return takeOfAddress(server.newPlayers, address, {most / 3600, most}, server.now);
 }
 
 // The player's row with its current name, added for a new player.

@@ -139,6 +139,8 @@ std::string unmarkOwn(ServerState& server, const ServerClient& client, std::stri
 
 namespace {
 
+// Lines of chat of all players of an address: five times those of a player.
+const base::TokenBucket kChatOfAddress{5, 40};
 constexpr std::uint64_t kTicksPerPing = 100, kTicksPerClock = 200;
 // Maximum distance in chunks between a client's last known position and the center of its view. The client
 // may have moved since.
@@ -165,6 +167,8 @@ void onView(ServerClient& client, const View& view) {
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (!client.buckets.chat.take(1, server.now)) return say(client, "you chat too fast");
+    if (!takeOfAddress(server.chatOfAddress, client.address, kChatOfAddress, server.now))
+        return say(client, "too many lines come from your address");
     if (message.text.empty()) return;
     if (message.text.front() != '/') {
         base::logInfo("<{}> {}", client.name, message.text);

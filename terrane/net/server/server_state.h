@@ -130,7 +130,7 @@ struct ServerState {
 
     std::map<ConnectionId, ServerClient> clients;
     std::unordered_map<game::PlayerId, ConnectionId> playing;
-    std::map<std::string, base::TokenBucket> newPlayers;  // rate limit per network address
+    AddressBuckets newPlayers, chatOfAddress;
     std::unordered_map<game::PlayerId, FormerClient> left;
     std::uint64_t tick = 0;
     Time now{};
