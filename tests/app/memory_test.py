@@ -46,7 +46,7 @@ def first_limit(low, high, step, holds):
 @functools.cache
 def limit_to_load():
     """The least limit at which the system can load the program."""
-    return first_limit(4 * MIB, 64 * MIB, 256 * KIB,
+    return first_limit(4 * MIB, 256 * MIB, 256 * KIB,
                        lambda limit: run_within(limit, ["--version"]).returncode != CANNOT_BE_LOADED)
 
 
