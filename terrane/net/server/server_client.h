@@ -66,9 +66,6 @@ struct ClientAddress {
 
 // Rate limits by ClientAddress::network.
 using AddressBuckets = std::map<std::string, base::TokenBucket>;
-// Takes one from the bucket of the address, which begins as `full`. This machine has no limit.
-bool takeOfAddress(AddressBuckets& buckets, const ClientAddress& address, const base::TokenBucket& full,
-                   Time now);
 
 struct ServerClient {
     enum class Stage : std::uint8_t { Hello, Login, Password, Proof, Playing, Closed };

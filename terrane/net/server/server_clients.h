@@ -32,6 +32,10 @@ std::string banText(const std::string& reason);
 // Ends the client's play: stores its position and tells other players.
 void leave(ServerState& server, ServerClient& client);
 
+// Takes one from the bucket of the address, which begins as `full`. This machine has no limit.
+bool takeOfAddress(AddressBuckets& buckets, const ClientAddress& address, const base::TokenBucket& full,
+                   Time now);
+
 // Null if no such player is playing.
 ServerClient* playingClient(ServerState& server, game::PlayerId player);
 ServerClient* playingClient(ServerState& server, std::string_view name);

@@ -167,7 +167,8 @@ void onView(ServerClient& client, const View& view) {
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (!client.buckets.chat.take(1, server.now)) return say(client, "you chat too fast");
-    if (!takeOfAddress(server.chatOfAddress, client.address, kChatOfAddress, server.now))
+    const bool isOperator = client.role == game::Role::Operator;
+    if (!isOperator && !takeOfAddress(server.chatOfAddress, client.address, kChatOfAddress, server.now))
         return say(client, "too many lines come from your address");
     if (message.text.empty()) return;
     if (message.text.front() != '/') {
@@ -178,7 +179,6 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (message.text.starts_with(kMark))
         return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
     constexpr std::string_view kUnmark = "/unmark ";
-    const bool isOperator = client.role == game::Role::Operator;
     if (message.text.starts_with(kUnmark) && !isOperator)
         return say(client, unmarkOwn(server, client, std::string_view(message.text).substr(kUnmark.size())));
     if (!isOperator) return say(client, "only operators can give commands");
