@@ -20,18 +20,6 @@ glm::vec3 toGltf(glm::vec3 v) {
     return {v.x, v.z, -v.y};
 }
 
-// Texture coordinates as in quad.vert.glsl: a face of a model or of a flowing liquid shows the part of the
-// texture in front of which it lies, other faces all of it, once a block.
-glm::vec2 uvOf(shared::uint number, const ShapeFace& face, glm::vec2 corner, glm::vec2 extent) {
-    if (number < shared::kShapeFaceFlowTop) return glm::vec2(corner.x, 1 - corner.y) * extent;
-    const glm::vec3 inCell(shared::shapeFaceCorner(face, shared::vec4(0), corner, shared::vec2(1)));
-    const auto along = [&](glm::vec3 axis) {
-        const float at = glm::dot(inCell, glm::sign(axis));
-        return axis.x + axis.y + axis.z < 0 ? at + 1 : at;
-    };
-    return {along(glm::vec3(face.axisU)), 1 - along(glm::vec3(face.axisV))};
-}
-
 GlbAlpha alphaOf(AlphaMode alpha) {
     switch (alpha) {
         case AlphaMode::Test:
@@ -85,21 +73,23 @@ base::Result<void> GlbMesh::add(const mesh::ChunkMesh& mesh, glm::ivec3 corner) 
 }
 
 void GlbMesh::addQuad(shared::Quad quad, glm::ivec3 corner) {
-    const shared::uint number = shared::quadShapeFace(quad);
-    const ShapeFace& face = faces_[number];
+    const ShapeFace& face = faces_[shared::quadShapeFace(quad)];
     const glm::vec2 extent(shared::quadExtentU(quad), shared::quadExtentV(quad));
     const shared::vec4 cell(static_cast<float>(shared::quadX(quad)), static_cast<float>(shared::quadY(quad)),
                             static_cast<float>(shared::quadZ(quad)), 0);
-    GlbPart& part = parts_[shared::quadMaterial(quad)];
+    const glm::vec3 normal = toGltf(mesh::normalOf(face));
+    GlbPart& part = parts_[{shared::quadMaterial(quad), shared::isTwoSidedFace(face)}];
     const auto first = static_cast<std::uint32_t>(part.vertices.size());
     constexpr std::array<std::array<float, 2>, 4> kCorners{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (const auto& [u, v] : kCorners) {
         const glm::vec2 at(u, v);
         const glm::vec3 position(shared::shapeFaceCorner(face, cell, at, extent));
-        part.vertices.push_back({toGltf(position + glm::vec3(corner)), toGltf(glm::vec3(face.normal)),
-                                 uvOf(number, face, at, extent)});
+        part.vertices.push_back(
+            {toGltf(position + glm::vec3(corner)), normal, shared::shapeFaceTexel(face, at) * extent});
     }
-    for (const std::uint32_t k : {0u, 1u, 2u, 0u, 2u, 3u}) part.indices.push_back(first + k);
+    // The diagonal that the renderer draws (quad_resources.cpp): quads that are no parallelograms differ by
+    // it.
+    for (const std::uint32_t k : {0u, 1u, 3u, 3u, 1u, 2u}) part.indices.push_back(first + k);
 }
 
 base::Result<std::size_t> GlbMesh::imageOf(const world::Material& material, bool isGlow, GlbModel& model) {
@@ -118,13 +108,14 @@ base::Result<GlbModel> GlbMesh::finish(std::string name) {
     if (parts_.empty()) return base::fail(base::ErrorCode::NotFound, "there is nothing but air in the area");
     GlbModel model;
     model.name = std::move(name);
-    for (auto& [number, part] : parts_) {
+    for (auto& [key, part] : parts_) {
+        const auto& [number, isTwoSided] = key;
         const world::Material& material = blocks_.materials()[number];
         const auto image = TERRANE_TRY(imageOf(material, false, model));
         part.image = image;
         part.name = model.images[image].name;
         part.alpha = alphaOf(material.alpha);
-        part.isTwoSided = material.twoSided;
+        part.isTwoSided = material.twoSided || isTwoSided;
         if (material.alpha == AlphaMode::Glow || material.alpha == AlphaMode::TestGlow) {
             const auto glow = TERRANE_TRY(imageOf(material, true, model));
             part.glow = static_cast<int>(glow);

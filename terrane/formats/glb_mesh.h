@@ -45,7 +45,7 @@ class GlbMesh {
     const world::BlockRegistry& blocks_;
     const world::TextureSource& textures_;
     std::vector<shared::ShapeFace> faces_;
-    std::map<shared::uint, GlbPart> parts_;                                    // by material
+    std::map<std::pair<shared::uint, bool>, GlbPart> parts_;  // by material and whether the face is two-sided
     std::map<std::pair<std::string, GlbImageUse>, std::size_t> imageNumbers_;  // index in the model
     std::size_t quads_ = 0;
 };

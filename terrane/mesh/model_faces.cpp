@@ -16,9 +16,11 @@ bool hasBit(const BitCube& cube, world::Face side, std::size_t block) {
 
 void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::ModelFace& face,
                  QuadCollector& out) {
-    const std::uint16_t material = blocks.type.material[face.side];
+    const std::uint16_t material = blocks.type.material[face.look];
     const world::Material& look = blocks.view.blocks->materials()[material];
-    QuadArray& quads = out.quadsOf(drawBucket(look), look.twoSided ? kAnyDirection : int{face.side});
+    const bool isTwoSided = look.twoSided || face.isTwoSided;
+    QuadArray& quads = out.quadsOf(drawBucket(alphaClass(look.alpha), isTwoSided),
+                                   isTwoSided ? kAnyDirection : int{face.direction});
     const auto z = static_cast<shared::uint>(blocks.view.target.baseZ) + (block >> 8);
     *quads.reserve(1) = shared::packQuad({.x = static_cast<shared::uint>(block & 15),
                                           .y = static_cast<shared::uint>(block >> 4 & 15),
@@ -32,7 +34,7 @@ void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::Mode
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,
                    QuadCollector& out) {
     const auto isHidden = [&](std::size_t block, const world::ModelFace& face) {
-        return face.isOnBorder && !hasBit(uncovered[face.side], face.side, block);
+        return face.hiddenBy != world::kFaceCount && !hasBit(uncovered[face.hiddenBy], face.hiddenBy, block);
     };
     for (std::size_t i = 4 * blocks.layers.first; i < 4 * blocks.layers.end; ++i) {
         for (std::uint64_t left = blocks.alongX[i]; left != 0; left &= left - 1) {
@@ -141,7 +143,9 @@ class FlowFaces {
     }
 
     void write(const FlowCell& cell, Face side, uint shapeFace) {
-        addCellFace(liquid_, cell.index(), {static_cast<std::uint16_t>(shapeFace), side, false}, out_);
+        addCellFace(liquid_, cell.index(),
+                    {.shapeFace = static_cast<std::uint16_t>(shapeFace), .look = side, .direction = side},
+                    out_);
     }
 
     const ModelBlocks& liquid_;

@@ -1,7 +1,8 @@
-// Table of all shape faces: the place of each face of each block shape in its cell. The mesher writes indices
-// into it, the renderer uploads it once. Constant; any thread.
+// Table of all shape faces: the place of each face of each block shape in its cell, and its part of the
+// texture. The mesher writes indices into it, the renderer uploads it once. Constant; any thread.
 #pragma once
 
+#include <glm/vec3.hpp>
 #include <span>
 #include <vector>
 
@@ -14,6 +15,9 @@ namespace terrane::mesh {
 std::span<const shared::ShapeFace> shapeFaces();
 // These and the faces of the blocks' models.
 std::vector<shared::ShapeFace> shapeFaces(const world::BlockRegistry& blocks);
+
+// Outward, of length 1.
+glm::vec3 normalOf(const shared::ShapeFace& face);
 
 // The side that a face faces, or kFaceCount if its normal is not along an axis. Not for faces of models.
 world::Face shapeFaceSide(shared::uint shapeFace);

@@ -37,8 +37,10 @@ uint flagsOf(const BlockType& type, const world::BlockRegistry& blocks) {
 }
 
 uint faceOf(const world::ModelFace& face) {
-    return face.shapeFace | uint{face.side} << shared::kMeshFaceSideShift |
-           (face.isOnBorder ? shared::kMeshFaceOnBorderBit : 0);
+    return face.shapeFace | uint{face.look} << shared::kMeshFaceLookShift |
+           uint{face.hiddenBy} << shared::kMeshFaceHiddenByShift |
+           uint{face.direction} << shared::kMeshFaceDirectionShift |
+           (face.isTwoSided ? shared::kMeshFaceTwoSidedBit : 0);
 }
 
 // Adds the forms of a model and returns the index of the first. Faces of all forms follow the forms.

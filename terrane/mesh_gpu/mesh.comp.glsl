@@ -19,7 +19,7 @@ Row shareRow(MeshUnit unit, uint local) {
     if (!isInMeshSection) return Row(0u, 0u, 0u, 0u, 0u, 0u);
     shareSeen(seen, local);
 #if !WRITES_QUADS
-    if ((row.planes | seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5]) != 0u) coverLayer(z);
+    if ((seen[0] | seen[1] | seen[2] | seen[3] | seen[4] | seen[5]) != 0u) coverLayer(z);
 #endif
     return row;
 }

@@ -46,27 +46,35 @@ bool isCovered(uvec3 cell, uint side) {
     return (opaqueRows[at.y + int(kPaddedSize) * at.z] >> at.x & 1u) != 0u;
 }
 
-// Adds the faces of the form that the block state selects, without those hidden by opaque cubes.
-void addModel(MeshUnit unit, uvec3 cell, MeshType type) {
+// Adds the faces of the form that the block state selects, without those hidden by opaque cubes. Returns whether there
+// are any.
+bool addModel(MeshUnit unit, uvec3 cell, MeshType type) {
     uint state = blockStateAt(unit.blockState, blockIndex(cell)) & type.forms >> 16;
     uint form = forms[(type.forms & 0xFFFFu) + state];
+    bool isSeen = false;
     for (uint k = 0u; k < form >> 24; ++k) {
-        uint face = forms[(form & 0xFFFFFFu) + k], side = face >> kMeshFaceSideShift & 7u;
-        if ((face & kMeshFaceOnBorderBit) != 0u && isCovered(cell, side)) continue;
-        addQuad(packCell(unit, cell), face & (kMaxShapeFaces - 1u), type.faces[side], side);
+        uint face = forms[(form & 0xFFFFFFu) + k], hiddenBy = face >> kMeshFaceHiddenByShift & 7u;
+        if (hiddenBy < 6u && isCovered(cell, hiddenBy)) continue;
+        uint look = type.faces[face >> kMeshFaceLookShift & 7u];
+        if ((face & kMeshFaceTwoSidedBit) != 0u) look |= 1u << 16;  // the bucket of two-sided faces
+        addQuad(packCell(unit, cell), face & (kMaxShapeFaces - 1u), look, face >> kMeshFaceDirectionShift & 7u);
+        isSeen = true;
     }
+    return isSeen;
 }
 
 // Adds one quad for each block and plane. Planes have the direction of their side; those of a cross have none.
 void addPlanes(MeshUnit unit, uint planes, uint local) {
+    bool isSeen = false;
     for (uint left = planes; left != 0u; left &= left - 1u) {
         uvec3 cell = uvec3(findLSB(left), local % kSectionSize, local / kSectionSize);
         MeshType type = types[typeOf(idAt(cell))];
         uint shape = type.flags & kMeshShapeMask, stages = type.forms >> 16, stage = 0u;
         if (shape == kMeshShapeModel) {
-            addModel(unit, cell, type);
+            isSeen = addModel(unit, cell, type) || isSeen;
             continue;
         }
+        isSeen = true;
         if (stages > 0u) stage = min(blockStateAt(unit.blockState, blockIndex(cell)), stages);
         uint firstFace = shape == kMeshShapeCross  ? kShapeFaceCross
                          : shape == kMeshShapeHash ? kShapeFaceHash
@@ -76,6 +84,9 @@ void addPlanes(MeshUnit unit, uint planes, uint local) {
             addQuad(packCell(unit, cell), firstFace + k, face, shape == kMeshShapeCross ? kFaceDirections - 1u : k);
         }
     }
+#if !WRITES_QUADS
+    if (isSeen) coverLayer(local / kSectionSize);
+#endif
 }
 
 // Adds a quad of bits × rows faces, from this cell on.

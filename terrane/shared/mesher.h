@@ -43,7 +43,8 @@ struct MeshUnit {
 //   - a plant that grows: material and bucket of each stage, `forms` >> 16 of them,
 //   - a model: for each value of the state's bits in the mask `forms` >> 16 the index of its first face in
 //     the list, and from bit 24 on the number of its faces.
-// A face of a model: bits 0–10 the shape face, 11–13 the side, 14 whether it lies in the cell's side.
+// A face of a model: bits 0–10 the shape face, 11–13 the side whose material it has, 14–16 the side on which
+// an opaque cube hides it (6: none does), 17–19 its direction, 20 whether it is two-sided.
 struct MeshType {
     uint flags;
     uint forms;
@@ -66,8 +67,10 @@ const uint kMeshShapeModel = 6u;
 const uint kMeshFlowMask = 15u;
 const uint kMeshFlowFalling = 8u;
 
-const uint kMeshFaceSideShift = 11u;
-const uint kMeshFaceOnBorderBit = 1u << 14;
+const uint kMeshFaceLookShift = 11u;
+const uint kMeshFaceHiddenByShift = 14u;
+const uint kMeshFaceDirectionShift = 17u;
+const uint kMeshFaceTwoSidedBit = 1u << 20;
 
 // Words of a unit: its number of quads by range, then one that is 0 if it has no faces.
 const uint kMeshUnitWords = 25u;

@@ -192,7 +192,7 @@ std::vector<StructLayout> otherLayouts() {
              {{"base", offsetof(ShapeFace, base)},
               {"axisU", offsetof(ShapeFace, axisU)},
               {"axisV", offsetof(ShapeFace, axisV)},
-              {"normal", offsetof(ShapeFace, normal)}}},
+              {"bend", offsetof(ShapeFace, bend)}}},
             {"FigureRecord",
              "figure.h",
              true,

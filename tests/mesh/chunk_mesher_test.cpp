@@ -73,13 +73,14 @@ void expectSorted(const shared::Quad q, int bucket, int direction) {
     const auto alpha = material.alpha;
     const bool opaque = alpha == world::AlphaMode::Unused || alpha == world::AlphaMode::Glow;
     const bool blended = alpha == world::AlphaMode::Blend;
-    EXPECT_EQ(bucket, (opaque ? 0 : blended ? 4 : 2) + (material.twoSided ? 1 : 0));
-    const shared::vec4 normal = shapeFaceOf(q).normal;
+    const bool twoSided = material.twoSided || shared::isTwoSidedFace(shapeFaceOf(q));
+    EXPECT_EQ(bucket, (opaque ? 0 : blended ? 4 : 2) + (twoSided ? 1 : 0));
+    const glm::vec3 normal = normalOf(shapeFaceOf(q));
     if (direction == kAnyDirection) {
-        const bool oblique = normal.x != 0 && normal.y != 0;
-        EXPECT_TRUE(material.twoSided || oblique);
+        const bool oblique = (normal.x != 0) + (normal.y != 0) + (normal.z != 0) > 1;
+        EXPECT_TRUE(twoSided || oblique);
     } else {
-        EXPECT_FALSE(material.twoSided);
+        EXPECT_FALSE(twoSided);
         EXPECT_EQ(normal[direction / 2], direction % 2 == 0 ? -1.0f : 1.0f);
     }
 }

@@ -81,9 +81,9 @@ class ReferenceFaces {
         const world::BlockType& type = typeOf(idAt(x, y, z));
         const std::uint16_t state = input_.center->blockState(world::blockIndex(x, y, z));
         for (const world::ModelFace& face : type.model->form(state).faces) {
-            if (face.isOnBorder && touchesOpaqueCube(x, y, z, face.side)) continue;
+            if (face.hiddenBy != world::kFaceCount && touchesOpaqueCube(x, y, z, face.hiddenBy)) continue;
             faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y),
-                                      static_cast<unsigned>(z), face.shapeFace, type.material[face.side]));
+                                      static_cast<unsigned>(z), face.shapeFace, type.material[face.look]));
         }
     }
 

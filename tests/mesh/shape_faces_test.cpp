@@ -43,8 +43,7 @@ TEST(ShapeFaces, NormalsAreTheCrossProductOfTheAxes) {
     ASSERT_EQ(shapeFaces().size(), shared::kShapeFaceCount);
     for (const ShapeFace& face : shapeFaces()) {
         const glm::vec3 normal = glm::normalize(glm::cross(glm::vec3(face.axisU), glm::vec3(face.axisV)));
-        expectNear(normal, glm::vec3(face.normal));
-        EXPECT_EQ(face.axisU.w + face.normal.w, 0.0f);
+        expectNear(normal, normalOf(face));
     }
 }
 
@@ -54,13 +53,15 @@ TEST(ShapeFaces, SharesOfTheSurfaceFitTheHeights) {
     std::size_t onSurface = 0;
     for (const ShapeFace& face : shapeFaces()) {
         const float low = face.base.z, high = low + face.axisV.z;
-        if (face.base.w > 0) {
-            EXPECT_NEAR(face.base.w * kSurface, low, kEpsilon);
+        const float lowShare = shared::surfaceShareOf(face.base),
+                    highShare = shared::surfaceShareOf(face.axisV);
+        if (lowShare > 0) {
+            EXPECT_NEAR(lowShare * kSurface, low, kEpsilon);
         }
-        if (face.axisV.w > 0) {
-            EXPECT_NEAR(face.axisV.w * kSurface, high, kEpsilon);
+        if (highShare > 0) {
+            EXPECT_NEAR(highShare * kSurface, high, kEpsilon);
         }
-        onSurface += face.base.w > 0 || face.axisV.w > 0;
+        onSurface += lowShare > 0 || highShare > 0;
     }
     EXPECT_EQ(onSurface, 8u + 4 + 4 * (45 - 1)) << "tops, sides of sources, all other sides but the full one";
 }
@@ -119,7 +120,7 @@ TEST(ShapeFaces, CrossPlanesAreCenteredDiagonalsOfWidthOne) {
         EXPECT_NEAR(glm::length(glm::vec3(face.axisU)), 1, kEpsilon);
         EXPECT_EQ(shapeFaceSide(i), world::kFaceCount);
     }
-    const float across = glm::dot(shapeFaces()[6].axisU, shapeFaces()[7].axisU);
+    const float across = glm::dot(glm::vec3(shapeFaces()[6].axisU), glm::vec3(shapeFaces()[7].axisU));
     EXPECT_NEAR(across, 0, kEpsilon) << "the planes stand at right angles";
 }
 
@@ -128,6 +129,32 @@ TEST(ShapeFaces, TexturesStartAtTheLowerLeft) {
     const std::array<glm::vec3, 6> start{{{0, 1, 0}, {1, 0, 0}, {0, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}}};
     for (std::size_t i = 0; i < start.size(); ++i) {
         expectNear(glm::vec3(shapeFaceCorner(shapeFaces()[i], vec4(0), vec2(0), vec2(1))), start[i]);
+    }
+}
+
+// The shader reads no bend for the faces of the program's own shapes: they are flat, and their upper right
+// corner is the texture's, but on the sides of flowing liquids, whose texture the shader cuts off at their
+// height.
+TEST(ShapeFaces, TheProgramsOwnFacesShowTheWholeTexture) {
+    for (shared::uint i = 0; i < shared::kShapeFaceCount; ++i) {
+        const ShapeFace& face = shapeFaces()[i];
+        EXPECT_EQ(glm::vec3(face.bend), glm::vec3(0)) << i;
+        EXPECT_FALSE(shared::isTwoSidedFace(face)) << i;
+        for (const vec2 corner : {vec2(0, 0), vec2(1, 0), vec2(0, 1), vec2(1, 1)}) {
+            const float height = face.base.z + face.axisV.z * corner.y;
+            const bool isFlowSide = i >= shared::kShapeFaceFlowSide;
+            const vec2 expected(corner.x, 1 - (isFlowSide ? height : corner.y));
+            EXPECT_EQ(shapeFaceTexel(face, corner), expected) << i;
+        }
+    }
+}
+
+TEST(ShapeFaces, DirectionsAreSidesOrThoseOfPlants) {
+    for (shared::uint i = 0; i < shared::kShapeFaceCount; ++i) {
+        const bool isPlant = i >= shared::kShapeFaceCross && i < shared::kShapeFaceInset;
+        EXPECT_EQ(faceDirectionOf(shapeFaces()[i]),
+                  isPlant ? shared::kDirectionPlant : shared::uint{shapeFaceSide(i)})
+            << i;
     }
 }
 

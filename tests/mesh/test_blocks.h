@@ -143,6 +143,22 @@ shape = "stairs"
 texture = "glass"
 alpha = "blend"
 opacity = 3
+[[block]]
+name = "roof"
+shape = "roof"
+textures = { top = "oak_top", bottom = "oak_bottom", side = "oak" }
+opacity = 11
+[[block]]
+name = "net"
+shape = "net"
+texture = "grate"
+alpha = "test"
+opacity = 0
+[[block]]
+name = "poster"
+shape = "poster"
+texture = "oak"
+opacity = 0
 )";
 
 inline const world::BlockRegistry& testBlocks() {

@@ -62,6 +62,19 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
     }
 }
 
+// A block whose only quad a stone of the next chunk hides has no faces and covers no layer.
+TEST_F(GpuMesherTest, HiddenQuadsEqualCpu) {
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    for (const std::vector<mesh::Placed>& more : {std::vector<mesh::Placed>{}, {{8, -1, 40, "stone"}}}) {
+        std::vector<mesh::Placed> blocks = more;
+        blocks.push_back({8, 0, 40, "poster"});
+        const mesh::Area area = mesh::placed(blocks);
+        EXPECT_EQ(mesh::meshOf(area).quads.size(), more.empty() ? 1u : 0u);
+        const std::vector<MeshInput> inputs = {area.input()};
+        expectEqual(mesher, inputs);
+    }
+}
+
 // Wheat in every stage, also one that stands for none, in all forms of a section.
 TEST_F(GpuMesherTest, GrowingPlantsEqualCpu) {
     GpuBatchMesher mesher = mesherOf(mesh::testBlocks());

@@ -53,9 +53,11 @@ vec2 directionTo(vec2 v) {
 }
 
 Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
-    int face = 4 * int(quadShapeFace(quad));
+    uint number = quadShapeFace(quad);
+    int face = 4 * int(number);
     ShapeFace shape = ShapeFace(texelFetch(shapeFaces, face), texelFetch(shapeFaces, face + 1),
-                                texelFetch(shapeFaces, face + 2), vec4(0.0));
+                                texelFetch(shapeFaces, face + 2), flatBend());
+    if (number >= kShapeFaceCount) shape.bend = texelFetch(shapeFaces, face + 3);
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     vec3 cellBlocks = vec3(vec2(columnWidth), 1.0);
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
@@ -66,7 +68,7 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     vec4 alongV = cull.viewProjection * vec4(cellBlocks * shape.axisV.xyz * extent.y, 0.0);
     clip[1] = clip[0] + alongU;
     clip[2] = clip[0] + alongV;
-    clip[3] = clip[1] + alongV;
+    clip[3] = clip[1] + alongV + cull.viewProjection * vec4(cellBlocks * shape.bend.xyz, 0.0);
     // Waving faces may move in every direction. The vertex shader reads the same materials.
     bool isWaving = texelFetch(materials, int(quadMaterial(quad))).b != kAnimationNone;
     float waving = isWaving ? kWaving : 0.0;

@@ -5,20 +5,6 @@
 #include "terrane/shared/mesh_section.h"
 #include "terrane/render/quads/packed_gbuffer.glsl"
 
-// -x, +x, -y, +y, -z, +z as 0 … 5.
-uint directionOfAxis(vec3 axis) {
-    vec3 along = abs(axis);
-    return 2u * uint(along.y + 2.0 * along.z + 0.5) + (axis.x + axis.y + axis.z > 0.0 ? 1u : 0u);
-}
-
-// Direction of a face that is neither of a model nor of a flowing liquid.
-uint directionOf(uint shapeFace) {
-    if (shapeFace < kShapeFaceCross) return shapeFace;
-    if (shapeFace < kShapeFaceInset) return kDirectionPlant;
-    if (shapeFace < kShapeFaceLiquidTop) return shapeFace - kShapeFaceInset;
-    return shapeFace == kShapeFaceLiquidTop ? 5u : shapeFace - kShapeFaceLiquidSide;
-}
-
 uint packFace(Quad quad, MaterialRecord material, uint level, uint direction) {
     uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
     return material.texture | material.alphaMode << 12 | direction << 15 | isLiquid << 18 |

@@ -2,7 +2,7 @@
 // the glow of the texel (5 bits). Direction 7 is an escape: the upper bits are the direction of a face of a far tile (3
 // bits) and its glow (2 bits). If that direction is 7 too, nothing was drawn: a cleared target has all ones.
 
-const uint kDirectionPlant = 6u;  // oblique planes, lit like the ground below them
+#include "terrane/shared/shape_face.h"  // directions of faces
 const uint kDirectionNone = 7u;
 
 struct Surface {

@@ -62,16 +62,19 @@ Quad quadOf(int vertex) {
     return Quad(words.x, words.y);
 }
 
-// Shape face without its normal. The surface of a liquid is as high as its material says, and lower where it flows.
+// Only faces of models have a bend: others do without the fourth read. The surface of a liquid is as high as its
+// material says, and lower where it flows.
 ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
     uint number = quadShapeFace(quad);
     int first = 4 * int(number);
     ShapeFace face = ShapeFace(texelFetch(shapeFaces, first), texelFetch(shapeFaces, first + 1),
-                               texelFetch(shapeFaces, first + 2), vec4(0.0));
+                               texelFetch(shapeFaces, first + 2), flatBend());
+    if (number >= kShapeFaceCount) face.bend = texelFetch(shapeFaces, first + 3);
     float low = face.base.z, high = low + face.axisV.z;
-    if (face.base.w > 0.0) low = face.base.w * optionsSurfaceHeight(material.options);
-    if (face.axisV.w > 0.0) high = face.axisV.w * optionsSurfaceHeight(material.options);
-    if (face.base.w + face.axisV.w > 0.0) {
+    float lowShare = surfaceShareOf(face.base), highShare = surfaceShareOf(face.axisV);
+    if (lowShare > 0.0) low = lowShare * optionsSurfaceHeight(material.options);
+    if (highShare > 0.0) high = highShare * optionsSurfaceHeight(material.options);
+    if (lowShare + highShare > 0.0) {
         face.base.z = low;
         face.axisV.z = high - low;
     }
@@ -80,27 +83,16 @@ ShapeFace shapeFaceOf(Quad quad, MaterialRecord material) {
 
 // Height of a corner on the surface of a liquid, as a share of the surface's height; 0 if it is not on it.
 float surfaceShare(ShapeFace face, vec2 corner) {
-    return corner.y == 1.0 ? face.axisV.w : face.base.w;
+    return surfaceShareOf(corner.y == 1.0 ? face.axisV : face.base);
 }
 
-vec3 normalOfFace(Quad quad) {
-    return texelFetch(shapeFaces, 4 * int(quadShapeFace(quad)) + 3).xyz;
-}
-
-// Texture coordinates in the quad, 0 to 1. A face of a model or of a flowing liquid shows the part of the texture at
-// its place in the cell.
+// Texture coordinates in the quad, 0 to 1. The side of a flowing liquid shows the part of the texture at its height,
+// which the material decides.
 vec2 texelOf(Quad quad, ShapeFace face, vec2 corner) {
-    if (quadShapeFace(quad) < kShapeFaceFlowTop) return vec2(corner.x, 1.0 - corner.y);
-    vec3 inCell = shapeFaceCorner(face, vec4(0.0), corner, vec2(1.0)).xyz;
-    vec2 along = vec2(dot(inCell, sign(face.axisU.xyz)), dot(inCell, sign(face.axisV.xyz)));
-    vec2 from = vec2(dot(face.axisU.xyz, vec3(1.0)), dot(face.axisV.xyz, vec3(1.0)));
-    along += vec2(lessThan(from, vec2(0.0)));
-    return vec2(along.x, 1.0 - along.y);
-}
-
-uint directionOfQuad(Quad quad) {
+    vec2 texel = shapeFaceTexel(face, corner);
     uint number = quadShapeFace(quad);
-    return number < kShapeFaceFlowTop ? directionOf(number) : directionOfAxis(normalOfFace(quad));
+    if (number >= kShapeFaceFlowSide && number < kShapeFaceCount) texel.y = 1.0 - (face.base.z + face.axisV.z * corner.y);
+    return texel;
 }
 
 MaterialRecord materialOf(Quad quad) {
@@ -129,7 +121,7 @@ void main() {
         inChunk += waveOffset(material, surfaceShare(face, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == 1
-    if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOfFace(quad);
+    if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOf(faceDirectionOf(face));
 #endif
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
@@ -137,8 +129,9 @@ void main() {
 #if PASS == 0
     // Not for blended quads, whose overlap would be visible.
     vec2 inward = (1.0 - 2.0 * corner) * extent;
-    vec4 alongU = frame.viewProjection * vec4(cellBlocks * face.axisU.xyz * inward.x, 0.0);
-    vec4 alongV = frame.viewProjection * vec4(cellBlocks * face.axisV.xyz * inward.y, 0.0);
+    vec3 axisU = face.axisU.xyz + face.bend.xyz * corner.y, axisV = face.axisV.xyz + face.bend.xyz * corner.x;
+    vec4 alongU = frame.viewProjection * vec4(cellBlocks * axisU * inward.x, 0.0);
+    vec4 alongV = frame.viewProjection * vec4(cellBlocks * axisV * inward.y, 0.0);
     // A tile has sides under all of its border. Where the adjacent land is as high, dots of the sides would show. So
     // they do not grow beyond the top, whose own growth covers the edge, and have a larger depth than faces at the same
     // place.
@@ -149,7 +142,7 @@ void main() {
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
 #endif
     uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
-    outFace = uvec2(packFace(quad, material, level, directionOfQuad(quad)), quad.word0 ^ seed);
+    outFace = uvec2(packFace(quad, material, level, faceDirectionOf(face)), quad.word0 ^ seed);
 #if FACE_SAMPLING == 1
     outSampling = optionsSampling(material.options);
 #endif

@@ -1,6 +1,6 @@
-// Shapes from content files ([[shape]]): boxes in a cell, in sixteenths of a block, turned by the block's
-// state. block_registry.h makes models of them. Meshers read a model's faces, collision and ray casts its
-// boxes. Plain values; any thread.
+// Shapes from content files ([[shape]]): boxes and quads in a cell, turned by the block's state.
+// block_registry.h makes models of them, in which the surface of the boxes is quads too. Meshers read a
+// model's faces, collision and ray casts its boxes. Plain values; any thread.
 //
 // Bits of the block state that choose a form:
 //
@@ -10,12 +10,14 @@
 //   4–7  an arm toward -x, +x, -y, +y
 #pragma once
 
+#include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
 #include <array>
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -54,7 +56,7 @@ constexpr std::uint16_t kStateFacing = 3, kStateUpsideDown = 4, kStateOther = 8;
 constexpr unsigned kStateArmShift = 4;
 constexpr std::uint16_t kStateArms = 15u << kStateArmShift;
 constexpr int kSixteenths = 16;  // of a block
-constexpr std::size_t kMaxShapeBoxes = 16;
+constexpr std::size_t kMaxShapeBoxes = 16, kMaxShapeQuads = 64;
 
 // From 0 to kSixteenths, not empty.
 struct ShapeBox {
@@ -63,20 +65,47 @@ struct ShapeBox {
     bool operator==(const ShapeBox&) const = default;
 };
 
+// Steps of a quad's corners in a block and of its coordinates in a texture: fractions of a sixteenth.
+constexpr int kQuadUnits = shared::kTexelUnits;
+
+// A face anywhere in the cell. Corners are those at the texture's lower left, lower right, upper right and
+// upper left, as seen from the front, and enclose a convex area; two neighbors may be equal.
+struct ShapeQuad {
+    std::array<glm::ivec3, 4> corners{};
+    bool isTwoSided = false;  // whatever the block's material says
+    // The rest follows from the place of the quad if it is not given (withDefaults).
+    std::optional<std::array<glm::ivec2, 4>> texels;  // of the corners, from the texture's upper left corner
+    std::optional<Face> look;                         // the side of the block whose material it has
+    std::optional<Face> hiddenBy;  // an opaque cube beside on this side hides it; kFaceCount: none does
+
+    bool operator==(const ShapeQuad&) const = default;
+};
+
+// Of one form of a shape, or what an arm adds to it.
+struct ShapePart {
+    std::vector<ShapeBox> boxes;
+    std::vector<ShapeQuad> quads;
+    std::vector<ShapeBox> collision;  // empty: the boxes, and one around the quads
+
+    bool isEmpty() const { return boxes.empty() && quads.empty(); }
+};
+
 struct ShapeDescription {
     std::string name;
     bool hasFacing = false, hasHalf = false;
-    std::vector<ShapeBox> boxes;  // as it is at state 0
-    std::vector<ShapeBox> other;  // of the other form; empty: there is none
-    std::vector<ShapeBox> arms;   // what an arm toward +y adds; empty: there are none
-    int line = 0;                 // of its table in the file
+    ShapePart main;   // as it is at state 0
+    ShapePart other;  // the other form; empty: there is none
+    ShapePart arm;    // what an arm toward +y adds; empty: there are none
+    int line = 0;     // of its table in the file
 };
 using ShapePtr = std::shared_ptr<const ShapeDescription>;
 
 struct ModelFace {
     std::uint16_t shapeFace = 0;  // index into the table of all shape faces
-    Face side = kFacePosZ;        // the direction of the face, which gives its material
-    bool isOnBorder = false;      // at the side of the cell: an opaque cube beside hides it
+    Face look = kFacePosZ;        // the side of the block whose material it has
+    Face direction = kFacePosZ;   // kFaceCount: oblique
+    Face hiddenBy = kFaceCount;   // an opaque cube beside on this side hides it; kFaceCount: none does
+    bool isTwoSided = false;      // whatever the material says
 };
 
 struct ModelForm {
@@ -104,8 +133,8 @@ Box selectionBounds(const BlockType& type, std::uint16_t state);
 
 // Bits of the state that choose a form.
 std::uint16_t formMask(const ShapeDescription& shape);
-// The boxes of a state, with facing, form, arms and half applied.
-std::vector<ShapeBox> boxesOf(const ShapeDescription& shape, std::uint16_t state);
+// The boxes and quads of a state, with facing, form, arms and half applied; collision is not empty.
+ShapePart shapeAt(const ShapeDescription& shape, std::uint16_t state);
 
 constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;
 std::size_t filledParts(std::span<const ShapeBox> boxes);  // of kCellParts
@@ -121,6 +150,19 @@ struct ShapeRectangle {
 // The outer surface of boxes that may touch and overlap, each part of it once.
 std::vector<ShapeRectangle> surfaceOf(std::span<const ShapeBox> boxes);
 
-shared::ShapeFace shapeFaceOf(const ShapeRectangle& rectangle);
+// The face of a box as a quad that shows the part of its texture at its place in the cell.
+ShapeQuad quadOf(const ShapeRectangle& rectangle);
+
+// Twice the area of a quad as a vector along its outward normal, in steps.
+glm::ivec3 areaOf(const ShapeQuad& quad);
+bool isConvex(const ShapeQuad& quad);
+// The side that a quad faces, or kFaceCount if its normal is not along an axis.
+Face directionOf(const ShapeQuad& quad);
+// With everything that follows from its place. The texture is projected onto the side that the quad faces
+// most, whose material it has. An opaque cube beside hides a one-sided quad that lies in the side that it
+// faces.
+ShapeQuad withDefaults(ShapeQuad quad);
+// `quad` has texels.
+shared::ShapeFace shapeFaceOf(const ShapeQuad& quad);
 
 }  // namespace terrane::world

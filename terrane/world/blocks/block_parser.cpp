@@ -88,7 +88,21 @@ void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorT
 namespace {
 
 constexpr std::size_t kMaxDescribedShapes = 256;
-constexpr std::array<std::string_view, 6> kShapeKeys{"name", "facing", "half", "boxes", "other", "arms"};
+constexpr std::array<std::string_view, 8> kShapeKeys{"name",  "facing",    "half",  "boxes",
+                                                     "quads", "collision", "other", "arms"};
+constexpr std::array<std::string_view, 3> kPartKeys{"boxes", "quads", "collision"};
+constexpr std::array<std::string_view, 5> kQuadKeys{"corners", "uv", "texture", "two_sided", "hidden_by"};
+
+// Looks of a block's faces; all sides have the same.
+constexpr std::array<EnumName<Face>, 3> kQuadLooks{
+    {{"top", kFacePosZ}, {"bottom", kFaceNegZ}, {"side", kFaceNegX}}};
+constexpr std::array<EnumName<Face>, 7> kHidingSides{{{"none", kFaceCount},
+                                                      {"-x", kFaceNegX},
+                                                      {"+x", kFacePosX},
+                                                      {"-y", kFaceNegY},
+                                                      {"+y", kFacePosY},
+                                                      {"-z", kFaceNegZ},
+                                                      {"+z", kFacePosZ}}};
 
 std::optional<ShapeBox> readBox(const toml::node& node) {
     const toml::array* numbers = node.as_array();
@@ -103,7 +117,8 @@ std::optional<ShapeBox> readBox(const toml::node& node) {
     return hasVolume ? std::optional(box) : std::nullopt;
 }
 
-std::vector<ShapeBox> readBoxes(ContentTable& table, std::string_view key) {
+// `prefix`: the path of the table in errors, here and below.
+std::vector<ShapeBox> readBoxes(ContentTable& table, std::string_view key, std::string_view prefix) {
     const toml::node* value = table.node(key);
     if (!value) return {};
     const toml::array* list = value->as_array();
@@ -111,18 +126,117 @@ std::vector<ShapeBox> readBoxes(ContentTable& table, std::string_view key) {
     for (std::size_t k = 0; list && k < list->size() && k < kMaxShapeBoxes; ++k)
         if (const auto box = readBox((*list)[k])) boxes.push_back(*box);
     if (!list || list->empty() || boxes.size() != list->size())
-        table.expected(*value, key,
+        table.expected(*value, fmt::format("{}{}", prefix, key),
                        fmt::format("1 to {} boxes [x, y, z, x, y, z] in sixteenths of a block, the lower "
                                    "corner first",
                                    kMaxShapeBoxes));
     return boxes;
 }
 
+// A list of as many numbers as a point has axes, 0 to kSixteenths each, in steps of kQuadUnits.
+template <class Point>
+std::optional<Point> readPoint(const toml::node& node) {
+    const toml::array* numbers = node.as_array();
+    if (!numbers || numbers->size() != static_cast<std::size_t>(Point::length())) return std::nullopt;
+    Point point;
+    for (int k = 0; k < Point::length(); ++k) {
+        const toml::node& value = (*numbers)[static_cast<std::size_t>(k)];
+        const auto number = value.is_number() ? value.value<double>() : std::nullopt;
+        if (!number || !(*number >= 0 && *number <= kSixteenths)) return std::nullopt;
+        point[k] = static_cast<int>(std::lround(*number * kQuadUnits / kSixteenths));
+    }
+    return point;
+}
+
+template <class Point>
+std::optional<std::array<Point, 4>> readPoints(const toml::node& node) {
+    const toml::array* list = node.as_array();
+    if (!list || list->size() != 4) return std::nullopt;
+    std::array<Point, 4> points;
+    for (std::size_t k = 0; k < 4; ++k) {
+        const auto point = readPoint<Point>((*list)[k]);
+        if (!point) return std::nullopt;
+        points[k] = *point;
+    }
+    return points;
+}
+
+void readCorners(ContentTable& table, ShapeQuad& quad, std::string_view key) {
+    const toml::node* value = table.node("corners");
+    if (!value) return table.wrong(table.line(), key, "missing (required)");
+    const auto corners = readPoints<glm::ivec3>(*value);
+    if (corners) quad.corners = *corners;
+    if (!corners)
+        table.expected(
+            *value, key,
+            fmt::format("four corners [x, y, z] from 0 to {}, in sixteenths of a block", kSixteenths));
+    else if (!isConvex(quad))
+        table.wrong(table.line(), key,
+                    "expected corners of a convex area, counterclockwise as seen from its front");
+}
+
+ShapeQuad readQuad(ContentTable table, std::string_view prefix) {
+    const auto path = [&](std::string_view key) { return fmt::format("{}{}", prefix, key); };
+    table.rejectUnknown(kQuadKeys, prefix);
+    ShapeQuad quad;
+    readCorners(table, quad, path("corners"));
+    if (const toml::node* uv = table.node("uv")) {
+        quad.texels = readPoints<glm::ivec2>(*uv);
+        if (!quad.texels)
+            table.expected(
+                *uv, path("uv"),
+                fmt::format("four points [u, v] from 0 to {}, in sixteenths of the texture from its "
+                            "upper left corner",
+                            kSixteenths));
+    }
+    if (const toml::node* look = table.node("texture"))
+        quad.look = table.enumOf(*look, path("texture"), kQuadLooks);
+    if (const toml::node* twoSided = table.node("two_sided"))
+        quad.isTwoSided = table.booleanOf(*twoSided, path("two_sided"));
+    if (const toml::node* side = table.node("hidden_by"))
+        quad.hiddenBy = table.enumOf(*side, path("hidden_by"), kHidingSides);
+    return quad;
+}
+
+std::vector<ShapeQuad> readQuads(ContentTable& table, std::string_view prefix) {
+    const toml::node* value = table.node("quads");
+    if (!value) return {};
+    const std::string path = fmt::format("{}quads", prefix);
+    const toml::array* list = value->as_array();
+    std::vector<ShapeQuad> quads;
+    if (!list || list->empty() || list->size() > kMaxShapeQuads || !list->is_homogeneous<toml::table>()) {
+        table.expected(*value, path, fmt::format("1 to {} quads {{ corners = ... }}", kMaxShapeQuads));
+        return quads;
+    }
+    for (const toml::node& quad : *list) quads.push_back(readQuad(table.inner(*quad.as_table()), path + "."));
+    return quads;
+}
+
+ShapePart readPart(ContentTable& table, std::string_view prefix) {
+    return {.boxes = readBoxes(table, "boxes", prefix),
+            .quads = readQuads(table, prefix),
+            .collision = readBoxes(table, "collision", prefix)};
+}
+
+// A part that is a list of boxes, or a table of the keys that the shape itself has.
+ShapePart readInnerPart(ContentTable& table, std::string_view key) {
+    const toml::node* value = table.node(key);
+    const toml::table* keys = value ? value->as_table() : nullptr;
+    if (!keys) return {.boxes = readBoxes(table, key, ""), .quads = {}, .collision = {}};
+    ContentTable inner = table.inner(*keys);
+    const std::string prefix = fmt::format("{}.", key);
+    inner.rejectUnknown(kPartKeys, prefix);
+    ShapePart part = readPart(inner, prefix);
+    if (part.isEmpty()) table.expected(*value, key, "boxes or quads");
+    return part;
+}
+
 // Meshers draw a full cell as a cube, which merges with its neighbors.
 bool fillsCell(const ShapeDescription& shape) {
     const std::uint16_t mask = formMask(shape);
     for (unsigned state = 0; state <= mask; ++state)
-        if (filledParts(boxesOf(shape, static_cast<std::uint16_t>(state & mask))) == kCellParts) return true;
+        if (filledParts(shapeAt(shape, static_cast<std::uint16_t>(state & mask)).boxes) == kCellParts)
+            return true;
     return false;
 }
 
@@ -136,11 +250,11 @@ ShapePtr readShape(ContentTable& table) {
         table.missing("name");
     shape->hasFacing = table.boolean("facing", false);
     shape->hasHalf = table.boolean("half", false);
-    if (!table.node("boxes")) table.missing("boxes");
-    shape->boxes = readBoxes(table, "boxes");
-    shape->other = readBoxes(table, "other");
-    shape->arms = readBoxes(table, "arms");
-    if (!shape->boxes.empty() && fillsCell(*shape))
+    shape->main = readPart(table, "");
+    if (!table.firstOf({"boxes", "quads"})) table.missing("boxes", "or quads");
+    shape->other = readInnerPart(table, "other");
+    shape->arm = readInnerPart(table, "arms");
+    if (!shape->main.boxes.empty() && fillsCell(*shape))
         table.wrong(shape->line, "boxes", "fill the whole cell: such a block has the shape cube");
     return shape;
 }

@@ -24,10 +24,6 @@ Box boxOf(const ShapeBox& box) {
     return {kPart * glm::vec3(box.min), kPart * glm::vec3(box.max)};
 }
 
-bool isOnBorder(const ShapeRectangle& rectangle) {
-    return rectangle.min[rectangle.side / 2] == (rectangle.side % 2 == 1 ? kSixteenths : 0);
-}
-
 }  // namespace
 
 std::shared_ptr<const BlockModel> ModelTable::modelOf(const ShapePtr& shape) {
@@ -35,40 +31,50 @@ std::shared_ptr<const BlockModel> ModelTable::modelOf(const ShapePtr& shape) {
     if (known) return known;
     auto model = std::make_shared<BlockModel>();
     model->stateMask = formMask(*shape);
-    model->isBulky = filledParts(shape->boxes) >= kBulkyParts;
+    model->isBulky =
+        filledParts(shape->main.collision.empty() ? shape->main.boxes : shape->main.collision) >= kBulkyParts;
     for (unsigned state = 0; state <= model->stateMask; ++state) {
         const unsigned form = state & model->stateMask;  // that of a lower state where other bits are set
         model->forms.push_back(form < state ? model->forms[form]
-                                            : formOf(boxesOf(*shape, static_cast<std::uint16_t>(form))));
+                                            : formOf(shapeAt(*shape, static_cast<std::uint16_t>(form))));
     }
     entries_ += model->forms.size();
     known = std::move(model);
     return known;
 }
 
-ModelForm ModelTable::formOf(const std::vector<ShapeBox>& boxes) {
+ModelForm ModelTable::formOf(const ShapePart& part) {
     ModelForm form;
-    for (const ShapeBox& box : boxes) {
+    for (const ShapeBox& box : part.collision) {
         form.boxes.push_back(boxOf(box));
         const Box& added = form.boxes.back();
         if (form.boxes.size() == 1) form.bounds = added;
         form.bounds = {glm::min(form.bounds.min, added.min), glm::max(form.bounds.max, added.max)};
     }
-    for (const ShapeRectangle& rectangle : surfaceOf(boxes))
-        form.faces.push_back({number(rectangle), rectangle.side, isOnBorder(rectangle)});
+    std::vector<ShapeQuad> quads;
+    for (const ShapeRectangle& rectangle : surfaceOf(part.boxes)) quads.push_back(quadOf(rectangle));
+    quads.insert(quads.end(), part.quads.begin(), part.quads.end());
+    for (const ShapeQuad& given : quads) {
+        const ShapeQuad quad = withDefaults(given);
+        form.faces.push_back({.shapeFace = number(shapeFaceOf(quad)),
+                              .look = *quad.look,
+                              .direction = directionOf(quad),
+                              .hiddenBy = *quad.hiddenBy,
+                              .isTwoSided = quad.isTwoSided});
+    }
     mostFormFaces_ = std::max(mostFormFaces_, form.faces.size());
     entries_ += form.faces.size();
     return form;
 }
 
-std::uint16_t ModelTable::number(const ShapeRectangle& rectangle) {
+std::uint16_t ModelTable::number(const shared::ShapeFace& face) {
     if (!fits()) return 0;  // the blocks are refused
-    const auto known = std::ranges::find(rectangles_, rectangle);
-    const auto index = static_cast<std::size_t>(known - rectangles_.begin());
-    if (known == rectangles_.end()) {
-        rectangles_.push_back(rectangle);
-        faces_.push_back(shapeFaceOf(rectangle));
-    }
+    const auto known = std::ranges::find_if(faces_, [&](const shared::ShapeFace& other) {
+        return other.base == face.base && other.axisU == face.axisU && other.axisV == face.axisV &&
+               other.bend == face.bend;
+    });
+    const auto index = static_cast<std::size_t>(known - faces_.begin());
+    if (known == faces_.end()) faces_.push_back(face);
     return static_cast<std::uint16_t>(shared::kShapeFaceCount + index);
 }
 
@@ -217,9 +223,10 @@ base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDes
         if (block.shape) type.model = models.modelOf(block.shape);
         if (!models.fits())
             return base::fail(
-                "{}: shape: expected at most {} different faces in all shapes, {} faces in each form of one, "
-                "and {} forms and faces in all",
-                name, ModelTable::kMaxFaces, ModelTable::kMaxFormFaces, ModelTable::kMaxEntries);
+                "{}:{}: shape: expected at most {} different faces in all shapes, {} faces in each form of "
+                "one, and {} forms and faces in all",
+                block.file, block.line, ModelTable::kMaxFaces, ModelTable::kMaxFormFaces,
+                ModelTable::kMaxEntries);
         registry.types_.push_back(type);
     }
     registry.modelFaces_ = models.takeFaces();

@@ -35,11 +35,10 @@ class ModelTable {
     std::vector<shared::ShapeFace> takeFaces() { return std::move(faces_); }
 
   private:
-    std::uint16_t number(const ShapeRectangle& rectangle);
-    ModelForm formOf(const std::vector<ShapeBox>& boxes);
+    std::uint16_t number(const shared::ShapeFace& face);
+    ModelForm formOf(const ShapePart& part);
 
     std::map<ShapePtr, std::shared_ptr<const BlockModel>> models_;
-    std::vector<ShapeRectangle> rectangles_;  // of faces_
     std::vector<shared::ShapeFace> faces_;
     std::size_t mostFormFaces_ = 0, entries_ = 0;
 };
