@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/mesh/draw_bucket.h"
 #include "terrane/render/frame/render_options.h"
 
 namespace terrane::render {
