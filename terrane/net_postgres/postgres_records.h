@@ -49,7 +49,7 @@ class PostgresRecords : public net::ServerRecords, public net::SharedWorld {
     void setText(const std::string& name, const std::string& text) override;
     std::uint64_t append(const std::vector<net::LoggedEdit>& edits) override;
     void setSavedEdit(std::int64_t number) override;  // for copies: servers call publishState()
-    // The last write that is decided and was reported by applySharedChanges().
+    // The last write that is decided and was reported by popChanges().
     std::uint64_t durable() const override;
     std::string problem() const override;
     [[nodiscard]] base::Result<void> flush() override;

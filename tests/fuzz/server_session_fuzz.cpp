@@ -66,7 +66,7 @@ class FuzzServer {
     void run(FuzzInput& in) {
         // Loads chunks near the spawn, so that edits apply at once.
         stream::ChunkPipeline& pipeline = server().session.pipeline();
-        const auto near = world::chunksWithin(world::chunkOf(server().spawn.position), 1);
+        const auto near = world::chunksWithin(world::chunkOf(server().offer.spawn.position), 1);
         for (const world::ChunkPos pos : near) (void)pipeline.maybeLoadChunkAt(pos);
         for (const world::ChunkPos pos : near) (void)pipeline.chunkAt(pos);
         while (!in.isEmpty()) {
@@ -124,7 +124,7 @@ class FuzzServer {
         say(connection,
             encode(net::ClientMessage(loginOf(identity, *connection.greeting, connection.channel))));
         // Without the proof, it may ask for packs.
-        if (who < 0xC0) say(connection, encode(net::ClientMessage(net::Proof{server().digests})));
+        if (who < 0xC0) say(connection, encode(net::ClientMessage(net::Proof{server().offer.digests})));
     }
     void say(Connection& connection, const net::Bytes& bytes) {
         if (connection.id == 0) return;
@@ -143,8 +143,8 @@ class FuzzServer {
         }
     }
     void read(Connection& connection) {
-        const auto client = server().clients.find(connection.id);
-        if (client == server().clients.end()) return;
+        const auto client = server().clients.all.find(connection.id);
+        if (client == server().clients.all.end()) return;
         connection.answers.add(std::exchange(client->second.outgoing, {}));
         while (true) {
             const auto frame = connection.answers.next();
@@ -187,7 +187,7 @@ class FuzzServer {
         return static_cast<std::int32_t>(origin) + offset / 4;
     }
     world::BlockPos pos(FuzzInput& in) {
-        const auto& spawn = server().spawn.position;
+        const auto& spawn = server().offer.spawn.position;
         const std::int32_t x = near(spawn.x, in), y = near(spawn.y, in);
         return {x, y,
                 std::clamp(static_cast<int>(spawn.z) + static_cast<std::int8_t>(in.byte()) / 4, 0, 255)};
@@ -247,27 +247,29 @@ class FuzzServer {
     }
 
     void checkLimits() {
-        for (const auto& [id, client] : server().clients) {
+        for (const auto& [id, client] : server().clients.all) {
             require(client.commands.size() <= kMaxCommands && client.waitingBytes <= kMaxCommands << 16);
             require(client.outgoing.size() <= kMaxOutgoing);
         }
-        require(server().clients.size() <= kConnections && server().playing.size() <= kConnections);
-        require(server().passwordQueue.empty());
+        require(server().clients.all.size() <= kConnections &&
+                server().clients.playing.size() <= kConnections);
+        require(server().password.queue.empty());
     }
 
     // Restores the initial state, except for built blocks.
     void reset() {
         for (Connection& connection : connections_) close(connection);
-        require(server().clients.empty() && server().playing.empty());
-        for (const auto& [player, since] : server().left) server().session.removePlayer(player);
-        server().left.clear();
-        server().rollbacks.clear();
+        require(server().clients.all.empty() && server().clients.playing.empty());
+        for (const auto& [player, since] : server().clients.former) server().session.removePlayer(player);
+        server().clients.former.clear();
+        server().history.rollbacks.clear();
         server().isStopping = false;
-        while (!server().knownPlayers.claims().all().empty())
-            require(server().knownPlayers.removeClaim(std::string(server().knownPlayers.claims().all().front().name)));
+        while (!server().clients.known.claims().all().empty())
+            require(server().clients.known.removeClaim(
+                std::string(server().clients.known.claims().all().front().name)));
         server().session.permissions.claims = {};
         for (const net::ClientIdentity& identity : identities_) {
-            const net::KnownPlayer* player = server().knownPlayers.byName(identity.name);
+            const net::KnownPlayer* player = server().clients.known.byName(identity.name);
             if (player && !player->ban.empty()) (void)runConsoleLine(server(), "unban " + identity.name);
             if (player && player->role != game::Role::Player)
                 (void)runConsoleLine(server(), "deop " + identity.name);
@@ -277,7 +279,7 @@ class FuzzServer {
     }
     void forgetHistory() {
         forgotten_ = server().history.newest;
-        auto& records = static_cast<net::SqliteRecords&>(server().records);
+        auto& records = static_cast<net::SqliteRecords&>(server().history.records);
         records.file().write([](store::Database& database) { return database.execute("DELETE FROM edits"); });
         require(records.flush().has_value());
     }

@@ -51,7 +51,7 @@ class RandomPlayer {
           server_(server),
           identity_(testIdentity(fmt::format("Player {}", number))),
           view_(1 + number % 2) {
-        auto parts = remoteSessionParts(server.state().world.identity, ownBlocks(), 0).value();
+        auto parts = remoteSessionParts(server.state().offer.fingerprint.identity, ownBlocks(), 0).value();
         store_ = parts.store;
         session_ = std::make_unique<game::Session>(std::move(parts.parts));
         world_ = std::make_unique<ClientWorld>(

@@ -26,7 +26,7 @@ TEST_F(HostileConsole, PlayersGiveNoCommands) {
     }
     EXPECT_EQ(told, 6u);
     EXPECT_FALSE(server_->state().isStopping);
-    EXPECT_TRUE(server_->state().passwordHash.empty());
+    EXPECT_TRUE(server_->state().password.hash.empty());
     EXPECT_EQ(clientOf(*bob).role, game::Role::Player);
 }
 
@@ -117,10 +117,10 @@ TEST_F(HostileConsole, OddLines) {
     EXPECT_EQ(run("claim cafe\u0301 0 0 0 0 ann"), "caf\u00e9 is claimed for ann");
     EXPECT_EQ(run("unclaim cafe\u0301"), "the claim cafe\u0301 is gone");
     EXPECT_EQ(run("time -0"), "the time is set");
-    EXPECT_TRUE(server_->state().passwordHash.empty()) << "no password is none";
+    EXPECT_TRUE(server_->state().password.hash.empty()) << "no password is none";
     EXPECT_TRUE(run("password \"\x01\"").starts_with("a password")) << "nobody can type it";
-    EXPECT_TRUE(server_->state().passwordHash.empty());
-    EXPECT_TRUE(server_->state().knownPlayers.claims().all().empty());
+    EXPECT_TRUE(server_->state().password.hash.empty());
+    EXPECT_TRUE(server_->state().clients.known.claims().all().empty());
     EXPECT_TRUE(plays(*bob));
     EXPECT_FALSE(server_->state().isStopping);
 }
@@ -149,7 +149,7 @@ TEST_F(HostileConsole, RandomLines) {
         (void)run(line);
         if (k % 50 == 0) (void)ann_->take();
     }
-    for (const game::Claim& claim : server_->state().knownPlayers.claims().all())
+    for (const game::Claim& claim : server_->state().clients.known.claims().all())
         EXPECT_TRUE(isName(claim.name));
 }
 

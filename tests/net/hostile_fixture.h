@@ -61,10 +61,11 @@ class HostileTest : public testing::Test {
         return wire;
     }
     std::unique_ptr<TestWire> joined(const std::string& name) { return joined(testIdentity(name)); }
-    ServerClient& clientOf(const TestWire& wire) { return server_->state().clients.at(wire.id); }
+    ServerClient& clientOf(const TestWire& wire) { return server_->state().clients.all.at(wire.id); }
     bool plays(const TestWire& wire) {
-        const auto found = server_->state().clients.find(wire.id);
-        return found != server_->state().clients.end() && found->second.stage == ServerClient::Stage::Playing;
+        const auto found = server_->state().clients.all.find(wire.id);
+        return found != server_->state().clients.all.end() &&
+               found->second.stage == ServerClient::Stage::Playing;
     }
     // A block above the spawn, where all players appear.
     world::BlockPos nearSpawn(int dx = 2) const {

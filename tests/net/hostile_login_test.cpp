@@ -11,7 +11,7 @@ class HostileLogin : public HostileTest {
         wire.say(login);
         const auto messages = wire.take();
         if (const auto refused = refusedIn(messages)) return refused->why;
-        wire.say(Proof{server_->state().digests});
+        wire.say(Proof{server_->state().offer.digests});
         return refusalOf(wire);
     }
     Refusal refusalOfName(const std::string& name) {
@@ -66,8 +66,8 @@ TEST_F(HostileLogin, ANameBelongsToItsKey) {
     TestWire bob(*server_), other(*server_);
     bob.say(greetedLogin(bob, testIdentity("Bob")));
     other.say(greetedLogin(other, testIdentity("BOB")));
-    bob.say(Proof{server_->state().digests});
-    other.say(Proof{server_->state().digests});
+    bob.say(Proof{server_->state().offer.digests});
+    other.say(Proof{server_->state().offer.digests});
     EXPECT_TRUE(plays(bob));
     EXPECT_EQ(refusalOf(other), Refusal::Name);
 }
@@ -119,7 +119,7 @@ TEST_F(HostileLogin, ANameIsKeptInItsNormalForm) {
 TEST_F(HostileLogin, AKnownPlayerKeepsItsName) {
     start();
     const ClientIdentity old = testIdentity("Ann\u200b");
-    server_->state().knownPlayers.add(old.key.publicKey, old.name, game::Role::Player);
+    server_->state().clients.known.add(old.key.publicKey, old.name, game::Role::Player);
     joined(old)->close();
     ClientIdentity renamed = old;
     renamed.name = "\u3164";
@@ -127,7 +127,7 @@ TEST_F(HostileLogin, AKnownPlayerKeepsItsName) {
     EXPECT_EQ(refusalOfLogin(wire, greetedLogin(wire, renamed)), Refusal::Name);
     renamed.name = "Bob";
     joined(renamed)->close();
-    EXPECT_EQ(server_->state().knownPlayers.byName(old.name), nullptr) << "the old name is free";
+    EXPECT_EQ(server_->state().clients.known.byName(old.name), nullptr) << "the old name is free";
 }
 
 TEST_F(HostileLogin, AFullQueueOfPasswordsHasRoomForOtherAddresses) {
@@ -146,10 +146,10 @@ TEST_F(HostileLogin, AFullQueueOfPasswordsHasRoomForOtherAddresses) {
         EXPECT_FALSE(comeFrom(fmt::format("crowd {}", address))) << "an address has a share";
     }
     EXPECT_TRUE(comeFrom("somewhere else"));
-    EXPECT_LE(server_->state().passwordQueue.size(), 32u);
+    EXPECT_LE(server_->state().password.queue.size(), 32u);
     std::size_t waiting = 0;
     for (const auto& wire : wires) waiting += clientOf(*wire).stage == ServerClient::Stage::Password;
-    EXPECT_EQ(waiting, server_->state().passwordQueue.size());
+    EXPECT_EQ(waiting, server_->state().password.queue.size());
 }
 
 TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
@@ -160,7 +160,7 @@ TEST_F(HostileLogin, OtherVersionsAndOtherWorlds) {
     magic.say(Hello{kMagic + 1, kProtocolVersion, "test"});
     EXPECT_EQ(refusalOf(magic), Refusal::ProtocolError);
     world.say(greetedLogin(world, testIdentity("Bob")));
-    auto digests = server_->state().digests;
+    auto digests = server_->state().offer.digests;
     ++digests.back();
     world.say(Proof{digests});
     EXPECT_EQ(refusalOf(world), Refusal::OtherWorld);
@@ -184,7 +184,7 @@ TEST_F(HostileLogin, WhoIsBannedStaysOut) {
     late.say(greetedLogin(late, cid));
     (void)late.take();
     EXPECT_EQ(runConsoleLine(server_->state(), "ban Cid for a reason"), "Cid is banned");
-    late.say(Proof{server_->state().digests});
+    late.say(Proof{server_->state().offer.digests});
     EXPECT_EQ(refusalOf(late), Refusal::Banned);
 }
 
@@ -201,7 +201,7 @@ TEST_F(HostileLogin, AFullServerTakesOperatorsAndThoseWhoAreThere) {
     const auto second = joined(bob);
     EXPECT_EQ(refusalOf(*first), Refusal::Replaced);
     EXPECT_TRUE(plays(*second) && plays(*operators));
-    EXPECT_EQ(server_->state().playing.size(), 3u);
+    EXPECT_EQ(server_->state().clients.playing.size(), 3u);
 }
 
 TEST_F(HostileLogin, WhoComesAgainMayDoWhatWasLeft) {
@@ -246,7 +246,7 @@ TEST_F(HostileLogin, NewPlayersOfAnAddressAreFew) {
     joined(bob)->close();
     joined(testIdentity("Cid"))->close();
     EXPECT_EQ(refusalOfName("Dan"), Refusal::Full);
-    EXPECT_EQ(server_->state().knownPlayers.byName("Dan"), nullptr);
+    EXPECT_EQ(server_->state().clients.known.byName("Dan"), nullptr);
     EXPECT_TRUE(plays(*joined(bob)));  // a known player may return
     server_->now += std::chrono::minutes(20);
     EXPECT_TRUE(plays(*joined(testIdentity("Dan"))));
@@ -285,7 +285,7 @@ TEST_F(HostileLogin, GuessesOfThoseWhoAreGoneKeepNobodyWaiting) {
     EXPECT_EQ(refusalOf(wire), Refusal::Count);
     waitForPassword(wire);
     EXPECT_EQ(clientOf(wire).stage, ServerClient::Stage::Proof);
-    EXPECT_LE(server_->state().passwordQueue.size(), 1u);
+    EXPECT_LE(server_->state().password.queue.size(), 1u);
 }
 
 TEST_F(HostileLogin, ASlowLoginAndASilentPlayerEnd) {

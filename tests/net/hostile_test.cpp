@@ -47,7 +47,7 @@ TEST_F(HostileTestOfPlay, AFloodOfMessagesEnds) {
     for (int k = 0; k < 100000; ++k) bob->say(AskPlayers{});
     EXPECT_EQ(refusalOf(*bob), Refusal::TooMuch);
     EXPECT_LT(bob->received, 10000u) << "answers are few";
-    EXPECT_EQ(server_->state().playing.size(), 1u);
+    EXPECT_EQ(server_->state().clients.playing.size(), 1u);
 }
 
 TEST_F(HostileTestOfPlay, AFloodFromManyConnectionsLeavesNothing) {
@@ -59,9 +59,9 @@ TEST_F(HostileTestOfPlay, AFloodFromManyConnectionsLeavesNothing) {
     }
     server_->tick();
     const ServerState& state = server_->state();
-    EXPECT_EQ(state.clients.size(), 1u);
-    EXPECT_EQ(state.playing.size() + state.left.size(), 1u);
-    EXPECT_TRUE(state.passwordQueue.empty() && state.rollbacks.empty() && state.changed.empty());
+    EXPECT_EQ(state.clients.all.size(), 1u);
+    EXPECT_EQ(state.clients.playing.size() + state.clients.former.size(), 1u);
+    EXPECT_TRUE(state.password.queue.empty() && state.history.rollbacks.empty() && state.changed.empty());
 }
 
 TEST_F(HostileTestOfPlay, TooManyWaitingEditsEnd) {

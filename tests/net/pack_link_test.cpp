@@ -21,7 +21,7 @@ class PackLink : public testing::Test {
             // One message at a time; otherwise a login completes in a single call.
             context_.run_one_for(std::chrono::milliseconds(5));
             if (!untimely_) return;
-            for (auto& [id, client] : server_.server.state().clients) send(client, *untimely_);
+            for (auto& [id, client] : server_.server.state().clients.all) send(client, *untimely_);
             server_.sockets->flush();
         };
         EXPECT_TRUE(base::waitUntil(isOver, step));

@@ -39,7 +39,7 @@ TEST_F(MarkedPlaces, APlayerNamesWhereItStands) {
     EXPECT_EQ(answer(ann_, "/mark  The old mill "), "The old mill is marked");
     ASSERT_EQ(places().size(), 1u);
     EXPECT_EQ(places()[0].name, "The old mill");
-    const auto at = poseOf(server_.state().clients.begin()->second.pose).position;
+    const auto at = poseOf(server_.state().clients.all.begin()->second.pose).position;
     EXPECT_EQ(places()[0].pose.position, at);
     EXPECT_EQ(answer(ann_, "/mark   "), "a place needs a name: mark NAME");
     EXPECT_EQ(answer(ann_, "/mark"), "only operators can give commands");
@@ -162,7 +162,7 @@ TEST(ChangedChunks, AreTold) {
     base::TempFolder folder;
     TestServer server(folder.path());
     std::set<world::ChunkPos> told;
-    server.state().onChanged = [&](std::span<const world::ChunkPos> chunks) {
+    server.state().edits.onChanged = [&](std::span<const world::ChunkPos> chunks) {
         told.insert(chunks.begin(), chunks.end());
     };
     TestPlayer ann(server, testIdentity("Ann"));
@@ -179,7 +179,7 @@ TEST(ChangedChunks, AreTold) {
     const world::ChunkPos tile{chunk.x >> 1, chunk.y >> 1, 1};
     (void)runConsoleLine(server.state(), "save");
     EXPECT_TRUE(stepUntil(server, {&ann}, [&] { return told.contains(tile); }));
-    server.state().onChanged = nullptr;
+    server.state().edits.onChanged = nullptr;
 }
 
 }  // namespace

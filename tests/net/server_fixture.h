@@ -69,7 +69,7 @@ struct TestServer {
     }
     void finishWrites() {
         state().jobs.waitIdle();
-        (void)state().records.flush();
+        (void)state().history.records.flush();
     }
 
     ServerHost host;
@@ -87,8 +87,8 @@ struct TestWire {
     // Messages of the server since the last call.
     std::vector<ServerMessage> take() {
         std::vector<ServerMessage> messages;
-        const auto client = server.state().clients.find(id);
-        if (client == server.state().clients.end()) return messages;
+        const auto client = server.state().clients.all.find(id);
+        if (client == server.state().clients.all.end()) return messages;
         received += client->second.outgoing.size();
         reader.add(std::exchange(client->second.outgoing, {}));
         while (const auto frame = reader.next().value())
@@ -125,7 +125,7 @@ inline ServerMessage logIn(TestWire& wire, const ClientIdentity& identity) {
     wire.say(loginOf(identity, *greeting, wire.channel));
     messages = wire.take();
     if (!findMessage<WorldOffer>(messages)) return messages.at(0);
-    wire.say(Proof{wire.server.state().digests});
+    wire.say(Proof{wire.server.state().offer.digests});
     messages = wire.take();
     return messages.at(0);
 }
@@ -134,7 +134,7 @@ inline ServerMessage logIn(TestWire& wire, const ClientIdentity& identity) {
 struct TestPlayer {
     TestPlayer(TestServer& server, const ClientIdentity& who, int viewDistance = 2, int horizon = 0)
         : identity(who), wire(std::make_unique<TestWire>(server)), view(viewDistance), far(horizon) {
-        auto parts = remoteSessionParts(server.state().world.identity, ownBlocks(), 0).value();
+        auto parts = remoteSessionParts(server.state().offer.fingerprint.identity, ownBlocks(), 0).value();
         store = parts.store;
         session = std::make_unique<game::Session>(std::move(parts.parts));
         world = std::make_unique<ClientWorld>(*session, *store,

@@ -59,7 +59,7 @@ TEST_F(ServerPacks, ComePartByPart) {
     ASSERT_EQ(archives.size(), 2u);
     EXPECT_EQ(archives[0], *content_.packs[0].archive);
     EXPECT_EQ(archives[1], *content_.packs[1].archive);
-    wire.say(Proof{server_.state().digests});
+    wire.say(Proof{server_.state().offer.digests});
     EXPECT_TRUE(findMessage<Joined>(wire.take()));
 }
 

@@ -106,7 +106,7 @@ TEST_F(ServerTest, RollBacksMayOverlap) {
         edits += static_cast<int>(edit.after.size());
         return {};
     };
-    ASSERT_TRUE(server.state().records.forEachEdit({}, EditOrder::OldestFirst, count));
+    ASSERT_TRUE(server.state().history.records.forEachEdit({}, EditOrder::OldestFirst, count));
     EXPECT_EQ(edits, 2);
 }
 
@@ -164,7 +164,7 @@ TEST_F(ServerTest, LandIsLoadedOnlyAroundThoseWhoBuild) {
     ASSERT_EQ(ann.put(above(ann), "glass"), game::EditResult::Applied);
     EXPECT_TRUE(stepUntil(server, {&ann}, isLoaded));
     for (int tick = 0; tick < 410; ++tick) step(server, {&ann});  // twenty seconds and a bit
-    server.state().clients.at(ann.wire->id).role = game::Role::Operator;
+    server.state().clients.all.at(ann.wire->id).role = game::Role::Operator;
     ann.pose.position.x += 16 * 20;
     for (int tick = 0; tick < 100; ++tick) step(server, {&ann});
     EXPECT_FALSE(isLoaded()) << "she only walks now";
@@ -176,10 +176,10 @@ TEST_F(ServerTest, TheListHasPlayersOfOtherServersOnce) {
     TestPlayer ann(server, testIdentity("Ann"));
     ServerState& state = server.state();
     const KnownPlayer& bob =
-        state.knownPlayers.add(testIdentity("Bob").key.publicKey, "Bob", game::Role::Guest);
+        state.clients.known.add(testIdentity("Bob").key.publicKey, "Bob", game::Role::Guest);
     const game::PlayerId unknown = bob.id + 1;
-    for (const game::PlayerId id : {state.knownPlayers.byName("Ann")->id, bob.id, unknown})
-        state.sharing.players[id].at.id = id;
+    for (const game::PlayerId id : {state.clients.known.byName("Ann")->id, bob.id, unknown})
+        state.clients.elsewhere[id].at.id = id;
     ann.wire->say(AskPlayers{});
     const auto messages = ann.wire->take();
     const auto* list = findMessage<PlayerList>(messages);
@@ -257,7 +257,7 @@ TEST_F(ServerTest, ARollbackLoadsItsChunks) {
     TestServer again(folder_.path());
     ASSERT_FALSE(again.state().session.world().maybeChunkAt(world::chunkOf(pos)));
     EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
-    ASSERT_TRUE(stepUntil(again, {}, [&] { return again.state().rollbacks.empty(); }));
+    ASSERT_TRUE(stepUntil(again, {}, [&] { return again.state().history.rollbacks.empty(); }));
     again.state().session.pipeline().chunkAt(world::chunkOf(pos));
     EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
 }
@@ -291,14 +291,14 @@ TEST_F(ServerTest, AFarTownIsSeen) {
     ASSERT_TRUE(server.state().session.save());
     TestPlayer bob(server, testIdentity("Bob"), 2, 128);
     bob.pose.position.x += 16 * 20;  // it walked there
-    server.state().clients.at(bob.wire->id).role = game::Role::Operator;
+    server.state().clients.all.at(bob.wire->id).role = game::Role::Operator;
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.isLoaded(); }));
     const world::ChunkPos tile{world::chunkOf(low).x >> 2, world::chunkOf(low).y >> 2, 2};
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return !bob.store->difference(tile).empty(); }));
     EXPECT_EQ(*bob.store->load(tile).chunk, *server.state().session.store().load(tile).chunk);
     // The tile of level 4 is too near to be drawn.
     const world::ChunkPos tooNear{tile.x >> 2, tile.y >> 2, 4};
-    EXPECT_EQ(server.state().edited.within(tooNear, 0), std::vector{tooNear});
+    EXPECT_EQ(server.state().edits.chunks.within(tooNear, 0), std::vector{tooNear});
     ASSERT_TRUE(stepUntil(server, {&bob}, [&] { return bob.world->isViewComplete(); }));
     EXPECT_TRUE(bob.store->difference(tooNear).empty());
 }
@@ -307,7 +307,7 @@ TEST_F(ServerTest, AFarTownThatIsBuiltMeanwhileIsSeen) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann")), bob(server, testIdentity("Bob"), 2, 128);
     bob.pose.position.x += 16 * 20;  // it walked there
-    server.state().clients.at(bob.wire->id).role = game::Role::Operator;
+    server.state().clients.all.at(bob.wire->id).role = game::Role::Operator;
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.isLoaded() && bob.isLoaded(); }));
     const world::BlockPos low = above(ann);
     const game::FillBox town{{low, {low.x + 15, low.y + 15, low.z + 15}}, contentBlock("glass"), 0, {}};

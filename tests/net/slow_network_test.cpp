@@ -109,7 +109,7 @@ TEST_F(SlowNetwork, CutsAtAnyTime) {
         return far_->world->undecidedCount() == 0;
     };
     EXPECT_TRUE(runUntil(areEqual));
-    EXPECT_EQ(server_->server.state().playing.size(), 2u);
+    EXPECT_EQ(server_->server.state().clients.playing.size(), 2u);
 }
 
 }  // namespace

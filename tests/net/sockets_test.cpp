@@ -172,7 +172,7 @@ TEST_F(SocketsTest, AnotherServerKeyIsNotTrusted) {
     ann.trusts = false;
     ASSERT_TRUE(runUntil([&] { return ann.link.stage() == ClientLink::Stage::Ended; }));
     EXPECT_NE(ann.link.reason().find("key has changed"), std::string::npos) << ann.link.reason();
-    EXPECT_EQ(server_->server.state().knownPlayers.byName("Ann"), nullptr) << "nothing was said to it";
+    EXPECT_EQ(server_->server.state().clients.known.byName("Ann"), nullptr) << "nothing was said to it";
     expectNobodyElse(0);
 }
 
@@ -264,11 +264,11 @@ TEST_F(SocketsTest, WhoStopsReadingIsSentAway) {
     // ones.
     EXPECT_TRUE(runUntil([&] {
         ServerState& state = server_->server.state();
-        const bool hasAnnRead = std::ranges::any_of(state.clients, [](const auto& entry) {
+        const bool hasAnnRead = std::ranges::any_of(state.clients.all, [](const auto& entry) {
             return entry.second.outgoing.size() + entry.second.unsent == 0;
         });
         for (int k = 0; hasAnnRead && k < 60; ++k) (void)runConsoleLine(state, line);
-        return state.playing.size() == 1;
+        return state.clients.playing.size() == 1;
     }));
     EXPECT_TRUE(ann.isJoined()) << ann.link.reason();
     expectNobodyElse(1);

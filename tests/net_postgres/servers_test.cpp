@@ -120,7 +120,8 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
         }
         return {};
     };
-    ASSERT_TRUE(servers_.all()[0]->state().records.forEachEdit({}, net::EditOrder::OldestFirst, take));
+    ASSERT_TRUE(
+        servers_.all()[0]->state().history.records.forEachEdit({}, net::EditOrder::OldestFirst, take));
     for (const auto& [pos, block] : history)
         for (const auto& server : servers_.all()) EXPECT_EQ(blockOn(*server, pos), block);
     guests.clear();
@@ -194,7 +195,7 @@ TEST_F(SharedServersTest, OthersSaveWhatAKilledServerChanged) {
 TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna");
-    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().knownPlayers.byName("Anna") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().clients.known.byName("Anna") != nullptr; }));
     Guest again(b, "Anna", anna.identity);
     ASSERT_EQ(again.id, anna.id) << "the other server knows her";
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.find<net::Refused>() != nullptr; }));
@@ -274,15 +275,15 @@ TEST_F(SharedServersTest, PlayersSeeAndHearEachOtherAcrossServers) {
 TEST_F(SharedServersTest, RolesBansAndClaimsHoldEverywhere) {
     TestServer &a = servers_.add(), &b = servers_.add();
     Guest anna(a, "Anna"), bert(b, "Bert");
-    ASSERT_TRUE(servers_.tickUntil([&] { return a.state().knownPlayers.byName("Bert") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return a.state().clients.known.byName("Bert") != nullptr; }));
     EXPECT_EQ(net::runConsoleLine(a.state(), "guest Bert"), "Bert is a guest, who changes no blocks, now");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::RoleChanged>() != nullptr; }));
     EXPECT_EQ(bert.find<net::RoleChanged>()->role, game::Role::Guest);
     (void)net::runConsoleLine(a.state(), "claim farm -100 -100 100 100 Anna");
-    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().knownPlayers.claims().find("farm") != nullptr; }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return b.state().clients.known.claims().find("farm") != nullptr; }));
     EXPECT_NE(b.state().session.permissions.claims.find("farm"), nullptr);
     (void)net::runConsoleLine(a.state(), "password sesame");
-    ASSERT_TRUE(servers_.tickUntil([&] { return !b.state().passwordHash.empty(); }));
+    ASSERT_TRUE(servers_.tickUntil([&] { return !b.state().password.hash.empty(); }));
     (void)net::runConsoleLine(a.state(), "time 0.75");
     EXPECT_TRUE(servers_.tickUntil([&] { return std::abs(b.state().session.clock.timeDay - 0.75) < 0.01; }));
     (void)net::runConsoleLine(a.state(), "mark 5 -6 70 The mill");
@@ -310,8 +311,8 @@ TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
     const std::string flown = "SELECT count(*) FROM " + schema_ + ".edits WHERE player = 0";
     std::string before;
     ASSERT_TRUE(servers_.tickUntil([&] {
-        EXPECT_FALSE(net::mayGrow(a.state(), world::chunkOf(source)) &&
-                     net::mayGrow(b.state(), world::chunkOf(source)));
+        const net::Region region = net::regionOf(world::chunkOf(source));
+        EXPECT_FALSE(a.state().sharing.shared->mayGrow(region) && b.state().sharing.shared->mayGrow(region));
         for (int k = 0; k < 60; ++k) {
             servers_.tick();
             (void)b.state().session.pipeline().maybeLoadChunkAt(world::chunkOf(source));
@@ -338,7 +339,7 @@ TEST_F(SharedServersTest, WaterFlowsOnOneServerAndIsOnAll) {
 TEST_F(SharedServersTest, WhatTheDatabaseRefusesIsGivenUp) {
     TestServer& a = servers_.add();
     Guest anna(a, "Anna");
-    net::ServerRecords& records = a.state().records;
+    net::ServerRecords& records = a.state().history.records;
     records.setText("before", "1");
     records.setText("wrong", "L\xE4rm");
     records.setText("after", "2");
@@ -366,8 +367,8 @@ TEST_F(SharedServersTest, WhatWasMissedIsLookedUp) {
         "application_name = 'terrane'");
     ASSERT_TRUE(servers_.tickUntil([&] { return bert.find<net::Refused>() != nullptr; }));
     EXPECT_EQ(bert.find<net::Refused>()->why, net::Refusal::Banned);
-    EXPECT_EQ(a.state().passwordHash, "a hash");
-    EXPECT_EQ(a.state().knownPlayers.claims().all().size(), 1u);
+    EXPECT_EQ(a.state().password.hash, "a hash");
+    EXPECT_EQ(a.state().clients.known.claims().all().size(), 1u);
     const auto places = game::savedPlaces(a.state().session.store());
     ASSERT_EQ(places.size(), 1u);
     EXPECT_EQ(places[0].name, "The mill");
@@ -383,7 +384,7 @@ TEST_F(SharedServersTest, AServerThatHadOnlyStalledIsNotForgotten) {
     ASSERT_TRUE(servers_.tickUntil([&] { return anna.resultOf(number) == EditResult::Applied; }));
     // The state of b before a reports again.
     b.state().sharing.orphans.push_back({1, 1, {world::chunkOf(anna.near(1, 0))}});
-    net::SharedWorld& shared = *b.state().records.shared();
+    net::SharedWorld& shared = *b.state().history.records.shared();
     shared.removeStoppedServer(1);
     ASSERT_TRUE(servers_.tickUntil([&] { return b.state().sharing.orphans.empty(); }));
     EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ + ".servers"), "2");

@@ -68,11 +68,11 @@ TEST_F(ServerTest, AServerIsJoinedFromTheTitleAndRemembered) {
     program.until("the player has joined", [&] { return program.isPlaying() && program.game().remote.play; });
     EXPECT_EQ(readServers(serverListFile(data())), (std::vector<PlayedServer>{{address, "Eve"}}));
     program.untilDrawn();
-    EXPECT_EQ(server_->server.state().clients.size(), 1u);
+    EXPECT_EQ(server_->server.state().clients.all.size(), 1u);
     program.press(Key::Escape);
     program.press(Key::T);
     program.until("the player has left",
-                  [&] { return !program.isPlaying() && server_->server.state().clients.empty(); });
+                  [&] { return !program.isPlaying() && server_->server.state().clients.all.empty(); });
     server_.reset();
     program.click("Join a server");
     EXPECT_EQ(program.widget("##address").value, address);

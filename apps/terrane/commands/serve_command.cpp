@@ -67,13 +67,13 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (records.publishAddress)
         records.publishAddress(publicAddress(options, sockets->port()), sockets->key());
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
-                  sockets->port(), host.state->world.identity.seed, host.state->world.identity.generator,
-                  sockets->key());
+                  sockets->port(), host.state->offer.fingerprint.identity.seed,
+                  host.state->offer.fingerprint.identity.generator, sockets->key());
     const auto map = TERRANE_TRY(ServerMap::open(context, *host.state, options.save.world, options.map, files,
                                                  opened.content.textures));
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) {
-        statistics.addTick(*host.state, milliseconds);
+        statistics.addTick(net::countsOf(*host.state), milliseconds);
         if (map) map->tick(milliseconds);
     };
     return net::runServer(context, *host.state, *sockets, loop);

@@ -10,8 +10,8 @@
 #include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/log.h"
+#include "terrane/net/server/server.h"
 #include "terrane/net/server/server_clients.h"
-#include "terrane/net/server/server_history.h"
 #include "terrane/web/map_site.h"
 
 namespace terrane::app {
@@ -40,45 +40,41 @@ std::vector<web::NamedPlace> PlayerList::now() {
         if (!known.isHidden) players.push_back(namedPlace(name, pose));
         known_[id] = known;
     };
-    net::forEachPlaying(server_, [&](const net::ServerClient& client) {
+    net::forEachPlaying(clients_, [&](const net::ServerClient& client) {
         add(client.player, client.name, net::poseOf(client.pose));
     });
-    for (const auto& [id, other] : server_.sharing.players) {
-        const net::KnownPlayer* known = server_.knownPlayers.byId(id);
-        if (known && !server_.playing.contains(id)) add(id, known->name, net::poseOf(other.at.pose));
-    }
+    net::forEachElsewhere(clients_, [&](const net::KnownPlayer& player, const net::PlayerAt& at) {
+        add(player.id, player.name, net::poseOf(at.pose));
+    });
     return players;
 }
 
 std::optional<bool> PlayerList::isUnderGround(const world::Pose& pose) const {
-    game::Session& session = server_.session;
-    if (!session.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
+    if (!session_.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
     const world::BlockPos eyes = world::blockOf(pose.position);
     int roof = 0;
     for (std::int32_t z = std::max(eyes.z + 1, 0); z < world::kChunkHeight && roof < kRoof; ++z)
-        roof += session.blocks().type(session.world().block({eyes.x, eyes.y, z})).opaqueCube;
+        roof += session_.blocks().type(session_.world().block({eyes.x, eyes.y, z})).opaqueCube;
     return roof >= kRoof;
 }
 
 namespace {
 
-void addMetrics(web::MetricsText& text, net::ServerState& server, const web::Histogram& ticks) {
-    text.gauge("terrane_players", "Players on this server.", static_cast<double>(server.playing.size()));
-    text.gauge("terrane_loaded_chunks", "Chunks in memory.",
-               static_cast<double>(server.session.world().chunkCount()));
+void addMetrics(web::MetricsText& text, const net::ServerCounts& counts, const web::Histogram& ticks) {
+    text.gauge("terrane_players", "Players on this server.", static_cast<double>(counts.players));
+    text.gauge("terrane_loaded_chunks", "Chunks in memory.", static_cast<double>(counts.loadedChunks));
     text.gauge("terrane_edited_chunks", "Chunks that players changed.",
-               static_cast<double>(server.edited.count(0)));
-    text.counter("terrane_edits_total", "Edits in the world's history.",
-                 static_cast<double>(net::newestEdit(server)));
+               static_cast<double>(counts.editedChunks));
+    text.counter("terrane_edits_total", "Edits in the world's history.", static_cast<double>(counts.edits));
     text.histogram("terrane_tick_seconds", "Time that ticks of the game took.", ticks);
 }
 
 }  // namespace
 
 struct ServerMap::Impl {
-    explicit Impl(net::ServerState& played) : server(played) {}
+    explicit Impl(net::ServerEdits& ofServer) : edits(ofServer) {}
 
-    net::ServerState& server;
+    net::ServerEdits& edits;
     web::Histogram ticks{{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}};
     std::unique_ptr<map::SurfaceCache> cache;
     std::unique_ptr<web::MapSite> site;
@@ -94,27 +90,28 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
     address.hosts = options.hosts;
     auto places = TERRANE_TRY(readPlaceFile(options.places));
     game::Session& session = server.session;
-    auto impl = std::make_unique<Impl>(server);
-    impl->cache = openMapCache(files.string() + kMapCacheEnding,
-                               originOf(server.world.identity, session.blocks()), options.diskMegabytes);
-    const auto& edited = server.edited.positions(0);
+    auto impl = std::make_unique<Impl>(server.edits);
+    impl->cache =
+        openMapCache(files.string() + kMapCacheEnding,
+                     originOf(server.offer.fingerprint.identity, session.blocks()), options.diskMegabytes);
+    const auto& edited = server.edits.chunks.positions(0);
     web::MapSiteParts parts{session.generators(), session.blocks(), textures,
-                            session.store(),      titleOf(world),   namedPlace("", server.spawn)};
+                            session.store(),      titleOf(world),   namedPlace("", server.offer.spawn)};
     parts.threads = options.threads;
     parts.cache = impl->cache.get();
     parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
     parts.edited.assign(edited.begin(), edited.end());
     parts.liveChunk = [&](world::ChunkPos pos) { return session.world().maybeChunkAt(pos); };
-    parts.players = [list = PlayerList(server, options.players)]() mutable { return list.now(); };
-    parts.places = [&server, ofFile = std::move(places)] {
-        return allPlaces(server.session.store(), ofFile);
+    parts.players = [list = PlayerList(server.clients, session, options.players)]() mutable {
+        return list.now();
     };
+    parts.places = [&session, ofFile = std::move(places)] { return allPlaces(session.store(), ofFile); };
     parts.metrics = [&server, &ticks = impl->ticks](web::MetricsText& text) {
-        addMetrics(text, server, ticks);
+        addMetrics(text, net::countsOf(server), ticks);
     };
     auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
     impl->site = std::move(site);
-    server.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {
+    server.edits.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {
         shown.onChanged(chunks);
     };
     base::logInfo("the map is at {}", urlOf(address, impl->site->port()));
@@ -124,7 +121,7 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
 ServerMap::ServerMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
 
 ServerMap::~ServerMap() {
-    impl_->server.onChanged = nullptr;
+    impl_->edits.onChanged = nullptr;
 }
 
 void ServerMap::tick(double milliseconds) {

@@ -20,8 +20,9 @@ namespace terrane::app {
 // Omits players under ground, if asked to: those with three opaque blocks above their head.
 class PlayerList {
   public:
-    // The server outlives it.
-    PlayerList(net::ServerState& server, ShownPlayers shown) : server_(server), shown_(shown) {}
+    // The clients and the session of the server outlive it.
+    PlayerList(const net::ServerClients& clients, game::Session& session, ShownPlayers shown)
+        : clients_(clients), session_(session), shown_(shown) {}
 
     // Requests the chunks that players are in. Until a chunk is loaded, a player from a neighboring chunk
     // keeps its state, and others are omitted.
@@ -31,7 +32,8 @@ class PlayerList {
     // None if the chunk is not loaded.
     std::optional<bool> isUnderGround(const world::Pose& pose) const;
 
-    net::ServerState& server_;
+    const net::ServerClients& clients_;
+    game::Session& session_;
     ShownPlayers shown_;
     struct Known {
         world::ChunkPos chunk;  // in which isHidden was determined

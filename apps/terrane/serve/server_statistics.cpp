@@ -6,7 +6,6 @@
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/statistics.h"
-#include "terrane/net/server/server_history.h"
 
 namespace terrane::app {
 namespace {
@@ -23,29 +22,28 @@ base::Result<ServerStatistics> ServerStatistics::open(const std::string& file) {
     return statistics;
 }
 
-void ServerStatistics::addTick(const net::ServerState& server, double milliseconds) {
+void ServerStatistics::addTick(const net::ServerCounts& counts, double milliseconds) {
     if (!out_.is_open()) return;
     ticks_.push_back(milliseconds);
     const auto now = std::chrono::steady_clock::now();
     if (next_ == std::chrono::steady_clock::time_point()) next_ = now + kEvery;
     if (now < next_) return;
     next_ += kEvery;
-    write(server);
+    write(counts);
 }
 
-void ServerStatistics::write(const net::ServerState& server) {
+void ServerStatistics::write(const net::ServerCounts& counts) {
     const double cpu = base::cpuSeconds();
-    std::size_t chunks = server.session.world().chunkCount();
-    const nlohmann::json line = {{"players", server.playing.size()},
+    const nlohmann::json line = {{"players", counts.players},
                                  {"ticks", ticks_.size()},
                                  {"tick_ms_median", base::quantileOf(ticks_, 0.5)},
                                  {"tick_ms_p99", base::quantileOf(ticks_, 0.99)},
                                  {"tick_ms_max", std::ranges::max(ticks_)},
                                  {"cpu_seconds", cpu - cpuSeconds_},
                                  {"memory_mb", base::megabytes(base::residentBytes())},
-                                 {"chunks", chunks},
-                                 {"edited_chunks", server.edited.count(0)},
-                                 {"edits", net::newestEdit(server)}};
+                                 {"chunks", counts.loadedChunks},
+                                 {"edited_chunks", counts.editedChunks},
+                                 {"edits", counts.edits}};
     const bool wasGood = out_.good();
     out_ << line.dump() << std::endl;
     if (wasGood && !out_) base::logWarning("the statistics cannot be written any more");

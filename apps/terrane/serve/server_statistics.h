@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/net/server/server_state.h"
+#include "terrane/net/server/server.h"
 
 namespace terrane::app {
 
@@ -17,10 +17,10 @@ class ServerStatistics {
     [[nodiscard]] static base::Result<ServerStatistics> open(const std::string& file);
 
     // Call after each tick with its duration.
-    void addTick(const net::ServerState& server, double milliseconds);
+    void addTick(const net::ServerCounts& counts, double milliseconds);
 
   private:
-    void write(const net::ServerState& server);
+    void write(const net::ServerCounts& counts);
 
     std::ofstream out_;
     std::vector<double> ticks_;

@@ -3,15 +3,15 @@
 #include <algorithm>
 #include <utility>
 
-#include "terrane/base/log.h"
+#include "terrane/game/player_state.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_commands.h"
 #include "terrane/net/server/server_history.h"
 #include "terrane/net/server/server_login.h"
 #include "terrane/net/server/server_players.h"
 #include "terrane/net/server/server_view.h"
+#include "terrane/net/sharing/other_servers.h"
 #include "terrane/net/sharing/server_sharing.h"
-#include "terrane/net/wire/security.h"
 #include "terrane/world/changes/random_ticks.h"
 
 namespace terrane::net {
@@ -19,11 +19,6 @@ namespace {
 
 // Interval of the search for chunks in which time passes.
 constexpr std::uint64_t kTicksPerLiveChunks = 40;
-
-void noteEdits(ServerState& server, std::span<const world::BlockEdit> edits) {
-    for (const world::BlockEdit& edit : edits)
-        server.changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
-}
 
 bool hasState(const world::Chunk& chunk) {
     for (int section = 0; section < world::kSectionsPerChunk; ++section) {
@@ -35,104 +30,114 @@ bool hasState(const world::Chunk& chunk) {
 
 // Time passes in edited chunks near players; generated blocks are at rest. These chunks and their neighbors,
 // into which liquids may flow, stay loaded.
-void findLiveChunks(ServerState& server) {
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> live;
-    forEachPlaying(server, [&](const ServerClient& client) {
+std::vector<world::ChunkPos> findLiveChunks(const ServerClients& clients, const EditedChunks& edited,
+                                            stream::ChunkPipeline& pipeline) {
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> near;
+    forEachPlaying(clients, [&](const ServerClient& client) {
         const world::ChunkPos own = world::chunkOf(poseOf(client.pose).position);
-        for (const world::ChunkPos pos : server.edited.within(own, world::kTickRadius)) live.insert(pos);
+        for (const world::ChunkPos pos : edited.within(own, world::kTickRadius)) near.insert(pos);
     });
-    server.liveChunks.clear();
-    stream::ChunkPipeline& pipeline = server.session.pipeline();
-    for (const world::ChunkPos pos : live) {
+    std::vector<world::ChunkPos> live;
+    for (const world::ChunkPos pos : near) {
         const world::ChunkPtr chunk = pipeline.maybeLoadChunkAt(pos);
         if (!chunk || !hasState(*chunk)) continue;
-        server.liveChunks.push_back(pos);
+        live.push_back(pos);
         for (const world::ChunkPos beside : world::chunksWithin(pos, 1))
             if (world::isInWorld(beside)) (void)pipeline.maybeLoadChunkAt(beside);
     }
-    std::ranges::sort(server.liveChunks);
-    requestRegions(server, server.liveChunks);
+    std::ranges::sort(live);
+    return live;
 }
 
-// Chunks in which this server lets time pass.
-std::vector<world::ChunkPos> growingChunks(const ServerState& server) {
-    std::vector<world::ChunkPos> chunks;
-    std::ranges::copy_if(server.liveChunks, std::back_inserter(chunks),
-                         [&](world::ChunkPos chunk) { return mayGrow(server, chunk); });
-    return chunks;
-}
-
-void forgetHistories(ServerState& server) {
-    std::erase_if(server.left, [&](const auto& entry) {
-        if (server.now - entry.second.at < server.settings.keepHistoryFor) return false;
-        server.session.removePlayer(entry.first);
+void forgetHistories(ServerClients& clients, game::Session& session) {
+    std::erase_if(clients.former, [&](const auto& entry) {
+        if (clients.now - entry.second.at < clients.settings.keepHistoryFor) return false;
+        session.removePlayer(entry.first);
         return true;
     });
 }
 
-ServerClient* clientOf(ServerState& server, ConnectionId id) {
-    const auto found = server.clients.find(id);
-    return found == server.clients.end() ? nullptr : &found->second;
+// Applies what the other servers of a shared world reported since the last call.
+void applySharedChanges(ServerState& server) {
+    if (!server.sharing.shared) return;
+    ServerClients& clients = server.clients;
+    ServerEdits& edits = server.edits;
+    game::Session& session = server.session;
+    SharedChanges changes = server.sharing.shared->popChanges();
+    applyHistory(server.sharing, session, clients, edits, changes);
+    const std::vector<world::ChunkPos> stored = dropTail(server.sharing, changes.saved, clients.now);
+    if (edits.onChanged && !stored.empty()) edits.onChanged(stored);
+    applyPlayers(clients, session.permissions, changes);
+    applyPoses(clients, changes.poses);
+    for (const SharedLine& line : changes.lines) broadcastChatLocally(clients, line.name, line.text);
+    onTilesChanged(edits, changes.tiles);
+    if (changes.allPlaces) replacePlaces(server.places, *changes.allPlaces);
+    for (const PlaceChange& change : changes.places) applyPlaceChange(server.places, change);
+    if (changes.passwordHash) server.password.hash = *changes.passwordHash;
+    if (changes.timeDay) setTimeHere(clients, session.clock, *changes.timeDay);
+    if (changes.servers) setOtherServers(server.sharing, clients, std::move(*changes.servers));
 }
 
-base::Result<void> prepare(ServerState& server) {
-    auto edited = TERRANE_TRY(server.session.store().editedChunks());
-    for (const world::ChunkPos pos : edited) server.edited.add(pos);
-    auto password = TERRANE_TRY(server.records.text(kPasswordText));
-    server.passwordHash = std::move(password);
-    server.session.permissions.claims = server.knownPlayers.claims();
-    server.session.clock.dayMinutes = server.settings.dayMinutes;
-    std::uint64_t random = 0;
-    fillRandom(std::as_writable_bytes(std::span(&random, 1)));
-    prepareLogin(server, random);
-    return {};
+// Loads and unloads chunks. Call while no change waits to be sent, so that no changed chunk is unloaded.
+void updateChunks(SharingState& sharing, game::Session& session, Time now) {
+    session.pipeline().update(now);
+    completeLoaded(sharing, session);
+}
+
+// The client with this number, at this time; null if there is none.
+ServerClient* clientAt(ServerClients& clients, ConnectionId id, Time now) {
+    clients.now = std::max(clients.now, now);
+    const auto found = clients.all.find(id);
+    return found == clients.all.end() ? nullptr : &found->second;
 }
 
 }  // namespace
 
 base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
-                                                      const ServerSettings& settings,
-                                                      std::shared_ptr<WrittenTiles> tiles) {
+                                                      const ServerSettings& settings) {
     auto server = std::make_unique<ServerState>(parts, settings);
-    server->world = parts.fingerprint;
-    if (tiles) server->writtenTiles = std::move(tiles);
-    game::Session& session = server->session;
-    session.setEditListener([&state = *server](game::PlayerId, std::span<const world::BlockEdit> edits) {
-        noteEdits(state, edits);
-    });
+    game::Session& session = parts.session;
+    session.setEditListener(
+        [&changed = server->changed](game::PlayerId, std::span<const world::BlockEdit> edits) {
+            for (const world::BlockEdit& edit : edits)
+                changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
+        });
     session.setChangeListener(
-        [&state = *server](game::PlayerId player, std::span<const game::ChangedBlock> changes) {
-            logChanges(state, player, changes);
+        [&history = server->history, &sharing = server->sharing](
+            game::PlayerId player, std::span<const game::ChangedBlock> changes) {
+            logChanges(history, sharing, player, changes);
         },
         parts.records.shared() != nullptr);
-    TERRANE_TRY(restoreEdits(*server));
-    TERRANE_TRY(beginSharing(*server));
-    TERRANE_TRY(prepare(*server));
+    const bool isRestored = TERRANE_TRY(restoreEdits(server->history, session));
+    if (isRestored) TERRANE_TRY(saveEverything(*server));
+    TERRANE_TRY(beginSharing(server->sharing, parts.records, session, server->edits.chunks));
+    const auto edited = TERRANE_TRY(session.store().editedChunks());
+    for (const world::ChunkPos pos : edited) server->edits.chunks.add(pos);
+    auto hash = TERRANE_TRY(parts.records.text(kPasswordText));
+    server->password.hash = std::move(hash);
+    session.permissions.claims = parts.knownPlayers.claims();
+    session.clock.dayMinutes = settings.dayMinutes;
     return server;
 }
 
-void addWrittenTiles(WrittenTiles& written, std::span<const world::ChunkPos> tiles) {
-    const std::lock_guard lock(written.mutex);
-    written.tiles.insert(written.tiles.end(), tiles.begin(), tiles.end());
-}
-
 void onOpened(ServerState& server, ConnectionId id, Bytes channel, ClientAddress address, Time now) {
-    server.now = std::max(server.now, now);
-    ServerClient& client = server.clients.try_emplace(id, id, server.settings.maxSpeed).first->second;
+    ServerClients& clients = server.clients;
+    clients.now = std::max(clients.now, now);
+    ServerClient& client = clients.all.try_emplace(id, id, server.settings.maxSpeed).first->second;
     client.channel = std::move(channel);
     client.address = std::move(address);
-    client.openedAt = client.heardAt = server.now;
+    client.openedAt = client.heardAt = clients.now;
 }
 
 void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
-    server.now = std::max(server.now, now);
-    ServerClient* client = clientOf(server, id);
+    ServerClients& clients = server.clients;
+    ServerClient* client = clientAt(clients, id, now);
     if (!client || client->stage == ServerClient::Stage::Closed) return;
-    if (!client->buckets.messages.take(1, server.now))
-        return refuse(server, *client, Refusal::TooMuch, "too many messages");
+    if (!client->buckets.messages.take(1, clients.now))
+        return refuse(clients, *client, Refusal::TooMuch, "too many messages");
     auto message = decodeClientMessage(bytes);
-    if (!message) return refuse(server, *client, Refusal::ProtocolError, message.error().message);
-    client->heardAt = server.now;
+    if (!message) return refuse(clients, *client, Refusal::ProtocolError, message.error().message);
+    client->heardAt = clients.now;
     if (client->stage == ServerClient::Stage::Playing)
         onPlayerMessage(server, *client, std::move(*message));
     else
@@ -140,44 +145,85 @@ void onMessage(ServerState& server, ConnectionId id, ByteView bytes, Time now) {
 }
 
 void onMalformedMessage(ServerState& server, ConnectionId id, const std::string& what, Time now) {
-    server.now = std::max(server.now, now);
-    if (ServerClient* client = clientOf(server, id)) refuse(server, *client, Refusal::ProtocolError, what);
+    if (ServerClient* client = clientAt(server.clients, id, now))
+        refuse(server.clients, *client, Refusal::ProtocolError, what);
 }
 
 void onClosed(ServerState& server, ConnectionId id, Time now) {
-    server.now = std::max(server.now, now);
-    if (ServerClient* client = clientOf(server, id)) leave(server, *client);
-    server.clients.erase(id);
+    if (ServerClient* client = clientAt(server.clients, id, now)) leave(server.clients, *client);
+    server.clients.all.erase(id);
 }
 
 void tick(ServerState& server, Time now) {
-    server.now = std::max(server.now, now);
-    ++server.tick;
+    game::Session& session = server.session;
+    ServerClients& clients = server.clients;
+    ServerEdits& edits = server.edits;
+    ServerHistory& history = server.history;
+    SharingState& sharing = server.sharing;
+    clients.now = std::max(clients.now, now);
+    ++clients.tick;
     applySharedChanges(server);
-    sendChangedBlocks(server);
-    updateLogins(server);
-    // At both calls of update() no change waits to be sent, so chunks may be unloaded. It runs twice because
-    // a chunk that is not in the store takes two jobs while a command waits for it.
-    server.session.pipeline().update(server.now);
-    completeLoaded(server);
-    runCommands(server);
-    continueRollbacks(server);
-    if (server.tick % kTicksPerLiveChunks == 1) findLiveChunks(server);
-    server.session.advance(std::chrono::duration<double>(kServerTick).count(), growingChunks(server));
-    sendChangedBlocks(server);
-    server.session.pipeline().update(server.now);
-    completeLoaded(server);
-    sendDecisions(server);
-    sendViews(server);
-    broadcastVisibility(server);
-    sendKeepAlives(server);
-    autosave(server);
-    updateSharing(server);
-    forgetHistories(server);
+    sendChangedBlocks(clients, edits, session.world(), std::exchange(server.changed, {}));
+    updateLogins(clients, server.password, server.offer, server.jobs);
+    // Chunks are updated twice because a chunk that is not in the store takes two jobs while a command waits
+    // for it.
+    updateChunks(sharing, session, clients.now);
+    runCommands(clients, session, history);
+    continueRollbacks(history, sharing, session);
+    if (clients.tick % kTicksPerLiveChunks == 1) {
+        server.liveChunks = findLiveChunks(clients, edits.chunks, session.pipeline());
+        if (sharing.shared) requestRegions(*sharing.shared, server.liveChunks);
+    }
+    session.advance(std::chrono::duration<double>(kServerTick).count(),
+                    growingChunks(sharing.shared, server.liveChunks));
+    sendChangedBlocks(clients, edits, session.world(), std::exchange(server.changed, {}));
+    updateChunks(sharing, session, clients.now);
+    sendDecisions(clients, history.records.durable());
+    sendViews(clients, edits);
+    broadcastVisibility(clients);
+    sendKeepAlives(clients, session.clock);
+    autosave(history, sharing, session, clients.now);
+    updateSharing(sharing, clients, server.places, session.pipeline());
+    forgetHistories(clients, session);
+}
+
+ServerCounts countsOf(const ServerState& server) {
+    const bool isShared = server.sharing.shared != nullptr;
+    return {server.clients.playing.size(), server.session.world().chunkCount(), server.edits.chunks.count(0),
+            isShared ? server.sharing.newest : server.history.newest};
+}
+
+base::Result<void> saveEverything(ServerState& server) {
+    game::Session& session = server.session;
+    ServerHistory& history = server.history;
+    SharingState& sharing = server.sharing;
+    while (!history.rollbacks.empty()) {
+        (void)session.pipeline().chunkAt(history.rollbacks.front().chunk);
+        completeLoaded(sharing, session);
+        continueRollbacks(history, sharing, session);
+    }
+    if (sharing.shared) {
+        // Afterwards all own edits are decided among the servers.
+        const auto flushed = history.records.flush();
+        applySharedChanges(server);
+        if (!flushed) return flushed;
+    }
+    game::saveTimeDay(session.store(), session.clock.timeDay);
+    TERRANE_TRY(session.save());
+    if (sharing.shared) {
+        publishSavedPlaces(server.places);
+        sharing.shared->publishState(0, sharing.newest);
+    }
+    if (history.saved < history.newest) {
+        history.saved = history.newest;
+        history.records.setSavedEdit(history.newest);
+    }
+    history.saving.reset();
+    return history.records.flush();
 }
 
 base::Result<void> stop(ServerState& server, const std::string& reason) {
-    for (auto& [id, client] : server.clients) refuse(server, client, Refusal::Stopping, reason);
+    for (auto& [id, client] : server.clients.all) refuse(server.clients, client, Refusal::Stopping, reason);
     return saveEverything(server);
 }
 

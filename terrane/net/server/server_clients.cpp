@@ -39,66 +39,65 @@ void say(ServerClient& client, const std::string& text) {
     for (const std::string_view line : linesOf(text)) send(client, Said{{}, plainText(line, kMaxChatBytes)});
 }
 
-Clock clockOf(const ServerState& server) {
-    const game::DayClock& clock = server.session.clock;
+Clock clockOf(const game::DayClock& clock) {
     return {clock.timeDay, 1 / (60 * clock.dayMinutes)};
 }
 
-void setTimeHere(ServerState& server, double timeDay) {
-    server.session.clock.timeDay = timeDay;
-    forEachPlaying(server, [&](ServerClient& client) { send(client, clockOf(server)); });
+void setTimeHere(ServerClients& clients, game::DayClock& clock, double timeDay) {
+    clock.timeDay = timeDay;
+    forEachPlaying(clients, [&](ServerClient& client) { send(client, clockOf(clock)); });
 }
 
-void broadcastChatLocally(ServerState& server, const std::string& name, const std::string& text) {
+void broadcastChatLocally(ServerClients& clients, const std::string& name, const std::string& text) {
     for (const std::string_view line : linesOf(text)) {
         const Bytes message = encode(ServerMessage(Said{name, plainText(line, kMaxChatBytes)}));
-        forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
+        forEachPlaying(clients, [&](ServerClient& client) { sendEncoded(client, message); });
     }
 }
 
-void broadcastChat(ServerState& server, const std::string& name, const std::string& text) {
-    broadcastChatLocally(server, name, text);
-    if (!server.sharing.shared) return;
+void broadcastChat(ServerClients& clients, const std::string& name, const std::string& text) {
+    broadcastChatLocally(clients, name, text);
+    if (!clients.shared) return;
     for (const std::string_view line : linesOf(text))
-        server.sharing.shared->say({name, plainText(line, kMaxChatBytes)});
+        clients.shared->say({name, plainText(line, kMaxChatBytes)});
 }
 
-void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason) {
+void refuse(ServerClients& clients, ServerClient& client, Refusal why, const std::string& reason) {
     if (client.stage == ServerClient::Stage::Closed) return;
     send(client, Refused{why, plainText(reason, kMaxReasonBytes)});
     base::logInfo("{} ({}): {}", client.name.empty() ? "somebody" : client.name, client.address.shown,
                   reason);
-    leave(server, client);
+    leave(clients, client);
     client.stage = ServerClient::Stage::Closed;
 }
 
-void refuseUnexpected(ServerState& server, ServerClient& client, const ClientMessage& message) {
-    refuse(server, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
+void refuseUnexpected(ServerClients& clients, ServerClient& client, const ClientMessage& message) {
+    refuse(clients, client, Refusal::ProtocolError, fmt::format("unexpected message {}", nameOf(message)));
 }
 
 std::string banText(const std::string& reason) {
     return "you are banned from this server: " + reason;
 }
 
-void leave(ServerState& server, ServerClient& client) {
+void leave(ServerClients& clients, ServerClient& client) {
     if (client.stage != ServerClient::Stage::Playing) return;
     client.stage = ServerClient::Stage::Closed;
-    server.knownPlayers.setPose(client.player, poseOf(client.pose));
-    server.playing.erase(client.player);
-    if (server.sharing.shared) server.sharing.shared->publishLeft(client.player);
-    server.left.insert_or_assign(client.player, FormerClient{server.now, client.buckets});
+    clients.known.setPose(client.player, poseOf(client.pose));
+    clients.playing.erase(client.player);
+    if (clients.shared) clients.shared->publishLeft(client.player);
+    clients.former.insert_or_assign(client.player, FormerClient{clients.now, client.buckets});
     base::logInfo("{} left", client.name);
-    broadcastChat(server, {}, client.name + " left");
+    broadcastChat(clients, {}, client.name + " left");
 }
 
-ServerClient* playingClient(ServerState& server, game::PlayerId player) {
-    const auto found = server.playing.find(player);
-    return found == server.playing.end() ? nullptr : &server.clients.at(found->second);
+ServerClient* playingClient(ServerClients& clients, game::PlayerId player) {
+    const auto found = clients.playing.find(player);
+    return found == clients.playing.end() ? nullptr : &clients.all.at(found->second);
 }
 
-ServerClient* playingClient(ServerState& server, std::string_view name) {
-    const KnownPlayer* known = server.knownPlayers.byName(name);
-    return known ? playingClient(server, known->id) : nullptr;
+ServerClient* playingClient(ServerClients& clients, std::string_view name) {
+    const KnownPlayer* known = clients.known.byName(name);
+    return known ? playingClient(clients, known->id) : nullptr;
 }
 
 }  // namespace terrane::net

@@ -16,35 +16,44 @@ void sendEncoded(ServerClient& client, ByteView message);
 // cannot contain is escaped, and long lines are cut.
 void say(ServerClient& client, const std::string& text);
 // The time of day, as sent to clients.
-Clock clockOf(const ServerState& server);
+Clock clockOf(const game::DayClock& clock);
 // Sets the time of day on this server and tells its players.
-void setTimeHere(ServerState& server, double timeDay);
+void setTimeHere(ServerClients& clients, game::DayClock& clock, double timeDay);
 // Sends chat lines to the players of this server, or of all servers. An empty name means the server.
-void broadcastChatLocally(ServerState& server, const std::string& name, const std::string& text);
-void broadcastChat(ServerState& server, const std::string& name, const std::string& text);
+void broadcastChatLocally(ServerClients& clients, const std::string& name, const std::string& text);
+void broadcastChat(ServerClients& clients, const std::string& name, const std::string& text);
 
 // Sends Refused with the reason (any bytes) and disconnects the client; its further messages are ignored.
-void refuse(ServerState& server, ServerClient& client, Refusal why, const std::string& reason);
+void refuse(ServerClients& clients, ServerClient& client, Refusal why, const std::string& reason);
 // The same for a message that is not allowed at this time.
-void refuseUnexpected(ServerState& server, ServerClient& client, const ClientMessage& message);
+void refuseUnexpected(ServerClients& clients, ServerClient& client, const ClientMessage& message);
 // The message for a banned player.
 std::string banText(const std::string& reason);
 // Ends the client's play: stores its position and tells other players.
-void leave(ServerState& server, ServerClient& client);
+void leave(ServerClients& clients, ServerClient& client);
 
 // Takes one from the bucket of the address, which begins as `full`. This machine has no limit.
 bool takeOfAddress(AddressBuckets& buckets, const ClientAddress& address, const base::TokenBucket& full,
                    Time now);
 
 // Null if no such player is playing.
-ServerClient* playingClient(ServerState& server, game::PlayerId player);
-ServerClient* playingClient(ServerState& server, std::string_view name);
+ServerClient* playingClient(ServerClients& clients, game::PlayerId player);
+ServerClient* playingClient(ServerClients& clients, std::string_view name);
 
-// Calls use(ServerClient&) for each playing client.
-template <class Use>
-void forEachPlaying(ServerState& server, Use use) {
-    for (auto& [id, client] : server.clients)
+// Calls use(ServerClient&) for each playing client. `Clients`: ServerClients, may be const.
+template <class Clients, class Use>
+void forEachPlaying(Clients& clients, Use use) {
+    for (auto& [id, client] : clients.all)
         if (client.stage == ServerClient::Stage::Playing) use(client);
+}
+
+// Calls use(const KnownPlayer&, const PlayerAt&) for each player of another server.
+template <class Use>
+void forEachElsewhere(const ServerClients& clients, Use use) {
+    for (const auto& [id, other] : clients.elsewhere) {
+        const KnownPlayer* known = clients.known.byId(id);
+        if (known && !clients.playing.contains(id)) use(*known, other.at);
+    }
 }
 
 }  // namespace terrane::net

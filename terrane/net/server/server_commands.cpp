@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "terrane/base/match.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/store/chunks/structure_file.h"
 #include "terrane/world/blocks/inventory.h"
@@ -50,7 +51,7 @@ std::int32_t chunkAt(std::int32_t block, std::int32_t away) {
 
 // Requests the chunks that the box and its neighbor blocks touch. Returns whether all are loaded, or there
 // are too many to wait for.
-bool areLoaded(ServerState& server, const world::BlockBox& box) {
+bool areLoaded(stream::ChunkPipeline& pipeline, const world::BlockBox& box) {
     const std::int32_t lowX = chunkAt(box.low.x, -kBlocksBeside), highX = chunkAt(box.high.x, kBlocksBeside);
     const std::int32_t lowY = chunkAt(box.low.y, -kBlocksBeside), highY = chunkAt(box.high.y, kBlocksBeside);
     // Each is at most 2^28 chunks.
@@ -60,7 +61,7 @@ bool areLoaded(ServerState& server, const world::BlockBox& box) {
     for (std::int32_t y = lowY; y <= highY; ++y)
         for (std::int32_t x = lowX; x <= highX; ++x) {
             const world::ChunkPos pos{x, y};
-            if (world::isInWorld(pos)) all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+            if (world::isInWorld(pos)) all &= pipeline.maybeLoadChunkAt(pos) != nullptr;
         }
     return all;
 }
@@ -72,8 +73,8 @@ double blockCount(const world::BlockBox& box) {
     return side(box.low.x, box.high.x) * side(box.low.y, box.high.y) * side(box.low.z, box.high.z);
 }
 
-bool isKnown(const ServerState& server, world::BlockId id) {
-    return id < server.session.blocks().types().size();
+bool isKnown(const game::Session& session, world::BlockId id) {
+    return id < session.blocks().types().size();
 }
 
 // Whether all items are blocks of the server, or were there before: other names are only a load.
@@ -104,49 +105,50 @@ void dropOtherData(world::Structure& structure, const world::BlockRegistry& bloc
 }
 
 // Whether each loaded chunk that the box touches has room for `bytes` more of block entity data.
-bool hasRoom(const ServerState& server, const world::BlockBox& box, std::size_t bytes) {
+bool hasRoom(const world::World& world, const world::BlockBox& box, std::size_t bytes) {
     const world::ChunkPos low = world::chunkOf(box.low), high = world::chunkOf(box.high);
     for (std::int32_t y = low.y; y <= high.y; ++y)
         for (std::int32_t x = low.x; x <= high.x; ++x) {
-            const world::ChunkPtr chunk = server.session.world().maybeChunkAt({x, y});
+            const world::ChunkPtr chunk = world.maybeChunkAt({x, y});
             if (chunk && chunk->blockEntityDataBytes() + bytes > kMaxChunkData) return false;
         }
     return true;
 }
 
 // Rejects unknown block types, which cannot be saved, and invalid or too much data.
-bool isSensible(const ServerState& server, const Edit& edit) {
-    if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(server, block->id);
+bool isSensible(const game::Session& session, const Edit& edit) {
+    if (const auto* block = std::get_if<world::SetBlock>(&edit.change)) return isKnown(session, block->id);
     const auto* data = std::get_if<world::SetEntityData>(&edit.change);
     if (!data) return true;
-    if (!server.session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
-    const world::BlockType& type = server.session.blocks().type(server.session.world().block(edit.pos));
-    const world::BlockEntityData* former = server.session.world().blockEntityData(edit.pos);
+    if (!session.world().maybeChunkAt(world::chunkOf(edit.pos))) return true;
+    const world::BlockType& type = session.blocks().type(session.world().block(edit.pos));
+    const world::BlockEntityData* former = session.world().blockEntityData(edit.pos);
     const std::size_t freed = former ? std::min(former->size(), data->data.size()) : 0;
-    return data->data.empty() || (keepsData(server.session.blocks(), type, data->data, former) &&
-                                  hasRoom(server, {edit.pos, edit.pos}, data->data.size() - freed));
+    return data->data.empty() || (keepsData(session.blocks(), type, data->data, former) &&
+                                  hasRoom(session.world(), {edit.pos, edit.pos}, data->data.size() - freed));
 }
-bool isSensible(const ServerState& server, const Build& build) {
-    if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(server, fill->id);
+bool isSensible(const game::Session& session, const Build& build) {
+    if (const auto* fill = std::get_if<game::FillBox>(&build.change)) return isKnown(session, fill->id);
     const world::Structure& structure = *std::get<game::PlaceStructure>(build.change).structure;
-    return structure.data.empty() || hasRoom(server, game::boxOf(build.change), dataBytes(structure));
+    return structure.data.empty() ||
+           hasRoom(session.world(), game::boxOf(build.change), dataBytes(structure));
 }
 
-Done run(ServerState& server, ServerClient& client, const Edit& edit) {
-    if (!isSensible(server, edit))
+Done run(game::Session& session, const ServerClient& client, const Edit& edit) {
+    if (!isSensible(session, edit))
         return {edit.number, static_cast<std::uint8_t>(game::EditResult::BadData), 0, 0};
-    const auto result = server.session.edit({client.player, edit.pos, edit.change, edit.expected});
+    const auto result = session.edit({client.player, edit.pos, edit.change, edit.expected});
     return {edit.number, static_cast<std::uint8_t>(result), 0, 0};
 }
 
-Done run(ServerState& server, ServerClient& client, const Build& build) {
+Done run(game::Session& session, const ServerClients& clients, ServerClient& client, const Build& build) {
     const double blocks = blockCount(game::boxOf(build.change));
     game::BuildOutcome outcome{game::BuildOutcome::Result::TooLarge, 0, 0};
-    if (!isSensible(server, build))
+    if (!isSensible(session, build))
         outcome.result = game::BuildOutcome::Result::Empty;
-    else if (blocks <= static_cast<double>(server.settings.maxFillBlocks) &&
-             client.buckets.blocks.take(blocks, server.now))
-        outcome = server.session.build({client.player, build.change});
+    else if (blocks <= static_cast<double>(clients.settings.maxFillBlocks) &&
+             client.buckets.blocks.take(blocks, clients.now))
+        outcome = session.build({client.player, build.change});
     return {build.number, static_cast<std::uint8_t>(outcome.result),
             static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.kept)};
 }
@@ -155,32 +157,38 @@ game::HistoryWay wayOf(const TakeBack& takeBack) {
     return takeBack.isRedo ? game::HistoryWay::Redo : game::HistoryWay::Undo;
 }
 
-Done run(ServerState& server, ServerClient& client, const TakeBack& takeBack) {
-    const game::TakenBack taken = server.session.takeBack(client.player, wayOf(takeBack));
+Done run(game::Session& session, ServerClient& client, const TakeBack& takeBack) {
+    const game::TakenBack taken = session.takeBack(client.player, wayOf(takeBack));
     client.buckets.blocks.spend(static_cast<double>(taken.blocks + taken.kept));
     return {takeBack.number, static_cast<std::uint8_t>(taken.outcome),
             static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
 }
 
 // Requests the chunks of a command. Returns whether all are loaded, or the session will refuse it anyway.
-bool isReady(ServerState& server, const ServerClient& client, const world::BlockBox& box) {
-    const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
-    return !isNear || areLoaded(server, box);
-}
-bool isReady(ServerState& server, const ServerClient& client, const Edit& edit) {
-    return isReady(server, client, world::BlockBox{edit.pos, edit.pos});
-}
-bool isReady(ServerState& server, const ServerClient& client, const Build& build) {
-    const world::BlockBox box = game::boxOf(build.change);
-    const double blocks = blockCount(box);
-    const bool isRefused = blocks == 0 || blocks > static_cast<double>(server.settings.maxFillBlocks);
-    return isRefused || isReady(server, client, box);
-}
-bool isReady(ServerState& server, const ServerClient& client, const TakeBack& takeBack) {
-    bool all = true;
-    for (const world::ChunkPos pos : server.session.chunksToTakeBack(client.player, wayOf(takeBack)))
-        all &= server.session.pipeline().maybeLoadChunkAt(pos) != nullptr;
-    return all;
+bool isReady(game::Session& session, const ServerClient& client, const WaitingCommand& waiting,
+             std::size_t maxFillBlocks) {
+    const auto isBoxReady = [&](const world::BlockBox& box) {
+        const bool isNear = game::distanceTo(box, poseOf(client.pose).position) <= game::kBuildReach;
+        return !isNear || areLoaded(session.pipeline(), box);
+    };
+    return std::visit(
+        base::Match{
+            [&](const Edit& edit) {
+                return isBoxReady({edit.pos, edit.pos});
+            },
+            [&](const Build& build) {
+                const world::BlockBox box = game::boxOf(build.change);
+                const double blocks = blockCount(box);
+                return blocks == 0 || blocks > static_cast<double>(maxFillBlocks) || isBoxReady(box);
+            },
+            [&](const TakeBack& takeBack) {
+                bool all = true;
+                for (const world::ChunkPos pos : session.chunksToTakeBack(client.player, wayOf(takeBack)))
+                    all &= session.pipeline().maybeLoadChunkAt(pos) != nullptr;
+                return all;
+            },
+        },
+        waiting.command);
 }
 
 // Result if another server was first: Conflict for an edit, NotLoaded for others, which may be tried again.
@@ -192,83 +200,82 @@ std::uint8_t refusedResult(const WaitingCommand& command) {
     return static_cast<std::uint8_t>(game::TakenBack::Outcome::NotLoaded);
 }
 
-void decide(ServerState& server, ServerClient& client, const WaitingCommand& next) {
-    const std::uint64_t before = server.history.lastWrite;
-    const Done done =
-        std::visit([&](const auto& command) { return run(server, client, command); }, next.command);
-    const std::uint64_t write = server.history.lastWrite;
-    if (write != before) {
-        client.swungTick = server.tick;
-        client.builtAt = server.now;
-    }
-    client.decisions.push_back({write != before ? write : 0, done, refusedResult(next)});
+Done decide(game::Session& session, const ServerClients& clients, ServerClient& client,
+            const WaitingCommand& next) {
+    return std::visit(base::Match{
+                          [&](const Build& build) { return run(session, clients, client, build); },
+                          [&](const auto& other) { return run(session, client, other); },
+                      },
+                      next.command);
 }
 
-void runOf(ServerState& server, ServerClient& client) {
+void runOf(ServerClient& client, const ServerClients& clients, game::Session& session,
+           const ServerHistory& history) {
     while (!client.commands.empty() && client.decisions.size() < kMaxUntold) {
         const WaitingCommand& next = client.commands.front();
-        const bool waitedLong = server.tick - next.since > kMaxWaitTicks;
-        const auto ready = [&](const auto& command) { return isReady(server, client, command); };
-        if (!waitedLong && !std::visit(ready, next.command)) return;
-        if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, server.now)) return;
+        const bool waitedLong = clients.tick - next.since > kMaxWaitTicks;
+        if (!waitedLong && !isReady(session, client, next, clients.settings.maxFillBlocks)) return;
+        if (std::holds_alternative<Edit>(next.command) && !client.buckets.edits.take(1, clients.now)) return;
         // The number of blocks is known only afterwards.
-        if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, server.now))
+        if (std::holds_alternative<TakeBack>(next.command) && !client.buckets.blocks.take(1, clients.now))
             return;
         client.waitingBytes -= dataBytes(next);
-        decide(server, client, next);
+        const std::uint64_t before = history.lastWrite;
+        const Done done = decide(session, clients, client, next);
+        const bool isWritten = history.lastWrite != before;
+        if (isWritten) {
+            client.swungTick = clients.tick;
+            client.builtAt = clients.now;
+        }
+        client.decisions.push_back({isWritten ? history.lastWrite : 0, done, refusedResult(next)});
         client.commands.pop_front();
     }
 }
 
 // Loads the chunks around a player who edited recently.
-void loadAround(ServerState& server, const ServerClient& client) {
-    if (!client.builtAt || server.now - *client.builtAt > kLoadsAround) return;
+void loadAround(const ServerClient& client, stream::ChunkPipeline& pipeline, Time now) {
+    if (!client.builtAt || now - *client.builtAt > kLoadsAround) return;
     for (const world::ChunkPos pos : world::chunksWithin(world::chunkOf(poseOf(client.pose).position), 1))
-        if (world::isInWorld(pos)) (void)server.session.pipeline().maybeLoadChunkAt(pos);
+        if (world::isInWorld(pos)) (void)pipeline.maybeLoadChunkAt(pos);
 }
 
 }  // namespace
 
-void enqueueCommand(ServerState& server, ServerClient& client, WaitingCommand command) {
+void enqueueCommand(ServerClients& clients, ServerClient& client, game::Session& session,
+                    WaitingCommand command) {
     client.waitingBytes += dataBytes(command);
     if (client.commands.size() >= kMaxWaitingCommands || client.waitingBytes > kMaxWaitingBytes)
-        return refuse(server, client, Refusal::TooMuch, "too many changes of blocks at once");
+        return refuse(clients, client, Refusal::TooMuch, "too many changes of blocks at once");
     // Requests its chunks now: they may be loaded by the next tick but one.
     if (!std::holds_alternative<TakeBack>(command.command))
-        std::visit([&](const auto& asked) { (void)isReady(server, client, asked); }, command.command);
+        (void)isReady(session, client, command, clients.settings.maxFillBlocks);
     client.commands.push_back(std::move(command));
 }
 
-void takePlace(ServerState& server, ServerClient& client, const Place& place) {
+Build buildFrom(const Place& place, ClientBuckets& buckets, const world::BlockRegistry& blocks, Time now) {
     auto structure = std::make_shared<world::Structure>();
-    if (client.buckets.edits.take(kEditsOfPlace, server.now))
+    if (buckets.edits.take(kEditsOfPlace, now))
         if (auto decoded = store::decodeStructure(place.structure);
             decoded && dataBytes(*decoded) <= kMaxPlacedData)
             *structure = std::move(*decoded);
-    dropOtherData(*structure, server.session.blocks());
-    enqueueCommand(server, client,
-                   {Build{place.number, game::PlaceStructure{std::move(structure), place.low}}, server.tick});
+    dropOtherData(*structure, blocks);
+    return {place.number, game::PlaceStructure{std::move(structure), place.low}};
 }
 
-void runCommands(ServerState& server) {
+void runCommands(ServerClients& clients, game::Session& session, const ServerHistory& history) {
     const auto ticksAround = static_cast<std::uint64_t>(kLoadAroundEvery / kServerTick);
-    forEachPlaying(server, [&](ServerClient& client) {
-        runOf(server, client);
-        if ((server.tick + client.id) % ticksAround == 0) loadAround(server, client);
+    forEachPlaying(clients, [&](ServerClient& client) {
+        runOf(client, clients, session, history);
+        if ((clients.tick + client.id) % ticksAround == 0)
+            loadAround(client, session.pipeline(), clients.now);
     });
 }
 
-void sendDecisions(ServerState& server) {
-    const std::uint64_t durable = server.records.durable();
-    forEachPlaying(server, [&](ServerClient& client) {
-        for (; !client.decisions.empty(); client.decisions.pop_front()) {
-            const Decision& decision = client.decisions.front();
-            if (decision.write > durable) break;
-            Done done = decision.done;
-            if (server.sharing.refused.erase(decision.write) > 0)
-                done = {done.number, decision.resultIfRefused, 0, 0};
-            send(client, done);
-        }
+void sendDecisions(ServerClients& clients, std::uint64_t durable) {
+    forEachPlaying(clients, [&](ServerClient& client) {
+        for (; !client.decisions.empty() && client.decisions.front().write <= durable;
+             client.decisions.pop_front())
+            send(client, client.decisions.front().done);
     });
 }
 

@@ -2,16 +2,21 @@
 // the session, which checks it, and is answered once its edits are in the history. On the server's thread.
 #pragma once
 
+#include <cstdint>
+
 #include "terrane/net/server/server_state.h"
 
 namespace terrane::net {
 
-void enqueueCommand(ServerState& server, ServerClient& client, WaitingCommand command);
-// An invalid structure changes nothing.
-void takePlace(ServerState& server, ServerClient& client, const Place& place);
-// Runs the commands that are ready. Call in each tick.
-void runCommands(ServerState& server);
-// Sends the results of commands whose changes are durable. Call after the changes were sent.
-void sendDecisions(ServerState& server);
+// Disconnects a client that sends too many commands.
+void enqueueCommand(ServerClients& clients, ServerClient& client, game::Session& session,
+                    WaitingCommand command);
+// The command to place a structure; an invalid structure becomes an empty one, which changes nothing.
+Build buildFrom(const Place& place, ClientBuckets& buckets, const world::BlockRegistry& blocks, Time now);
+// Runs the commands that are ready, whose edits the session's listener adds to the history. Call in each
+// tick.
+void runCommands(ServerClients& clients, game::Session& session, const ServerHistory& history);
+// Sends the results of commands whose writes are durable, up to this one. Call after the changes were sent.
+void sendDecisions(ServerClients& clients, std::uint64_t durable);
 
 }  // namespace terrane::net

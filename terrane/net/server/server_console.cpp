@@ -5,6 +5,7 @@
 #include <span>
 
 #include "terrane/base/names.h"
+#include "terrane/net/server/server.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_history.h"
 #include "terrane/net/server/server_players.h"
@@ -41,14 +42,14 @@ std::string unknownPlayer(const std::string& name) {
     return fmt::format("no player called {} has ever joined", name);
 }
 
-std::string sayLine(ServerState& server, Words words) {
-    broadcastChat(server, {}, joined(words));
+std::string sayLine(ServerClients& clients, Words words) {
+    broadcastChat(clients, {}, joined(words));
     return "said";
 }
 
-std::string list(ServerState& server, Words) {
-    std::string text = fmt::format("{} of {} players", server.playing.size(), server.settings.maxPlayers);
-    forEachPlaying(server, [&](const ServerClient& client) {
+std::string list(const ServerClients& clients) {
+    std::string text = fmt::format("{} of {} players", clients.playing.size(), clients.settings.maxPlayers);
+    forEachPlaying(clients, [&](const ServerClient& client) {
         const auto place = poseOf(client.pose).position;
         text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}, {} ms{}", client.name, place.x, place.y, place.z,
                             client.latency ? client.latency->count() : 0,
@@ -56,62 +57,55 @@ std::string list(ServerState& server, Words) {
                             : client.role == game::Role::Guest  ? ", guest"
                                                                 : "");
     });
-    for (const auto& [id, other] : server.sharing.players) {
-        const KnownPlayer* known = server.knownPlayers.byId(id);
-        if (known && !server.playing.contains(id)) text += fmt::format("\n{} on another server", known->name);
-    }
+    forEachElsewhere(clients, [&](const KnownPlayer& other, const PlayerAt&) {
+        text += fmt::format("\n{} on another server", other.name);
+    });
     return text;
 }
 
-std::string kick(ServerState& server, Words words) {
-    ServerClient* client = playingClient(server, std::string_view(words[0]));
+std::string kick(ServerClients& clients, Words words) {
+    ServerClient* client = playingClient(clients, std::string_view(words[0]));
     if (!client) return fmt::format("{} is not online", words[0]);
     const std::string reason = joined(words.subspan(1));
-    refuse(server, *client, Refusal::Kicked,
+    refuse(clients, *client, Refusal::Kicked,
            reason.empty() ? "you were kicked" : "you were kicked: " + reason);
     return words[0] + " is sent away";
 }
 
-std::string ban(ServerState& server, Words words) {
-    const KnownPlayer* player = server.knownPlayers.byName(words[0]);
+std::string ban(ServerClients& clients, Words words) {
+    const KnownPlayer* player = clients.known.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
     std::string reason = plainText(joined(words.subspan(1)), kMaxReasonBytes);
     if (reason.empty()) reason = "no reason given";
-    server.knownPlayers.setBan(player->id, reason);
-    if (ServerClient* client = playingClient(server, player->id))
-        refuse(server, *client, Refusal::Banned, banText(reason));
+    clients.known.setBan(player->id, reason);
+    if (ServerClient* client = playingClient(clients, player->id))
+        refuse(clients, *client, Refusal::Banned, banText(reason));
     return player->name + " is banned";
 }
 
-std::string unban(ServerState& server, Words words) {
-    const KnownPlayer* player = server.knownPlayers.byName(words[0]);
+std::string unban(KnownPlayers& players, Words words) {
+    const KnownPlayer* player = players.byName(words[0]);
     if (!player) return unknownPlayer(words[0]);
     if (player->ban.empty()) return player->name + " is not banned";
-    server.knownPlayers.setBan(player->id, {});
+    players.setBan(player->id, {});
     return player->name + " may come again";
 }
 
-std::string setRole(ServerState& server, const std::string& name, game::Role role, std::string_view what) {
-    const KnownPlayer* player = server.knownPlayers.byName(name);
+std::string setRole(ServerClients& clients, game::Permissions& permissions, const std::string& name,
+                    game::Role role) {
+    const std::string_view what = role == game::Role::Operator ? "an operator"
+                                  : role == game::Role::Guest  ? "a guest, who changes no blocks,"
+                                                               : "a player";
+    const KnownPlayer* player = clients.known.byName(name);
     if (!player) return unknownPlayer(name);
-    server.knownPlayers.setRole(player->id, role);
-    server.session.permissions.roles[player->id] = role;
-    if (ServerClient* client = playingClient(server, player->id)) {
+    clients.known.setRole(player->id, role);
+    permissions.roles[player->id] = role;
+    if (ServerClient* client = playingClient(clients, player->id)) {
         client->role = role;
         send(*client, RoleChanged{role});
         say(*client, fmt::format("you are {} now", what));
     }
     return fmt::format("{} is {} now", player->name, what);
-}
-
-std::string makeOperator(ServerState& server, Words words) {
-    return setRole(server, words[0], game::Role::Operator, "an operator");
-}
-std::string makePlayer(ServerState& server, Words words) {
-    return setRole(server, words[0], game::Role::Player, "a player");
-}
-std::string makeGuest(ServerState& server, Words words) {
-    return setRole(server, words[0], game::Role::Guest, "a guest, who changes no blocks,");
 }
 
 // Parses two corners, in any order.
@@ -126,50 +120,49 @@ std::optional<game::ColumnArea> areaFrom(Words words) {
                             std::max(v[1], v[3])};
 }
 
-std::string claim(ServerState& server, Words words) {
+std::string claim(KnownPlayers& players, game::Claims& claims, Words words) {
     const auto area = areaFrom(words.subspan(1));
     if (!area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
     const auto claimName = newName(words[0]);
     if (!claimName) return claimName.error().message;
-    for (const game::Claim& other : server.knownPlayers.claims().all())
+    for (const game::Claim& other : players.claims().all())
         if (other.name != *claimName && base::isConfusable(other.name, *claimName))
             return fmt::format("the name {} looks like that of the claim {}", *claimName, other.name);
     game::Claim made{*claimName, *area, game::kNoPlayer, {}};
     for (const std::string& name : words.subspan(5)) {
-        const KnownPlayer* player = server.knownPlayers.byName(name);
+        const KnownPlayer* player = players.byName(name);
         if (!player) return unknownPlayer(name);
         if (made.owner == game::kNoPlayer)
             made.owner = player->id;
         else
             made.members.push_back(player->id);
     }
-    if (const auto added = server.knownPlayers.addClaim(made); !added) return added.error().message;
-    server.session.permissions.claims = server.knownPlayers.claims();
+    if (const auto added = players.addClaim(made); !added) return added.error().message;
+    claims = players.claims();
     return fmt::format("{} is claimed for {}", *claimName, words[5]);
 }
 
-std::string unclaim(ServerState& server, Words words) {
-    if (!server.knownPlayers.removeClaim(words[0]) &&
-        !server.knownPlayers.removeClaim(base::normalizedName(words[0])))
+std::string unclaim(KnownPlayers& players, game::Claims& claims, Words words) {
+    if (!players.removeClaim(words[0]) && !players.removeClaim(base::normalizedName(words[0])))
         return fmt::format("there is no claim {}", words[0]);
-    server.session.permissions.claims = server.knownPlayers.claims();
+    claims = players.claims();
     return fmt::format("the claim {} is gone", words[0]);
 }
 
-std::string claims(ServerState& server, Words) {
-    std::string text = fmt::format("claims: {}", server.knownPlayers.claims().all().size());
-    for (const game::Claim& one : server.knownPlayers.claims().all()) {
-        const KnownPlayer* owner = server.knownPlayers.byId(one.owner);
+std::string claimList(const KnownPlayers& players) {
+    std::string text = fmt::format("claims: {}", players.claims().all().size());
+    for (const game::Claim& one : players.claims().all()) {
+        const KnownPlayer* owner = players.byId(one.owner);
         text += fmt::format("\n{} {} {} {} {} {}", one.name, one.area.x0, one.area.y0, one.area.x1,
                             one.area.y1, owner ? owner->name : "nobody");
     }
     return text;
 }
 
-std::string rollbackLine(ServerState& server, Words words) {
+std::string rollbackLine(ServerHistory& history, const KnownPlayers& players, Words words) {
     EditFilter filter;
     if (words[0] != "*") {
-        const KnownPlayer* player = server.knownPlayers.byName(words[0]);
+        const KnownPlayer* player = players.byName(words[0]);
         if (!player) return unknownPlayer(words[0]);
         filter.player = player->id;
     }
@@ -183,12 +176,12 @@ std::string rollbackLine(ServerState& server, Words words) {
     } else if (words.size() != 2) {
         return "an area is four whole numbers: X0 Y0 X1 Y1";
     }
-    const auto count = startRollback(server, filter);
+    const auto count = startRollback(history, filter);
     return count ? fmt::format("blocks rolled back: {}; what others changed since stays", *count)
                  : count.error().message;
 }
 
-std::string mark(ServerState& server, Words words) {
+std::string mark(ServerPlaces& places, Words words) {
     world::Pose pose;
     for (int k = 0; k < 3; ++k) {
         const auto number = numberFrom<double>(words[static_cast<std::size_t>(k)]);
@@ -198,77 +191,83 @@ std::string mark(ServerState& server, Words words) {
         pose.position[k] = *number;
     }
     if (!world::isInWorld(world::chunkOf(pose.position))) return "this place is not in the world";
-    return markPlace(server, joined(words.subspan(3)), pose);
+    return markPlace(places, joined(words.subspan(3)), pose);
 }
 
-std::string unmark(ServerState& server, Words words) {
-    return unmarkPlace(server, joined(words));
-}
-
-std::string marks(ServerState& server, Words) {
-    return placeList(server);
-}
-
-std::string setTime(ServerState& server, Words words) {
+std::string setTime(ServerClients& clients, game::DayClock& clock, Words words) {
     const auto time = numberFrom<double>(words[0]);
     if (!time || !(*time >= 0 && *time < 1)) return "a time of day is 0 (midnight) to below 1; 0.5 is noon";
-    setTimeHere(server, *time);
-    if (server.sharing.shared) server.sharing.shared->publishTime(*time);
+    setTimeHere(clients, clock, *time);
+    if (clients.shared) clients.shared->publishTime(*time);
     return "the time is set";
 }
 
-std::string setPassword(ServerState& server, Words words) {
+std::string setPassword(std::string& hash, ServerRecords& records, Words words) {
     if (words[0] == "off") {
-        server.passwordHash.clear();
+        hash.clear();
     } else {
         const std::size_t size = words[0].size();
         if (size == 0 || size > kMaxPasswordBytes || !isPlainText(words[0]))
             return fmt::format("a password has 1 to {} bytes of text", kMaxPasswordBytes);
-        auto hash = passwordHash(words[0]);
-        if (!hash) return hash.error().message;
-        server.passwordHash = std::move(*hash);
+        auto made = passwordHash(words[0]);
+        if (!made) return made.error().message;
+        hash = std::move(*made);
     }
-    server.records.setText(kPasswordText, server.passwordHash);
-    return server.passwordHash.empty() ? "no password is needed" : "the password is set";
+    records.setText(kPasswordText, hash);
+    return hash.empty() ? "no password is needed" : "the password is set";
 }
 
-std::string save(ServerState& server, Words) {
+std::string save(ServerState& server) {
     const auto saved = saveEverything(server);
     return saved ? "saved" : saved.error().message;
 }
 
-std::string stop(ServerState& server, Words) {
-    server.isStopping = true;
-    return "stopping";
-}
+using Server = ServerState;
 
-std::string help(ServerState&, Words) {
-    return consoleHelp();
-}
-
+// Each hands its function the parts of the server that it needs.
 constexpr ConsoleCommand kCommands[] = {
-    {"help", "", "this list", 0, 0, help},
-    {"list", "", "lists players with position, latency and role", 0, 0, list},
-    {"say", "TEXT", "sends a line to all players", 1, kAny, sayLine},
-    {"kick", "PLAYER [REASON]", "disconnects a player", 1, kAny, kick},
-    {"ban", "PLAYER [REASON]", "disconnects a player and refuses further logins", 1, kAny, ban},
-    {"unban", "PLAYER", "allows a banned player to log in again", 1, 1, unban},
-    {"op", "PLAYER", "makes a player an operator: builds everywhere, gives commands", 1, 1, makeOperator},
-    {"deop", "PLAYER", "makes an operator or guest an ordinary player", 1, 1, makePlayer},
-    {"guest", "PLAYER", "makes a player a guest: looks and chats, changes no blocks", 1, 1, makeGuest},
-    {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny, claim},
-    {"unclaim", "NAME", "ends a claim", 1, 1, unclaim},
-    {"claims", "", "all claims", 0, 0, claims},
+    {"help", "", "this list", 0, 0, [](Server&, Words) { return consoleHelp(); }},
+    {"list", "", "lists players with position, latency and role", 0, 0,
+     [](Server& s, Words) { return list(s.clients); }},
+    {"say", "TEXT", "sends a line to all players", 1, kAny,
+     [](Server& s, Words w) { return sayLine(s.clients, w); }},
+    {"kick", "PLAYER [REASON]", "disconnects a player", 1, kAny,
+     [](Server& s, Words w) { return kick(s.clients, w); }},
+    {"ban", "PLAYER [REASON]", "disconnects a player and refuses further logins", 1, kAny,
+     [](Server& s, Words w) { return ban(s.clients, w); }},
+    {"unban", "PLAYER", "allows a banned player to log in again", 1, 1,
+     [](Server& s, Words w) { return unban(s.clients.known, w); }},
+    {"op", "PLAYER", "makes a player an operator: builds everywhere, gives commands", 1, 1,
+     [](Server& s, Words w) {
+         return setRole(s.clients, s.session.permissions, w[0], game::Role::Operator);
+     }},
+    {"deop", "PLAYER", "makes an operator or guest an ordinary player", 1, 1,
+     [](Server& s, Words w) { return setRole(s.clients, s.session.permissions, w[0], game::Role::Player); }},
+    {"guest", "PLAYER", "makes a player a guest: looks and chats, changes no blocks", 1, 1,
+     [](Server& s, Words w) { return setRole(s.clients, s.session.permissions, w[0], game::Role::Guest); }},
+    {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny,
+     [](Server& s, Words w) { return claim(s.clients.known, s.session.permissions.claims, w); }},
+    {"unclaim", "NAME", "ends a claim", 1, 1,
+     [](Server& s, Words w) { return unclaim(s.clients.known, s.session.permissions.claims, w); }},
+    {"claims", "", "all claims", 0, 0, [](Server& s, Words) { return claimList(s.clients.known); }},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,
-     rollbackLine},
+     [](Server& s, Words w) { return rollbackLine(s.history, s.clients.known, w); }},
     {"mark", "X Y Z NAME", "names a place on maps; players name their own position: /mark NAME", 4, kAny,
-     mark},
-    {"unmark", "NAME", "removes a named place", 1, kAny, unmark},
-    {"marks", "", "lists all named places", 0, 0, marks},
-    {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1, setTime},
-    {"password", "PASSWORD|off", "sets or removes the password for joining", 1, 1, setPassword},
-    {"save", "", "saves all changes now; the server also saves every five seconds", 0, 0, save},
-    {"stop", "", "saves and ends the server", 0, 0, stop},
+     [](Server& s, Words w) { return mark(s.places, w); }},
+    {"unmark", "NAME", "removes a named place", 1, kAny,
+     [](Server& s, Words w) { return unmarkPlace(s.places, joined(w)); }},
+    {"marks", "", "lists all named places", 0, 0, [](Server& s, Words) { return placeList(s.places); }},
+    {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1,
+     [](Server& s, Words w) { return setTime(s.clients, s.session.clock, w); }},
+    {"password", "PASSWORD|off", "sets or removes the password for joining", 1, 1,
+     [](Server& s, Words w) { return setPassword(s.password.hash, s.history.records, w); }},
+    {"save", "", "saves all changes now; the server also saves every five seconds", 0, 0,
+     [](Server& s, Words) { return save(s); }},
+    {"stop", "", "saves and ends the server", 0, 0,
+     [](Server& s, Words) {
+         s.isStopping = true;
+         return std::string("stopping");
+     }},
 };
 
 std::vector<std::string> wordsOf(std::string_view line) {

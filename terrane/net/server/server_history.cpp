@@ -4,7 +4,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
-#include "terrane/net/server/server_players.h"
+#include "terrane/net/sharing/server_sharing.h"
 
 namespace terrane::net {
 namespace {
@@ -12,33 +12,20 @@ namespace {
 // Chunks of a rollback per tick: some milliseconds.
 constexpr std::size_t kRollbackChunks = 8;
 
-// Waits until all own edits are decided among the servers.
-base::Result<void> decideAll(ServerState& server) {
-    if (!server.sharing.shared) return {};
-    auto flushed = server.records.flush();
-    applySharedChanges(server);
-    return flushed;
-}
-
 }  // namespace
 
-void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes) {
-    ServerHistory& history = server.history;
+void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player,
+                std::span<const game::ChangedBlock> changes) {
     std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, nowMs(), changes);
     if (edits.empty()) return;
-    if (!server.sharing.shared) history.newest = edits.back().number;
-    history.lastWrite = server.records.append(edits);
-    trackWrite(server, history.lastWrite, std::move(edits));
+    if (!sharing.shared) history.newest = edits.back().number;
+    history.lastWrite = history.records.append(edits);
+    trackWrite(sharing, history.lastWrite, std::move(edits));
 }
 
-std::int64_t newestEdit(const ServerState& server) {
-    return server.sharing.shared ? server.sharing.newest : server.history.newest;
-}
-
-base::Result<void> restoreEdits(ServerState& server) {
-    if (server.records.shared()) return {};  // beginSharing() reads the tail instead
-    ServerHistory& history = server.history;
-    const auto ends = TERRANE_TRY(server.records.historyEnds());
+base::Result<bool> restoreEdits(ServerHistory& history, game::Session& session) {
+    if (history.records.shared()) return false;  // beginSharing() reads the tail instead
+    const auto ends = TERRANE_TRY(history.records.historyEnds());
     history.newest = ends.newest;
     history.saved = ends.saved;
     std::map<world::ChunkPos, ChunkDifference> chunks;
@@ -47,80 +34,63 @@ base::Result<void> restoreEdits(ServerState& server) {
         return {};
     };
     const EditFilter unsaved{.afterNumber = ends.saved};
-    TERRANE_TRY(server.records.forEachEdit(unsaved, EditOrder::OldestFirst, take));
-    if (chunks.empty()) return {};
+    TERRANE_TRY(history.records.forEachEdit(unsaved, EditOrder::OldestFirst, take));
+    if (chunks.empty()) return false;
     for (const auto& [pos, blocks] : chunks) {
-        (void)server.session.pipeline().chunkAt(pos);
-        server.session.setBlocks(placedBlocks(pos, blocks));
+        (void)session.pipeline().chunkAt(pos);
+        session.setBlocks(placedBlocks(pos, blocks));
     }
     base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), ends.saved + 1,
                   ends.newest);
-    return saveEverything(server);
+    return true;
 }
 
-void autosave(ServerState& server) {
-    if (server.sharing.shared) return autosaveShared(server);
-    ServerHistory& history = server.history;
-    store::ChunkStore& store = server.session.store();
+void autosave(ServerHistory& history, SharingState& sharing, game::Session& session, Time now) {
+    store::ChunkStore& store = session.store();
     if (history.saving && store.status().durable >= history.saving->save) {
-        history.saved = history.saving->edit;
-        server.records.setSavedEdit(history.saved);
+        if (sharing.shared) {
+            endSharedSave(sharing, history.saving->edit);
+        } else {
+            history.saved = history.saving->edit;
+            history.records.setSavedEdit(history.saved);
+        }
         history.saving.reset();
     }
-    if (history.saving || server.now < history.nextSave) return;
-    history.nextSave = server.now + kHistorySaveEvery;
-    server.session.pipeline().saveAll();
-    const store::SaveNumber number = game::saveTimeDay(store, server.session.clock.timeDay);
-    if (history.saved < history.newest) history.saving = {history.newest, number};
+    if (history.saving || now < history.nextSave) return;
+    history.nextSave = now + kHistorySaveEvery;
+    std::int64_t upTo = history.newest;
+    if (sharing.shared)
+        upTo = beginSharedSave(sharing, session.pipeline());
+    else
+        session.pipeline().saveAll();
+    const store::SaveNumber number = game::saveTimeDay(store, session.clock.timeDay);
+    if (sharing.shared || history.saved < upTo) history.saving = {upTo, number};
 }
 
-base::Result<void> saveEverything(ServerState& server) {
-    // Finishes running rollbacks.
-    while (!server.rollbacks.empty()) {
-        (void)server.session.pipeline().chunkAt(server.rollbacks.front().chunk);
-        completeLoaded(server);
-        continueRollbacks(server);
-    }
-    TERRANE_TRY(decideAll(server));
-    game::saveTimeDay(server.session.store(), server.session.clock.timeDay);
-    TERRANE_TRY(server.session.save());
-    if (server.sharing.shared) {
-        publishSavedPlaces(server);
-        server.sharing.shared->publishState(0, server.sharing.newest);
-    }
-    if (server.history.saved < server.history.newest) {
-        server.history.saved = server.history.newest;
-        server.records.setSavedEdit(server.history.newest);
-    }
-    server.history.saving.reset();
-    return server.records.flush();
-}
-
-base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter) {
+base::Result<std::size_t> startRollback(ServerHistory& history, const EditFilter& filter) {
     // The reader sees only durable edits.
-    TERRANE_TRY(server.records.flush());
+    TERRANE_TRY(history.records.flush());
     const auto forEachEdit = [&](const EditFilter& selected, EditOrder order, const UseEdit& use) {
-        return server.records.forEachEdit(selected, order, use);
+        return history.records.forEachEdit(selected, order, use);
     };
     auto plan = TERRANE_TRY(rollback(forEachEdit, filter));
     // Each block occurs once in the plan. Parts of earlier rollbacks stay separate, even of the same chunk.
-    const std::size_t first = server.rollbacks.size();
+    const std::size_t first = history.rollbacks.size();
     for (RolledBack& block : plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);
-        if (server.rollbacks.size() == first || server.rollbacks.back().chunk != chunk)
-            server.rollbacks.push_back({chunk, {}});
-        server.rollbacks.back().blocks.push_back(std::move(block));
+        if (history.rollbacks.size() == first || history.rollbacks.back().chunk != chunk)
+            history.rollbacks.push_back({chunk, {}});
+        history.rollbacks.back().blocks.push_back(std::move(block));
     }
     return plan.size();
 }
 
-void continueRollbacks(ServerState& server) {
-    game::Session& session = server.session;
+void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session) {
     // Loads the chunks of the next parts ahead.
-    for (std::size_t k = 0; k < std::min(server.rollbacks.size(), 4 * kRollbackChunks); ++k)
-        (void)session.pipeline().maybeLoadChunkAt(server.rollbacks[k].chunk);
-    for (std::size_t k = 0; k < kRollbackChunks && !server.rollbacks.empty(); ++k) {
-        const RollbackPart& part = server.rollbacks.front();
+    for (std::size_t k = 0; k < std::min(history.rollbacks.size(), 4 * kRollbackChunks); ++k)
+        (void)session.pipeline().maybeLoadChunkAt(history.rollbacks[k].chunk);
+    for (std::size_t k = 0; k < kRollbackChunks && !history.rollbacks.empty(); ++k) {
+        const RollbackPart& part = history.rollbacks.front();
         if (!session.world().maybeChunkAt(part.chunk)) return;
         std::vector<world::PlacedBlock> blocks;
         std::vector<game::ChangedBlock> changes;
@@ -130,8 +100,8 @@ void continueRollbacks(ServerState& server) {
             changes.push_back({block.pos, block.made, block.before});
         }
         session.setBlocks(blocks);
-        logChanges(server, game::kNoPlayer, changes);
-        server.rollbacks.pop_front();
+        logChanges(history, sharing, game::kNoPlayer, changes);
+        history.rollbacks.pop_front();
     }
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <chrono>
+#include <cstddef>
+#include <cstdint>
 #include <span>
 
 #include "terrane/net/server/server_state.h"
@@ -10,24 +12,20 @@
 namespace terrane::net {
 
 // Logs the changes of a player's command, or of a rollback (game::kNoPlayer).
-void logChanges(ServerState& server, game::PlayerId player, std::span<const game::ChangedBlock> changes);
+void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player,
+                std::span<const game::ChangedBlock> changes);
 
-// Number of the world's newest edit, across all its servers.
-std::int64_t newestEdit(const ServerState& server);
-
-// Applies edits that the world's store lacks. Call before players join; blocks.
-[[nodiscard]] base::Result<void> restoreEdits(ServerState& server);
+// Applies edits that the world's store lacks, and returns whether there are any. Call before players join;
+// blocks.
+[[nodiscard]] base::Result<bool> restoreEdits(ServerHistory& history, game::Session& session);
 
 constexpr std::chrono::seconds kHistorySaveEvery{5};
-// Sends edited chunks to the store every kHistorySaveEvery, and notes in the history once they are saved.
-// Call in each tick.
-void autosave(ServerState& server);
-// Saves all changes to the store and the records. Blocks.
-[[nodiscard]] base::Result<void> saveEverything(ServerState& server);
+// Sends edited chunks to the store every kHistorySaveEvery, and notes once they are saved. Call in each tick.
+void autosave(ServerHistory& history, SharingState& sharing, game::Session& session, Time now);
 
 // Reverts the selected edits where the blocks still have the edited value; runs over several ticks. Returns
 // the number of blocks to check.
-[[nodiscard]] base::Result<std::size_t> startRollback(ServerState& server, const EditFilter& filter);
-void continueRollbacks(ServerState& server);
+[[nodiscard]] base::Result<std::size_t> startRollback(ServerHistory& history, const EditFilter& filter);
+void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session);
 
 }  // namespace terrane::net

@@ -12,6 +12,7 @@
 #include <chrono>
 #include <cstdio>
 #include <istream>
+#include <mutex>
 #include <string>
 #include <utility>
 
@@ -19,8 +20,10 @@
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
 #include "terrane/game/player_state.h"
+#include "terrane/game/spawn.h"
 #include "terrane/net/server/server.h"
 #include "terrane/net/server/server_console.h"
+#include "terrane/net/wire/security.h"
 
 namespace terrane::net {
 
@@ -29,12 +32,13 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
                                         const ServerContent& content) {
     const store::WorldIdentity identity = parts.store->identity();
     auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, content.generators));
-    const WorldFingerprint fingerprint = worldFingerprint(identity, graph, *parts.blocks);
+    ServerOffer offer{program, worldFingerprint(identity, graph, *parts.blocks), content.packs};
     auto knownPlayers = TERRANE_TRY(KnownPlayers::read(*records));
 
     const auto tiles = std::make_shared<WrittenTiles>();
     parts.tileListener = [tiles](std::span<const world::ChunkPos> written) {
-        addWrittenTiles(*tiles, written);
+        const std::lock_guard lock(tiles->mutex);
+        tiles->tiles.insert(tiles->tiles.end(), written.begin(), written.end());
     };
     ServerHost host;
     host.session = std::make_unique<game::Session>(std::move(parts));
@@ -42,9 +46,14 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
         host.session->clock.timeDay = *time;
     host.records = std::move(records);
     host.knownPlayers = std::make_unique<KnownPlayers>(std::move(knownPlayers));
+    std::uint64_t random = 0;
+    fillRandom(std::as_writable_bytes(std::span(&random, 1)));
+    const gen::Generator& generator = host.session->generator();
+    offer.samples = samplePositions(random);
+    offer.digests = sampleDigests(generator, offer.samples);  // generates chunks: up to 0.3 s
+    offer.spawn = game::findSpawn(generator, host.session->blocks());
     auto state = TERRANE_TRY(
-        openServer({*host.session, *host.records, *host.knownPlayers, program, fingerprint, content.packs},
-                   settings, tiles));
+        openServer({*host.session, *host.records, *host.knownPlayers, tiles, std::move(offer)}, settings));
     host.state = std::move(state);
     return host;
 }

@@ -23,20 +23,16 @@ void makeChange(std::vector<game::Place>& places, const PlaceChange& change) {
         (void)game::putPlace(places, change.name, poseOf(change.pose));
 }
 
-store::SaveNumber changeHere(ServerState& server, const PlaceChange& change) {
-    std::vector<game::Place> places = game::savedPlaces(server.session.store());
+store::SaveNumber changeHere(store::ChunkStore& store, const PlaceChange& change) {
+    std::vector<game::Place> places = game::savedPlaces(store);
     makeChange(places, change);
-    return game::savePlaces(server.session.store(), places);
+    return game::savePlaces(store, places);
 }
 
 // Changes a place here and on the other servers of the world.
-void change(ServerState& server, const PlaceChange& change) {
-    const store::SaveNumber save = changeHere(server, change);
-    if (server.sharing.shared) server.sharing.untoldPlaces.push_back({save, change});
-}
-
-std::vector<game::Place> placesOf(ServerState& server) {
-    return game::savedPlaces(server.session.store());
+void change(ServerPlaces& places, const PlaceChange& change) {
+    const store::SaveNumber save = changeHere(places.store, change);
+    if (places.shared) places.untold.push_back({save, change});
 }
 
 bool hasPlace(const std::vector<game::Place>& places, std::string_view name) {
@@ -51,90 +47,90 @@ std::string knownName(const std::vector<game::Place>& places, std::string_view t
 
 }  // namespace
 
-void applyPlaceChange(ServerState& server, const PlaceChange& change) {
-    (void)changeHere(server, change);
+void applyPlaceChange(ServerPlaces& places, const PlaceChange& change) {
+    (void)changeHere(places.store, change);
 }
 
-void replacePlaces(ServerState& server, const std::vector<game::Place>& places) {
-    std::vector<game::Place> all = places;
-    for (const auto& [save, change] : server.sharing.untoldPlaces) makeChange(all, change);
-    if (game::textOf(all) != game::textOf(game::savedPlaces(server.session.store())))
-        game::savePlaces(server.session.store(), all);
+void replacePlaces(ServerPlaces& places, const std::vector<game::Place>& stored) {
+    std::vector<game::Place> all = stored;
+    for (const auto& [save, change] : places.untold) makeChange(all, change);
+    if (game::textOf(all) != game::textOf(game::savedPlaces(places.store)))
+        game::savePlaces(places.store, all);
 }
 
-void publishSavedPlaces(ServerState& server) {
-    auto& untold = server.sharing.untoldPlaces;
+void publishSavedPlaces(ServerPlaces& places) {
+    auto& untold = places.untold;
     if (untold.empty()) return;
-    const store::SaveNumber durable = server.session.store().status().durable;
+    const store::SaveNumber durable = places.store.status().durable;
     for (; !untold.empty() && untold.front().first <= durable; untold.pop_front())
-        server.sharing.shared->publishPlace(untold.front().second);
+        places.shared->publishPlace(untold.front().second);
 }
 
-std::string markPlace(ServerState& server, std::string_view typed, const world::Pose& pose) {
+std::string markPlace(ServerPlaces& places, std::string_view typed, const world::Pose& pose) {
     if (game::placeName(typed).empty()) return "a place needs a name: mark NAME";
-    const std::vector<game::Place> all = placesOf(server);
+    const std::vector<game::Place> all = game::savedPlaces(places.store);
     const auto name = game::namedPlace(all, typed);
     if (!name) return name.error().message;
     if (!hasPlace(all, *name) && all.size() >= game::kMaxPlaces)
         return fmt::format("there are {} named places, the maximum: remove one with unmark",
                            game::kMaxPlaces);
-    change(server, {*name, wirePose(pose), false});
+    change(places, {*name, wirePose(pose), false});
     return fmt::format("{} is marked", *name);
 }
 
-std::string unmarkPlace(ServerState& server, std::string_view typed) {
-    const std::vector<game::Place> all = placesOf(server);
+std::string unmarkPlace(ServerPlaces& places, std::string_view typed) {
+    const std::vector<game::Place> all = game::savedPlaces(places.store);
     const std::string name = knownName(all, typed);
     if (!hasPlace(all, name)) return fmt::format("there is no place {}: marks lists them", name);
-    change(server, {name, {}, true});
+    change(places, {name, {}, true});
     return fmt::format("{} is no longer marked", name);
 }
 
-std::string placeList(ServerState& server) {
-    const std::vector<game::Place> places = game::savedPlaces(server.session.store());
-    std::string text = fmt::format("{} places", places.size());
-    for (const game::Place& place : places) {
+std::string placeList(const ServerPlaces& places) {
+    const std::vector<game::Place> all = game::savedPlaces(places.store);
+    std::string text = fmt::format("{} places", all.size());
+    for (const game::Place& place : all) {
         const auto& at = place.pose.position;
         text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}", place.name, at.x, at.y, at.z);
     }
     return text;
 }
 
-std::string markHere(ServerState& server, const ServerClient& client, std::string_view typed) {
+std::string markHere(ServerPlaces& places, const ServerClient& client, std::string_view typed) {
     if (client.role == game::Role::Guest) return "guests cannot mark places";
     const world::Pose pose = poseOf(client.pose);
-    if (client.role == game::Role::Operator) return markPlace(server, typed, pose);
-    const std::vector<game::Place> all = placesOf(server);
+    if (client.role == game::Role::Operator) return markPlace(places, typed, pose);
+    const std::vector<game::Place> all = game::savedPlaces(places.store);
     if (game::placeName(typed).empty()) return "a place needs a name: mark NAME";
     const auto name = game::namedPlace(all, typed);
     if (!name) return name.error().message;
-    auto own = server.placeOwners.placesOf(client.player, all);
+    auto own = places.owners.placesOf(client.player, all);
     if (!own) return own.error().message;
     if (std::erase_if(*own, [&](const game::Place& place) { return place.name == *name; }) == 0) {
         if (hasPlace(all, *name))
             return fmt::format("there is a place {} of another: only operators can move it", *name);
-        if (own->size() >= server.settings.maxPlacesOfPlayer)
+        if (own->size() >= places.settings.maxPlacesOfPlayer)
             return fmt::format(
                 "you have named {} places, the maximum of a player: remove one with /unmark NAME",
                 own->size());
         if (all.size() + kPlacesOfOperators >= game::kMaxPlaces)
             return fmt::format("there are {} named places: only operators can name more", all.size());
     }
-    const std::string answer = markPlace(server, *name, pose);
-    for (const game::Place& place : placesOf(server))
+    const std::string answer = markPlace(places, *name, pose);
+    for (const game::Place& place : game::savedPlaces(places.store))
         if (place.name == *name) own->push_back(place);
-    server.placeOwners.set(client.player, *own);
+    places.owners.set(client.player, *own);
     return answer;
 }
 
-std::string unmarkOwn(ServerState& server, const ServerClient& client, std::string_view typed) {
-    const std::vector<game::Place> all = placesOf(server);
+std::string unmarkOwn(ServerPlaces& places, const ServerClient& client, std::string_view typed) {
+    const std::vector<game::Place> all = game::savedPlaces(places.store);
     if (client.role == game::Role::Guest) return "guests cannot unmark places";
     const std::string name = knownName(all, typed);
-    const auto own = server.placeOwners.placesOf(client.player, all);
+    const auto own = places.owners.placesOf(client.player, all);
     if (!own) return own.error().message;
     if (!hasPlace(*own, name)) return fmt::format("you have named no place {}", name);
-    return unmarkPlace(server, name);
+    return unmarkPlace(places, name);
 }
 
 namespace {
@@ -150,13 +146,13 @@ bool isInWorld(const WirePose& pose) {
     return world::isInWorld(world::chunkOf(poseOf(pose).position));
 }
 
-void onMove(ServerState& server, ServerClient& client, const Move& move) {
+void onMove(game::Session& session, ServerClient& client, const Move& move, Time now) {
     const bool isFree = client.role == game::Role::Operator;
     const double blocks = distanceBetween(client.pose, move.pose);
-    if (!isInWorld(move.pose) || (!isFree && !client.buckets.blocksAway.take(blocks, server.now)))
+    if (!isInWorld(move.pose) || (!isFree && !client.buckets.blocksAway.take(blocks, now)))
         return send(client, Corrected{client.pose});
     client.pose = move.pose;
-    server.session.setPlayer(client.player, poseOf(move.pose));
+    session.setPlayer(client.player, poseOf(move.pose));
 }
 
 void onView(ServerClient& client, const View& view) {
@@ -166,41 +162,42 @@ void onView(ServerClient& client, const View& view) {
 }
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
-    if (!client.buckets.chat.take(1, server.now)) return say(client, "you chat too fast");
+    if (!client.buckets.chat.take(1, server.clients.now)) return say(client, "you chat too fast");
     const bool isOperator = client.role == game::Role::Operator;
-    if (!isOperator && !takeOfAddress(server.chatOfAddress, client.address, kChatOfAddress, server.now))
+    if (!isOperator &&
+        !takeOfAddress(server.clients.chatOfAddress, client.address, kChatOfAddress, server.clients.now))
         return say(client, "too many lines come from your address");
     if (message.text.empty()) return;
     if (message.text.front() != '/') {
         base::logInfo("<{}> {}", client.name, message.text);
-        return broadcastChat(server, client.name, message.text);
+        return broadcastChat(server.clients, client.name, message.text);
     }
     constexpr std::string_view kMark = "/mark ";
     if (message.text.starts_with(kMark))
-        return say(client, markHere(server, client, std::string_view(message.text).substr(kMark.size())));
+        return say(client,
+                   markHere(server.places, client, std::string_view(message.text).substr(kMark.size())));
     constexpr std::string_view kUnmark = "/unmark ";
     if (message.text.starts_with(kUnmark) && !isOperator)
-        return say(client, unmarkOwn(server, client, std::string_view(message.text).substr(kUnmark.size())));
+        return say(client,
+                   unmarkOwn(server.places, client, std::string_view(message.text).substr(kUnmark.size())));
     if (!isOperator) return say(client, "only operators can give commands");
     // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
     say(client, runConsoleLine(server, message.text.substr(1)));
 }
 
-void onAskPlayers(ServerState& server, ServerClient& client) {
-    if (!client.buckets.lists.take(1, server.now)) return;
+void onAskPlayers(ServerClients& clients, ServerClient& client) {
+    if (!client.buckets.lists.take(1, clients.now)) return;
     PlayerList list;
-    forEachPlaying(server, [&](const ServerClient& other) {
+    forEachPlaying(clients, [&](const ServerClient& other) {
         const auto latency = other.latency.value_or(std::chrono::milliseconds(0)).count();
         if (list.players.size() < kMaxPlayersInMessage)
             list.players.push_back({other.name, other.role,
                                     static_cast<std::uint16_t>(std::clamp<std::int64_t>(latency, 0, 65535))});
     });
-    for (const auto& [id, other] : server.sharing.players) {
-        const KnownPlayer* known = server.knownPlayers.byId(id);
-        if (known && !server.playing.contains(id) && list.players.size() < kMaxPlayersInMessage)
-            list.players.push_back({known->name, known->role, 0});
-    }
+    forEachElsewhere(clients, [&](const KnownPlayer& other, const PlayerAt&) {
+        if (list.players.size() < kMaxPlayersInMessage) list.players.push_back({other.name, other.role, 0});
+    });
     send(client, list);
 }
 
@@ -210,12 +207,12 @@ std::uint32_t pingTime(Time now) {
     return static_cast<std::uint32_t>(since.count());
 }
 
-void sendVisibility(ServerState& server, ServerClient& client, const PlayerGrid& grid) {
+void sendVisibility(const ServerClients& clients, ServerClient& client, const PlayerGrid& grid) {
     const SightChanges changes =
-        client.sight.update(server.tick, grid.around({client.player, client.pose, client.swungTick}));
+        client.sight.update(clients.tick, grid.around({client.player, client.pose, client.swungTick}));
     for (const std::uint16_t slot : changes.disappeared) send(client, Disappears{slot});
     for (const auto& [slot, player] : changes.appeared) {
-        const KnownPlayer* known = server.knownPlayers.byId(player->id);
+        const KnownPlayer* known = clients.known.byId(player->id);
         send(client, Appears{slot, player->id, known ? known->name : std::string(), player->pose});
     }
     if (!changes.poses.empty()) send(client, Poses{changes.poses});
@@ -224,52 +221,57 @@ void sendVisibility(ServerState& server, ServerClient& client, const PlayerGrid&
 }  // namespace
 
 void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage message) {
-    std::visit(base::Match{
-                   [&](const Move& move) { onMove(server, client, move); },
-                   [&](const View& view) { onView(client, view); },
-                   [&](Edit& edit) {
-                       enqueueCommand(server, client, {std::move(edit), server.tick});
-                   },
-                   [&](const Fill& fill) {
-                       enqueueCommand(server, client, {Build{fill.number, fill.fill}, server.tick});
-                   },
-                   [&](const Place& place) { takePlace(server, client, place); },
-                   [&](const TakeBack& takeBack) {
-                       enqueueCommand(server, client, {takeBack, server.tick});
-                   },
-                   [&](const Say& text) { onSay(server, client, text); },
-                   [&](const AskPlayers&) { onAskPlayers(server, client); },
-                   [&](const Pong& pong) {
-                       client.latency = std::chrono::milliseconds(pingTime(server.now) - pong.time);
-                   },
-                   [&](const Leave&) { leave(server, client); },
-                   base::on<Hello, Login, Proof, AskPack>([&] { refuseUnexpected(server, client, message); }),
-               },
-               message);
+    ServerClients& clients = server.clients;
+    game::Session& session = server.session;
+    const auto enqueue = [&](auto command) {
+        enqueueCommand(clients, client, session, {std::move(command), clients.tick});
+    };
+    std::visit(
+        base::Match{
+            [&](const Move& move) { onMove(session, client, move, clients.now); },
+            [&](const View& view) { onView(client, view); },
+            [&](Edit& edit) { enqueue(std::move(edit)); },
+            [&](const Fill& fill) {
+                enqueue(Build{fill.number, fill.fill});
+            },
+            [&](const Place& place) {
+                enqueue(buildFrom(place, client.buckets, session.blocks(), clients.now));
+            },
+            [&](const TakeBack& takeBack) { enqueue(takeBack); },
+            [&](const Say& text) { onSay(server, client, text); },
+            [&](const AskPlayers&) { onAskPlayers(clients, client); },
+            [&](const Pong& pong) {
+                client.latency = std::chrono::milliseconds(pingTime(clients.now) - pong.time);
+            },
+            [&](const Leave&) { leave(clients, client); },
+            base::on<Hello, Login, Proof, AskPack>([&] { refuseUnexpected(clients, client, message); }),
+        },
+        message);
 }
 
-void broadcastVisibility(ServerState& server) {
+void broadcastVisibility(ServerClients& clients) {
     std::vector<PlayerAt> players;
-    forEachPlaying(server, [&](const ServerClient& client) {
+    forEachPlaying(clients, [&](const ServerClient& client) {
         players.push_back({client.player, client.pose, client.swungTick});
     });
-    for (const auto& [id, other] : server.sharing.players)
-        if (!server.playing.contains(id)) players.push_back(other.at);
+    for (const auto& [id, other] : clients.elsewhere)
+        if (!clients.playing.contains(id)) players.push_back(other.at);
     const PlayerGrid grid(players);
     // Updates half of the clients in each tick, to spread the traffic over time.
-    forEachPlaying(server, [&](ServerClient& client) {
-        if ((server.tick + client.id) % kTicksPerSight == 0) sendVisibility(server, client, grid);
+    forEachPlaying(clients, [&](ServerClient& client) {
+        if ((clients.tick + client.id) % kTicksPerSight == 0) sendVisibility(clients, client, grid);
     });
 }
 
-void sendKeepAlives(ServerState& server) {
-    forEachPlaying(server, [&](ServerClient& client) {
-        if (server.now - client.heardAt > server.settings.silentAfter)
-            return refuse(server, client, Refusal::Silent, "no message from you for too long");
-        if ((server.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(server.now)});
-        if ((server.tick + client.id) % kTicksPerClock == 0) send(client, clockOf(server));
-        if (client.outgoing.size() + client.unsent > server.settings.maxUnsentBytes)
-            refuse(server, client, Refusal::TooSlow, "your connection is too slow for the server's messages");
+void sendKeepAlives(ServerClients& clients, const game::DayClock& clock) {
+    forEachPlaying(clients, [&](ServerClient& client) {
+        if (clients.now - client.heardAt > clients.settings.silentAfter)
+            return refuse(clients, client, Refusal::Silent, "no message from you for too long");
+        if ((clients.tick + client.id) % kTicksPerPing == 0) send(client, Ping{pingTime(clients.now)});
+        if ((clients.tick + client.id) % kTicksPerClock == 0) send(client, clockOf(clock));
+        if (client.outgoing.size() + client.unsent > clients.settings.maxUnsentBytes)
+            refuse(clients, client, Refusal::TooSlow,
+                   "your connection is too slow for the server's messages");
     });
 }
 

@@ -111,8 +111,8 @@ void ServerSockets::Impl::accept() {
 }
 
 bool ServerSockets::Impl::isAt(const ServerConnection& connection, ServerClient::Stage stage) const {
-    const auto found = server.clients.find(connection.id);
-    return found != server.clients.end() && found->second.stage == stage;
+    const auto found = server.clients.all.find(connection.id);
+    return found != server.clients.all.end() && found->second.stage == stage;
 }
 
 // Closes the oldest connection of the address with the most pending ones.
@@ -189,8 +189,8 @@ void ServerSockets::Impl::takeFrames(const ConnectionPtr& connection, std::size_
 }
 
 void ServerSockets::Impl::flush(const ConnectionPtr& connection) {
-    const auto found = server.clients.find(connection->id);
-    if (found == server.clients.end() || !connection->sending.empty()) return;
+    const auto found = server.clients.all.find(connection->id);
+    if (found == server.clients.all.end() || !connection->sending.empty()) return;
     ServerClient& client = found->second;
     if (!client.outgoing.empty()) {
         connection->sending.swap(client.outgoing);
@@ -210,8 +210,8 @@ void ServerSockets::Impl::send(const ConnectionPtr& connection) {
                           connection->sending.clear();
                           if (error) return close(connection);
                           if (!isOpen(connection)) return;
-                          if (const auto found = server.clients.find(connection->id);
-                              found != server.clients.end())
+                          if (const auto found = server.clients.all.find(connection->id);
+                              found != server.clients.all.end())
                               found->second.unsent = 0;
                           flush(connection);
                       });
@@ -256,8 +256,8 @@ void ServerSockets::flush() {
     std::vector<ConnectionPtr> all;
     for (const auto& [id, connection] : impl_->connections) all.push_back(connection);
     for (const ConnectionPtr& connection : all) {
-        const auto found = impl_->server.clients.find(connection->id);
-        const bool isKnown = found != impl_->server.clients.end();
+        const auto found = impl_->server.clients.all.find(connection->id);
+        const bool isKnown = found != impl_->server.clients.all.end();
         const bool isClosed = isKnown && found->second.stage == ServerClient::Stage::Closed;
         if (isClosed && !connection->closingSince) connection->closingSince = now;
         const bool tookTooLong = !isKnown && now - connection->openedAt > impl_->server.settings.loginWithin;

@@ -15,6 +15,7 @@
 #include <string>
 #include <unordered_map>
 #include <unordered_set>
+#include <utility>
 #include <vector>
 
 #include "terrane/base/job_system.h"
@@ -56,35 +57,80 @@ struct OfferedPack {
     std::shared_ptr<const Bytes> archive;
 };
 
-// The parts of a server; all of them outlive it.
-struct ServerParts {
-    game::Session& session;
-    ServerRecords& records;
-    KnownPlayers& knownPlayers;
-    std::string program;           // and its version
-    WorldFingerprint fingerprint;  // of the session's world
-    std::vector<OfferedPack> packs = {};
-};
-
-// Tiles written by the store's thread.
+// Tiles written by the store's thread, which calls SessionParts::tileListener.
 struct WrittenTiles {
     std::mutex mutex;
     std::vector<world::ChunkPos> tiles;
 };
 
-// Progress of saving edits to the world's store. `newest` and `saved` are 0 if the world is shared: see
-// newestEdit() and SharingState.
-struct ServerHistory {
-    std::int64_t newest = 0;      // number of the newest edit
-    std::uint64_t lastWrite = 0;  // number of the last write; see ServerRecords::durable()
-    std::int64_t saved = 0;       // all edits up to this one are in the store
-    struct SavePoint {
-        std::int64_t edit = 0;
-        store::SaveNumber save = 0;
-    };
-    std::optional<SavePoint> saving;  // being written by the store
-    Time nextSave{};
+// What every client is told of the server.
+struct ServerOffer {
+    std::string program;           // and its version
+    WorldFingerprint fingerprint;  // of the session's world
+    std::vector<OfferedPack> packs;
+    SamplePositions samples{};
+    SampleDigests digests{};
+    world::Pose spawn = {};
 };
+
+// The parts of a server; all of them outlive it.
+struct ServerParts {
+    game::Session& session;
+    ServerRecords& records;
+    KnownPlayers& knownPlayers;
+    std::shared_ptr<WrittenTiles> tiles;
+    ServerOffer offer;
+};
+
+// A player on another server of the world.
+struct PlayerElsewhere {
+    PlayerAt at;
+    Time heardAt{};
+};
+
+// The connections of a server, and all players.
+struct ServerClients {
+    const ServerSettings& settings;
+    KnownPlayers& known;
+    SharedWorld* shared;  // null: no other servers
+    std::uint64_t tick = 0;
+    Time now{};  // time of the last tick or message
+    std::map<ConnectionId, ServerClient> all = {};
+    std::unordered_map<game::PlayerId, ConnectionId> playing = {};
+    std::unordered_map<game::PlayerId, FormerClient> former = {};  // players who left
+    std::unordered_map<game::PlayerId, PlayerElsewhere> elsewhere = {};
+    AddressBuckets newPlayers = {}, chatOfAddress = {};  // rate limits
+};
+
+// The password for joining, and its checks, one after another on a worker.
+struct ServerPassword {
+    struct Waiting {
+        ConnectionId client = 0;
+        std::string password;
+    };
+    struct Check {
+        ConnectionId client = 0;
+        base::JobHandle job;
+        std::shared_ptr<bool> fits = std::make_shared<bool>(false);
+    };
+
+    std::string hash;  // empty: no password
+    std::optional<Check> running;
+    std::deque<Waiting> queue;
+};
+
+// Edited chunks and tiles, and who is told of their changes.
+struct ServerEdits {
+    EditedChunks chunks;
+    std::shared_ptr<WrittenTiles> writtenTiles;
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash> tilesToTell = {};
+    // Called with chunks whose blocks changed, and with stored tiles that changed with them; for maps. May be
+    // empty.
+    std::function<void(std::span<const world::ChunkPos>)> onChanged = {};
+};
+
+// Blocks that changed, by chunk; in any order, some several times.
+using ChangedIndices = std::map<world::ChunkPos, std::vector<world::BlockIndex>>;
 
 // A rollback in one chunk. Rollbacks run over several ticks, since their chunks must be loaded.
 struct RollbackPart {
@@ -92,63 +138,53 @@ struct RollbackPart {
     std::vector<RolledBack> blocks;
 };
 
-struct WaitingPassword {
-    ConnectionId client = 0;
-    std::string password;
+// The edit history, and the progress of saving its edits to the world's store. `newest` and `saved` are 0 if
+// the world is shared: see SharingState.
+struct ServerHistory {
+    ServerRecords& records;
+    std::int64_t newest = 0;      // number of the newest edit
+    std::uint64_t lastWrite = 0;  // number of the last write; see ServerRecords::durable()
+    std::int64_t saved = 0;       // all edits up to this one are in the store
+    struct SavePoint {
+        std::int64_t edit = 0;
+        store::SaveNumber save = 0;
+    };
+    std::optional<SavePoint> saving = {};  // being written by the store
+    Time nextSave{};
+    std::deque<RollbackPart> rollbacks = {};
 };
-// A password check on a worker.
-struct PasswordCheck {
-    ConnectionId client = 0;
-    base::JobHandle job;
-    std::shared_ptr<bool> fits = std::make_shared<bool>(false);
+
+// Named places, in the metadata of the world.
+struct ServerPlaces {
+    store::ChunkStore& store;
+    SharedWorld* shared;  // null: no other servers
+    const ServerSettings& settings;
+    PlaceOwners owners;
+    std::deque<std::pair<store::SaveNumber, PlaceChange>> untold = {};  // own changes, not saved yet
 };
 
 struct ServerState {
-    ServerState(const ServerParts& serverParts, const ServerSettings& serverSettings)
-        : session(serverParts.session),
-          records(serverParts.records),
-          knownPlayers(serverParts.knownPlayers),
-          program(serverParts.program),
-          packs(serverParts.packs),
+    ServerState(const ServerParts& parts, const ServerSettings& serverSettings)
+        : session(parts.session),
           settings(serverSettings),
-          placeOwners(serverParts.records),
-          edited({session.generators(), session.store(), session.world(), jobs}) {}
+          offer(parts.offer),
+          clients{settings, parts.knownPlayers, parts.records.shared()},
+          history{parts.records},
+          edits{EditedChunks({session.generators(), session.store(), session.world(), jobs}), parts.tiles},
+          places{session.store(), parts.records.shared(), settings, PlaceOwners(parts.records)} {}
 
     game::Session& session;
-    ServerRecords& records;
-    KnownPlayers& knownPlayers;
-    std::string program;
-    std::vector<OfferedPack> packs;
-    ServerSettings settings;
-    PlaceOwners placeOwners;
-
-    WorldFingerprint world;
-    SamplePositions samples{};
-    SampleDigests digests{};
-    world::Pose spawn;
-    std::string passwordHash;  // empty: no password
-
-    std::map<ConnectionId, ServerClient> clients;
-    std::unordered_map<game::PlayerId, ConnectionId> playing;
-    AddressBuckets newPlayers, chatOfAddress;
-    std::unordered_map<game::PlayerId, FormerClient> left;
-    std::uint64_t tick = 0;
-    Time now{};
-
-    EditedChunks edited;
-    std::map<world::ChunkPos, std::vector<world::BlockIndex>> changed;  // since the last tick
+    const ServerSettings settings;
+    const ServerOffer offer;
+    ServerClients clients;
+    ServerPassword password;
     ServerHistory history;
+    ServerEdits edits;
+    ChangedIndices changed;  // since clients were told of changes
+    ServerPlaces places;
     SharingState sharing;
-    std::shared_ptr<WrittenTiles> writtenTiles = std::make_shared<WrittenTiles>();
-    std::unordered_set<world::ChunkPos, world::ChunkPosHash> tilesToTell;  // changed tiles
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow
-    std::deque<RollbackPart> rollbacks;
-    std::optional<PasswordCheck> passwordCheck;
-    std::deque<WaitingPassword> passwordQueue;
     bool isStopping = false;
-    // Called with chunks whose blocks changed, and with stored tiles that changed with them; for maps. May be
-    // empty.
-    std::function<void(std::span<const world::ChunkPos>)> onChanged;
 
     base::JobSystem jobs{1};  // for differences and passwords; destroyed first
 };

@@ -38,13 +38,13 @@ void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& d
 }
 
 // Sets the client's view and collects the edited chunks and tiles to send.
-void setClientView(ServerState& server, ServerClient& client, const View& view) {
-    client.view = servedView(view, server.settings.maxViewDistance);
+void setClientView(ServerClient& client, const EditedChunks& edited, const View& view) {
+    client.view = view;
     std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
     client.toTell.clear();
     for (int level = 0; level <= topLevelOf(*client.view); ++level) {
         const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
-        for (const ChunkPos pos : server.edited.within(above(view.center, level), radius))
+        for (const ChunkPos pos : edited.within(above(view.center, level), radius))
             if (!client.told.contains(pos) && isInView(*client.view, pos)) client.toTell.push_back(pos);
     }
     std::ranges::sort(client.toTell, [&](ChunkPos a, ChunkPos b) {
@@ -54,12 +54,12 @@ void setClientView(ServerState& server, ServerClient& client, const View& view) 
 }
 
 // Sends the nearest available differences until the client's buffer is full.
-void sendView(ServerState& server, ServerClient& client) {
+void sendView(ServerClient& client, EditedChunks& edited) {
     std::size_t pending = 0;
     for (std::size_t k = client.toTell.size(); k-- > 0 && pending < kLooksAhead;) {
         if (client.outgoing.size() + client.unsent >= kUnsentBytes) return;
         const ChunkPos pos = client.toTell[k];
-        const ChunkDifference* difference = server.edited.maybeDifference(pos);
+        const ChunkDifference* difference = edited.maybeDifference(pos);
         if (!difference) {
             ++pending;
             continue;
@@ -74,28 +74,23 @@ void sendView(ServerState& server, ServerClient& client) {
 }
 
 // Sends changed tiles to all clients that see them.
-void tellChangedTiles(ServerState& server) {
-    if (server.tick % kTicksPerTileChange != 0) return;
-    for (const ChunkPos tile : server.tilesToTell) {
-        server.edited.onTileChanged(tile);
-        forEachPlaying(server, [&](ServerClient& client) {
+void tellChangedTiles(ServerClients& clients, ServerEdits& edits) {
+    if (clients.tick % kTicksPerTileChange != 0) return;
+    for (const ChunkPos tile : edits.tilesToTell) {
+        edits.chunks.onTileChanged(tile);
+        forEachPlaying(clients, [&](ServerClient& client) {
             client.told.erase(tile);
             if (!client.view || !isInView(*client.view, tile)) return;
             if (tile.level <= topLevelOf(*client.view) && std::ranges::count(client.toTell, tile) == 0)
                 client.toTell.insert(client.toTell.begin(), tile);
         });
     }
-    server.tilesToTell.clear();
+    edits.tilesToTell.clear();
 }
 
-void takeWrittenTiles(ServerState& server) {
-    std::vector<ChunkPos> tiles;
-    {
-        const std::lock_guard lock(server.writtenTiles->mutex);
-        tiles.swap(server.writtenTiles->tiles);
-    }
-    onTilesChanged(server, tiles);
-    if (server.sharing.shared && !tiles.empty()) server.sharing.shared->publishTiles(tiles);
+std::vector<ChunkPos> takeTiles(WrittenTiles& written) {
+    const std::lock_guard lock(written.mutex);
+    return std::exchange(written.tiles, {});
 }
 
 ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<world::BlockIndex>& indices) {
@@ -109,20 +104,20 @@ ChunkDifference valuesNow(const world::World& world, ChunkPos pos, std::vector<w
 
 }  // namespace
 
-void onTilesChanged(ServerState& server, std::span<const ChunkPos> tiles) {
-    server.tilesToTell.insert(tiles.begin(), tiles.end());
-    if (server.onChanged && !tiles.empty()) server.onChanged(tiles);
+void onTilesChanged(ServerEdits& edits, std::span<const ChunkPos> tiles) {
+    edits.tilesToTell.insert(tiles.begin(), tiles.end());
+    if (edits.onChanged && !tiles.empty()) edits.onChanged(tiles);
 }
 
-void sendBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks) {
-    const bool isNew = server.edited.add(pos);
-    server.edited.onChanged(pos, blocks);
-    if (server.onChanged) server.onChanged(std::span(&pos, 1));
+void sendBlocks(ServerClients& clients, ServerEdits& edits, ChunkPos pos, const ChunkDifference& blocks) {
+    const bool isNew = edits.chunks.add(pos);
+    edits.chunks.onChanged(pos, blocks);
+    if (edits.onChanged) edits.onChanged(std::span(&pos, 1));
     std::vector<Bytes> messages;
     for (const std::span<const ChangedBlock> part : partsOf(blocks))
         messages.push_back(
             encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
-    forEachPlaying(server, [&](ServerClient& client) {
+    forEachPlaying(clients, [&](ServerClient& client) {
         // A client that lacks the chunk will get all of it soon. A client that has it gets every change, even
         // after the chunk left its view.
         if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
@@ -131,19 +126,22 @@ void sendBlocks(ServerState& server, ChunkPos pos, const ChunkDifference& blocks
     });
 }
 
-void sendChangedBlocks(ServerState& server) {
-    for (auto& [chunk, indices] : server.changed)
-        sendBlocks(server, chunk, valuesNow(server.session.world(), chunk, indices));
-    server.changed.clear();
+void sendChangedBlocks(ServerClients& clients, ServerEdits& edits, const world::World& world,
+                       ChangedIndices changed) {
+    for (auto& [chunk, indices] : changed)
+        sendBlocks(clients, edits, chunk, valuesNow(world, chunk, indices));
 }
 
-void sendViews(ServerState& server) {
-    server.edited.update();
-    takeWrittenTiles(server);
-    tellChangedTiles(server);
-    forEachPlaying(server, [&](ServerClient& client) {
-        if (client.askedView) setClientView(server, client, *std::exchange(client.askedView, std::nullopt));
-        if (client.view) sendView(server, client);
+void sendViews(ServerClients& clients, ServerEdits& edits) {
+    edits.chunks.update();
+    const std::vector<ChunkPos> tiles = takeTiles(*edits.writtenTiles);
+    onTilesChanged(edits, tiles);
+    if (clients.shared && !tiles.empty()) clients.shared->publishTiles(tiles);
+    tellChangedTiles(clients, edits);
+    forEachPlaying(clients, [&](ServerClient& client) {
+        if (const auto asked = std::exchange(client.askedView, std::nullopt))
+            setClientView(client, edits.chunks, servedView(*asked, clients.settings.maxViewDistance));
+        if (client.view) sendView(client, edits.chunks);
     });
 }
 

@@ -6,15 +6,16 @@
 
 namespace terrane::net {
 
-// Sends blocks that changed since the last tick to the clients that have their chunks in view. Call in each
-// tick.
-void sendChangedBlocks(ServerState& server);
+// Sends the values that changed blocks have now to the clients that have their chunks in view.
+void sendChangedBlocks(ServerClients& clients, ServerEdits& edits, const world::World& world,
+                       ChangedIndices changed);
 // Sends blocks of one chunk, which need not be loaded, to the clients that have it in view.
-void sendBlocks(ServerState& server, world::ChunkPos chunk, const ChunkDifference& blocks);
+void sendBlocks(ServerClients& clients, ServerEdits& edits, world::ChunkPos chunk,
+                const ChunkDifference& blocks);
 // Notes changed tiles of the store; clients are told in a later tick.
-void onTilesChanged(ServerState& server, std::span<const world::ChunkPos> tiles);
+void onTilesChanged(ServerEdits& edits, std::span<const world::ChunkPos> tiles);
 // Updates the views of clients, and sends missing differences as fast as each client reads. Call in each
 // tick, after sendChangedBlocks().
-void sendViews(ServerState& server);
+void sendViews(ServerClients& clients, ServerEdits& edits);
 
 }  // namespace terrane::net

@@ -22,36 +22,35 @@ constexpr std::size_t kOrphans = 8, kOrphansAhead = 32;
 
 }  // namespace
 
-void applyPoses(ServerState& server, const SharedChanges& changes) {
-    for (const OtherPlayer& other : changes.poses) {
-        SharingState::OtherAt& known = server.sharing.players[other.id];
+void applyPoses(ServerClients& clients, std::span<const OtherPlayer> poses) {
+    for (const OtherPlayer& other : poses) {
+        PlayerElsewhere& known = clients.elsewhere[other.id];
         known.at.id = other.id;
         known.at.pose = other.pose;
-        if (other.swings) known.at.swungTick = server.tick;
-        known.heardAt = server.now;
+        if (other.swings) known.at.swungTick = clients.tick;
+        known.heardAt = clients.now;
     }
-    std::erase_if(server.sharing.players,
-                  [&](const auto& entry) { return server.now - entry.second.heardAt > kForgetAfter; });
+    std::erase_if(clients.elsewhere,
+                  [&](const auto& entry) { return clients.now - entry.second.heardAt > kForgetAfter; });
 }
 
-void publishPosesIfDue(ServerState& server) {
-    if (server.tick % kTicksPerPoses != 0) return;
-    const bool isAll = server.tick % kTicksPerAllPoses == 0;
+void publishPosesIfDue(SharingState& sharing, const ServerClients& clients) {
+    if (clients.tick % kTicksPerPoses != 0) return;
+    const bool isAll = clients.tick % kTicksPerAllPoses == 0;
     std::vector<OtherPlayer> moved;
     std::unordered_map<game::PlayerId, WirePose> told;
-    forEachPlaying(server, [&](const ServerClient& client) {
-        const auto before = server.sharing.toldPoses.find(client.player);
-        const bool isStill = before != server.sharing.toldPoses.end() && before->second == client.pose;
-        const bool swings = client.swungTick > 0 && server.tick - client.swungTick < kTicksPerPoses;
+    forEachPlaying(clients, [&](const ServerClient& client) {
+        const auto before = sharing.toldPoses.find(client.player);
+        const bool isStill = before != sharing.toldPoses.end() && before->second == client.pose;
+        const bool swings = client.swungTick > 0 && clients.tick - client.swungTick < kTicksPerPoses;
         if (isAll || !isStill || swings) moved.push_back({client.player, client.pose, swings});
         told[client.player] = client.pose;
     });
-    server.sharing.toldPoses = std::move(told);
-    if (!moved.empty()) server.sharing.shared->publishPoses(moved);
+    sharing.toldPoses = std::move(told);
+    if (!moved.empty()) sharing.shared->publishPoses(moved);
 }
 
-void setOtherServers(ServerState& server, std::vector<OtherServer> servers) {
-    SharingState& sharing = server.sharing;
+void setOtherServers(SharingState& sharing, ServerClients& clients, std::vector<OtherServer> servers) {
     for (const OtherServer& other : servers) {
         const auto isItsOwn = [&](const SharingState::Orphans& orphans) {
             return orphans.server == other.number;
@@ -75,16 +74,14 @@ void setOtherServers(ServerState& server, std::vector<OtherServer> servers) {
     };
     if (std::ranges::equal(servers, sharing.servers, isSame)) return;
     sharing.servers = std::move(servers);
-    const Bytes message = encode(ServerMessage(otherServers(server)));
-    forEachPlaying(server, [&](ServerClient& client) { sendEncoded(client, message); });
+    const Bytes message = encode(ServerMessage(otherServers(sharing.servers)));
+    forEachPlaying(clients, [&](ServerClient& client) { sendEncoded(client, message); });
 }
 
 // Loading a chunk applies the tail, which marks it as changed, so that it is saved.
-void saveOrphans(ServerState& server) {
-    SharingState& sharing = server.sharing;
+void saveOrphans(SharingState& sharing, stream::ChunkPipeline& pipeline) {
     if (sharing.orphans.empty()) return;
     SharingState::Orphans& orphans = sharing.orphans.front();
-    stream::ChunkPipeline& pipeline = server.session.pipeline();
     for (const ChunkPos chunk :
          std::span(orphans.chunks).last(std::min(kOrphansAhead, orphans.chunks.size())))
         (void)pipeline.maybeLoadChunkAt(chunk);
@@ -101,9 +98,9 @@ void saveOrphans(ServerState& server) {
     sharing.orphans.pop_front();
 }
 
-Servers otherServers(const ServerState& server) {
+Servers otherServers(std::span<const OtherServer> servers) {
     Servers others;
-    for (const OtherServer& other : server.sharing.servers)
+    for (const OtherServer& other : servers)
         if (others.places.size() < kMaxServersInMessage && other.address.size() <= kMaxAddressBytes &&
             other.key.size() <= kServerKeyBytes && isPlainText(other.address) && isPlainText(other.key))
             others.places.push_back({other.address, other.key});

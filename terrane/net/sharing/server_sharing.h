@@ -17,12 +17,16 @@
 #include <utility>
 #include <vector>
 
+#include "terrane/game/session.h"
+#include "terrane/net/server/edited_chunks.h"
 #include "terrane/net/server/server_client.h"
 #include "terrane/net/sharing/shared_world.h"
 
 namespace terrane::net {
 
-struct ServerState;
+struct ServerClients;
+struct ServerEdits;
+struct ServerPlaces;
 
 struct SharingState {
     SharedWorld* shared = nullptr;  // null: nothing is shared
@@ -37,7 +41,6 @@ struct SharingState {
     // Number of own undecided edits per chunk. Shared with the pipeline, which outlives the server.
     using ChunkCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
     std::shared_ptr<ChunkCounts> undecidedChunks = std::make_shared<ChunkCounts>();
-    std::set<std::uint64_t> refused;  // numbers of writes whose players are not told yet
 
     // Edits that the store may lack, ascending.
     struct TailEdit {
@@ -50,11 +53,6 @@ struct SharingState {
     std::int64_t ownSaved = 0;                          // no edit up to this one is unsaved on this server
     std::unordered_map<world::ChunkPos, std::int64_t, world::ChunkPosHash> firstUnsaved;  // number of an edit
 
-    struct OtherAt {
-        PlayerAt at;
-        Time heardAt{};
-    };
-    std::unordered_map<game::PlayerId, OtherAt> players;  // on other servers
     std::unordered_map<game::PlayerId, WirePose> toldPoses;
     std::vector<OtherServer> servers;  // running ones
     // Servers that stopped without saving: their unsaved chunks are loaded, a few per tick, and saved.
@@ -66,26 +64,35 @@ struct SharingState {
     std::deque<Orphans> orphans;
     std::set<std::int64_t> forgotten;  // servers whose orphans are saved; they may still be listed
     std::uint64_t savesBegun = 0, savesDone = 0;
-    std::deque<std::pair<store::SaveNumber, PlaceChange>> untoldPlaces;  // own changes, not saved yet
     Time nextState{};
 };
 
-// Call once, before players join.
-[[nodiscard]] base::Result<void> beginSharing(ServerState& server);
+// Reads the edits that the store lacks. Call once, before players join.
+[[nodiscard]] base::Result<void> beginSharing(SharingState& sharing, ServerRecords& records,
+                                              game::Session& session, EditedChunks& edited);
 // Call after append() of an own write.
-void trackWrite(ServerState& server, std::uint64_t write, std::vector<LoggedEdit> edits);
-// Applies the changes of other servers. Call at the beginning of each tick.
-void applySharedChanges(ServerState& server);
+void trackWrite(SharingState& sharing, std::uint64_t write, std::vector<LoggedEdit> edits);
+// Applies edits of other servers, and the decisions on own ones, also to the decisions that players wait for.
+void applyHistory(SharingState& sharing, game::Session& session, ServerClients& clients, ServerEdits& edits,
+                  const SharedChanges& changes);
+// Applies changes of players and claims.
+void applyPlayers(ServerClients& clients, game::Permissions& permissions, const SharedChanges& changes);
+// Drops edits that all servers saved a while ago. Returns the chunks whose stored rows have them now.
+std::vector<world::ChunkPos> dropTail(SharingState& sharing, std::int64_t nowSaved, Time now);
 // Applies the tail to newly loaded chunks. Call after each update of the pipeline.
-void completeLoaded(ServerState& server);
+void completeLoaded(SharingState& sharing, game::Session& session);
 // Tells other servers about players, saved places and this server's state, and saves the chunks of stopped
 // servers. Call in each tick.
-void updateSharing(ServerState& server);
-// Replaces autosave() for a shared world: saves, and notes what is saved.
-void autosaveShared(ServerState& server);
-// Whether time may pass in a chunk on this server.
-bool mayGrow(const ServerState& server, world::ChunkPos chunk);
+void updateSharing(SharingState& sharing, const ServerClients& clients, ServerPlaces& places,
+                   stream::ChunkPipeline& pipeline);
+// Begins a save of all changes. Returns the number up to which no edit is unsaved once it ends.
+std::int64_t beginSharedSave(SharingState& sharing, stream::ChunkPipeline& pipeline);
+// The save that returned `edit` ended.
+void endSharedSave(SharingState& sharing, std::int64_t edit);
+// The chunks in which time may pass on this server.
+std::vector<world::ChunkPos> growingChunks(const SharedWorld* shared,
+                                           const std::vector<world::ChunkPos>& chunks);
 // Requests the leases of the regions of `chunks`, in which time passes on this server.
-void requestRegions(ServerState& server, std::span<const world::ChunkPos> chunks);
+void requestRegions(SharedWorld& shared, std::span<const world::ChunkPos> chunks);
 
 }  // namespace terrane::net
