@@ -108,7 +108,7 @@ TEST_F(PlayTest, TheMouseTurnsThePlayerOnceItIsCaptured) {
 TEST_F(PlayTest, KeysAreTakenBeforeThereIsAnImage) {
     Program program = playAbove("home");
     program.until("a world is played", [&] { return program.isPlaying(); });
-    ASSERT_FALSE(hasWorldImage(program.game()));
+    ASSERT_FALSE(hasWorldImage(program.game().parts.renderer));
     for (const Key key : {Key::F12, Key::F3, Key::F4, Key::F2, Key::M, Key::L}) program.press(key);
     EXPECT_FALSE(exists(data() / "screenshots"));
     EXPECT_EQ(program.game().settings.movement, game::Movement::Walls);

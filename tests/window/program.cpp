@@ -111,8 +111,8 @@ void Program::until(std::string_view what, const std::function<bool()>& conditio
 
 void Program::untilDrawn() {
     until("the world is drawn", [&] {
-        return isPlaying() && hasWorldImage(game()) && session().pipeline().progress().complete() &&
-               game().parts.view.waiting() == 0;
+        return isPlaying() && hasWorldImage(game().parts.renderer) &&
+               session().pipeline().progress().complete() && game().parts.view.waiting() == 0;
     });
 }
 

@@ -7,50 +7,40 @@
 #include "apps/terrane/window/game/game_interface.h"
 #include "apps/terrane/window/game/game_menu.h"
 #include "apps/terrane/window/game/game_statistics.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
 
 namespace terrane::app {
 namespace {
 
-game::PlayerState playerStateOf(const GameState& game) {
-    const PlaySettings& settings = game.settings;
-    return {.pose = game.player.pose(),
-            .timeDay = game.parts.session.clock.timeDay,
-            .hotbar = game::textOf(game.interaction.hotbar, game.parts.session.blocks()),
-            .movement = nameOf(settings.movement),
-            // Absolute, to be found from another working directory.
-            .resourcePack = settings.resourcePack.empty()
-                                ? ""
-                                : std::filesystem::absolute(settings.resourcePack).string()};
+void savePlayer(game::Session& session, const game::Player& player, const game::Hotbar& hotbar,
+                const PlaySettings& settings, std::optional<game::PlayerState>& saved) {
+    game::savePlayer(
+        session.store(),
+        {.pose = player.pose(),
+         .timeDay = session.clock.timeDay,
+         .hotbar = game::textOf(hotbar, session.blocks()),
+         .movement = nameOf(settings.movement),
+         // Absolute, to be found from another working directory.
+         .resourcePack =
+             settings.resourcePack.empty() ? "" : std::filesystem::absolute(settings.resourcePack).string()},
+        saved);
 }
 
-base::Result<void> save(GameState& game) {
-    game::Session& session = game.parts.session;
-    game::savePlayer(session.store(), playerStateOf(game), game.saved);
+base::Result<void> save(game::Session& session) {
     const auto saved = session.save();
     if (saved) return saved;
     return base::fail(saved.error().code, "{}; not saved: {} chunks", saved.error().message,
                       session.store().status().waiting);
 }
 
-// Moves a player on foot below the world to the surface, since it would fall forever.
-void liftFromBelow(GameState& game) {
-    const game::Movement movement = game.settings.movement;
-    if (movement == game::Movement::Fast || movement == game::Movement::Medium) return;
-    const game::Session& session = game.parts.session;
-    const auto lifted = game::backOnSurface(session.world(), session.blocks(), game.player.pose());
-    if (!lifted) return;
-    game.player.placeAt(*lifted, movement);
-    game.notices.say(game.tr("you fell out of the world and are back on the ground"));
-}
-
-void exchangeWithServer(GameState& game) {
-    if (!game.remote.play) return;
-    const RemoteStep step =
-        advanceRemote(game.remote, game.player.pose(), game.settings, game.seconds, game.notices, game.tr);
-    if (step.correction) game.player.placeAt(*step.correction, game.settings.movement);
-    if (step.hasEnded) leave(game, true);
+// Moves a player on foot below the world to the surface, since it would fall forever. Returns whether it did.
+bool liftFromBelow(game::Player& player, game::Movement movement, const game::Session& session) {
+    if (movement == game::Movement::Fast || movement == game::Movement::Medium) return false;
+    const auto lifted = game::backOnSurface(session.world(), session.blocks(), player.pose());
+    if (lifted) player.placeAt(*lifted, movement);
+    return lifted.has_value();
 }
 
 void advance(GameState& game, double seconds) {
@@ -59,38 +49,41 @@ void advance(GameState& game, double seconds) {
     game.seconds += seconds;
     game.notices.advance(seconds);
     game.untilThumbnail -= seconds;
-    if (game.untilThumbnail <= 0) writeThumbnailOf(game);
+    if (game.untilThumbnail <= 0) {
+        game.untilThumbnail = kThumbnailPause;
+        writeThumbnailOf(parts.renderer, game.options.thumbnail);
+    }
     if (!game.remote.play) session.clock.dayMinutes = game.settings.dayMinutes;
     handlePad(game, seconds);
     passHeldTime(game, seconds);
-    const double gameSeconds = isInMenu(game) ? 0 : seconds;
+    const double gameSeconds = isInMenu(game.menu) ? 0 : seconds;
     game.player.move(session.world(), session.blocks(), moveKeysOf(game), gameSeconds);
-    liftFromBelow(game);
+    if (liftFromBelow(game.player, game.settings.movement, session))
+        game.notices.say(game.tr("you fell out of the world and are back on the ground"));
     session.setPlayer(game::kLocalPlayer, game.player.pose());
-    exchangeWithServer(game);
-    breakAndBuild(game, seconds);
-    advanceHud(game, seconds);
-    session.advance(gameSeconds, world::chunkOf(game.player.pose().position));
-    game.sounds.update(game.player, isInMenu(game), seconds);
-    game::savePlayer(session.store(), playerStateOf(game), game.saved);
-    parts.view.setHorizon({game.settings.graphics.horizon, game.settings.graphics.detail});
-    parts.view.follow(cameraOf(game), game.settings.graphics.viewDistance);
-}
-
-void applyGraphics(GameState& game) {
-    const render::GraphicsSettings &now = game.settings.graphics, &before = game.applied.graphics;
-    if (game.settings.preset != game.applied.preset || now != before) game.preset.end();
-    if (now.mesh != before.mesh) game.parts.session.pipeline().setMeshOptions(now.mesh);
-    if (now.viewDistance != before.viewDistance) {
-        game.parts.renderer.setViewDistance(now.viewDistance);
-        game.parts.session.pipeline().resendLight();
+    if (game.remote.play) {
+        const RemoteStep step = advanceRemote(game.remote, game.player.pose(), game.settings, game.seconds,
+                                              game.notices, game.tr);
+        if (step.correction) game.player.placeAt(*step.correction, game.settings.movement);
+        if (step.hasEnded) leave(game.leaving, true);
     }
+    if (const auto result = breakAndBuild(game.interaction, session, game.player, game.hud, seconds))
+        game.notices.say(refusalText(*result, game.tr));
+    advanceHud(game.hud, game.player.pose(), game.settings, session, seconds);
+    session.advance(gameSeconds, world::chunkOf(game.player.pose().position));
+    game.sounds.update(game.player, isInMenu(game.menu), seconds);
+    savePlayer(session, game.player, game.interaction.hotbar, game.settings, game.saved);
+    parts.view.setHorizon({game.settings.graphics.horizon, game.settings.graphics.detail});
+    parts.view.follow(cameraOf(game.player, game.settings), game.settings.graphics.viewDistance);
 }
 
-void applyResourcePack(GameState& game) {
-    const auto changed = useResourcePack(game.parts, game.settings.resourcePack);
-    if (!changed) game.settings.resourcePack = game.applied.resourcePack;
-    game.notices.say(changed ? game.tr("textures loaded") : changed.error().message);
+void applyGraphics(const GameParts& parts, const render::GraphicsSettings& now,
+                   const render::GraphicsSettings& before) {
+    if (now.mesh != before.mesh) parts.session.pipeline().setMeshOptions(now.mesh);
+    if (now.viewDistance != before.viewDistance) {
+        parts.renderer.setViewDistance(now.viewDistance);
+        parts.session.pipeline().resendLight();
+    }
 }
 
 // Applies settings that changed since the last frame, except render options, which configureRenderer()
@@ -98,25 +91,28 @@ void applyResourcePack(GameState& game) {
 void applySettings(GameState& game) {
     const PlaySettings &now = game.settings, &before = game.applied;
     if (now == before) return;
-    applyGraphics(game);
+    if (now.preset != before.preset || now.graphics != before.graphics) game.preset.end();
+    applyGraphics(game.parts, now.graphics, before.graphics);
     if (now.movement != before.movement) game.player.setMovement(now.movement);
     if (now.fullScreen != before.fullScreen) game.parts.window.setFullScreen(now.fullScreen);
-    if (now.resourcePack != before.resourcePack) applyResourcePack(game);
+    if (now.resourcePack != before.resourcePack) {
+        const auto changed = useResourcePack(game.parts, now.resourcePack);
+        if (!changed) game.settings.resourcePack = before.resourcePack;
+        game.notices.say(changed ? game.tr("textures loaded") : changed.error().message);
+    }
     if (now.soundVolume != before.soundVolume) game.sounds.setVolume(now.soundVolume);
     if (now.language != before.language) game.tr = textsOf(now.language, game.parts.content);
     game.applied = game.settings;
 }
 
-// Reloads changed content if it is usable; else the world stays, and the error is shown.
-void reloadContent(GameState& game) {
-    const GameOptions& options = game.options;
-    if (!options.contentChanged || game.leaving.isAsked || !options.contentChanged()) return;
-    if (const auto checked = options.checkContent(); !checked) {
-        base::logWarning("{}", checked.error().message);
-        return game.notices.say(checked.error().message);
-    }
-    game.leaving.forReload = true;
-    leave(game, false);
+// Whether there is changed content that is usable; else the world stays, and the error is shown.
+bool hasNewContent(const GameOptions& options, Notices& notices) {
+    if (!options.contentChanged || !options.contentChanged()) return false;
+    const auto checked = options.checkContent();
+    if (checked) return true;
+    base::logWarning("{}", checked.error().message);
+    notices.say(checked.error().message);
+    return false;
 }
 
 base::Result<void> drawFrame(GameState& game, double seconds) {
@@ -142,19 +138,12 @@ base::Result<void> drawFrames(GameState& game) {
         applySettings(game);
         if (auto notice = game.shaders.reload(parts.renderer, parts.preview, game.seconds))
             game.notices.say(std::move(*notice));
-        reloadContent(game);
+        if (!game.leaving.isAsked && hasNewContent(game.options, game.notices))
+            game.leaving = {.isAsked = true, .toTitle = false, .forReload = true};
         TERRANE_TRY(drawFrame(game, seconds));
         if (game.perfLog) game.perfLog->add(game.seconds, seconds, statisticsOf(game));
     }
     return {};
-}
-
-void begin(GameState& game) {
-    const render::GraphicsSettings& graphics = game.settings.graphics;
-    if (game.options.measuresPreset) game.preset.begin();
-    game.parts.session.pipeline().setMeshOptions(graphics.mesh);
-    game.parts.renderer.setViewDistance(graphics.viewDistance);
-    game.sounds.setVolume(game.settings.soundVolume);
 }
 
 }  // namespace
@@ -164,12 +153,19 @@ base::Result<void> runGame(GameState& game) {
         auto log = TERRANE_TRY(PerfLog::create(game.options.perfData));
         game.perfLog = std::move(log);
     }
-    begin(game);
+    const GameParts& parts = game.parts;
+    const render::GraphicsSettings& graphics = game.settings.graphics;
+    if (game.options.measuresPreset) game.preset.begin();
+    parts.session.pipeline().setMeshOptions(graphics.mesh);
+    parts.renderer.setViewDistance(graphics.viewDistance);
+    game.sounds.setVolume(game.settings.soundVolume);
     base::Result<void> drawn, saved;
     do {
         drawn = drawFrames(game);
-        writeThumbnailOf(game);
-        saved = save(game);
+        game.untilThumbnail = kThumbnailPause;
+        writeThumbnailOf(parts.renderer, game.options.thumbnail);
+        savePlayer(parts.session, game.player, game.interaction.hotbar, game.settings, game.saved);
+        saved = save(parts.session);
     } while (drawn && !saved && askBeforeLoss(game));
     game.preset.end();
     const glm::dvec3& p = game.player.pose().position;

@@ -18,17 +18,16 @@ namespace {
 constexpr std::chrono::milliseconds kCompilePause{15};
 constexpr double kPresetMessageSeconds = 8;
 
-world::Environment environmentOf(const GameState& game) {
-    return world::environmentAt(static_cast<float>(game.parts.session.clock.timeDay));
+world::Environment environmentOf(const game::DayClock& clock) {
+    return world::environmentAt(static_cast<float>(clock.timeDay));
 }
 
-bool shadersAreReady(const GameState& game, glm::ivec2 size) {
+bool shadersAreReady(render::BackgroundCompiler& compiler, const render::Renderer& renderer, glm::ivec2 size,
+                     const render::RenderOptions& options) {
     constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
-    const render::RenderOptions& options = game.preset.options(game.settings);
-    render::BackgroundCompiler& compiler = game.parts.compiler;
-    if (hasWorldImage(game) && options == game.parts.renderer.options()) return true;
-    if (!hasWorldImage(game) && !compiler.isReady(kPreview, view::BlockPreview::options(), {})) return false;
-    const render::Renderer& renderer = game.parts.renderer;
+    const bool hasImage = hasWorldImage(renderer);
+    if (hasImage && options == renderer.options()) return true;
+    if (!hasImage && !compiler.isReady(kPreview, view::BlockPreview::options(), {})) return false;
     return compiler.isReady(size, options, {.hasTint = renderer.hasTint(), .hasLand = renderer.hasLand()});
 }
 
@@ -37,14 +36,14 @@ bool shadersAreReady(const GameState& game, glm::ivec2 size) {
 base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
     render::Renderer& renderer = game.parts.renderer;
     render::RenderOptions options = game.preset.options(game.settings);
-    if (!shadersAreReady(game, size)) {
+    if (!shadersAreReady(game.parts.compiler, renderer, size, options)) {
         game.notices.say(game.tr("compiling shaders"));
-        if (!hasWorldImage(game)) return {};
+        if (!hasWorldImage(renderer)) return {};
         options = renderer.options();
     }
     if (size == renderer.size() && options == renderer.options()) return {};
     const auto configured = renderer.configure(size, options);
-    if (configured || !hasWorldImage(game) || options == renderer.options()) return configured;
+    if (configured || !hasWorldImage(renderer) || options == renderer.options()) return configured;
     base::logWarning("{}", configured.error().message);
     game.notices.say(configured.error().message);
     game.settings.graphics.render = renderer.options();
@@ -55,8 +54,8 @@ base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
 render::FrameInput frameInputOf(const GameState& game) {
     const GameParts& parts = game.parts;
     render::FrameInput input;
-    input.camera = cameraOf(game);
-    input.environment = environmentOf(game);
+    input.camera = cameraOf(game.player, game.settings);
+    input.environment = environmentOf(parts.session.clock);
     input.fogDistance = view::fogDistance(parts.view.sightDistance());
     input.timeSeconds = static_cast<float>(game.seconds);
     input.view = game.settings.view;
@@ -80,15 +79,14 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
 }
 
 // Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
-void pickPreset(GameState& game, double seconds) {
-    const GameParts& parts = game.parts;
-    if (!game.preset.isBusy()) return;
-    const auto isDrawn = [&] { return game.preset.options(game.settings) == parts.renderer.options(); };
+void pickPreset(const GameParts& parts, PresetPicker& preset, PlaySettings& settings, Notices& notices,
+                double seconds) {
+    if (!preset.isBusy()) return;
+    const auto isDrawn = [&] { return preset.options(settings) == parts.renderer.options(); };
     const bool isComplete = parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
-    if (isDrawn()) game.preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, game.settings);
+    if (isDrawn()) preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, settings);
     if (!isDrawn()) return;
-    if (auto message = game.preset.takeMessage())
-        game.notices.say(std::move(*message), kPresetMessageSeconds);
+    if (auto message = preset.takeMessage()) notices.say(std::move(*message), kPresetMessageSeconds);
 }
 
 void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
@@ -97,17 +95,18 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
     if (auto notice = parts.view.takeNotice()) game.notices.say(std::move(*notice));
     parts.renderer.draw(frameInputOf(game));
     parts.renderer.presentToWindow(size);
-    pickPreset(game, seconds);
+    pickPreset(parts, game.preset, game.settings, game.notices, seconds);
 }
 
 }  // namespace
 
 base::Result<void> drawImage(GameState& game, glm::ivec2 size, double seconds) {
     TERRANE_TRY(configureRenderer(game, size));
-    if (hasWorldImage(game)) {
+    if (hasWorldImage(game.parts.renderer)) {
         drawWorld(game, size, seconds);
     } else {
-        gpu::clearWindow(glm::pow(glm::min(environmentOf(game).horizonColor, 1.0f), glm::vec3(1 / 2.2f)));
+        const glm::vec3 horizon = environmentOf(game.parts.session.clock).horizonColor;
+        gpu::clearWindow(glm::pow(glm::min(horizon, 1.0f), glm::vec3(1 / 2.2f)));
         std::this_thread::sleep_for(kCompilePause);
     }
     return {};

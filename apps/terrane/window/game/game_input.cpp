@@ -50,60 +50,66 @@ void showPanel(GameState& game) {
     if (game.debug.showsPanel) captureMouse(game, false);
 }
 
-void nextLight(GameState& game) {
+// The following return what the player is told; empty: nothing.
+
+std::string nextLight(render::LightSampling& light, const Texts& tr) {
     using render::LightSampling;
-    LightSampling& light = game.settings.graphics.render.light;
     light = light == LightSampling::Smooth ? LightSampling::Classic : LightSampling::Smooth;
-    game.notices.say(light == LightSampling::Smooth ? game.tr("smooth light") : game.tr("classic light"));
+    return light == LightSampling::Smooth ? tr("smooth light") : tr("classic light");
 }
 
-void nextMovement(GameState& game) {
-    const std::size_t next = (static_cast<std::size_t>(game.settings.movement) + 1) % kMovementTexts.size();
-    game.settings.movement = static_cast<game::Movement>(next);
-    game.notices.say(game.tr(kMovementTexts[next]));
+std::string nextMovement(game::Movement& movement, const Texts& tr) {
+    const std::size_t next = (static_cast<std::size_t>(movement) + 1) % kMovementTexts.size();
+    movement = static_cast<game::Movement>(next);
+    return tr(kMovementTexts[next]);
 }
 
-void changeTime(GameState& game, Action action) {
-    game::DayClock& clock = game.parts.session.clock;
-    if (game.remote.play) return game.notices.say(game.tr("the server sets the time"));
-    if (action != Action::HoldTime) return clock.shift(action == Action::Later ? kDayStep : -kDayStep);
+std::string changeTime(game::DayClock& clock, Action action, const Texts& tr) {
+    if (action != Action::HoldTime) {
+        clock.shift(action == Action::Later ? kDayStep : -kDayStep);
+        return {};
+    }
     clock.isRunning = !clock.isRunning;
-    game.notices.say(clock.isRunning ? game.tr("time runs") : game.tr("time is stopped"));
+    return clock.isRunning ? tr("time runs") : tr("time is stopped");
 }
 
-void saveBookmark(GameState& game) {
-    const auto done = game::appendBookmark(game.bookmarks.file, game.player.pose());
-    game.notices.say(
-        done ? fmt::format(fmt::runtime(game.tr("bookmark saved in {}")), game.bookmarks.file.string())
-             : done.error().message);
+std::string saveBookmark(const std::filesystem::path& file, const world::Pose& pose, const Texts& tr) {
+    const auto done = game::appendBookmark(file, pose);
+    return done ? fmt::format(fmt::runtime(tr("bookmark saved in {}")), file.string()) : done.error().message;
 }
 
-void nextBookmark(GameState& game) {
-    const auto bookmarks = game::readBookmarks(game.bookmarks);
-    if (!bookmarks) return game.notices.say(bookmarks.error().message);
-    if (bookmarks->empty()) return game.notices.say(game.tr("no bookmark is saved yet"));
-    game.player.placeAt((*bookmarks)[game.nextBookmark++ % bookmarks->size()], game.settings.movement);
+std::string nextBookmark(const game::BookmarkFiles& files, std::size_t& next, game::Player& player,
+                         game::Movement movement, const Texts& tr) {
+    const auto bookmarks = game::readBookmarks(files);
+    if (!bookmarks) return bookmarks.error().message;
+    if (bookmarks->empty()) return tr("no bookmark is saved yet");
+    player.placeAt((*bookmarks)[next++ % bookmarks->size()], movement);
+    return {};
 }
 
-void goToSpawn(GameState& game) {
-    const game::Session& session = game.parts.session;
-    if (!game.hud.spawn) game.hud.spawn = game::findSpawn(session.generator(), session.blocks());
-    game.player.placeAt(*game.hud.spawn, game.settings.movement);
-    game.notices.say(game.tr("back at the spawn"));
+std::string goToSpawn(std::optional<world::Pose>& spawn, const game::Session& session, game::Player& player,
+                      game::Movement movement, const Texts& tr) {
+    if (!spawn) spawn = game::findSpawn(session.generator(), session.blocks());
+    player.placeAt(*spawn, movement);
+    return tr("back at the spawn");
 }
 
-void takeScreenshot(GameState& game) {
-    if (!hasWorldImage(game)) return;
-    const base::Image image = game.parts.renderer.readImage();
-    const auto file = writeScreenshot(game.options.dataFolder / "screenshots", image);
-    if (file) game.hud.screenshot.show(image);
-    game.notices.say(file ? fmt::format(fmt::runtime(game.tr("screenshot {}")), file->string())
-                          : file.error().message);
+std::string takeScreenshot(const render::Renderer& renderer, const std::filesystem::path& folder,
+                           ScreenshotView& shown, const Texts& tr) {
+    if (!hasWorldImage(renderer)) return {};
+    const base::Image image = renderer.readImage();
+    const auto file = writeScreenshot(folder, image);
+    if (file) shown.show(image);
+    return file ? fmt::format(fmt::runtime(tr("screenshot {}")), file->string()) : file.error().message;
 }
 
 }  // namespace
 
 void act(GameState& game, Action action) {
+    const Texts& tr = game.tr;
+    game::Session& session = game.parts.session;
+    const game::Movement movement = game.settings.movement;
+    const auto say = [&](std::string text) { game.notices.say(std::move(text)); };
     switch (action) {
         case Action::Help:
             game.notices.helpSeconds = game.notices.helpSeconds > 0 ? 0 : Notices::kHelpSeconds;
@@ -115,9 +121,9 @@ void act(GameState& game, Action action) {
         case Action::LoadingMap:
             return flip(game.debug.showsLoading);
         case Action::SaveBookmark:
-            return saveBookmark(game);
+            return say(saveBookmark(game.bookmarks.file, game.player.pose(), tr));
         case Action::NextBookmark:
-            return nextBookmark(game);
+            return say(nextBookmark(game.bookmarks, game.nextBookmark, game.player, movement, tr));
         case Action::Facts:
             return flip(game.hud.showsFacts);
         case Action::HideHud:
@@ -125,7 +131,8 @@ void act(GameState& game, Action action) {
         case Action::FullScreen:
             return flip(game.settings.fullScreen);
         case Action::Screenshot:
-            return takeScreenshot(game);
+            return say(takeScreenshot(game.parts.renderer, game.options.dataFolder / "screenshots",
+                                      game.hud.screenshot, tr));
         case Action::Chat:
             return beginChat(game);
         case Action::PlayerList:
@@ -134,45 +141,38 @@ void act(GameState& game, Action action) {
         case Action::Earlier:
         case Action::Later:
         case Action::HoldTime:
-            return changeTime(game, action);
+            return say(game.remote.play ? tr("the server sets the time")
+                                        : changeTime(session.clock, action, tr));
         case Action::Light:
-            return nextLight(game);
+            return say(nextLight(game.settings.graphics.render.light, tr));
         case Action::Movement:
-            return nextMovement(game);
+            return say(nextMovement(game.settings.movement, tr));
         case Action::Palette:
             return openPalette(game);
         case Action::Places:
             return openPlaces(game);
         case Action::Spawn:
-            return goToSpawn(game);
+            return say(goToSpawn(game.hud.spawn, session, game.player, movement, tr));
         default:  // held keys
             break;
     }
 }
 
-void breakAndBuild(GameState& game, double seconds) {
-    game::Session& session = game.parts.session;
-    const auto& target = game.interaction.target();
+std::optional<game::EditResult> breakAndBuild(game::BlockInteraction& interaction, game::Session& session,
+                                              const game::Player& player, Hud& hud, double seconds) {
+    const auto& target = interaction.target();
     const std::optional<world::BlockPos> pos = target ? std::optional(target->block) : std::nullopt;
     const world::BlockId before = pos ? session.world().block(*pos) : world::kAir;
-    const auto result = game.interaction.act(session, game::kLocalPlayer, game.player, seconds);
-    if (!result) return;
-    game.hud.hand.swing();
-    if (std::string text = refusalText(*result, game.tr); !text.empty()) game.notices.say(std::move(text));
+    const auto result = interaction.act(session, game::kLocalPlayer, player, seconds);
+    if (!result) return result;
+    hud.hand.swing();
     if (pos && before != world::kAir && session.world().block(*pos) == world::kAir)
-        game.hud.particles.burst(*pos, before);
+        hud.particles.burst(*pos, before);
+    return result;
 }
 
-void takeBack(GameState& game, game::HistoryWay way) {
-    const auto done = game.parts.session.takeBack(game::kLocalPlayer, way);
-    std::string text = takenBackText(done, way, game.tr);
-    if (!text.empty()) game.notices.say(std::move(text));
-}
-
-void writeThumbnailOf(GameState& game) {
-    game.untilThumbnail = kThumbnailPause;
-    if (game.options.thumbnail.empty() || !hasWorldImage(game)) return;
-    writeThumbnail(game.options.thumbnail, game.parts.renderer.readImage());
+void writeThumbnailOf(const render::Renderer& renderer, const std::filesystem::path& file) {
+    if (!file.empty() && hasWorldImage(renderer)) writeThumbnail(file, renderer.readImage());
 }
 
 namespace {
@@ -187,13 +187,6 @@ std::optional<std::size_t> slotOf(Key key) {
     return static_cast<std::size_t>(key) - static_cast<std::size_t>(Key::Digit1);
 }
 
-// False for keys that do the same with and without Control, since Control is also held to sink.
-bool onControlKey(GameState& game, Key key) {
-    if (key != Key::Z && key != Key::Y) return false;
-    takeBack(game, key == Key::Y || game.input.withShift ? game::HistoryWay::Redo : game::HistoryWay::Undo);
-    return true;
-}
-
 // Passes a key to the open dialog; true if it handled the key.
 bool onDialogKey(GameState& game, Key key) {
     PaletteState& palette = game.hud.palette;
@@ -203,12 +196,12 @@ bool onDialogKey(GameState& game, Key key) {
         return true;
     }
     const bool closesPalette = palette.isOpen && key == Key::Tab;
-    if (closesPalette || (key == Key::Escape && hasOpenDialog(game))) {
+    if (closesPalette || (key == Key::Escape && hasOpenDialog(game.hud, game.remote.chat))) {
         captureMouse(game, true);
         return true;
     }
     if (game.menu.showsSettings && game.menu.settings.takeKey(key, game.settings, game.tr)) return true;
-    if (game.building.isAsking() && !isInMenu(game)) {
+    if (game.building.isAsking() && !isInMenu(game.menu)) {
         game.building.onKey(key, buildViewOf(game));
         return true;
     }
@@ -219,12 +212,18 @@ void onKey(GameState& game, Key key) {
     if (onDialogKey(game, key)) return;
     if (key == Key::Escape) return closeOne(game);
     const bool isMenuAlone = game.menu.isPaused && !game.menu.showsSettings;
-    if (isMenuAlone && (key == Key::Q || key == Key::T)) return leave(game, key == Key::T);
+    if (isMenuAlone && (key == Key::Q || key == Key::T)) return leave(game.leaving, key == Key::T);
     const auto action = game.settings.keys.actionOf(key);
     // In a menu the game is paused: only actions that open something work.
     if (isInDialog(game) && !(action && rowOf(*action).opensSomething)) return;
     if (!isInDialog(game) && game.building.onKey(key, buildViewOf(game))) return;
-    if (game.input.withControl && onControlKey(game, key)) return;
+    // Other keys do the same with Control, which is also held to sink.
+    if (game.input.withControl && (key == Key::Z || key == Key::Y)) {
+        const bool isRedo = key == Key::Y || game.input.withShift;
+        const auto way = isRedo ? game::HistoryWay::Redo : game::HistoryWay::Undo;
+        const game::TakenBack done = game.parts.session.takeBack(game::kLocalPlayer, way);
+        return game.notices.say(takenBackText(done, way, game.tr));
+    }
     if (const auto slot = slotOf(key))
         game.interaction.hotbar.chosen = *slot;
     else if (action)
@@ -240,15 +239,12 @@ bool openContainer(GameState& game) {
     return true;
 }
 
-bool openSign(GameState& game) {
-    const auto& target = game.interaction.target();
-    return target && game.building.openSign(target->block, buildViewOf(game));
-}
-
 // Uses the targeted block, unless Shift is held: then a block is built against it.
 bool useTarget(GameState& game) {
     if (game.input.withShift) return false;
-    return openContainer(game) || openSign(game) ||
+    if (openContainer(game)) return true;
+    const auto& target = game.interaction.target();
+    return (target && game.building.openSign(target->block, buildViewOf(game))) ||
            game.interaction.use(game.parts.session, game::kLocalPlayer);
 }
 
@@ -276,14 +272,15 @@ void onButton(GameState& game, MouseButton button, bool isPress) {
     if (!game.imgui.takesMouse() && !isInDialog(game)) captureMouse(game, true);
 }
 
-bool isKeyDown(const GameState& game, Action action) {
-    const auto isDown = [&](Key key) { return game.parts.window.keyDown(key); };
-    return !game.imgui.takesKeys() && std::ranges::any_of(game.settings.keys.keysOf(action), isDown);
+// Whether a key of the action is held, unless the user interface takes keys.
+bool isKeyDown(const Window& window, const ImguiLayer& imgui, const KeyBindings& keys, Action action) {
+    const auto isDown = [&](Key key) { return window.keyDown(key); };
+    return !imgui.takesKeys() && std::ranges::any_of(keys.keysOf(action), isDown);
 }
 
-void turn(GameState& game, const InputEvent& event) {
-    const double degrees = game.settings.mouseSensitivity;
-    game.player.turn(event.x * degrees, (game.settings.invertY ? -event.y : event.y) * degrees);
+void turn(game::Player& player, const PlaySettings& settings, const InputEvent& event) {
+    const double degrees = settings.mouseSensitivity;
+    player.turn(event.x * degrees, (settings.invertY ? -event.y : event.y) * degrees);
 }
 
 }  // namespace
@@ -309,7 +306,7 @@ void handleEvents(GameState& game) {
                     game::stepSlot(game.interaction.hotbar, -input.wheel.turn(event.y));
                 break;
             case Type::CursorMove:
-                if (wasCaptured && input.isCaptured) turn(game, event);
+                if (wasCaptured && input.isCaptured) turn(game.player, game.settings, event);
         }
     }
     input.withShift = window.keyDown(Key::Shift);
@@ -339,8 +336,11 @@ void handlePad(GameState& game, double seconds) {
 // A press alone is a step (act()).
 void passHeldTime(GameState& game, double seconds) {
     const Gamepad& pad = game.input.pad.now();
-    const bool isLater = isKeyDown(game, Action::Later) || pad.up;
-    const bool isEarlier = isKeyDown(game, Action::Earlier) || pad.down;
+    const auto isDown = [&](Action action) {
+        return isKeyDown(game.parts.window, game.imgui, game.settings.keys, action);
+    };
+    const bool isLater = isDown(Action::Later) || pad.up;
+    const bool isEarlier = isDown(Action::Earlier) || pad.down;
     const bool isHeld = isLater != isEarlier && !isInDialog(game) && !game.input.withControl;
     game.input.timeHeldSeconds = isHeld ? game.input.timeHeldSeconds + seconds : 0;
     if (game.input.timeHeldSeconds > kTimePause && !game.remote.play)
@@ -353,7 +353,9 @@ game::MoveKeys moveKeysOf(const GameState& game) {
     if (isInDialog(game) || (isSelecting && window.keyDown(Key::Control))) return {};
     const Gamepad& pad = game.input.pad.now();
     const bool walks = game.settings.movement == game::Movement::Gravity;
-    const auto isDown = [&](Action action) { return isKeyDown(game, action); };
+    const auto isDown = [&](Action action) {
+        return isKeyDown(window, game.imgui, game.settings.keys, action);
+    };
     return {.forward = isDown(Action::Forward),
             .back = isDown(Action::Back),
             .left = isDown(Action::Left),

@@ -9,12 +9,12 @@ namespace terrane::app {
 // Does nothing for actions of held keys: see moveKeysOf().
 void act(GameState& game, Action action);
 // Breaks or builds while a button is held; shows it with the arm and particles. `seconds`: since the last
-// frame.
-void breakAndBuild(GameState& game, double seconds);
-void takeBack(GameState& game, game::HistoryWay way);
+// frame. No value if nothing was tried.
+std::optional<game::EditResult> breakAndBuild(game::BlockInteraction& interaction, game::Session& session,
+                                              const game::Player& player, Hud& hud, double seconds);
 // Writes the thumbnail for the list of worlds over the last one. Does nothing if the world has no file for
 // it.
-void writeThumbnailOf(GameState& game);
+void writeThumbnailOf(const render::Renderer& renderer, const std::filesystem::path& file);
 
 // Handles all events since the last frame.
 void handleEvents(GameState& game);

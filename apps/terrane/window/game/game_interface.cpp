@@ -19,40 +19,42 @@ namespace terrane::app {
 
 namespace {
 
-BlockFace blockFaceOf(GameState& game) {
-    return {
-        [&game](world::BlockId block) { return hasWorldImage(game) ? game.parts.preview.image(block) : 0; },
-        [&game](world::BlockId block) { return game.tr.block(game.parts.session.blocks().type(block)); }};
+// Refers to the parts and the texts.
+BlockFace blockFaceOf(const GameParts& parts, const Texts& tr) {
+    return {[&parts](world::BlockId block) {
+                return hasWorldImage(parts.renderer) ? parts.preview.image(block) : 0;
+            },
+            [&parts, &tr](world::BlockId block) { return tr.block(parts.session.blocks().type(block)); }};
 }
 
-std::string targetText(const GameState& game) {
-    const auto& target = game.interaction.target();
+std::string targetText(const game::BlockInteraction& interaction, const game::Session& session,
+                       const Texts& tr) {
+    const auto& target = interaction.target();
     if (!target) return {};
-    const world::World& world = game.parts.session.world();
+    const world::World& world = session.world();
     const std::uint16_t state = world.blockState(target->block);
-    const std::string name = game.tr.block(game.parts.session.blocks().type(world.block(target->block)));
+    const std::string name = tr.block(session.blocks().type(world.block(target->block)));
     return fmt::format("{}{}  {}, {}, {}", name, state == 0 ? "" : fmt::format(" ({})", state),
                        target->block.x, target->block.y, target->block.z);
 }
 
-PlaceFacts placeFactsOf(GameState& game) {
-    Hud& hud = game.hud;
-    game::Session& session = game.parts.session;
-    const world::BlockPos at = world::blockOf(game.player.pose().position);
+PlaceFacts placeFactsOf(Hud& hud, game::Session& session, const world::Pose& pose, std::string target,
+                        double framesASecond) {
+    const world::BlockPos at = world::blockOf(pose.position);
     const store::WorldIdentity& identity = session.store().identity();
     if (std::exchange(hud.asksForBiomes, false))  // takes a tenth of a second
         hud.biomes = gen::BiomeMap::create(identity.generator, session.blocks(), identity.seed);
-    return {.pose = game.player.pose(),
+    return {.pose = pose,
             .biome = hud.biomes ? std::string(hud.biomes->at(at.x, at.y)) : std::string(),
             .world = fmt::format("{}, seed {}", identity.generator, identity.seed),
-            .target = targetText(game),
+            .target = std::move(target),
             .timeDay = session.clock.timeDay,
-            .framesASecond = game.meter.now()};
+            .framesASecond = framesASecond};
 }
 
 void drawPaletteDialog(GameState& game, const Screen& screen) {
-    const auto choice =
-        drawPalette(screen, game.hud.palette, game.parts.session.blocks(), blockFaceOf(game), game.tr);
+    const auto choice = drawPalette(screen, game.hud.palette, game.parts.session.blocks(),
+                                    blockFaceOf(game.parts, game.tr), game.tr);
     if (!choice) return;
     game::takeInHand(game.interaction.hotbar, *choice);
     captureMouse(game, true);
@@ -69,28 +71,33 @@ void drawPlacesDialog(GameState& game, const Screen& screen) {
 
 }  // namespace
 
-void advanceHud(GameState& game, double seconds) {
-    Hud& hud = game.hud;
-    const glm::dvec3 step = game.player.pose().position - hud.walkedFrom;
-    hud.walkedFrom = game.player.pose().position;
+void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& settings,
+                const game::Session& session, double seconds) {
+    const glm::dvec3 step = player.position - hud.walkedFrom;
+    hud.walkedFrom = player.position;
     hud.hand.advance(seconds, std::hypot(step.x, step.y),
-                     game.settings.movement == game::Movement::Gravity && !game.settings.reducedMotion);
+                     settings.movement == game::Movement::Gravity && !settings.reducedMotion);
     hud.screenshot.advance(seconds);
-    hud.particles.advance(seconds, game.parts.session.world(), game.parts.session.blocks());
+    hud.particles.advance(seconds, session.world(), session.blocks());
 }
 
 void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds) {
     constexpr int kImages = 2, kImagesInDialog = 8;
     Hud& hud = game.hud;
     game.parts.preview.beginFrame(isInDialog(game) ? kImagesInDialog : kImages);
-    if (!hud.isHidden && !game.debug.isAbove && hasWorldImage(game)) {
-        const glm::vec3 light = lightOnHand(game.parts.session, game.player.pose().position);
+    if (!hud.isHidden && !game.debug.isAbove && hasWorldImage(game.parts.renderer)) {
+        game::Session& session = game.parts.session;
+        const BlockFace face = blockFaceOf(game.parts, game.tr);
+        const glm::vec3 light = lightOnHand(session, game.player.pose().position);
         drawParticles(screen, camera, hud.particles, game.parts.renderer.topColors(), light);
         drawCompass(screen, game.player.pose(), hud.places);
-        if (hud.showsFacts) drawPlaceFacts(placeFactsOf(game), game.tr);
+        if (hud.showsFacts)
+            drawPlaceFacts(placeFactsOf(hud, session, game.player.pose(),
+                                        targetText(game.interaction, session, game.tr), game.meter.now()),
+                           game.tr);
         const world::BlockId block = game.interaction.block();
-        hud.hand.draw(screen, block == world::kAir ? 0 : blockFaceOf(game).image(block), light);
-        hud.hotbar.draw(screen, game.interaction.hotbar, blockFaceOf(game), seconds);
+        hud.hand.draw(screen, block == world::kAir ? 0 : face.image(block), light);
+        hud.hotbar.draw(screen, game.interaction.hotbar, face, seconds);
     }
     hud.screenshot.draw(screen);
     if (hud.palette.isOpen) drawPaletteDialog(game, screen);
@@ -185,9 +192,10 @@ void drawMenu(GameState& game, const Screen& screen) {
 
 void drawInterface(GameState& game, double seconds) {
     game.imgui.setTextSize(game.settings.textSize);
-    game.imgui.beginFrame(game.input.isCaptured, isInMenu(game) || hasOpenDialog(game));
+    game.imgui.beginFrame(game.input.isCaptured,
+                          isInMenu(game.menu) || hasOpenDialog(game.hud, game.remote.chat));
     const Screen screen{game.imgui.size().x, game.imgui.size().y};
-    const render::Camera camera = cameraOf(game);
+    const render::Camera camera = cameraOf(game.player, game.settings);
     const stream::Progress progress = game.parts.session.pipeline().progress();
     drawLinesInWorld(game, screen, camera);
     drawRemote(game, screen, camera);

@@ -114,16 +114,16 @@ void captureMouse(GameState& game, bool isCaptured) {
     game.interaction.building.cancel();
 }
 
-void leave(GameState& game, bool toTitle) {
-    game.leaving.toTitle = toTitle;
-    game.leaving.isAsked = true;
+void leave(Leaving& leaving, bool toTitle) {
+    leaving.toTitle = toTitle;
+    leaving.isAsked = true;
 }
 
 void closeOne(GameState& game) {
     GameMenu& menu = game.menu;
     if (game.imgui.hasPopup()) return game.imgui.endTyping();
     if (menu.asksToQuit) return answerQuitDialog(game, QuitChoice::Stay);
-    if (game.container || hasOpenDialog(game)) return captureMouse(game, true);
+    if (game.container || hasOpenDialog(game.hud, game.remote.chat)) return captureMouse(game, true);
     if (menu.showsSettings) {
         menu.showsSettings = false;
         return;
@@ -151,9 +151,9 @@ void answerPauseMenu(GameState& game, PauseChoice choice) {
             game.notices.helpSeconds = Notices::kHelpSeconds;
             return;
         case PauseChoice::ToTitle:
-            return leave(game, true);
+            return leave(game.leaving, true);
         case PauseChoice::Quit:
-            return leave(game, false);
+            return leave(game.leaving, false);
     }
 }
 

@@ -31,8 +31,9 @@ std::optional<PauseChoice> drawPauseMenu(const Screen& screen, const KeyBindings
 
 // Captures the mouse for the player and closes dialogs, or frees the cursor.
 void captureMouse(GameState& game, bool isCaptured);
+
 // Ends the loop.
-void leave(GameState& game, bool toTitle);
+void leave(Leaving& leaving, bool toTitle);
 
 // Closes the last thing that opened, for one press of Escape; if nothing is open, pauses the game.
 void closeOne(GameState& game);

@@ -23,24 +23,25 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
     hud.places = game::savedPlaces(given.session.store());
 }
 
-bool isInMenu(const GameState& game) {
-    return game.menu.isPaused || game.menu.asksToQuit;
+bool isInMenu(const GameMenu& menu) {
+    return menu.isPaused || menu.asksToQuit;
 }
 
-bool hasOpenDialog(const GameState& game) {
-    return game.hud.hasDialog() || game.remote.chat.isTyping();
+bool hasOpenDialog(const Hud& hud, const ChatView& chat) {
+    return hud.hasDialog() || chat.isTyping();
 }
 
 bool isInDialog(const GameState& game) {
-    return isInMenu(game) || game.container || hasOpenDialog(game) || game.building.isAsking();
+    return isInMenu(game.menu) || game.container || hasOpenDialog(game.hud, game.remote.chat) ||
+           game.building.isAsking();
 }
 
-render::Camera cameraOf(const GameState& game) {
-    return view::cameraOf(game.player.pose(), game.settings.fieldOfView);
+render::Camera cameraOf(const game::Player& player, const PlaySettings& settings) {
+    return view::cameraOf(player.pose(), settings.fieldOfView);
 }
 
-bool hasWorldImage(const GameState& game) {
-    return game.parts.renderer.size().x > 0;
+bool hasWorldImage(const render::Renderer& renderer) {
+    return renderer.size().x > 0;
 }
 
 BuildView buildViewOf(const GameState& game) {

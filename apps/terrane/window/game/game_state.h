@@ -97,13 +97,13 @@ struct GameState {
     std::optional<PerfLog> perfLog;
 };
 
-bool isInMenu(const GameState& game);       // the game is paused
-bool hasOpenDialog(const GameState& game);  // of blocks, places or chat
+bool isInMenu(const GameMenu& menu);  // the game is paused
+bool hasOpenDialog(const Hud& hud, const ChatView& chat);
 // Keys do not move the player, and clicks do not capture the mouse.
 bool isInDialog(const GameState& game);
 
-render::Camera cameraOf(const GameState& game);
-bool hasWorldImage(const GameState& game);  // false until the first shaders are compiled
+render::Camera cameraOf(const game::Player& player, const PlaySettings& settings);
+bool hasWorldImage(const render::Renderer& renderer);  // false until the first shaders are compiled
 BuildView buildViewOf(const GameState& game);
 
 }  // namespace terrane::app

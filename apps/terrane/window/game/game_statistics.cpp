@@ -21,7 +21,7 @@ Statistics statisticsOf(GameState& game) {
     const GameParts& parts = game.parts;
     const game::Session& session = parts.session;
     return {.frames = &game.meter,
-            .camera = cameraOf(game),
+            .camera = cameraOf(game.player, game.settings),
             .timeDay = session.clock.timeDay,
             .progress = session.pipeline().progress(),
             .tiles = &session.tiles().table(),

@@ -61,8 +61,7 @@ RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const Play
     world.update(pose, settings.graphics.viewDistance, settings.graphics.horizon, now);
     RemoteStep step{.correction = world.popCorrection()};
     for (const net::ChatLine& line : world.popChat()) remote.chat.add(line, seconds);
-    for (const net::Decided& decided : world.popDecided())
-        if (std::string text = textOf(decided, tr); !text.empty()) notices.say(std::move(text));
+    for (const net::Decided& decided : world.popDecided()) notices.say(textOf(decided, tr));
     updatePlayers(remote.others, world, now);
     const Stage stage = play.stage();
     if (stage == std::exchange(remote.stage, stage)) return step;

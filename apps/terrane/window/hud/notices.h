@@ -17,7 +17,9 @@ struct Notices {
     double messageSeconds = 0;  // remaining
     double helpSeconds = 12;    // remaining for the list of keys; shown at the start
 
+    // Nothing if the text is empty.
     void say(std::string text, double seconds = kMessageSeconds) {
+        if (text.empty()) return;
         message = std::move(text);
         messageSeconds = seconds;
     }
