@@ -107,7 +107,7 @@ void buildBox(benchmark::State& state) {
         frameSeconds += since(start);
         settle(*session);
         start = std::chrono::steady_clock::now();
-        session->takeBack(game::kLocalPlayer, game::HistoryWay::Undo);
+        session->undoOrRedo(game::kLocalPlayer, game::HistoryWay::Undo);
         undoSeconds += since(start);
         settle(*session);
         session->pipeline().takeChanges(1 << 20);

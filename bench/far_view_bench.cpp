@@ -70,7 +70,7 @@ void orExit(const base::Result<void>& result) {
 struct Stage {
     gen::LevelGenerators generators =
         bench::orExit(gen::makeLevelGenerators("overworld", bench::blocks(), 1));
-    world::BlockRegistry farBlocks = bench::blocks().seenFromAfar();
+    world::BlockRegistry farBlocks = bench::blocks().forFarTiles();
     gpu::ShaderLoader shaders = gpu::builtInShaders("");
     render::Renderer renderer = bench::orExit(
         render::Renderer::create(shaders, bench::blocks(), content::builtInTextures(), gpu::queryDevice()));

@@ -20,7 +20,7 @@ block = [
 )";
 
 void rust(world::BlockUpdate& update, world::BlockPos pos, world::Face side) {
-    const world::BlockId next = update.world().block(world::beside(pos, side));
+    const world::BlockId next = update.world().block(world::adjacent(pos, side));
     if (update.blocks().type(next).name == "water")
         update.change(pos, world::SetBlock{update.blocks().find("rust")->id});
 }

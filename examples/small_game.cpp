@@ -172,10 +172,10 @@ base::Result<void> play(GLFWwindow* window, game::SessionParts parts) {
             size = pixels;
         }
         render::FrameInput frame{camera, world::environmentAt(static_cast<float>(session.clock.timeDay))};
-        frame.fogDistance = view::fogDistance(view.sightDistance());
+        frame.fogDistance = view::fogDistance(view.visibleDistance());
         frame.timeSeconds = static_cast<float>(now);
         frame.waterAbove = game::waterAbove(session, camera.position);
-        frame.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
+        frame.maxShadowTiles = render::ShadowClipmap::kTilesPerFrame;
         renderer->draw(frame);
         renderer->presentToWindow(size);
         glfwSwapBuffers(window);

@@ -27,7 +27,7 @@ void addGraphicsChoices(CLI::App& command, render::GraphicsChoices& choices, std
             const render::GraphicsRow& chosen = render::graphicsTable()[k];
             const auto choice = render::choiceOf(chosen, text);
             const std::vector<std::string> names(chosen.valueNames.begin(), chosen.valueNames.end());
-            if (!choice) throw CLI::ValidationError(flag, base::notOneOf(names, text));
+            if (!choice) throw CLI::ValidationError(flag, base::expectedOneOf(names, text));
             choices.changed.emplace_back(k, *choice);
         };
         command.add_option_function<std::string>(flag, take, std::string(row.description) + ": " + words)
@@ -105,7 +105,7 @@ std::vector<std::string> sceneNames() {
 const content::Scene* sceneNamed(const std::string& name) {
     const content::Scene* found = content::findScene(name);
     if (found) return found;
-    throw CLI::ValidationError("--scene", base::notOneOf(sceneNames(), name));
+    throw CLI::ValidationError("--scene", base::expectedOneOf(sceneNames(), name));
 }
 
 }  // namespace

@@ -14,9 +14,9 @@ base::Result<pack::Content> loadContent(const WorldOptions& options, const SaveO
     if (!save.world.empty()) {
         // If the world cannot be read, opening it reports the error.
         const auto metadata = store_postgres::anyWorldMetadata(store::worldLocation(save.world));
-        if (metadata) TERRANE_TRY(pack::addPacks(packs, pack::rememberedPacks(*metadata)));
+        if (metadata) TERRANE_TRY(pack::addPacks(packs, pack::savedPackNames(*metadata)));
     }
-    TERRANE_TRY(pack::addRequired(packs));
+    TERRANE_TRY(pack::addRequiredPacks(packs));
     return pack::loadContent(std::move(packs));
 }
 
@@ -74,7 +74,7 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     request.sharing = sharing;
     auto opened =
         TERRANE_TRY(store_postgres::openAnyWorld(store::worldLocation(save.world), *content.blocks, request));
-    if (access != store::WorldAccess::ReadOnly) pack::rememberPacks(*opened, content);
+    if (access != store::WorldAccess::ReadOnly) pack::savePackNames(*opened, content);
     options.seed = opened->identity().seed;
     options.generator = opened->identity().generator;
     return opened;

@@ -134,7 +134,7 @@ void addChoice(CLI::App& command, const std::string& name, T& value,
             value = choice;
             return;
         }
-        throw CLI::ValidationError(name, base::notOneOf(valueNames, text));
+        throw CLI::ValidationError(name, base::expectedOneOf(valueNames, text));
     };
     command
         .add_option_function<std::string>(name, take,

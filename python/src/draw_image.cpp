@@ -66,7 +66,7 @@ base::Result<void> checkRequest(const ImageRequest& request) {
 }
 
 base::Result<game::SessionParts> partsOf(const DrawnWorld& world) {
-    if (auto settled = world.opened->settleTiles(); !settled) return tl::unexpected(settled.error());
+    if (auto settled = world.opened->waitForTiles(); !settled) return tl::unexpected(settled.error());
     auto generators = generatorsOf(world.opened->store().identity(), world.content);
     if (!generators) return tl::unexpected(generators.error());
     return game::SessionParts{
@@ -96,8 +96,8 @@ base::Result<base::Image> drawInContext(game::SessionParts parts, const world::T
     view.setHorizon({request.horizon, graphics.detail});
     const render::Camera camera = view::cameraOf(request.pose, request.fieldOfView);
     view::loadAll(session, view, camera, request.viewDistance, std::chrono::steady_clock::now());
-    renderer->draw({camera, world::environmentAt(request.timeDay), view::fogDistance(view.sightDistance()), 0,
-                    render::View::Color, game::waterAbove(session, camera.position)});
+    renderer->draw({camera, world::environmentAt(request.timeDay), view::fogDistance(view.visibleDistance()),
+                    0, render::View::Color, game::waterAbove(session, camera.position)});
     return renderer->readImage();
 }
 

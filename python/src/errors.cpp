@@ -53,7 +53,7 @@ void raise(const base::Error& error) {
 
 }  // namespace
 
-volume::GoesOn untilInterrupted() {
+volume::ShouldContinue untilInterrupted() {
     return [last = std::chrono::steady_clock::now()]() mutable {
         const auto now = std::chrono::steady_clock::now();
         if (now - last < kBetweenLooks) return true;

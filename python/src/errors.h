@@ -27,7 +27,7 @@ T valueOr(base::Result<T> result) {
 
 // A callback for work on the calling thread: checks every 50 ms whether the user pressed Ctrl+C. Call without
 // Python's lock.
-volume::GoesOn untilInterrupted();
+volume::ShouldContinue untilInterrupted();
 
 // Runs work() without Python's lock and returns its value. Throws Failure, or the exception of a signal
 // handler.

@@ -17,7 +17,7 @@ base::Result<pack::Content> loadContent(const std::vector<std::string>& named,
     auto packs = pack::readPacks(named);
     if (!packs) return tl::unexpected(packs.error());
     if (auto added = pack::addPacks(*packs, remembered); !added) return tl::unexpected(added.error());
-    if (auto added = pack::addRequired(*packs); !added) return tl::unexpected(added.error());
+    if (auto added = pack::addRequiredPacks(*packs); !added) return tl::unexpected(added.error());
     return pack::loadContent(std::move(*packs));
 }
 
@@ -70,7 +70,7 @@ base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads)
     const store::WorldLocation location = store::worldLocation(world.location);
     const auto metadata = store_postgres::anyWorldMetadata(location);  // opening reports errors
     auto content =
-        loadContent(world.content, metadata ? pack::rememberedPacks(*metadata) : std::vector<std::string>());
+        loadContent(world.content, metadata ? pack::savedPackNames(*metadata) : std::vector<std::string>());
     if (!content) return tl::unexpected(content.error());
     store::WorldRequest request;
     request.access = world.isReadOnly ? store::WorldAccess::ReadOnly : store::WorldAccess::ReadWrite;
@@ -87,7 +87,7 @@ base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads)
     }
     auto store = store_postgres::openAnyWorld(location, *content->blocks, request);
     if (!store) return tl::unexpected(store.error());
-    if (!world.isReadOnly) pack::rememberPacks(**store, *content);
+    if (!world.isReadOnly) pack::savePackNames(**store, *content);
     return sourcesOf(std::move(*content), std::move(*store), threads);
 }
 

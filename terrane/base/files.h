@@ -1,5 +1,5 @@
-// Reads and writes whole files. Any thread may call. Errors name the path and the system's reason, for
-// example "saves/a.npy: cannot be written: No such file or directory".
+// Reads and writes whole files. Any thread may call the functions. Errors name the path and the system's
+// reason, for example "saves/a.npy: cannot be written: No such file or directory".
 #pragma once
 
 #include <filesystem>
@@ -33,8 +33,7 @@ constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 // bytes are on the disk when it returns.
 [[nodiscard]] Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes);
 
-// A folder for temporary files. Any thread.
-// The destructor removes the folder and all its content.
+// A folder for temporary files. Any thread may use it. The destructor removes the folder and all its content.
 class TemporaryFolder {
   public:
     // Makes a folder with a new name in `parent`, which may hold files of the user.

@@ -1,4 +1,4 @@
-// Images in memory and as PNG: textures, screenshots, golden images. Any thread may call.
+// Images in memory and as PNG: textures, screenshots, golden images. Any thread may call the functions.
 #pragma once
 
 #include <cstdint>
@@ -11,26 +11,26 @@
 
 namespace terrane::base {
 
-// Four bytes for each pixel: red, green, blue (sRGB), alpha (not premultiplied). Row 0 is the top one.
+// A pixel has four bytes: red, green, blue (sRGB), alpha (not premultiplied). Row 0 is the top one.
 struct Image {
     int width = 0;   // pixels
     int height = 0;  // pixels
     std::vector<std::uint8_t> rgba;
 };
 
-// Larger PNG files are refused, so that a few bad bytes cannot ask for all memory: 2^26 pixels × 4 bytes =
-// 256 MiB.
+// Larger PNG files are refused, so that a small damaged file cannot allocate all memory: 2^26 pixels × 4
+// bytes = 256 MiB.
 constexpr std::int64_t kMaxImagePixels = std::int64_t{1} << 26;
 
 // Decodes any kind of PNG to RGBA8. Errors begin with `name`.
 [[nodiscard]] Result<Image> decodePng(std::string_view bytes, std::string_view name,
                                       std::int64_t maxPixels = kMaxImagePixels);
 
-// Fails unless the image has at least one pixel and exactly the bytes its size asks for. The compressed bytes
+// Fails unless the image has at least one pixel and exactly the bytes of its size. The compressed bytes
 // depend on the version of zlib: compare decoded images.
 [[nodiscard]] Result<std::string> encodePng(const Image& image);
-// Takes a quarter of the time; files are a fifth smaller to a third larger (measured on maps of 256×256
-// pixels). Writes no alpha if all pixels are opaque.
+// Encodes like encodePng() in a quarter of the time; files are a fifth smaller to a third larger (measured on
+// maps of 256×256 pixels). Writes no alpha if all pixels are opaque.
 [[nodiscard]] Result<std::string> encodePngFast(const Image& image);
 
 [[nodiscard]] Result<Image> readPng(const std::filesystem::path& path,

@@ -44,18 +44,19 @@ class JobHandle {
 
     [[nodiscard]] explicit operator bool() const { return job_ != nullptr; }
 
-    // If this returns Done, everything that the job wrote is visible to the calling thread.
+    // Returns the job's state. If it is Done, everything that the job wrote is visible to the calling thread.
     [[nodiscard]] JobState state() const;
 
-    // A queued job never starts and has released its captures when this returns; others stay as they are.
-    // Returns whether the job is Cancelled.
+    // Cancels the job if it is queued: it never starts and has released its captures when this returns. Other
+    // jobs stay as they are. Returns whether the job is Cancelled.
     bool cancel() const;
 
-    // Blocks until the job is Done, Cancelled or Failed. Must not be called on a worker of the same system.
+    // Blocks until the job is Done, Cancelled or Failed. It must not be called on a worker of the same
+    // system.
     void wait() const;
 
-    // The message of the exception that the job threw; empty unless Failed. A failure is logged if nobody
-    // called this before the last handle is destroyed.
+    // Returns the message of the exception that the job threw; the text is empty unless the job Failed. A
+    // failure is logged unless this is called before the last handle is destroyed.
     [[nodiscard]] std::string error() const;
 
   private:
@@ -77,18 +78,19 @@ class JobSystem {
 
     JobHandle submit(JobPriority priority, JobWork work);
 
-    // Runs the most urgent job on the calling thread. False if none is queued.
+    // Runs the most urgent job on the calling thread. Returns false if none is queued.
     bool runNext();
-    // The same for a system with 0 threads; false if it has threads. For code that waits for results of jobs.
+    // Does the same for a system with 0 threads; returns false if the system has threads. Code that waits for
+    // results of jobs calls it.
     bool runNextWithoutThreads() { return workers_.empty() && runNext(); }
 
-    // The number of jobs that run at a time.
+    // Returns the number of jobs that run at a time.
     [[nodiscard]] unsigned threadCount() const {
         return workers_.empty() ? 1 : static_cast<unsigned>(workers_.size());
     }
     [[nodiscard]] std::size_t queuedCount() const;  // submitted and not started
 
-    // Blocks until nothing is queued or running. Must not be called on a worker of this system.
+    // Blocks until nothing is queued or running. It must not be called on a worker of this system.
     void waitIdle();
 
   private:
@@ -97,8 +99,8 @@ class JobSystem {
 };
 
 // Calls body(0) … body(count - 1) once each, on the workers and the calling thread, and returns when all have
-// finished. Runs before all other queued jobs, since the caller is blocked. Every index runs even if one
-// throws; the error is that of the lowest index that threw, so the result does not depend on the order of
+// finished. The work runs before all other queued jobs, since the caller is blocked. Every index runs even if
+// one throws; the error is that of the lowest index that threw, so the result does not depend on the order of
 // threads. One index should take more than about a microsecond: each costs an atomic addition.
 [[nodiscard]] Result<void> parallelFor(JobSystem& jobs, std::size_t count,
                                        const std::function<void(std::size_t)>& body);

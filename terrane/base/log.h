@@ -1,6 +1,6 @@
 // Messages to the user who runs the program, one line each on standard error (standard output is for
-// results), made printable (text.h). Any thread may call; without memory a fixed line is written
-// instead.
+// results), made printable (text.h). Any thread may call the functions; without memory a fixed line is
+// written instead.
 #pragma once
 
 #include <fmt/format.h>

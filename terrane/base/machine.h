@@ -15,18 +15,19 @@ struct Machine {
 };
 Machine describeMachine();
 
-// The mean number of processes that ran or waited for a CPU over the last minute.
+// Returns the mean number of processes that ran or waited for a CPU over the last minute.
 double loadAverage();
 
-// Bytes per second at which this thread copies a block that fits no cache; the best of several runs.
+// Returns the bytes per second at which this thread copies a block that fits no cache, as the best of several
+// runs.
 double memoryCopySpeed();
 
-// Memory and CPU time used by this process. Any thread.
+// These return the memory and CPU time that this process uses. Any thread may call them.
 std::size_t residentBytes();      // 0 if unknown
 std::size_t peakResidentBytes();  // so far
 double cpuSeconds();              // of all threads, so far
 
-// Names for people on other machines.
+// These name the machine and the process for people on other machines.
 std::string machineName();  // "localhost" if it has no name
 std::string processName();  // "mill process 123"
 

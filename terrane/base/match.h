@@ -1,4 +1,4 @@
-// Handles every alternative of a variant: one that is forgotten does not compile. Any thread.
+// Handles every alternative of a variant: one that is forgotten does not compile. Any thread may use it.
 #pragma once
 
 #include <utility>
@@ -13,7 +13,7 @@ struct Match : Functions... {
 template <class... Functions>
 Match(Functions...) -> Match<Functions...>;
 
-// In a Match, one function for several alternatives, without their values: on<C, D>([] { … }).
+// Makes one function of a Match for several alternatives, without their values: on<C, D>([] { … }).
 template <class... Alternatives, class Function>
 auto on(Function function) {
     return Match{[function](const Alternatives&) { return function(); }...};

@@ -156,7 +156,7 @@ tl::unexpected<Error> refused(std::string message) {
 // The first character that no name has.
 std::optional<char32_t> forbiddenIn(std::string_view name) {
     while (!name.empty()) {
-        const Character next = firstCharacter(name);
+        const Character next = firstCodePoint(name);
         if (!uset_contains(checker().allowed.get(), static_cast<UChar32>(next.code))) return next.code;
         name.remove_prefix(next.bytes);
     }
@@ -164,7 +164,7 @@ std::optional<char32_t> forbiddenIn(std::string_view name) {
 }
 
 bool beginsWithMark(std::string_view name) {
-    return (U_GET_GC_MASK(static_cast<UChar32>(firstCharacter(name).code)) & U_GC_M_MASK) != 0;
+    return (U_GET_GC_MASK(static_cast<UChar32>(firstCodePoint(name).code)) & U_GC_M_MASK) != 0;
 }
 
 }  // namespace

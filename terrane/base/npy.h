@@ -14,12 +14,12 @@ struct NpyArray {
     std::string data;                // the elements, last index fastest, in the byte order that descr says
 };
 
-// The header before the elements, a multiple of 64 bytes. `minBytes` reserves room, so that a header can be
-// replaced once the shape is known.
+// Returns the header before the elements, a multiple of 64 bytes. `minBytes` reserves room, so that a header
+// can be replaced once the shape is known.
 [[nodiscard]] std::string npyHeader(const std::string& descr, const std::vector<std::size_t>& shape,
                                     std::size_t minBytes = 0);
 
-// The bytes of the whole file.
+// Returns the bytes of the whole file.
 [[nodiscard]] std::string encodeNpy(const NpyArray& array);
 
 }  // namespace terrane::base

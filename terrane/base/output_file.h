@@ -1,5 +1,5 @@
-// A file that is written in pieces, for results larger than memory. One thread at a time. Errors name the
-// path and the system's reason, like those of files.h.
+// A file that is written in pieces, for results larger than memory. One thread at a time may use it. Errors
+// name the path and the system's reason, like those of files.h.
 #pragma once
 
 #include <cstdint>
@@ -31,7 +31,7 @@ class OutputFile {
     [[nodiscard]] Result<void> write(std::uint64_t offsetBytes, std::string_view bytes);
 
     // Waits until the data is on disk, then renames the file to the path: readers find the old file or the
-    // new one, also after a crash or power failure. Called once, as the last call.
+    // new one, also after a crash or power failure. It is called once, as the last call.
     [[nodiscard]] Result<void> finish();
 
   private:

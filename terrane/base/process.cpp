@@ -63,7 +63,7 @@ double secondsOf(const timeval& time) {
     return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_usec) * 1e-6;
 }
 
-Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOptions& options) {
+Result<ChildResult> runOnce(const std::vector<std::string>& command, const ChildOptions& options) {
     std::array<int, 2> ends;
     if (::pipe2(ends.data(), O_CLOEXEC) != 0)
         return fail("{}: cannot be run: {}", command[0], systemReason(errno));
@@ -76,9 +76,9 @@ Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOpt
         ::close(ends[0]);
         return fail("{}: cannot be run: {}", command[0], systemReason(forkError));
     }
-    ChildEnd end;
-    end.tookTooLong = !readAll(ends[0], start + options.atMost, end.output);
-    if (end.tookTooLong) ::kill(child, SIGKILL);
+    ChildResult end;
+    end.timedOut = !readAll(ends[0], start + options.timeout, end.output);
+    if (end.timedOut) ::kill(child, SIGKILL);
     ::close(ends[0]);
     int status = 0;
     rusage usage{};
@@ -93,13 +93,13 @@ Result<ChildEnd> runOnce(const std::vector<std::string>& command, const ChildOpt
 
 }  // namespace
 
-Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options) {
+Result<ChildResult> runChild(const std::vector<std::string>& command, const ChildOptions& options) {
     if (command.empty()) return fail(ErrorCode::BadInput, "no program to run is named");
     int crashes = 0;
     for (int run = 1;; ++run) {
         auto end = TERRANE_TRY(runOnce(command, options));
         crashes += end.crashes;
-        if (end.crashes > 0 && run < options.mostRuns) continue;
+        if (end.crashes > 0 && run < options.maxRuns) continue;
         end.crashes = crashes;
         return end;
     }
@@ -128,7 +128,7 @@ StopSignals::~StopSignals() {
     for (std::size_t k = 0; k < kSignals.size(); ++k) std::signal(kSignals[k], before_[k]);
 }
 
-bool StopSignals::stopAsked() const {
+bool StopSignals::stopRequested() const {
     return wasAsked != 0;
 }
 

@@ -16,28 +16,28 @@ namespace terrane::base {
 struct ChildOptions {
     std::filesystem::path folder;                                       // working directory
     std::filesystem::path errorOutput;                                  // file for its standard error
-    std::chrono::milliseconds atMost = std::chrono::minutes(10);        // the child is killed then
+    std::chrono::milliseconds timeout = std::chrono::minutes(10);       // the child is killed then
     std::vector<std::pair<std::string, std::string>> environment = {};  // added to the inherited variables
-    int mostRuns = 1;  // a child that crashes is run again, up to this many runs
+    int maxRuns = 1;  // a child that crashes is run again, up to this many runs
 };
 
-struct ChildEnd {
+struct ChildResult {
     int exitCode = 0;  // 128 + the signal that ended it
     int crashes = 0;  // runs that were ended by a fault of the program or of a driver (SIGSEGV, SIGABRT, …)
-    bool tookTooLong = false;
+    bool timedOut = false;
     std::string output;                  // its standard output
     double seconds = 0, cpuSeconds = 0;  // of the last run
 };
 
 // Blocks until the child ends. The child is killed if the calling thread ends. The calling process must have
-// no other threads. An error if the system cannot start another process; a program that is missing or cannot
-// be run gives exit code 127, as in a shell.
-[[nodiscard]] Result<ChildEnd> runChild(const std::vector<std::string>& command, const ChildOptions& options);
+// no other threads. Returns an error if the system cannot start another process; a program that is missing or
+// cannot be run gives exit code 127, as in a shell.
+[[nodiscard]] Result<ChildResult> runChild(const std::vector<std::string>& command,
+                                           const ChildOptions& options);
 
 // Interrupts (Ctrl+C, kill, a closed terminal) end the program between two frames, so that a game is saved
-// and no unfinished files are left.
-// While an object exists, SIGINT, SIGTERM and SIGHUP only make stopAsked() true; SIGHUP stays ignored if it
-// was, as with nohup. One object at a time.
+// and no unfinished files are left. While an object exists, SIGINT, SIGTERM and SIGHUP only make
+// stopRequested() return true; SIGHUP stays ignored if it was, as with nohup. One object at a time.
 class StopSignals {
   public:
     StopSignals();
@@ -45,7 +45,7 @@ class StopSignals {
     StopSignals(const StopSignals&) = delete;
     StopSignals& operator=(const StopSignals&) = delete;
 
-    bool stopAsked() const;
+    bool stopRequested() const;
 
   private:
     static constexpr std::array kSignals = {SIGINT, SIGTERM, SIGHUP};

@@ -16,14 +16,14 @@
 
 namespace terrane::base {
 
-// Forgets the previous trace and records the zones that begin from now on.
+// Discards the previous trace and records the zones that begin from now on.
 void startTrace();
 
-// Zones that are still open are left out.
+// Stops recording. Zones that are still open are left out.
 void stopTrace();
 
 // Writes the running or the last trace as JSON: complete events in microseconds since its start, by thread. A
-// thread keeps 1,048,576 zones (24 bytes each: 24 MiB); the number of dropped zones is logged.
+// thread records up to 1,048,576 zones (24 bytes each: 24 MiB); the number of dropped zones is logged.
 [[nodiscard]] Result<void> writeTrace(const std::filesystem::path& path);
 
 // Names the calling thread in traces, for example "worker 1".
@@ -31,8 +31,8 @@ void setThreadName(std::string name);
 
 namespace detail {
 
-// Number of the running trace, 0 if none runs. A static in a function, so that the initialization order does
-// not matter; constant initialization avoids a guard.
+// Returns the number of the running trace, 0 if none runs. A static in a function, so that the initialization
+// order does not matter; constant initialization avoids a guard.
 inline std::atomic<std::uint32_t>& activeTrace() {
     static constinit std::atomic<std::uint32_t> number{0};
     return number;
@@ -43,7 +43,7 @@ void recordZone(const char* name, std::int64_t startNs, std::uint32_t trace);
 
 }  // namespace detail
 
-// Made by TERRANE_ZONE. The name must live as long as the program.
+// TERRANE_ZONE creates it. The name must live as long as the program.
 class ProfileZone {
   public:
     explicit ProfileZone(const char* name)

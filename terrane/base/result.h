@@ -16,17 +16,16 @@
 
 namespace terrane::base {
 
-// Checks of public functions for what a caller from outside can get wrong: argument and order of calls. They
-// stay in release builds; inner loops assert instead.
-// Throws std::invalid_argument with `rule`, which names the function, unless the rule holds.
+// Public functions check by require() for mistakes of library users: arguments and the order of calls. These
+// checks stay in release builds; inner loops assert instead. Throws std::invalid_argument with `rule`, which
+// names the function, unless the rule holds.
 inline void require(bool holds, const char* rule) {
     if (!holds) [[unlikely]]
         throw std::invalid_argument(rule);
 }
 
-// Texts of exceptions for messages. Any thread.
-// A plain text if memory or threads ran out, otherwise what(). Allocates no memory; valid as long as the
-// exception.
+// Returns the text of an exception for messages: a plain text if memory or threads ran out, otherwise what().
+// It allocates no memory, and its result is valid as long as the exception. Any thread may call it.
 const char* textOf(const std::exception& exception) noexcept;
 
 }  // namespace terrane::base
@@ -46,18 +45,19 @@ enum class ErrorCode : std::uint8_t {
     Refused,         // a wrong password, or no right to do this
 };
 
-// The message names what failed and where, for example "blocks.toml:12: opacity: expected 0 to 15, got 40".
+// The message names the failure and its location, for example "blocks.toml:12: opacity: expected 0 to 15, got
+// 40".
 struct Error {
     ErrorCode code = ErrorCode::Failed;
     std::string message;
 };
 
-// The system's message for an errno.
+// Returns the system's message for an errno.
 inline std::string systemReason(int errorNumber) {
     return std::generic_category().message(errorNumber);
 }
 
-// A value or an error. Must not be ignored silently: cast to void if an error makes no difference.
+// A value or an error. It must not be ignored silently: cast it to void if an error makes no difference.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
     using Base = tl::expected<T, Error>;
@@ -96,7 +96,7 @@ template <class... Args>
     return fail(ErrorCode::Failed, format, std::forward<Args>(args)...);
 }
 
-// Used by TERRANE_TRY. A value must be used: a lock that the caller does not keep would be released at once.
+// TERRANE_TRY calls it. A value must be used: a lock that the caller drops would be released at once.
 template <class T>
 [[nodiscard]] T valueOf(Result<T>&& result) {
     return *std::move(result);
@@ -105,13 +105,13 @@ inline void valueOf(Result<void>&&) {}
 
 }  // namespace terrane::base
 
-// The value of a result, or a return of its error from the function around it:
+// Evaluates to the value of a result, or returns its error from the function around it:
 //
 //     const auto text = TERRANE_TRY(readFile(path));
 //     TERRANE_TRY(writeFile(path, text));
 //
-// A statement expression, which GCC and Clang have. Use it as a statement or as a whole initializer: a return
-// from the middle of an expression leaves the rest of the expression open.
+// It is a statement expression, which GCC and Clang have. Use it as a statement or as a whole initializer: a
+// return from the middle of an expression leaves the rest of the expression open.
 #define TERRANE_TRY(...) TERRANE_TRY_NAMED(TERRANE_TRY_JOIN(terraneResult, __COUNTER__), __VA_ARGS__)
 #define TERRANE_TRY_NAMED(result, ...)                                 \
     __extension__({                                                    \

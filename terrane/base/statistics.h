@@ -9,7 +9,7 @@
 
 namespace terrane::base {
 
-// The median of at least one value; of an even number, the mean of the middle two.
+// Returns the median of at least one value; of an even number, the mean of the middle two.
 inline double medianOf(std::vector<double> values) {
     require(!values.empty(), "medianOf: no values");
     std::ranges::sort(values);
@@ -17,7 +17,7 @@ inline double medianOf(std::vector<double> values) {
     return values.size() % 2 == 1 ? values[middle] : (values[middle - 1] + values[middle]) / 2;
 }
 
-// The value that a `share` (0 to 1) of the values does not exceed; 0 without values.
+// Returns the value that a `share` (0 to 1) of the values does not exceed; 0 without values.
 inline double quantileOf(std::vector<double> values, double share) {
     if (values.empty()) return 0;
     const auto at =

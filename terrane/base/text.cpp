@@ -24,7 +24,7 @@ std::size_t lengthByFirst(unsigned char first) {
 
 }  // namespace
 
-Character firstCharacter(std::string_view text) {
+CodePoint firstCodePoint(std::string_view text) {
     assert(!text.empty() && "an empty text has no character");
     constexpr std::array<char32_t, 5> kLeast = {0, 0, 0x80, 0x800, 0x10000};
     const auto first = static_cast<unsigned char>(text.front());
@@ -42,7 +42,7 @@ Character firstCharacter(std::string_view text) {
 
 bool isUtf8(std::string_view text) {
     while (!text.empty()) {
-        const std::size_t bytes = firstCharacter(text).bytes;
+        const std::size_t bytes = firstCodePoint(text).bytes;
         if (bytes == 0) return false;
         text.remove_prefix(bytes);
     }
@@ -64,7 +64,7 @@ std::string printable(std::string_view text) {
     std::string line;
     line.reserve(text.size());
     while (!text.empty()) {
-        const Character c = firstCharacter(text);
+        const CodePoint c = firstCodePoint(text);
         const std::string_view bytes = text.substr(0, std::max<std::size_t>(c.bytes, 1));
         if (c.bytes > 0 && !isControl(c.code)) {
             line += bytes;
@@ -124,7 +124,7 @@ std::string didYouMean(std::string_view word, std::span<const std::string> names
     return nearest.empty() ? std::string() : "; did you mean " + nearest + "?";
 }
 
-std::string notOneOf(std::span<const std::string> names, std::string_view word) {
+std::string expectedOneOf(std::span<const std::string> names, std::string_view word) {
     return fmt::format("expected one of {}, got \"{}\"{}", fmt::join(names, ", "), word,
                        didYouMean(word, names));
 }

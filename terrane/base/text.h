@@ -1,4 +1,5 @@
-// Bytes in hexadecimal text from outside. Any thread may call.
+// Text from outside: hexadecimal digits, UTF-8, output that is safe for terminals, and near matches of
+// misspelled names. All functions are pure; any thread may call them.
 #pragma once
 
 #include <fmt/format.h>
@@ -12,7 +13,7 @@
 
 namespace terrane::base {
 
-// The byte that two hexadecimal digits give, in upper or lower case.
+// Returns the byte that two hexadecimal digits give, in upper or lower case.
 [[nodiscard]] constexpr std::optional<unsigned char> hexByte(char high, char low) {
     const auto digit = [](char c) {
         if (c >= '0' && c <= '9') return c - '0';
@@ -24,22 +25,21 @@ namespace terrane::base {
     return static_cast<unsigned char>(upper * 16 + lower);
 }
 
-// Decodes UTF-8 (the Unicode standard, section 3.9, table 3-7: overlong forms, surrogates and codes beyond
-// U+10FFFF are invalid). Any thread may call.
-struct Character {
+// A decoded code point of UTF-8 (the Unicode standard, section 3.9, table 3-7: overlong forms, surrogates and
+// codes beyond U+10FFFF are invalid).
+struct CodePoint {
     char32_t code = 0;
     std::size_t bytes = 0;  // 0: the text does not begin with valid UTF-8
 };
 
-// The first character of a text that is not empty.
-[[nodiscard]] Character firstCharacter(std::string_view text);
+// Decodes the first code point of a text that is not empty.
+[[nodiscard]] CodePoint firstCodePoint(std::string_view text);
 
 [[nodiscard]] bool isUtf8(std::string_view text);
 
 // Makes text of unknown origin safe for a terminal: names and values in files can hold escape sequences that
-// change colors, titles or earlier output. Any thread may call.
-// The text as one line: control characters (also those of Unicode that reorder or break lines) and bytes that
-// are not UTF-8 become \xNN for each byte.
+// change colors, titles or earlier output. The result is one line: control characters (also those of Unicode
+// that reorder or break lines) and bytes that are not UTF-8 become \xNN for each byte.
 [[nodiscard]] std::string printable(std::string_view text);
 
 namespace detail {
@@ -52,19 +52,18 @@ void printLine(fmt::format_string<Args...> format, Args&&... args) {
     detail::printLine(format, fmt::make_format_args(args...));
 }
 
-// Finds the known name that a misspelled word probably means. Pure functions; any thread.
-// The number of bytes to insert, delete, replace or swap with the next one to turn one text into the other.
-// No byte is changed twice ("optimal string alignment").
+// Returns the number of bytes to insert, delete, replace or swap with the next one to turn one text into the
+// other. No byte is changed twice ("optimal string alignment").
 [[nodiscard]] std::size_t editDistance(std::string_view a, std::string_view b);
 
-// The name at the smallest edit distance, of equal ones the first. Empty if none is near: the distance may be
-// at most a third of the longer text, or 1, and must be less than its length.
+// Returns the name at the smallest edit distance, of equal ones the first. The result is empty if none is
+// near: the distance may be at most a third of the longer text, or 1, and must be less than its length.
 [[nodiscard]] std::string nearestName(std::string_view word, std::span<const std::string> names);
 
-// "; did you mean NAME?", to append to an error; empty if no name is near.
+// Returns "; did you mean NAME?", to append to an error; the text is empty if no name is near.
 [[nodiscard]] std::string didYouMean(std::string_view word, std::span<const std::string> names);
 
-// "expected one of low, high, got "hihg"; did you mean high?"
-[[nodiscard]] std::string notOneOf(std::span<const std::string> names, std::string_view word);
+// Returns the text of an error: "expected one of low, high, got "hihg"; did you mean high?"
+[[nodiscard]] std::string expectedOneOf(std::span<const std::string> names, std::string_view word);
 
 }  // namespace terrane::base

@@ -1,4 +1,5 @@
-// Caches a value that is expensive to compute and computes it again after a pause. Any thread, one at a time.
+// Caches a value that is expensive to compute and computes it again after a pause. One thread at a time may
+// use it.
 #pragma once
 
 #include <algorithm>
@@ -29,15 +30,17 @@ class TimedValue {
     T value_{};
 };
 
-// A token bucket, which limits what a client may do: `perSecond` on average, `most` at once. A plain value.
+// A token bucket, which limits the rate of a client: `perSecond` tokens on average, `most` at once. It is a
+// plain value.
 class TokenBucket {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    // Starts full.
+    // The bucket starts full.
     TokenBucket(double perSecond, double most) : perSecond_(perSecond), most_(most), tokens_(most) {}
 
-    // Takes `count` tokens, or returns false and takes nothing if there are fewer. `now` never decreases.
+    // Removes `count` tokens and returns true, or returns false and removes none if there are fewer. `now`
+    // never decreases.
     [[nodiscard]] bool take(double count, Time now) {
         if (last_) {
             const double seconds = std::chrono::duration<double>(now - *last_).count();
@@ -49,7 +52,7 @@ class TokenBucket {
         return true;
     }
 
-    // Takes tokens even if there are too few: take() then fails until they are refilled.
+    // Removes tokens even if there are too few: take() then fails until they are refilled.
     void spend(double count) { tokens_ -= count; }
 
   private:

@@ -1,4 +1,4 @@
-// Block types and textures that are compiled into the program; for shaders see gpu/built_in_shaders.h.
+// The block types and textures that are compiled into the program; for shaders see gpu/shader_loader.h.
 #pragma once
 
 #include <span>
@@ -12,7 +12,8 @@
 
 namespace terrane::content {
 
-// `behaviors`: all behaviors that blocks may name, including the built-in ones.
+// Loads the built-in block types. `behaviors` holds all behaviors that blocks may name, including the
+// built-in ones.
 base::Result<world::BlockRegistry> loadBlocks(
     const world::BehaviorTable& behaviors = world::builtInBehaviors());
 world::TextureSource builtInTextures();

@@ -1,5 +1,5 @@
 // Names of blocks and texts of the user interface in a language. The files are in assets/languages and are
-// compiled in. Plain values; any thread.
+// compiled in. All are plain values; any thread may use them.
 #pragma once
 
 #include <array>
@@ -14,9 +14,8 @@
 
 namespace terrane::content {
 
-// Format fields of texts: those of printf ("%d") and of fmt ("{:.1f}").
-// The fields in the order of the text. "%%", "{{" and "}}" are fields, too; a lone "{" or "}" is a field by
-// itself.
+// Returns the format fields of a text in their order: those of printf ("%d") and of fmt ("{:.1f}"). "%%",
+// "{{" and "}}" are fields, too; a lone "{" or "}" is a field by itself.
 std::vector<std::string> textFields(std::string_view text);
 
 // Languages that come with the program.
@@ -40,13 +39,14 @@ base::Result<Language> parseLanguage(std::string_view toml, std::string_view fil
 // Loads one of kLanguages.
 base::Result<Language> loadLanguage(std::string_view code);
 
-// The code in kLanguages for a locale of the system, "de" for "de_AT.UTF-8"; "en" for languages without a
-// file.
+// Returns the code in kLanguages for a locale of the system, "de" for "de_AT.UTF-8"; "en" for languages
+// without a file.
 std::string_view languageOfLocale(std::string_view locale);
 
-// The shown name of a block, "Oak log"; made from the block's own name if the language has none.
+// Returns the display name of a block, "Oak log"; it is made from the block's own name if the language has
+// none.
 std::string blockName(const Language& language, const world::BlockType& type);
-// The translation, or the English text itself. Null-terminated if `english` is.
+// Returns the translation, or the English text itself. The result is null-terminated if `english` is.
 std::string_view text(const Language& language, std::string_view english);
 
 }  // namespace terrane::content

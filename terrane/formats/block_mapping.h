@@ -1,6 +1,6 @@
 // Maps Minecraft's block names to blocks of Terrane and back: the built-in table
-// assets/formats/minecraft.toml, and files of the user over it. Used by all readers and writers of files with
-// block names. Immutable once created; any thread.
+// assets/formats/minecraft.toml, and files of the user over it. It is used by all readers and writers of
+// files with block names. It is immutable; any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -19,27 +19,27 @@
 
 namespace terrane::formats {
 
-// A block as other programs name it: "minecraft:oak_stairs[facing=east,half=bottom]". Plain values; any
-// thread.
+// The name of a block in other programs: "minecraft:oak_stairs[facing=east,half=bottom]". All are plain
+// values; any thread may use them.
 struct NamedState {
     std::string name;                                             // with its namespace
     std::vector<std::pair<std::string, std::string>> properties;  // by name, each once
 
-    // The value of the property; null if there is none.
+    // Returns the value of the property; null if there is none.
     const std::string* property(std::string_view property) const;
-    // Sets the property; the order by name is kept.
+    // Sets the property; the properties stay sorted by name.
     void set(std::string_view property, std::string value);
     bool operator==(const NamedState&) const = default;
 };
 
-// The text form of schematics. The reverse of namedState() if no name holds any of "[]=,".
+// Returns the text form of schematics. It is the inverse of namedState() if no name contains any of "[]=,".
 std::string textOf(const NamedState& state);
-// Parses the text form. A name without namespace gets "minecraft:". Nothing if the text is invalid: an empty
-// name, a bracket that does not close, a property without value.
+// Parses the text form. A name without namespace gets "minecraft:". Returns nothing if the text is invalid:
+// an empty name, a bracket that does not close, a property without value.
 std::optional<NamedState> namedState(std::string_view text);
 
 // Block numbers of Minecraft 1.12 and older: an id (0…4095) and four bits of data for each block. A table
-// (assets/formats/minecraft_ids.toml) gives the names that replace them since 1.13. Any thread.
+// (assets/formats/minecraft_ids.toml) gives the names that replace them since 1.13. Any thread may use it.
 class LegacyIds {
   public:
     // Reads the text of the table. Errors read "name:line: key: what is wrong". One table [ids]:
@@ -47,20 +47,20 @@ class LegacyIds {
     //   5 = ["oak_planks", "spruce_planks", …]  by data; beyond the last: entry data - 8, else the first
     [[nodiscard]] static base::Result<LegacyIds> parse(std::string_view toml, std::string_view name);
 
-    // "minecraft:id_7_1" for numbers that the table lacks.
+    // Returns the name of a number and its data, or "minecraft:id_7_1" for numbers that the table lacks.
     NamedState stateOf(int id, int data) const;
 
   private:
     std::vector<std::vector<NamedState>> byId_;
 };
 
-// Converts properties of Minecraft's blocks to block states and back: facing, halves, open doors, arms of
-// fences, levels of water, growth. Called by block_mapping.h. Plain functions; any thread.
+// The next two functions convert properties of Minecraft's blocks to block states and back: facing, halves,
+// open doors, arms of fences, levels of water, growth. Any thread may call them.
 //
 // Minecraft's x, y, z (east, up, south) are our -x, z, y, so that the sun rises in the same east and maps
-// have the same north, -y (game/places.h). Nothing is mirrored.
-// The bits of the state that the properties of `state` give a block of `type`; 0 if they give none.
-// `isOpposite`: the block faces against its property.
+// have the same north, -y (game/places.h). Nothing is mirrored. Returns the bits of the block state that the
+// properties of `state` set for a block of `type`; 0 if they set none. `isOpposite`: the block faces against
+// its property.
 std::uint16_t stateOfProperties(const world::BlockType& type, const NamedState& state, bool isOpposite);
 
 // Adds the properties that correspond to the block state. Properties that `named` already has stay.
@@ -85,19 +85,19 @@ class BlockMapping {
     [[nodiscard]] static base::Result<BlockMapping> create(const world::BlockRegistry& blocks,
                                                            std::span<const MappingFile> files);
 
-    // "terrane:NAME[state=N]" names the block itself. Unknown names become the registry's "missing";
-    // isKnown() tells them apart.
+    // Returns the block of a name. "terrane:NAME[state=N]" names a block of the registry. Unknown names
+    // become the registry's "missing"; isKnown() tells them apart.
     BlockAndState blockOf(const NamedState& state) const;
     bool isKnown(const NamedState& state) const;
 
-    // A name that blockOf() maps back to this block and state: Minecraft's if there is one, else
+    // Returns a name that blockOf() maps back to this block and state: Minecraft's if there is one, else
     // "terrane:NAME", with the state if it is not 0.
     NamedState nameOf(BlockAndState block) const;
 
-    // The doors of the registry: lower half and upper half.
+    // Returns the doors of the registry: lower half and upper half.
     std::vector<std::pair<world::BlockId, world::BlockId>> doors() const;
 
-    // Blocks by color, 0xRRGGBB.
+    // Returns the blocks by color, 0xRRGGBB.
     const std::map<std::uint32_t, world::BlockId>& colors() const { return colors_; }
 
   private:
@@ -120,7 +120,7 @@ class BlockMapping {
     std::map<std::uint32_t, world::BlockId> colors_;
 };
 
-// The built-in table, with a file of the user over it; `file` may be empty.
+// Loads the built-in table, with a file of the user over it; `file` may be empty.
 [[nodiscard]] base::Result<BlockMapping> loadMapping(const world::BlockRegistry& blocks,
                                                      const std::string& file);
 [[nodiscard]] base::Result<LegacyIds> builtInLegacyIds();

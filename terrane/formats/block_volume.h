@@ -1,5 +1,5 @@
-// A box of blocks that is read from a file or written to one. Used by the readers and writers of this module
-// and by `terrane import` and `terrane export`. Plain values; any thread.
+// A box of blocks that is read from a file or written to one. It is used by the readers and writers of this
+// module and by `terrane import` and `terrane export`. All are plain values; any thread may use them.
 #pragma once
 
 #include <cstdint>
@@ -26,16 +26,16 @@ struct Volume {
 using BlockVolume = Volume<BlockAndState>;
 using NamedVolume = Volume<NamedState>;
 
-// An error if a side is below 1 or there are more than kMaxVolumeBlocks.
+// Returns an error if a side is below 1 or there are more than kMaxVolumeBlocks.
 [[nodiscard]] base::Result<void> checkVolumeSize(std::int64_t x, std::int64_t y, std::int64_t z);
 
-// Adds the blocks to `counts`, as toChunk() does.
+// Maps the names to blocks, and adds the blocks to `counts`, as toChunk() does.
 [[nodiscard]] BlockVolume toBlocks(const NamedVolume& volume, const BlockMapping& mapping,
                                    ImportCounts& counts);
 [[nodiscard]] NamedVolume toNames(const BlockVolume& volume, const BlockMapping& mapping);
 
-// OutOfResources if it has more blocks than a structure (world::kMaxStructureBlocks) or is higher than a
-// world.
+// Returns OutOfResources if it has more blocks than a structure (world::kMaxStructureBlocks) or is higher
+// than a world.
 [[nodiscard]] base::Result<world::Structure> toStructure(const BlockVolume& volume,
                                                          const world::BlockRegistry& blocks);
 

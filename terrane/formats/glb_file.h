@@ -1,5 +1,6 @@
 // Writes triangles with textures as binary glTF 2.0 (.glb), one file that viewers and 3D programs open.
-// Called by `terrane export`, for the models of glb_mesh.h. Plain functions; any thread.
+// `terrane export` calls it, for the models of glb_mesh.h. The functions have no state; any thread may call
+// them.
 #pragma once
 
 #include <cstdint>
@@ -42,8 +43,8 @@ struct GlbModel {
     std::vector<GlbPart> parts;
 };
 
-// The whole file. BadInput if there are no parts or one has no triangles, OutOfResources if it would have 4
-// GiB or more.
+// Returns the bytes of the whole file. The error is BadInput if there are no parts or one has no triangles,
+// OutOfResources if it would have 4 GiB or more.
 [[nodiscard]] base::Result<std::string> encodeGlb(const GlbModel& model);
 
 }  // namespace terrane::formats

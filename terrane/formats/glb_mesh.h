@@ -1,5 +1,5 @@
 // Converts meshes of chunks to a glTF model: one part for each material, whose texture repeats over merged
-// quads. Called by `terrane export`. One thread.
+// quads. `terrane export` calls it. One thread uses it.
 //
 // Our x, y, z are x, -z, y of the file: z is up here and y there, a block is a meter, and nothing is
 // mirrored.
@@ -27,15 +27,16 @@ enum class GlbImageUse : std::uint8_t { Opaque, Alpha, Holes, Glow, GlowAboveHol
 
 class GlbMesh {
   public:
-    // Both outlive this.
+    // Both arguments outlive this.
     GlbMesh(const world::BlockRegistry& blocks, const world::TextureSource& textures);
 
-    // `corner`: the position of the chunk's lowest block in the model, in blocks along our axes.
-    // OutOfResources if there are too many quads.
+    // Adds a chunk. `corner` is the position of the chunk's lowest block in the model, in blocks along our
+    // axes. Returns OutOfResources if there are too many quads.
     [[nodiscard]] base::Result<void> add(const mesh::ChunkMesh& mesh, glm::ivec3 corner);
 
     std::size_t quadCount() const { return quads_; }
-    // The model with its textures; an error if it is empty or a texture is missing. Called once.
+    // Returns the model with its textures; an error if it is empty or a texture is missing. It is called
+    // once.
     [[nodiscard]] base::Result<GlbModel> finish(std::string name);
 
   private:

@@ -1,4 +1,5 @@
-// Gray images as PNG, for heights: base/image.h has only colors. Plain functions; any thread.
+// Gray images as PNG, for heights: base/image.h has only colors. The functions have no state; any thread may
+// call them.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +14,7 @@ struct GrayImage {
     std::vector<std::uint16_t> values;  // row 0 is the top one; of 8 bits below 256
 };
 
-// The compressed bytes depend on the version of zlib.
+// Encodes the image as PNG. The compressed bytes depend on the version of zlib.
 [[nodiscard]] std::string encodeGrayPng(const GrayImage& image);
 
 }  // namespace terrane::formats

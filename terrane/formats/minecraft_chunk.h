@@ -1,5 +1,5 @@
-// Converts a Minecraft chunk to a chunk of Terrane and counts what is unknown or left out. Called by `terrane
-// import`. Plain functions; any thread.
+// Converts a Minecraft chunk to a chunk of Terrane and counts unknown and omitted blocks. `terrane import`
+// calls it. The functions have no state; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -15,8 +15,8 @@
 
 namespace terrane::formats {
 
-// Decodes the blocks of a Minecraft chunk from its NBT: by names since 1.13, by numbers before. Called by
-// `terrane import`. Plain values; any thread.
+// Decodes the blocks of a Minecraft chunk from its NBT: by names since 1.13, by numbers before. `terrane
+// import` calls it. All are plain values; any thread may use them.
 constexpr int kAnvilSectionBlocks = 4096;
 
 struct AnvilSection {
@@ -33,7 +33,7 @@ struct AnvilChunk {
     std::map<std::string, int> blockEntities;  // count by kind: chests, signs
 };
 
-// Damaged if a part is missing or a block has no palette entry.
+// Decodes a chunk. Returns Damaged if a part is missing or a block has no palette entry.
 [[nodiscard]] base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyIds& ids);
 
 // Sums over all chunks.
@@ -44,14 +44,14 @@ struct ImportCounts {
     std::uint64_t below = 0, above = 0;  // blocks other than air outside our heights, left out
 };
 
-// The position of Minecraft's chunk x, z in our axes, -x - 1, z; the import may move it.
+// Returns the position of Minecraft's chunk x, z in our axes, -x - 1, z; the import may move it.
 [[nodiscard]] world::ChunkPos chunkPosOf(const AnvilChunk& chunk);
 
 // Adds `uses[k]` blocks of each `palette[k]` to the counts.
 void addUses(std::span<const NamedState> palette, std::span<const std::uint64_t> uses,
              const BlockMapping& mapping, ImportCounts& counts);
 
-// Height z is Minecraft's y + `shift`. Blocks outside 0…255 are counted and left out.
+// Converts a chunk: height z is Minecraft's y + `shift`. Blocks outside 0…255 are counted and left out.
 [[nodiscard]] world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift,
                                    ImportCounts& counts);
 

@@ -1,5 +1,5 @@
-// NBT, the tree of tags in which Minecraft and its tools store data, uncompressed and big-endian. Used by
-// schematic.h and with region_file.h. Plain values; any thread.
+// NBT, the tree of tags in which Minecraft and its tools store data, uncompressed and big-endian. It is used
+// by schematic.h and with region_file.h. All are plain values; any thread may use them.
 #pragma once
 
 #include <cstddef>
@@ -14,11 +14,10 @@
 
 namespace terrane::formats {
 
-// Reads and writes zlib and gzip data. Called by the readers and writers of this module. Plain functions; any
-// thread.
-// Decompresses zlib or gzip, recognized by the first bytes; bytes after the end of the stream are ignored.
-// Damaged if the stream is broken or cut off, OutOfResources if it holds more than `maxBytes`. Messages name
-// no file.
+// Reads and writes zlib and gzip data. It is called by the readers and writers of this module. The functions
+// have no state; any thread may call them. Decompresses zlib or gzip, recognized by the first bytes; bytes
+// after the end of the stream are ignored. Returns Damaged if the stream is broken or cut off, OutOfResources
+// if it holds more than `maxBytes`. Messages name no file.
 [[nodiscard]] base::Result<std::string> inflate(std::string_view bytes, std::size_t maxBytes);
 
 // Compresses to one gzip member without name and time, so that equal bytes give equal files (with one version
@@ -44,10 +43,10 @@ struct NbtCompound {
     std::vector<NbtEntry> entries;  // in the order of the file
 
     const NbtTag* find(std::string_view name) const;  // the first of that name; null if there is none
-    // Null if there is none or it has another type.
+    // Returns the value of the first tag of that name; null if there is none or it has another type.
     template <class T>
     const T* get(std::string_view name) const;
-    // The value of a tag of any integer type.
+    // Returns the value of a tag of any integer type.
     std::optional<std::int64_t> integer(std::string_view name) const;
     NbtCompound& add(std::string_view name, NbtTag tag);  // returns itself, for chaining
     bool operator==(const NbtCompound& other) const;
@@ -69,22 +68,24 @@ struct NbtEntry {
     bool operator==(const NbtEntry&) const = default;
 };
 
-// The outermost tag is a compound with a name, mostly empty. Texts keep their bytes ("modified UTF-8").
+// The outermost tag is a compound with a name, mostly empty. Texts have the bytes of the file ("modified
+// UTF-8").
 struct NbtRoot {
     std::string name;
     NbtCompound compound;
     bool operator==(const NbtRoot&) const = default;
 };
 
-// Deeper files are refused; those that Minecraft writes have about ten levels.
+// Deeper files are refused; Minecraft writes about ten levels.
 constexpr int kMaxNbtDepth = 64;
 // 2^20 tags × 72 bytes = 72 MiB. Arrays count as one tag and are as large as in the file.
 constexpr std::size_t kMaxNbtTags = std::size_t{1} << 20;
 
-// Bytes after the root are ignored, as Minecraft does. Errors say at which byte the data are wrong.
+// Decodes a file. Bytes after the root are ignored, as Minecraft does. Errors name the byte at which the data
+// are wrong.
 [[nodiscard]] base::Result<NbtRoot> decodeNbt(std::string_view bytes);
-// Throws std::invalid_argument if a name or text has more than 65,535 bytes or a tag is not of its list's
-// type.
+// Encodes a file. Throws std::invalid_argument if a name or text has more than 65,535 bytes or a tag is not
+// of its list's type.
 [[nodiscard]] std::string encodeNbt(const NbtRoot& root);
 
 template <class T>

@@ -1,5 +1,5 @@
 // Region files of Minecraft (.mca, "Anvil"): 32×32 chunks, each compressed separately in sectors of 4,096
-// bytes. Called by `terrane import`. Plain functions; any thread.
+// bytes. `terrane import` calls it. The functions have no state; any thread may call them.
 #pragma once
 
 #include <cstdint>
@@ -24,18 +24,19 @@ struct RegionPos {
     auto operator<=>(const RegionPos&) const = default;
 };
 
-// The position in a name "r.X.Z.mca"; nothing for other names.
+// Returns the position in a name "r.X.Z.mca"; nothing for other names.
 [[nodiscard]] std::optional<RegionPos> regionPosOf(std::string_view fileName);
 
 // Returns the bytes of a chunk that is stored in its own file, c.X.Z.mcc beside the region, X and Z in
 // chunks.
 using ExternalChunk = std::function<base::Result<std::string>()>;
 
-// Whether the file has a chunk number x + 32 z, counted in the region. False if the file is too short.
+// Returns whether the file has a chunk number x + 32 z, counted in the region. Returns false if the file is
+// too short.
 [[nodiscard]] bool regionHasChunk(std::string_view region, int number);
 
-// The chunk's NBT, decompressed. NotFound if there is none, Unsupported for LZ4 and other compressions,
-// Damaged if it lies outside the file or is broken. Messages name no file.
+// Returns the chunk's NBT, decompressed. Returns NotFound if there is none, Unsupported for LZ4 and other
+// compressions, Damaged if it lies outside the file or is broken. Messages name no file.
 [[nodiscard]] base::Result<std::string> readRegionChunk(std::string_view region, int number,
                                                         const ExternalChunk& external);
 

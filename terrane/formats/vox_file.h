@@ -1,5 +1,5 @@
-// Models of MagicaVoxel (.vox, versions 150 and 200): colored voxels, z up as in our worlds. Called by
-// `terrane import` and `terrane export`. Plain functions; any thread.
+// Models of MagicaVoxel (.vox, versions 150 and 200): colored voxels, z up as in our worlds. `terrane import`
+// and `terrane export` call it. The functions have no state; any thread may call them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -29,7 +29,7 @@ struct VoxImage {
 
 // Reads all models of the scene at their places, in the smallest box that holds them; without a scene the
 // first model. Hidden nodes are left out; of animations the first frame is taken; layers, cameras and
-// materials are ignored. Damaged if it is no such file, OutOfResources if the box is too large
+// materials are ignored. Returns Damaged if it is no such file, OutOfResources if the box is too large
 // (block_volume.h).
 [[nodiscard]] base::Result<VoxImage> decodeVox(std::string_view bytes);
 
@@ -37,21 +37,19 @@ struct VoxImage {
 // image.
 [[nodiscard]] std::string encodeVox(const VoxImage& image);
 
-// The palette of files that have none.
+// Returns the palette of files that have none.
 [[nodiscard]] std::array<std::uint32_t, 256> defaultVoxColors();
 
-// Converts colors of .vox files to blocks and back. Called by `terrane import` and `terrane export`. Plain
-// functions; any thread.
-// The opaque cube without tint whose top is nearest to the color 0xRRGGBB, by the distance in Oklab.
+// Returns the opaque cube without tint whose top is nearest to the color 0xRRGGBB, by the distance in Oklab.
 [[nodiscard]] world::BlockId nearestCube(std::uint32_t color, const world::BlockRegistry& blocks,
                                          const world::TopColors& tops);
 
-// Colors that the mapping names become its blocks, others the nearest cube.
+// Converts the image to blocks: colors that the mapping names become its blocks, others the nearest cube.
 [[nodiscard]] BlockVolume toBlocks(const VoxImage& image, const BlockMapping& mapping,
                                    const world::BlockRegistry& blocks, const world::TopColors& tops);
 
-// Each block has the color of its top, whatever its state; air is empty. An error if there are more than 255
-// colors.
+// Converts blocks to colors: each block has the color of its top, whatever its state; air is empty. Returns
+// an error if there are more than 255 colors.
 [[nodiscard]] base::Result<VoxImage> toVox(const BlockVolume& volume, const world::TopColors& tops);
 
 }  // namespace terrane::formats

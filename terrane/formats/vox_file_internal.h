@@ -1,4 +1,4 @@
-// The parts of a .vox file, and the scene that places its models. Used by vox_file.cpp.
+// The parts of a .vox file, and the scene that places its models. vox_file.cpp uses it.
 #pragma once
 
 #include <array>
@@ -25,9 +25,9 @@ struct VoxTransform {
     glm::ivec3 step{0};
 };
 
-// `outer` after `inner`.
+// Returns the transform that applies `inner`, then `outer`.
 VoxTransform combined(const VoxTransform& outer, const VoxTransform& inner);
-// The place of a voxel of a model: models turn about their middle, size / 2 rounded down.
+// Returns the place of a voxel of a model: models turn about their middle, size / 2 rounded down.
 glm::ivec3 placed(const VoxTransform& transform, glm::ivec3 modelSize, glm::ivec3 voxel);
 
 struct VoxNode {
@@ -45,7 +45,7 @@ struct VoxParts {
     std::array<std::uint32_t, 256> colors{};
 };
 
-// The result has views into `bytes`.
+// Reads the chunks of a file. The result has views into `bytes`.
 [[nodiscard]] base::Result<VoxParts> readVoxParts(std::string_view bytes);
 
 struct PlacedModel {
@@ -53,7 +53,7 @@ struct PlacedModel {
     VoxTransform transform;
 };
 
-// The models of the scene; without a scene, the first one.
+// Returns the models of the scene; without a scene, the first one.
 [[nodiscard]] base::Result<std::vector<PlacedModel>> placedModels(const VoxParts& parts);
 
 }  // namespace terrane::formats

@@ -40,7 +40,7 @@ bool isFree(const world::BlockType& there, world::BlockId block) {
 // The face to build `block` on: the one that is looked at, or the ground of a block that is to be replaced.
 world::RayHit buildTarget(const Session& session, world::BlockId block, const world::RayHit& aimed) {
     if (!isReplacedBy(session.blocks().type(session.world().block(aimed.block)), block)) return aimed;
-    return {world::beside(aimed.block, world::kFaceNegZ), world::kFacePosZ, aimed.distance};
+    return {world::adjacent(aimed.block, world::kFaceNegZ), world::kFacePosZ, aimed.distance};
 }
 
 }  // namespace
@@ -58,8 +58,8 @@ bool BlockInteraction::pick(const Session& session) {
     const world::BlockRegistry& blocks = session.blocks();
     const world::BlockType* type = &blocks.type(session.world().block(target_->block));
     if (world::isUpperHalf(*type)) type = &blocks.type(world::otherHalf(blocks, type->id));
-    if (!isBuilt(*type, blocks)) return false;
-    takeInHand(hotbar, type->id);
+    if (!isBuildable(*type, blocks)) return false;
+    selectBlock(hotbar, type->id);
     return true;
 }
 
@@ -68,7 +68,7 @@ std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id,
                                                   const world::Ray& ray) const {
     const world::BlockType& type = session.blocks().type(block());
     const world::RayHit target = buildTarget(session, block(), *target_);
-    const world::BlockPos pos = world::beside(target.block, target.face);
+    const world::BlockPos pos = world::adjacent(target.block, target.face);
     const world::BlockId there = session.world().block(pos);
     const bool isSource = there == block() && world::isLiquidSource(session.world().blockState(pos));
     if (block() == world::kAir || isSource || !isFree(session.blocks().type(there), block()))

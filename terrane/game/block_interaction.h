@@ -1,4 +1,5 @@
-// A player's actions on blocks: breaking, building and the choice of the block to build. Called once a frame.
+// A player's actions on blocks: breaking, building and selecting the block to build. The program calls it
+// once a frame.
 #pragma once
 
 #include <optional>
@@ -16,12 +17,12 @@ class HeldButton {
     static constexpr double kFirstPause = 0.3, kPause = 0.15;  // seconds
 
     void press() { isDown_ = isNew_ = true; }
-    // A button that is pressed and released within a frame still acts.
+    // Releases the button. A button that is pressed and released within a frame still acts.
     void release() { isDown_ = false; }
     void cancel() { isDown_ = isNew_ = false; }
     bool isDown() const { return isDown_; }
 
-    // Whether it acts in a frame of this length; at most once a frame.
+    // Returns whether it acts in a frame of this length; at most once a frame.
     bool acts(double seconds) {
         if (isNew_) {
             isNew_ = false;
@@ -42,7 +43,7 @@ class HeldButton {
 
 class BlockInteraction {
   public:
-    explicit BlockInteraction(const world::BlockRegistry& blocks) : hotbar(firstHotbar(blocks)) {}
+    explicit BlockInteraction(const world::BlockRegistry& blocks) : hotbar(defaultHotbar(blocks)) {}
 
     HeldButton breaking, building;
 
@@ -50,17 +51,18 @@ class BlockInteraction {
 
     world::BlockId block() const { return hotbar.block(); }
 
-    // The block that the player looks at and can reach, as of the last act().
+    // Returns the block that the player looks at and can reach, as of the last act().
     const std::optional<world::RayHit>& target() const { return target_; }
 
-    // Uses the block that the player looks at, for example opens a door. False if it cannot be used.
+    // Uses the block that the player looks at, for example opens a door. Returns false if it cannot be used.
     bool use(Session& session, PlayerId id);
 
-    // Chooses in the hotbar the block that the player looks at. False if there is none that can be built.
+    // Selects in the hotbar the block that the player looks at. Returns false if there is no such block or
+    // players cannot build with it.
     bool pick(const Session& session);
 
     // Breaks or builds while a button is held, by commands to the session; never builds into the player.
-    // Returns the result of the command; nothing if none was sent.
+    // Returns the result of the command, or nothing if none was sent.
     std::optional<EditResult> act(Session& session, PlayerId id, const Player& player, double seconds);
 
   private:

@@ -45,7 +45,7 @@ class Plan {
         const BlockValue now = world::blockValue(world_, pos);
         if (now == value) return;
         if (protectsFloor_ && pos.z == 0 && now.id != world::kAir) {
-            ++plan_.kept;
+            ++plan_.skipped;
             return;
         }
         plan_.blocks.push_back({pos, std::move(value)});
@@ -82,7 +82,7 @@ void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
     forEachBlock(fill.box, [&](BlockPos pos) {
         const world::BlockId there = world.block(pos);
         if (fill.replaced && there != *fill.replaced) return;
-        if (fill.state == 0 && there == fill.id) return;  // its state is kept
+        if (fill.state == 0 && there == fill.id) return;  // its state stays
         plan.add(pos, {fill.id, fill.state, nullptr});
     });
 }
@@ -97,7 +97,7 @@ void requireWhole(const world::Structure& structure) {
 
 // The data as a block of the type may hold it; null if it may not.
 world::BlockEntityDataPtr fittingData(const world::BlockType& type, const world::BlockEntityDataPtr& data) {
-    if (world::holdsText(type)) return world::decodeSign(*data) ? data : nullptr;
+    if (world::isSign(type)) return world::decodeSign(*data) ? data : nullptr;
     if (type.slots == 0) return data;
     auto fitted = world::fittedInventory(*data, type.slots);
     if (!fitted) return nullptr;
@@ -190,11 +190,11 @@ BuildOutcome Session::build(const BuildCommand& command) {
         return {Result::NotAllowed};
     }
     if (player != players_.end()) {
-        EditStep step = tellStep(command.player, recorder);
+        EditStep step = notifyStep(command.player, recorder);
         player->second.history.add(std::move(step));
     }
-    tellEdits(command.player, edits);
-    return {Result::Done, plan.blocks.size(), plan.kept};
+    notifyEdits(command.player, edits);
+    return {Result::Done, plan.blocks.size(), plan.skipped};
 }
 
 }  // namespace terrane::game

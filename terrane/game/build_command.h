@@ -1,5 +1,5 @@
-// Commands that change a box of blocks at once, through Session::build(): each is one step to undo. Plain
-// values and functions.
+// Commands that change a box of blocks at once, through Session::build(): each is one step to undo. All are
+// plain values and functions.
 #pragma once
 
 #include <cstddef>
@@ -51,20 +51,20 @@ struct BuildOutcome {
     };
     Result result = Result::Empty;
     std::size_t changed = 0;  // blocks that changed
-    std::size_t kept = 0;     // blocks of the lowest layer, which no player breaks
+    std::size_t skipped = 0;  // blocks of the lowest layer, which no player breaks
 };
 
-// The box that a change affects. `low` is above `high` if there is no structure or it has no blocks.
+// Returns the box that a change affects. `low` is above `high` if there is no structure or it has no blocks.
 world::BlockBox boxOf(const BuildChange& change);
-// Distance from a point to the nearest point of the box.
+// Returns the distance from a point to the nearest point of the box.
 double distanceTo(const world::BlockBox& box, const glm::dvec3& point);
 
 struct PlannedBlocks {
-    // Without blocks that already have the value; ordered by chunk, then by block index.
+    // The blocks that change, ordered by chunk, then by block index.
     std::vector<world::PlacedBlock> blocks;
-    std::size_t kept = 0;
+    std::size_t skipped = 0;
 };
-// The new values of the blocks. `protectsFloor`: the lowest layer is kept unless it is air.
+// Returns the new values of the blocks. With `protectsFloor`, the lowest layer stays unless it is air.
 PlannedBlocks plannedBlocks(const world::World& world, const world::BlockRegistry& blocks,
                             const BuildChange& change, bool protectsFloor);
 

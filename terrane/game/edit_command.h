@@ -1,5 +1,5 @@
 // Commands that edit blocks: a command goes to the session, which checks it, changes the world and reports
-// the changes to the pipeline as world::BlockEdit. Plain values.
+// the changes to the pipeline as world::BlockEdit. All are plain values.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ enum class EditResult : std::uint8_t {
 };
 
 // The result of undoing or redoing a step.
-struct TakenBack {
+struct UndoResult {
     enum class Outcome : std::uint8_t {
         Done,
         NoStep,
@@ -47,8 +47,8 @@ struct TakenBack {
         Sent,        // to the server that decides (Authority); the result comes later
     };
     Outcome outcome = Outcome::NoStep;
-    std::size_t blocks = 0;  // restored
-    std::size_t kept = 0;    // not restored, since others changed them
+    std::size_t blocks = 0;   // restored
+    std::size_t skipped = 0;  // not restored, since others changed them
 };
 
 }  // namespace terrane::game

@@ -70,7 +70,7 @@ const EditStep* EditHistory::next(HistoryWay way) const {
     return steps.empty() ? nullptr : &steps.back();
 }
 
-void EditHistory::takenBack(HistoryWay way, EditStep reverse) {
+void EditHistory::finishStep(HistoryWay way, EditStep reverse) {
     Steps& from = of(way);
     from.blocks -= from.steps.back().size();
     from.steps.pop_back();

@@ -19,7 +19,7 @@ constexpr double kShortestInterval = 0.05;
 // figure. At an even pace the figure is then a fifth of an interval behind at the end, at the true speed.
 constexpr double kSlack = 1.2;
 // A longer pause means that the player stood still: it tells nothing about the interval.
-constexpr double kSilence = 1.5 * FigureMotion::kLongestInterval;
+constexpr double kSilence = 1.5 * FigureMotion::kMaxInterval;
 
 constexpr double kSettle = 10;      // 1/s: rate at which stride size and body follow
 constexpr double kLeastStep = 0.3;  // stride size of the shortest steps
@@ -60,10 +60,10 @@ FigureMotion::FigureMotion(const world::Pose& pose, Time now, std::uint32_t look
     figure_.look = look;
 }
 
-void FigureMotion::told(const world::Pose& pose, Time now) {
+void FigureMotion::addPose(const world::Pose& pose, Time now) {
     const double silence = secondsOf(now - since_);
     if (silence < kSilence) {
-        const double measured = std::clamp(silence, kShortestInterval, kLongestInterval);
+        const double measured = std::clamp(silence, kShortestInterval, kMaxInterval);
         interval_ = measured > interval_ ? measured : (interval_ + measured) / 2;
     }
     from_ = shownAt(now);
@@ -109,7 +109,7 @@ void FigureMotion::turnBody(glm::dvec2 step, double seconds) {
         figure_.bodyYaw = turnedTo(figure_.bodyYaw, toward, settled(seconds));
     }
     const float lag = std::remainder(figure_.bodyYaw - figure_.yaw, 360.0f);
-    figure_.bodyYaw = std::remainder(figure_.yaw + std::clamp(lag, -kMostBodyLag, kMostBodyLag), 360.0f);
+    figure_.bodyYaw = std::remainder(figure_.yaw + std::clamp(lag, -kMaxBodyLag, kMaxBodyLag), 360.0f);
 }
 
 world::Figure FigureMotion::at(Time now) {

@@ -13,19 +13,19 @@ class FigureMotion {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    static constexpr double kLongestInterval = 1;  // seconds between two poses of a moving player
-    static constexpr double kJumpBlocks = 32;      // a longer step is taken at once
+    static constexpr double kMaxInterval = 1;  // seconds between two poses of a moving player
+    static constexpr double kJumpBlocks = 32;  // a longer step is taken at once
     static constexpr double kSwingSeconds = 0.3;
-    static constexpr float kMostBodyLag = 50;  // degrees between head and body
+    static constexpr float kMaxBodyLag = 50;  // degrees between head and body
 
     FigureMotion(const world::Pose& pose, Time now, std::uint32_t look);
 
-    // Takes the newest pose, which has just arrived.
-    void told(const world::Pose& pose, Time now);
+    // Sets the newest pose, which has just arrived.
+    void addPose(const world::Pose& pose, Time now);
     // Starts a swing of the arm.
     void swing(Time now) { swungAt_ = now; }
-    // Called once a frame: the steps of the legs follow from the distance moved since the last call. `now`
-    // never decreases.
+    // Returns the figure at `now`, which never decreases. The program calls it once a frame: the steps of the
+    // legs follow from the distance moved since the last call.
     world::Figure at(Time now);
 
   private:
@@ -33,7 +33,7 @@ class FigureMotion {
     void walk(glm::dvec2 step, double seconds);
     void turnBody(glm::dvec2 step, double seconds);
 
-    // The motion in progress: from the place of the figure when the newest pose arrived.
+    // The motion in progress starts where the figure was when the newest pose arrived.
     world::Pose from_, to_;
     Time since_;
     double waySeconds_ = 0;

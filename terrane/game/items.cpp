@@ -15,11 +15,11 @@ constexpr std::array<std::string_view, Hotbar::kSlots> kFirstBlocks{
 
 }  // namespace
 
-bool isBuilt(const world::BlockType& type, const world::BlockRegistry& blocks) {
+bool isBuildable(const world::BlockType& type, const world::BlockRegistry& blocks) {
     return type.id != world::kAir && type.id != blocks.missing() && !world::isUpperHalf(type);
 }
 
-Hotbar firstHotbar(const world::BlockRegistry& blocks) {
+Hotbar defaultHotbar(const world::BlockRegistry& blocks) {
     Hotbar hotbar;
     world::BlockId next = world::kAir;  // for the slots whose block is not there
     for (std::size_t slot = 0; slot < Hotbar::kSlots; ++slot) {
@@ -27,44 +27,44 @@ Hotbar firstHotbar(const world::BlockRegistry& blocks) {
             hotbar.blocks[slot] = type->id;
             continue;
         }
-        while (++next < blocks.types().size() && !isBuilt(blocks.type(next), blocks)) {
+        while (++next < blocks.types().size() && !isBuildable(blocks.type(next), blocks)) {
         }
         if (next < blocks.types().size()) hotbar.blocks[slot] = next;
     }
     return hotbar;
 }
 
-void stepSlot(Hotbar& hotbar, int steps) {
+void cycleSlot(Hotbar& hotbar, int steps) {
     constexpr int kCount = Hotbar::kSlots;
-    const int slot = static_cast<int>(hotbar.chosen) + steps % kCount;
-    hotbar.chosen = static_cast<std::size_t>((slot + kCount) % kCount);
+    const int slot = static_cast<int>(hotbar.selected) + steps % kCount;
+    hotbar.selected = static_cast<std::size_t>((slot + kCount) % kCount);
 }
 
-void takeInHand(Hotbar& hotbar, world::BlockId block) {
+void selectBlock(Hotbar& hotbar, world::BlockId block) {
     const auto found = std::ranges::find(hotbar.blocks, block);
     if (found != hotbar.blocks.end())
-        hotbar.chosen = static_cast<std::size_t>(found - hotbar.blocks.begin());
+        hotbar.selected = static_cast<std::size_t>(found - hotbar.blocks.begin());
     else
-        hotbar.blocks[hotbar.chosen] = block;
+        hotbar.blocks[hotbar.selected] = block;
 }
 
 std::string textOf(const Hotbar& hotbar, const world::BlockRegistry& blocks) {
-    std::string text = std::to_string(hotbar.chosen);
+    std::string text = std::to_string(hotbar.selected);
     for (const world::BlockId block : hotbar.blocks) text += " " + blocks.type(block).name;
     return text;
 }
 
-Hotbar hotbarFrom(std::string_view text, const world::BlockRegistry& blocks) {
-    Hotbar hotbar = firstHotbar(blocks);
+Hotbar parseHotbar(std::string_view text, const world::BlockRegistry& blocks) {
+    Hotbar hotbar = defaultHotbar(blocks);
     std::istringstream words{std::string(text)};
     std::string word;
     words >> word;
     std::size_t chosen = 0;
     const auto read = std::from_chars(word.data(), word.data() + word.size(), chosen);
-    if (read.ec == std::errc() && chosen < Hotbar::kSlots) hotbar.chosen = chosen;
+    if (read.ec == std::errc() && chosen < Hotbar::kSlots) hotbar.selected = chosen;
     for (std::size_t slot = 0; slot < Hotbar::kSlots && words >> word; ++slot) {
         const world::BlockType* type = blocks.find(word);
-        if (type && (type->id == world::kAir || isBuilt(*type, blocks))) hotbar.blocks[slot] = type->id;
+        if (type && (type->id == world::kAir || isBuildable(*type, blocks))) hotbar.blocks[slot] = type->id;
     }
     return hotbar;
 }
@@ -91,7 +91,7 @@ std::vector<std::string> wordsOf(std::string_view text) {
 std::vector<std::string> paletteGroups(const world::BlockRegistry& blocks) {
     std::vector<std::string> groups;
     for (const world::BlockType& type : blocks.types())
-        if (isBuilt(type, blocks) && std::ranges::find(groups, type.group) == groups.end())
+        if (isBuildable(type, blocks) && std::ranges::find(groups, type.group) == groups.end())
             groups.push_back(type.group);
     return groups;
 }
@@ -100,8 +100,8 @@ std::vector<world::BlockId> paletteBlocks(const world::BlockRegistry& blocks, co
     const std::vector<std::string> words = wordsOf(filter.search);
     std::vector<world::BlockId> first, others;
     for (const world::BlockType& type : blocks.types()) {
-        if (!isBuilt(type, blocks) || (!filter.group.empty() && type.group != filter.group)) continue;
-        const std::string shown = lowered(filter.shownName(type.id)), text = shown + " " + type.name;
+        if (!isBuildable(type, blocks) || (!filter.group.empty() && type.group != filter.group)) continue;
+        const std::string shown = lowered(filter.displayName(type.id)), text = shown + " " + type.name;
         const bool fits = std::ranges::all_of(
             words, [&](const std::string& word) { return text.find(word) != std::string::npos; });
         if (!fits) continue;
@@ -136,15 +136,15 @@ bool maySetItems(const world::World& world, const world::BlockRegistry& blocks, 
 }
 
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
-               world::BlockId& inHand) {
+               world::BlockId& heldBlock) {
     if (click.slot >= items.size()) return false;
     const int count = click.wholeStack ? world::kMaxStack : 1;
     world::ItemStack& stack = items[click.slot];
-    if (!click.takes && inHand == world::kAir) return false;
-    if (!click.takes) return world::addToStack(stack, blocks.type(inHand).name, count) < count;
+    if (!click.takes && heldBlock == world::kAir) return false;
+    if (!click.takes) return world::addToStack(stack, blocks.type(heldBlock).name, count) < count;
     const world::BlockType* kind = blocks.find(stack.item);
     if (stack.count == 0 || !kind) return false;
-    inHand = kind->id;
+    heldBlock = kind->id;
     return world::takeFromStack(stack, count) > 0;
 }
 

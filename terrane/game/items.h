@@ -1,4 +1,4 @@
-// The nine blocks of the hotbar, one of which is chosen. Plain values; any thread.
+// The nine blocks of the hotbar, one of which is selected. A plain value; any thread may use it.
 #pragma once
 
 #include <array>
@@ -18,50 +18,51 @@ struct Hotbar {
     static constexpr std::size_t kSlots = 9;
 
     std::array<world::BlockId, kSlots> blocks{};  // air: an empty slot
-    std::size_t chosen = 0;
+    std::size_t selected = 0;
 
-    world::BlockId block() const { return blocks[chosen]; }
+    world::BlockId block() const { return blocks[selected]; }
     bool operator==(const Hotbar&) const = default;
 };
 
-// Whether players can build with it: not with air, "missing" and the upper halves of doors.
-bool isBuilt(const world::BlockType& type, const world::BlockRegistry& blocks);
+// Returns whether players can build with it: not with air, "missing" and the upper halves of doors.
+bool isBuildable(const world::BlockType& type, const world::BlockRegistry& blocks);
 
-// The initial hotbar. Slots whose block the registry lacks get another one.
-Hotbar firstHotbar(const world::BlockRegistry& blocks);
+// Returns the initial hotbar. Slots whose block the registry lacks get another one.
+Hotbar defaultHotbar(const world::BlockRegistry& blocks);
 
-// Chooses the slot `steps` further, or back if negative, in a circle.
-void stepSlot(Hotbar& hotbar, int steps);
-// Chooses the slot that has the block, or puts the block into the chosen slot.
-void takeInHand(Hotbar& hotbar, world::BlockId block);
+// Selects the slot `steps` further, or back if negative, and wraps around.
+void cycleSlot(Hotbar& hotbar, int steps);
+// Selects the slot that has the block, or puts the block into the selected slot.
+void selectBlock(Hotbar& hotbar, world::BlockId block);
 
-// The number of the chosen slot and the names of the nine blocks: "0 oak_planks cobble …".
+// Returns the number of the selected slot and the names of the nine blocks: "0 oak_planks cobble …".
 std::string textOf(const Hotbar& hotbar, const world::BlockRegistry& blocks);
-// Reads any text; missing, unknown and unbuildable blocks stay as in firstHotbar().
-Hotbar hotbarFrom(std::string_view text, const world::BlockRegistry& blocks);
+// Parses any text; missing, unknown and unbuildable blocks stay as in defaultHotbar().
+Hotbar parseHotbar(std::string_view text, const world::BlockRegistry& blocks);
 
-// The blocks that a player can choose to build, filtered by group and search text. Plain functions.
-// The groups of the blocks, in order of their first block in the registry.
+// Returns the groups of the blocks that a player can build with, in order of their first block in the
+// registry.
 std::vector<std::string> paletteGroups(const world::BlockRegistry& blocks);
 
 struct PaletteFilter {
     std::string_view group;   // empty: all
     std::string_view search;  // each word is in the shown name or in the type's name; case is ignored
-    std::function<std::string(world::BlockId)> shownName;
+    std::function<std::string(world::BlockId)> displayName;
 };
-// In the order of the registry; blocks whose shown name begins with the first searched word come first.
+// Returns the blocks that pass the filter, in the order of the registry; blocks whose display name begins
+// with the first searched word come first.
 std::vector<world::BlockId> paletteBlocks(const world::BlockRegistry& blocks, const PaletteFilter& filter);
 
-// Blocks that hold items, such as chests: their items, and clicks on their slots.
+// A click on a slot of a block that holds items, such as a chest.
 struct SlotClick {
     std::size_t slot = 0;
     bool takes = false;       // else puts the chosen block
     bool wholeStack = false;  // else one
 };
 
-// Whether a block holds items.
+// Returns whether a block holds items.
 bool isContainer(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos);
-// The items of the container at `pos`. An error if its data is no inventory.
+// Returns the items of the container at `pos`, or an error if its data is no inventory.
 base::Result<world::Inventory> itemsOf(const world::World& world, const world::BlockRegistry& blocks,
                                        world::BlockPos pos);
 
@@ -70,10 +71,10 @@ base::Result<world::Inventory> itemsOf(const world::World& world, const world::B
 bool maySetItems(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos pos,
                  const world::BlockEntityData& data);
 
-// Applies a click to `items`. Players have unlimited blocks: putting keeps `inHand`, taking sets it to the
+// Applies a click to `items`. Players have unlimited blocks: putting keeps `heldBlock`, taking sets it to the
 // block of the item. False if nothing changed. Items that are no blocks of this program cannot be taken.
 bool clickSlot(world::Inventory& items, const world::BlockRegistry& blocks, const SlotClick& click,
-               world::BlockId& inHand);
+               world::BlockId& heldBlock);
 
 // Sends a container's new items to the session.
 EditResult putItems(Session& session, PlayerId player, world::BlockPos pos, const world::Inventory& items);

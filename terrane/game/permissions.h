@@ -1,5 +1,5 @@
 // Permissions in a world that several people share: roles, and claims, which are areas with an owner. Session
-// calls refusal() or mayChangeAll() for the blocks of each player's command. Plain values.
+// calls refusal() or mayChangeAll() for the blocks of each player's command. All are plain values.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +22,7 @@ enum class Role : std::uint8_t {
     Count
 };
 
-// Columns of all heights from corner to corner, both included; low ≤ high in each coordinate.
+// The columns from corner to corner, both included; low ≤ high in each coordinate.
 struct ColumnArea {
     std::int32_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 
@@ -42,10 +42,12 @@ struct Claim {
     std::vector<PlayerId> members;  // others who may build there
 };
 
-// Claims do not overlap: a block has at most one owner. Searched linearly: a server has some hundreds.
+// Claims do not overlap: a block has at most one owner. They are searched linearly, since a server has some
+// hundreds.
 class Claims {
   public:
-    // An error if the name is in use, or if the area overlaps another claim, which the message names.
+    // Adds a claim. Returns an error if the name is in use, or if the area overlaps another claim, which the
+    // message names.
     [[nodiscard]] base::Result<void> add(Claim claim);
     bool remove(std::string_view name);  // false: there is none
 
@@ -65,11 +67,11 @@ struct Permissions {
     Role roleOf(PlayerId player) const;
 };
 
-// Why a player may not change a block: NotAllowed or Claimed; nothing if it may. kNoPlayer, the world itself,
-// may change all.
+// Returns the reason why a player may not change a block: NotAllowed or Claimed; nothing if it may.
+// kNoPlayer, the world itself, may change all.
 std::optional<EditResult> refusal(const Permissions& permissions, PlayerId player, world::BlockPos pos);
-// Whether the player may change all of these, which have a member `pos`. Half a million take no time if there
-// is no claim.
+// Returns whether the player may change all of the blocks, which have a member `pos`. The blocks are not
+// visited if there is no claim.
 bool mayChangeAll(const Permissions& permissions, PlayerId player, const auto& blocks) {
     if (player == kNoPlayer || permissions.roleOf(player) == Role::Operator) return true;
     if (permissions.claims.all().empty() && permissions.roleOf(player) != Role::Guest) return true;

@@ -30,7 +30,7 @@ std::optional<Place> placeFrom(const std::string& line) {
     std::string pose, number, name;
     for (int k = 0; k < kPoseNumbers && in >> number; ++k) pose += (k == 0 ? "" : " ") + number;
     std::getline(in >> std::ws, name);
-    const auto at = poseFrom(pose);
+    const auto at = parsePose(pose);
     if (!at || placeName(name) != name) return std::nullopt;
     return Place{name, *at};
 }
@@ -123,7 +123,7 @@ base::Result<void> readInto(std::vector<world::Pose>& bookmarks, const std::file
     std::string line;
     for (int number = 1; std::getline(in, line); ++number) {
         if (line.find_first_not_of(" \t\r") == std::string::npos) continue;
-        const auto pose = poseFrom(line);
+        const auto pose = parsePose(line);
         if (!pose)
             return base::fail("{}:{}: expected x y z yaw pitch, got {:?}", file.string(), number, line);
         bookmarks.push_back(*pose);
@@ -143,19 +143,19 @@ BookmarkFiles bookmarkFiles(const std::filesystem::path& dataFolder) {
     return {dataFolder / "bookmarks.txt", {"positions.txt", "bookmarks.txt"}};
 }
 
-void reportFormerFiles(const BookmarkFiles& files) {
+void reportLegacyFiles(const BookmarkFiles& files) {
     std::error_code ignored;
-    for (const std::filesystem::path& former : files.former)
-        if (std::filesystem::exists(former, ignored) && !isSameFile(former, files.file))
+    for (const std::filesystem::path& legacy : files.legacy)
+        if (std::filesystem::exists(legacy, ignored) && !isSameFile(legacy, files.file))
             base::logInfo("{}: its bookmarks are read from the working directory; new ones go to {}",
-                          former.string(), files.file.string());
+                          legacy.string(), files.file.string());
 }
 
 base::Result<std::vector<world::Pose>> readBookmarks(const BookmarkFiles& files) {
     std::vector<world::Pose> bookmarks;
-    for (const std::filesystem::path& former : files.former) {
-        if (isSameFile(former, files.file)) continue;
-        TERRANE_TRY(readInto(bookmarks, former));
+    for (const std::filesystem::path& legacy : files.legacy) {
+        if (isSameFile(legacy, files.file)) continue;
+        TERRANE_TRY(readInto(bookmarks, legacy));
     }
     TERRANE_TRY(readInto(bookmarks, files.file));
     return bookmarks;

@@ -1,4 +1,4 @@
-// Named places of a world, such as "home", stored in the world's metadata. Plain values.
+// Named places of a world, such as "home", stored in the world's metadata. All are plain values.
 #pragma once
 
 #include <filesystem>
@@ -22,15 +22,15 @@ struct Place {
 
 constexpr std::size_t kMaxPlaces = 200, kMaxPlaceName = 60;
 
-// One line for each place, "X Y Z YAW PITCH NAME".
+// Returns one line for each place, "X Y Z YAW PITCH NAME".
 std::string textOf(const std::vector<Place>& places);
-// Parses a line; the name may be missing. Nothing if the line is invalid.
+// Parses a line; the name may be missing. Returns nothing if the line is invalid.
 std::optional<Place> placeFrom(const std::string& line);
-// Skips lines that are no place or have no name, and those beyond kMaxPlaces places.
+// Parses lines. It skips lines that are no place or have no name, and lines beyond kMaxPlaces places.
 std::vector<Place> placesFrom(std::string_view text);
 
-// The typed text with control characters as spaces and without spaces at its ends, cut to kMaxPlaceName bytes
-// between characters.
+// Returns the typed text with control characters as spaces and without spaces at its ends, cut to
+// kMaxPlaceName bytes between characters.
 std::string placeName(std::string_view typed);
 // Adds a place with the typed name; a place of the same name moves there. An error, one line for the player,
 // if the name breaks the rule of base/names.h or looks like that of another place, or if there are kMaxPlaces
@@ -47,25 +47,26 @@ inline constexpr const char* kPlacesMetadata = "places";
 std::vector<Place> savedPlaces(store::ReadableStore& store);
 store::SaveNumber savePlaces(store::ChunkStore& store, const std::vector<Place>& places);
 
-// The compass angle of a horizontal direction: degrees from north toward east, 0…360. The sun rises in the
-// east, which is -x; north is -y.
+// Returns the compass angle of a horizontal direction: degrees from north toward east, 0…360. The sun rises
+// in the east, which is -x; north is -y.
 double compassDegrees(double x, double y);
 double compassDegrees(float yaw);
 
-// A player's bookmarks: a text file with one pose a line. Called on one thread.
+// A player's bookmarks: a text file with one pose a line. It is called on one thread.
 struct BookmarkFiles {
     std::filesystem::path file;                 // where new ones are appended
-    std::vector<std::filesystem::path> former;  // where earlier versions wrote them
+    std::vector<std::filesystem::path> legacy;  // where earlier versions wrote them
 };
 
-// bookmarks.txt in `dataFolder`; before version 0.2 positions.txt and bookmarks.txt in the working directory.
+// Returns bookmarks.txt in `dataFolder`, and the files of versions before 0.2: positions.txt and
+// bookmarks.txt in the working directory.
 BookmarkFiles bookmarkFiles(const std::filesystem::path& dataFolder);
 
-// Logs which former files exist.
-void reportFormerFiles(const BookmarkFiles& files);
+// Logs which legacy files exist.
+void reportLegacyFiles(const BookmarkFiles& files);
 
-// The bookmarks of all files, former ones first, so that they keep their numbers; missing files have none. An
-// error names the first invalid line.
+// Returns the bookmarks of all files, legacy ones first, so that their numbers stay the same; missing files
+// have none. An error names the first invalid line.
 [[nodiscard]] base::Result<std::vector<world::Pose>> readBookmarks(const BookmarkFiles& files);
 // Creates the file and its folder if needed.
 [[nodiscard]] base::Result<void> appendBookmark(const std::filesystem::path& file, const world::Pose& pose);

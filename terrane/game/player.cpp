@@ -80,11 +80,11 @@ void Player::walk(const world::World& world, const world::BlockRegistry& blocks,
                                       .jumps = keys.jump || keys.up,
                                       .dives = keys.down,
                                       .hasGravity = movement_ == Movement::Gravity,
-                                      .jumpsByItself = keys.jumpsByItself};
+                                      .autoJump = keys.autoJump};
     untilStep_ += seconds;
     for (; untilStep_ >= world::kStepSeconds; untilStep_ -= world::kStepSeconds) {
         before_ = now_;
-        now_ = world::stepped(world, blocks, before_, input);
+        now_ = world::advanceCharacter(world, blocks, before_, input);
     }
     pose_.position = world::characterEye(before_, now_, untilStep_ / world::kStepSeconds);
 }

@@ -19,8 +19,8 @@ enum class Movement : std::uint8_t {
 struct MoveKeys {
     bool forward = false, back = false, left = false, right = false, up = false, down = false;
     bool jump = false, run = false;
-    bool jumpsByItself = false;  // onto a block that is in the way, on foot
-    glm::vec2 stick{0};          // of a gamepad: right, forward
+    bool autoJump = false;  // onto a block that is in the way, on foot
+    glm::vec2 stick{0};     // of a gamepad: right, forward
 };
 
 constexpr float kFastSpeed = 60, kMediumSpeed = 16;  // blocks a second
@@ -32,7 +32,7 @@ class Player {
     const world::Pose& pose() const { return pose_; }
     Movement movement() const { return movement_; }
     const world::Character& character() const { return now_; }  // of a player on foot
-    // The bounding box of the player; none if it passes through blocks.
+    // Returns the bounding box of the player; none if it passes through blocks.
     std::optional<world::Aabb> body() const;
 
     void placeAt(const world::Pose& pose, Movement movement);

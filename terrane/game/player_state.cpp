@@ -14,7 +14,7 @@ std::string textOf(const world::Pose& pose) {
     return fmt::format("{} {} {} {} {}", p.x, p.y, p.z, pose.yaw, pose.pitch);
 }
 
-std::optional<world::Pose> poseFrom(const std::string& text) {
+std::optional<world::Pose> parsePose(const std::string& text) {
     std::istringstream in(text);
     world::Pose pose;
     in >> pose.position.x >> pose.position.y >> pose.position.z >> pose.yaw >> pose.pitch;
@@ -34,17 +34,17 @@ constexpr std::string_view kMovement = "movement", kResourcePack = "resource_pac
 
 }  // namespace
 
-SavedPlayer savedPlayer(store::ReadableStore& store) {
+SavedPlayer loadPlayer(store::ReadableStore& store) {
     const auto pose = store.metadata(kPose), time = store.metadata(kTime);
     SavedPlayer player;
     player.hotbar = store.metadata(kHotbar);
     if (const auto hand = store.metadata(kFormerHand); hand && !player.hotbar) player.hotbar = "0 " + *hand;
     player.movement = store.metadata(kMovement);
     player.resourcePack = store.metadata(kResourcePack);
-    if (pose) player.pose = poseFrom(*pose);
+    if (pose) player.pose = parsePose(*pose);
     if (pose && !player.pose)
         base::logWarning("the save's camera is not a position and direction in the world: {:?}", *pose);
-    if (time) player.timeDay = timeDayFrom(*time);
+    if (time) player.timeDay = parseTimeDay(*time);
     if (time && !player.timeDay)
         base::logWarning("the save's time of day is not a number from 0 to 1: {:?}", *time);
     return player;

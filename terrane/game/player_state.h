@@ -14,14 +14,13 @@
 
 namespace terrane::game {
 
-// A pose as text, "X Y Z YAW PITCH", in saves and files of bookmarks.
-// poseFrom() gives the same pose back.
+// Formats a pose as "X Y Z YAW PITCH", for saves and files of bookmarks. parsePose() returns the same pose.
 std::string textOf(const world::Pose& pose);
-// Nothing if the text is invalid, the position is not in the world (world::isInWorld()) or the direction is
-// none.
-std::optional<world::Pose> poseFrom(const std::string& text);
+// Parses a pose. Returns nothing if the text is invalid, the position is not in the world
+// (world::isInWorld()) or the direction is none.
+std::optional<world::Pose> parsePose(const std::string& text);
 
-// The time of day of the world that is played.
+// The clock of a world: its time of day.
 struct DayClock {
     double timeDay = 0.38;   // 0 midnight, 0.2 dawn, 0.5 noon, 0.8 dusk
     double dayMinutes = 20;  // length of a day
@@ -35,7 +34,7 @@ struct DayClock {
 };
 
 // Parses a time of day as saves store it; nothing unless it is a number from 0 to 1.
-inline std::optional<double> timeDayFrom(std::string_view text) {
+inline std::optional<double> parseTimeDay(std::string_view text) {
     double time = 0;
     const char* end = text.data() + text.size();
     const auto [next, error] = std::from_chars(text.data(), end, time);
@@ -53,7 +52,7 @@ struct PlayerState {
     bool operator==(const PlayerState&) const = default;
 };
 
-// Members are empty if the save has none or invalid ones, which are logged.
+// A member has no value if the save has none or an invalid one, which is logged.
 struct SavedPlayer {
     std::optional<world::Pose> pose;
     std::optional<double> timeDay;
@@ -61,7 +60,7 @@ struct SavedPlayer {
     std::optional<std::string> movement, resourcePack;  // may name anything
 };
 
-SavedPlayer savedPlayer(store::ReadableStore& store);
+SavedPlayer loadPlayer(store::ReadableStore& store);
 
 // Writes the parts that differ from `saved` to the store without waiting, all of them if that is empty, and
 // sets `saved`. Cheap enough for every frame.

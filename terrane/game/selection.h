@@ -1,5 +1,5 @@
 // A player's selection of blocks: two corners, and a clipboard that is turned and pasted. Independent of
-// world, window and keys; apps/terrane/window/hud/selection_tool.h drives it. Plain value.
+// world, window and keys; apps/terrane/window/hud/selection_tool.h drives it. It is a plain value.
 #pragma once
 
 #include <memory>
@@ -13,10 +13,10 @@ class Selection {
   public:
     void setFirst(world::BlockPos corner) { first_ = corner; }
     void setSecond(world::BlockPos corner) { second_ = corner; }
-    // The box from corner to corner, or of the only corner; none without corners.
+    // Returns the box from corner to corner, or of the only corner; none without corners.
     std::optional<world::BlockBox> box() const;
 
-    // Null if nothing was copied or read.
+    // Returns the clipboard; null if nothing was copied or read.
     const std::shared_ptr<const world::Structure>& clipboard() const { return clipboard_; }
     void setClipboard(world::Structure structure);
     // Turns the clipboard by a quarter counterclockwise, seen from above. Does nothing without a clipboard.
@@ -24,12 +24,13 @@ class Selection {
     // Swaps left and right of the clipboard, as seen along `yaw` (degrees).
     void mirror(const world::BlockRegistry& blocks, float yaw);
 
-    // Between beginPaste() and endPaste() the clipboard follows the crosshair. False without a clipboard.
+    // Begins to paste: until endPaste() the clipboard follows the crosshair. Returns false without a
+    // clipboard.
     bool beginPaste() { return isPasting_ = clipboard_ != nullptr; }
     void endPaste() { isPasting_ = false; }
     bool isPasting() const { return isPasting_; }
-    // The lowest corner of a clipboard with the middle of its bottom layer at a block; moved into the height
-    // of the world as far as it fits. None without a clipboard.
+    // Returns the lowest corner of a clipboard with the middle of its bottom layer at a block; moved into the
+    // height of the world as far as it fits. Returns nothing without a clipboard.
     std::optional<world::BlockPos> pasteCorner(world::BlockPos middle) const;
 
   private:
@@ -38,7 +39,7 @@ class Selection {
     bool isPasting_ = false;
 };
 
-// The axis that swaps left and right as seen along `yaw`: 90 looks along +y.
+// Returns the axis that swaps left and right as seen along `yaw`: 90 looks along +y.
 world::MirrorAxis sidewaysAxis(float yaw);
 
 }  // namespace terrane::game

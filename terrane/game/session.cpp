@@ -30,7 +30,7 @@ bool isLoaded(const world::World& world, world::BlockPos pos) {
 // chunks too.
 Session::Session(SessionParts parts)
     : blocks_(std::move(parts.blocks)),
-      farBlocks_(blocks_->seenFromAfar()),
+      farBlocks_(blocks_->forFarTiles()),
       lights_(*blocks_),
       generators_(std::move(parts.generators)),
       generator_(*generators_.at(0).value()),
@@ -50,7 +50,7 @@ Session::Session(SessionParts parts)
         own(tiles);
         if (other) other(tiles);
     };
-    stream::keepTileRows(*store_, generators_, *blocks_, tell);
+    stream::maintainTileRows(*store_, generators_, *blocks_, tell);
     if (store_->isPersistent()) buildTiles();
 }
 
@@ -60,7 +60,7 @@ void Session::buildTiles() {
 }
 
 EditResult Session::edit(const EditCommand& command) {
-    if (authority_.edited && command.player != kNoPlayer) return editAhead(command);
+    if (authority_.edited && command.player != kNoPlayer) return predictEdit(command);
     return applyAll(std::span(&command, 1)).front();
 }
 
@@ -72,14 +72,14 @@ std::vector<EditResult> Session::edit(std::span<const EditCommand> commands) {
 }
 
 // Applies a command before the authority decides on it. The authority keeps the player's steps.
-EditResult Session::editAhead(const EditCommand& command) {
+EditResult Session::predictEdit(const EditCommand& command) {
     std::vector<world::BlockEdit> edits;
     PlayerChanges changes;
     const EditResult result = apply(command, edits, changes);
     if (result != EditResult::Applied) return result;
     EditStep changed = stepSince(world_, changes.steps);
     std::ranges::move(stepSince(world_, changes.uses), std::back_inserter(changed));
-    tellEdits(command.player, edits);
+    notifyEdits(command.player, edits);
     authority_.edited(command, changed);
     return result;
 }
@@ -93,13 +93,13 @@ std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands)
         results.push_back(apply(command, edits, changes[command.player]));
     for (auto& [player, changed] : changes) {
         const auto found = players_.find(player);
-        if (player == kNoPlayer) tellStep(kNoPlayer, changed.steps);
+        if (player == kNoPlayer) notifyStep(kNoPlayer, changed.steps);
         if (found == players_.end()) continue;
-        EditStep step = tellStep(player, changed.steps);
-        tellStep(player, changed.uses);
+        EditStep step = notifyStep(player, changed.steps);
+        notifyStep(player, changed.uses);
         found->second.history.add(std::move(step));
     }
-    tellEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
+    notifyEdits(commands.empty() ? kNoPlayer : commands.front().player, edits);
     return results;
 }
 
@@ -111,14 +111,14 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
     if (const auto refusal = refusalOfBreaking(command)) return *refusal;
     const auto* data = std::get_if<world::SetEntityData>(&command.change);
-    const bool isText = data && world::holdsText(blocks_->type(world_.block(command.pos)));
+    const bool isText = data && world::isSign(blocks_->type(world_.block(command.pos)));
     if (isText && !world::decodeSign(data->data)) return EditResult::BadData;
     if (data && !maySetItems(world_, *blocks_, command.pos, data->data)) return EditResult::BadData;
     const std::size_t before = edits.size();
     const bool isStep = isText || std::holds_alternative<world::SetBlock>(command.change);
     // Changes by nobody are one step, recorded only for a listener: of scripts if it hears all, and growth.
     const bool isGrowth = std::holds_alternative<world::RunTick>(command.change);
-    const bool isRecorded = command.player != kNoPlayer || tellsAll_ || (isGrowth && changeListener_);
+    const bool isRecorded = command.player != kNoPlayer || reportsAll_ || (isGrowth && changeListener_);
     world::BlockRecorder recorder;
     world::applyChange(world_, *blocks_, command.pos, command.change, edits,
                        isRecorded ? &recorder : nullptr);
@@ -141,10 +141,10 @@ bool Session::breaksForeign(PlayerId player, std::span<const world::BlockEdit> e
     });
 }
 
-TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
-    using Outcome = TakenBack::Outcome;
-    if (authority_.takeBack) {
-        authority_.takeBack(player, way);
+UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
+    using Outcome = UndoResult::Outcome;
+    if (authority_.undoOrRedo) {
+        authority_.undoOrRedo(player, way);
         return {Outcome::Sent};
     }
     const auto found = players_.find(player);
@@ -154,7 +154,7 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
         return {Outcome::NotLoaded};
     if (!mayChangeAll(permissions, player, *step)) return {Outcome::NotAllowed};
     const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
-    const TakenBack result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
+    const UndoResult result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
@@ -162,13 +162,13 @@ TakenBack Session::takeBack(PlayerId player, HistoryWay way) {
         takeBackAll(recorder.take(), edits, 0);
         return {Outcome::NotAllowed};
     }
-    EditStep reverse = tellStep(player, recorder);
-    found->second.history.takenBack(way, std::move(reverse));
-    tellEdits(player, edits);
+    EditStep reverse = notifyStep(player, recorder);
+    found->second.history.finishStep(way, std::move(reverse));
+    notifyEdits(player, edits);
     return result;
 }
 
-std::vector<world::ChunkPos> Session::chunksToTakeBack(PlayerId player, HistoryWay way) const {
+std::vector<world::ChunkPos> Session::chunksOfNextStep(PlayerId player, HistoryWay way) const {
     const auto found = players_.find(player);
     const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
     std::vector<world::ChunkPos> chunks;
@@ -202,22 +202,22 @@ void Session::takeBackAll(std::span<const world::PlacedBlock> former, std::vecto
     edits.resize(firstEdit);
 }
 
-void Session::tellEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
+void Session::notifyEdits(PlayerId player, std::span<const world::BlockEdit> edits) {
     if (changeListener_ && player != kNoPlayer) flow_.note(world_, *blocks_, edits, player);
     pipeline_.onEdits(edits);
     if (editListener_ && !edits.empty()) editListener_(player, edits);
 }
 
 // Reports recorded changes to the listener; returns those that the player can undo.
-EditStep Session::tellStep(PlayerId player, world::BlockRecorder& recorder) {
+EditStep Session::notifyStep(PlayerId player, world::BlockRecorder& recorder) {
     EditStep all = allSince(world_, recorder);
-    if (tellsAll_) tellChanges(player, all);
+    if (reportsAll_) notifyChanges(player, all);
     EditStep step = stepOf(std::move(all));
-    if (!tellsAll_) tellChanges(player, step);
+    if (!reportsAll_) notifyChanges(player, step);
     return step;
 }
 
-void Session::tellChanges(PlayerId player, std::span<const ChangedBlock> changes) {
+void Session::notifyChanges(PlayerId player, std::span<const ChangedBlock> changes) {
     if (changeListener_ && !changes.empty()) changeListener_(player, changes);
 }
 
@@ -225,7 +225,7 @@ void Session::setBlocks(std::span<const world::PlacedBlock> blocks) {
     std::vector<world::BlockEdit> edits;
     world::BlockUpdate update(world_, *blocks_, edits);
     update.restore(blocks, world::RestoreScope::None);
-    tellEdits(kNoPlayer, edits);
+    notifyEdits(kNoPlayer, edits);
 }
 
 void Session::runRules(std::span<const world::BlockPos> positions) {
@@ -235,8 +235,8 @@ void Session::runRules(std::span<const world::BlockPos> positions) {
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
-    tellStep(kNoPlayer, recorder);
-    tellEdits(kNoPlayer, edits);
+    notifyStep(kNoPlayer, recorder);
+    notifyEdits(kNoPlayer, edits);
 }
 
 bool Session::canReach(PlayerId player, world::BlockPos pos) const {
@@ -276,9 +276,9 @@ void Session::flow(std::span<const world::ChunkPos> chunks) {
     std::vector<world::BlockEdit> edits;
     world::flowLiquids(world_, *blocks_, chunks, edits,
                        {claims.all().empty() ? nullptr : &mayFlow, changeListener_ ? &flow_ : nullptr});
-    for (auto& [cause, changes] : flow_.changes) tellStep(static_cast<PlayerId>(cause), changes);
+    for (auto& [cause, changes] : flow_.changes) notifyStep(static_cast<PlayerId>(cause), changes);
     flow_.changes.clear();
-    tellEdits(kNoPlayer, edits);
+    notifyEdits(kNoPlayer, edits);
 }
 
 base::Result<void> Session::save() {

@@ -1,6 +1,6 @@
 // A world that is played: its chunks, the pipeline that loads, lights and meshes them, its store, its players
-// and its clock. Players change blocks by edit(), build() and takeBack(); the events go to the pipeline, and
-// so to the screen and the disk. Uses no OpenGL. Used on one thread, the world's.
+// and its clock. Players change blocks by edit(), build() and undoOrRedo(); the events go to the pipeline,
+// and so to the screen and the disk. Uses no OpenGL. It is used on one thread, the world's.
 #pragma once
 
 #include <functional>
@@ -37,33 +37,34 @@ class Session {
 
     // Checks a command and applies it. Light, meshes and the store follow with the pipeline's next update.
     EditResult edit(const EditCommand& command);
-    // The same for many commands, in their order: one result each. Takes time in proportion to the number of
-    // blocks.
+    // Does the same for many commands in their order and returns one result for each. The time is
+    // proportional to the number of blocks.
     std::vector<EditResult> edit(std::span<const EditCommand> commands);
 
     // Fills a box or places a structure, all of it or nothing, as one step of the player's history.
     BuildOutcome build(const BuildCommand& command);
 
     // Undoes the player's last step, or redoes the step that was undone last. One call of edit() is one step
-    // with its immediate consequences; using blocks (doors, containers) is none. The distance is not checked:
-    // these blocks were in reach once.
-    TakenBack takeBack(PlayerId player, HistoryWay way);
+    // with its immediate consequences; using blocks (doors, containers) is not a step. The distance is not
+    // checked, since these blocks were in reach before.
+    UndoResult undoOrRedo(PlayerId player, HistoryWay way);
 
-    // The chunks that takeBack() needs loaded; empty if there is no such step.
-    std::vector<world::ChunkPos> chunksToTakeBack(PlayerId player, HistoryWay way) const;
+    // Returns the chunks that undoOrRedo() needs loaded; empty if there is no such step.
+    std::vector<world::ChunkPos> chunksOfNextStep(PlayerId player, HistoryWay way) const;
 
-    // Called after each change with its events and its player, for sounds. The listener changes no block.
+    // The session calls the listener after each change with its events and its player, for sounds. The
+    // listener changes no block.
     using EditListener = std::function<void(PlayerId, std::span<const world::BlockEdit>)>;
     void setEditListener(EditListener listener) { editListener_ = std::move(listener); }
 
     // Called with the blocks that a player's edit, building or undoing changed, each once: for a history of
     // who changed what. Flow is a change by the player whose edit made the liquid flow; growth, and flow that
-    // nobody is known to have caused, are changes by kNoPlayer. With `tellsAll` also with changes that nobody
-    // can undo: liquid that becomes unsettled.
+    // nobody is known to have caused, are changes by kNoPlayer. With `reportsAll` also with changes that
+    // nobody can undo: liquid that becomes unsettled.
     using ChangeListener = std::function<void(PlayerId, std::span<const ChangedBlock>)>;
-    void setChangeListener(ChangeListener listener, bool tellsAll = false) {
+    void setChangeListener(ChangeListener listener, bool reportsAll = false) {
         changeListener_ = std::move(listener);
-        tellsAll_ = tellsAll;
+        reportsAll_ = reportsAll;
     }
 
     // Sets exactly these blocks, as a server or a history gives them: nothing is checked and no behavior is
@@ -73,17 +74,17 @@ class Session {
     // without ground and loose sand fall. For blocks that setBlocks() has set. A change by kNoPlayer.
     void runRules(std::span<const world::BlockPos> positions);
 
-    // From now on the authority decides on players' commands; with an empty one the session itself decides
-    // again.
+    // Sets the authority, which decides on players' commands from now on; with an empty one the session
+    // itself decides again.
     void setAuthority(Authority authority) { authority_ = std::move(authority); }
 
-    // The pose of a player, by which its edits are checked. The first call begins its history.
+    // Sets the pose of a player, by which its edits are checked. The first call begins its history.
     void setPlayer(PlayerId player, const world::Pose& pose) { players_[player].pose = pose; }
     void removePlayer(PlayerId player) { players_.erase(player); }
 
     // Advances game time: the clock, and ticks of blocks near `center` (plants grow, liquids flow).
     void advance(double seconds, world::ChunkPos center);
-    // The same for blocks of these chunks.
+    // Does the same for blocks of these chunks.
     void advance(double seconds, std::span<const world::ChunkPos> chunks);
 
     // Waits until all changes are in the store.
@@ -99,11 +100,11 @@ class Session {
     // Builds the tiles that edits change, for a world that lacks them. A persistent store has them from the
     // beginning; other worlds need them only once land beyond the chunks is shown.
     void buildTiles();
-    // Land beyond the chunks.
+    // Returns the pipeline of the land beyond the chunks.
     stream::TilePipeline& tiles() { return tiles_; }
     const stream::TilePipeline& tiles() const { return tiles_; }
     std::vector<stream::TaskTime> taskTimes() const;  // of the work on chunks, then on tiles
-    // The workers of both pipelines. With 0 threads, the caller runs the jobs.
+    // Returns the workers of both pipelines. With 0 threads, the caller runs the jobs.
     base::JobSystem& jobs() { return jobs_; }
 
     DayClock clock;
@@ -114,7 +115,7 @@ class Session {
         world::Pose pose;
         EditHistory history;
     };
-    // Changes by a player's commands: steps that can be undone, and uses (doors, containers).
+    // The changes of a player's commands: steps that can be undone, and uses (doors, containers).
     struct PlayerChanges {
         world::BlockRecorder steps, uses;
     };
@@ -127,10 +128,10 @@ class Session {
                      std::size_t firstEdit);
     void flow(std::span<const world::ChunkPos> chunks);
     std::optional<EditResult> refusalOfBreaking(const EditCommand& command) const;
-    void tellEdits(PlayerId player, std::span<const world::BlockEdit> edits);
-    EditStep tellStep(PlayerId player, world::BlockRecorder& recorder);
-    void tellChanges(PlayerId player, std::span<const ChangedBlock> changes);
-    EditResult editAhead(const EditCommand& command);
+    void notifyEdits(PlayerId player, std::span<const world::BlockEdit> edits);
+    EditStep notifyStep(PlayerId player, world::BlockRecorder& recorder);
+    void notifyChanges(PlayerId player, std::span<const ChangedBlock> changes);
+    EditResult predictEdit(const EditCommand& command);
 
     // These refer to each other and are destroyed in reverse order.
     std::shared_ptr<const world::BlockRegistry> blocks_;
@@ -147,16 +148,16 @@ class Session {
     std::unordered_map<PlayerId, PlayerEntry> players_;
     EditListener editListener_;
     ChangeListener changeListener_;
-    bool tellsAll_ = false;
+    bool reportsAll_ = false;
     world::FlowRecord flow_;  // who made liquid flow; kept only for a change listener
     Authority authority_;
     double untilTick_ = 0;  // seconds of game time that are not yet a whole tick
     std::uint64_t ticks_ = 0;
 };
 
-// Whether a point is in water: below its surface, if that is in the same block.
+// Returns whether a point is in water: below its surface, if that is in the same block.
 bool isUnderWater(const Session& session, const glm::dvec3& point);
-// The number of water blocks above a point, its own included, at most 64; 0 if it is in air.
+// Returns the number of water blocks above a point, its own included, at most 64; 0 if it is in air.
 int waterAbove(const Session& session, const glm::dvec3& point);
 
 }  // namespace terrane::game

@@ -29,7 +29,7 @@ struct SessionParts {
     gen::BatchGenerator* batchGenerator = nullptr;
     light::BatchLighter* batchLighter = nullptr;
     stream::MeshPolicy meshing = stream::MeshPolicy::Workers;
-    // Called with tiles of the store that edits changed, on a thread of the store; may be empty.
+    // The store calls it with tiles that edits changed, on a thread of its own; it may be empty.
     stream::TileListener tileListener = {};
 };
 
@@ -39,7 +39,7 @@ struct SessionParts {
 struct Authority {
     std::function<void(const EditCommand&, std::span<const ChangedBlock> changed)> edited;
     std::function<void(const BuildCommand&)> build;
-    std::function<void(PlayerId, HistoryWay)> takeBack;
+    std::function<void(PlayerId, HistoryWay)> undoOrRedo;
 };
 
 }  // namespace terrane::game

@@ -126,7 +126,7 @@ std::vector<BlockSound> soundsOf(const world::BlockRegistry& blocks, std::span<c
                    other.pos.x == sound->pos.x && other.pos.y == sound->pos.y;
         });
         if (isNew) sounds.push_back(*sound);
-        if (sounds.size() == kMaxSoundsAChange) break;
+        if (sounds.size() == kMaxSoundsPerChange) break;
     }
     return sounds;
 }

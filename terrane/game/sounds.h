@@ -1,4 +1,4 @@
-// Ambient sounds at a place: wind and water.
+// The ambient sounds at a place: wind and water.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,8 +21,9 @@ struct Ambience {
     std::optional<glm::dvec3> waterAt;  // the nearest surface; none: under water, or no water
 };
 
-// Wind grows with height and with the share of open sky. Water is heard within kWaterReach blocks of its
-// surface, louder where it flows. Reads up to 2,200 blocks: a few times a second is enough.
+// Returns the ambient sounds at `ears`. Wind grows with height and with the share of open sky. Water is heard
+// within kWaterReach blocks of its surface, louder where it flows. Reads up to 2,200 blocks: a few times a
+// second is enough.
 constexpr int kWaterReach = 12;
 Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears);
 
@@ -37,16 +38,16 @@ struct BlockSound {
 };
 
 // The limit for one change with its consequences, so that large ones (undo, a falling tree) are no louder.
-constexpr std::size_t kMaxSoundsAChange = 6;
+constexpr std::size_t kMaxSoundsPerChange = 6;
 
-// A removed block makes a sound of breaking; a placed block, also in place of another one, a sound of
-// placing. A used block (a door) sounds as if placed; a change of data alone is silent. Liquids sound where a
-// player places or takes them, not where they flow: `isPlayers` says whether it is a player's change.
+// Returns the sounds of edits. A removed block makes a sound of breaking; a placed block, also in place of
+// another one, a sound of placing. A used block (a door) sounds as if placed; a change of data alone is
+// silent. Liquids sound where a player places or takes them, not where they flow: `isPlayers` says whether it
+// is a player's change.
 std::vector<BlockSound> soundsOf(const world::BlockRegistry& blocks, std::span<const world::BlockEdit> edits,
                                  bool isPlayers);
 
-// Decides when a player on foot makes a sound: steps, landings, strokes in water. Pure bookkeeping, called
-// once a frame.
+// A sound of a player on foot: a step, a landing, a stroke in water.
 struct FootEvent {
     enum class Kind : std::uint8_t { Step, Land, Climb, Splash, Swim };
     Kind kind = Kind::Step;
@@ -57,9 +58,9 @@ struct FootEvent {
 
 class Footsteps {
   public:
-    // The event since the last call; one at most. A character that was teleported makes no sound.
+    // Returns the event since the last call; one at most. A character that was teleported makes no sound.
     std::optional<FootEvent> advance(const world::Character& now);
-    // Forgets the last character, for example after the player flew.
+    // Discards the last character, for example after the player flew.
     void reset() { before_.reset(); }
 
   private:
@@ -68,7 +69,7 @@ class Footsteps {
     double fallSpeed_ = 0;  // in the last frame in the air, blocks/s
 };
 
-// The block under the feet, also at its edge; air if there is none.
+// Returns the block under the feet, also at its edge; air if there is none.
 world::BlockId groundUnder(const world::World& world, const world::BlockRegistry& blocks, glm::dvec3 feet);
 
 }  // namespace terrane::game

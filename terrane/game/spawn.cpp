@@ -92,7 +92,7 @@ world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistr
     return standingAt({}, std::min(std::max(ground, 0), world::kChunkHeight - 1), 0);
 }
 
-std::optional<world::Pose> backOnSurface(const world::World& world, const world::BlockRegistry& blocks,
+std::optional<world::Pose> poseOnSurface(const world::World& world, const world::BlockRegistry& blocks,
                                          const world::Pose& pose) {
     if (pose.position.z >= 0) return std::nullopt;
     const world::BlockPos at = world::blockOf(pose.position);

@@ -1,5 +1,5 @@
-// Finds the start of a new world, on open, dry ground with a view, and the place for a player who fell out of
-// the world.
+// Finds the spawn of a new world, on open, dry ground with a view, and a position for a player who fell out
+// of the world.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 
 namespace terrane::game {
 
-// The same world gives the same pose. Generates up to some hundred chunks around 0,0, in a tenth of a second;
-// if none of them is suitable, the place is above 0,0.
+// Returns the start of a new world, which is the same for the same world. It generates up to some hundred
+// chunks around 0,0, in a tenth of a second; if none of them is suitable, the place is above 0,0.
 world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks);
 
-// For a player whose eyes are below the world: the pose on the highest block of the column. None if it is not
-// below, if the chunk is not loaded or if the column is empty.
-std::optional<world::Pose> backOnSurface(const world::World& world, const world::BlockRegistry& blocks,
+// Returns the pose on the highest block of the column for a player whose eyes are below the world. Returns
+// nothing if it is not below, if the chunk is not loaded or if the column is empty.
+std::optional<world::Pose> poseOnSurface(const world::World& world, const world::BlockRegistry& blocks,
                                          const world::Pose& pose);
 
 }  // namespace terrane::game

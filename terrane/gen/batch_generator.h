@@ -1,5 +1,5 @@
 // Generates chunks in batches on one of two back ends: threads here, compute shaders in terrane/gen_gpu. Both
-// give the same blocks. Used on one thread: with compute shaders, the context's.
+// give the same blocks. It is used on one thread: with compute shaders, the context's.
 #pragma once
 
 #include <memory>
@@ -28,7 +28,8 @@ class BatchGenerator {
     [[nodiscard]] virtual std::size_t submit(std::span<const world::ChunkPos> positions) = 0;
 
     // Returns the oldest batch in the order of its positions if it is finished; with `wait`, waits for it.
-    // Empty if it is not finished or none is in flight. Rethrows what generating a chunk of it threw.
+    // The result is empty if it is not finished or none is in flight. Rethrows exceptions of generating a
+    // chunk of it.
     [[nodiscard]] virtual std::vector<GeneratedChunk> take(bool wait) = 0;
 
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
@@ -36,10 +37,10 @@ class BatchGenerator {
 };
 
 // Generates on `threads` − 1 threads of its own and, while it waits in take(), on the calling one. With one
-// thread take() generates even if it is not asked to wait.
+// thread take() generates even without `wait`.
 std::unique_ptr<BatchGenerator> makeCpuGenerator(Generator generator, unsigned threads);
 
-// The chunks at `positions`, in their order. Waits; nothing else may be in flight.
+// Returns the chunks at `positions`, in their order. Waits; nothing else may be in flight.
 base::Result<std::vector<std::shared_ptr<world::Chunk>>> generateAll(
     BatchGenerator& generator, std::span<const world::ChunkPos> positions);
 

@@ -39,7 +39,7 @@ struct Generator::Impl {
         }
 
         Executor executor;
-        DownPasses downPasses;
+        TopDownPasses downPasses;
         std::vector<ColumnValues> fields;                   // by field
         std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the last two 3D passes, alternating
         LayerRanges layerRanges{};                          // of the last one
@@ -52,7 +52,7 @@ struct Generator::Impl {
           seeds(makeSeeds(graph, seed)),
           drainages(graph.drainages, seed),
           shared(sharedPasses(graph)),
-          firstDown(canRunDown(graph) ? firstDownPass(graph) : static_cast<int>(graph.passes.size())),
+          firstDown(canRunTopDown(graph) ? firstTopDownPass(graph) : static_cast<int>(graph.passes.size())),
           cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
                 static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
@@ -101,7 +101,7 @@ struct Generator::Impl {
     // need. A thread that runs a pass waits only for lower passes of other chunks, so there is no deadlock.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
-    void runDown(world::ChunkPos pos, ChunkWork& work, const LayerTaker& take, Worker& worker);
+    void runTopDown(world::ChunkPos pos, ChunkWork& work, const LayerCallback& take, Worker& worker);
     // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
@@ -115,7 +115,7 @@ struct Generator::Impl {
     std::vector<Program> programs;                              // by pass: of 2D ones
     std::vector<std::unique_ptr<const VoxelPass>> voxelPasses;  // by pass: of 3D ones
     int shared;                                                 // passes
-    int firstDown;                                              // of those that generateDown() runs together
+    int firstDown;  // of those that generateTopDown() runs together
     PassCache cache;
     std::mutex workerMutex;
     std::vector<std::unique_ptr<Worker>> idleWorkers;
@@ -190,7 +190,8 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     }
 }
 
-void Generator::Impl::runDown(world::ChunkPos pos, ChunkWork& work, const LayerTaker& take, Worker& worker) {
+void Generator::Impl::runTopDown(world::ChunkPos pos, ChunkWork& work, const LayerCallback& take,
+                                 Worker& worker) {
     std::vector<Works> works(programs.size());
     worker.downPasses.clear();
     for (int pass = firstDown; pass < static_cast<int>(programs.size()); ++pass) {
@@ -308,17 +309,17 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
     return chunk;
 }
 
-void Generator::generateDown(world::ChunkPos pos, const LayerTaker& take) const {
+void Generator::generateTopDown(world::ChunkPos pos, const LayerCallback& take) const {
     TERRANE_ZONE("generate chunk from the top");
     Impl& impl = *impl_;
-    base::require(canRunDown(impl.graph),
-                  "Generator::generateDown: the last pass of the generator is not 3D");
+    base::require(canRunTopDown(impl.graph),
+                  "Generator::generateTopDown: the last pass of the generator is not 3D");
     requireGenerated(pos, impl.graph.level);
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, *worker);
-    impl.runDown(pos, *work, take, *worker);
+    impl.runTopDown(pos, *work, take, *worker);
     impl.giveBack(std::move(worker));
 }
 

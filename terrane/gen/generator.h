@@ -1,7 +1,7 @@
 // A generator ready to run for one world seed and one level: position in, chunk out. The blocks depend on
 // nothing but the generator, the seed and the position: not on threads, order of requests or instruction set.
 //
-// Results of a chunk that neighbors may need are computed once and kept in a cache of bounded size. Other
+// Results of a chunk that neighbors may need are computed once and stored in a cache of bounded size. Other
 // results are computed with the chunk itself.
 #pragma once
 
@@ -16,16 +16,16 @@
 #include <vector>
 
 #include "terrane/base/result.h"
-#include "terrane/gen/compile/down_passes.h"
 #include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/compile/top_down_passes.h"
 #include "terrane/gen/cpu/executor.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
 
-// The chunks that a pass may read from.
-// The 3×3 chunks around `pos` by y, then x; coordinates wrap at the world's edge as those of blocks do.
+// Returns the chunks that a pass may read: the 3×3 chunks around `pos` by y, then x. Coordinates wrap at the
+// world's edge as those of blocks do.
 inline std::array<world::ChunkPos, 9> chunksAround(world::ChunkPos pos) {
     const int bits = 4 + pos.level;  // of a chunk's width in blocks
     const auto wrap = [bits](std::int32_t v) {
@@ -38,8 +38,8 @@ inline std::array<world::ChunkPos, 9> chunksAround(world::ChunkPos pos) {
     return around;
 }
 
-// Intermediate results of chunks, shared by the threads that generate. Keeps the most recently used ones.
-// One chunk on its way through the passes. Results of the first `passesDone` passes never change again.
+// The intermediate results of a chunk, shared by the threads that generate. Results of the first `passesDone`
+// passes never change again.
 struct ChunkWork {
     ChunkWork(std::size_t fieldCount, std::size_t passCount) : fields(fieldCount), blocks(passCount) {}
 
@@ -87,7 +87,8 @@ class PassCache {
     PassCache(std::size_t capacity, std::size_t fieldCount, std::size_t passCount)
         : capacity_(capacity), fieldCount_(fieldCount), passCount_(passCount) {}
 
-    // The chunk's work, new if it is not kept. A work stays alive while a caller holds it.
+    // Returns the chunk's work, new if the cache does not have it. A work stays alive while a caller holds
+    // it.
     std::shared_ptr<ChunkWork> get(world::ChunkPos pos);
 
     std::size_t size() {
@@ -108,27 +109,29 @@ class PassCache {
     std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;
 };
 
-// Size of the cache of results that neighbors need: 1 KiB per field and 128 KiB per 3D pass whose blocks they
-// read. Overworld: 15 KiB per chunk, so the default holds 4,350 chunks, more than the 4,225 of a view of 32.
+// The size of the cache of results that neighbors need: 1 KiB per field and 128 KiB per 3D pass whose blocks
+// they read. Overworld: 15 KiB per chunk, so the default holds 4,350 chunks, more than the 4,225 of a view of
+// 32.
 struct CacheSize {
     std::size_t bytes = std::size_t{64} << 20;
-    // Kept even where they need more bytes: with less than some rows of a wide area nearly everything would
-    // be computed again.
+    // The cache stores this many chunks even if they need more bytes: with less than some rows of a wide area
+    // nearly everything would be computed again.
     std::size_t minChunks = 256;
 };
 
-// A ring of tiles is at most 64 wide and made row by row: 8 MiB hold 8 rows of it, and neighbors need 4.
+// Returns the cache size of a level. A ring of tiles is at most 64 wide and made row by row: 8 MiB hold 8
+// rows of it, and neighbors need 4.
 constexpr CacheSize cacheSizeOf(int level) {
     return level == 0 ? CacheSize{} : CacheSize{.bytes = std::size_t{8} << 20};
 }
 
-// Whether a generator of `level` makes the chunk: it is of that level and in the world.
+// Returns whether a generator of `level` makes the chunk: it is of that level and in the world.
 constexpr bool isGenerated(world::ChunkPos pos, int level = 0) {
     return pos.level == level && world::isInWorld(pos);
 }
-// Fails with the reason if it does not.
+// Fails with the reason if a generator of `level` does not make the chunk.
 base::Result<void> checkGenerated(world::ChunkPos pos, int level = 0);
-// Throws std::invalid_argument with the reason if it does not.
+// Throws std::invalid_argument with the reason if a generator of `level` does not make the chunk.
 void requireGenerated(world::ChunkPos pos, int level = 0);
 
 // Statistics of a 3D pass over a chunk.
@@ -146,21 +149,21 @@ class Generator {
     Generator(Generator&&) noexcept;
     Generator& operator=(Generator&&) noexcept;
 
-    // Any thread, any number at a time. Where one runs out of memory the others go on. Throws
-    // std::invalid_argument unless isGenerated(pos, level()). Beyond the world's edge generation sees
-    // coordinates wrap.
+    // Generates a chunk. Any number of threads may call it at a time; if one runs out of memory the others
+    // continue. Throws std::invalid_argument unless isGenerated(pos, level()). Coordinates wrap beyond the
+    // world's edge.
     world::Chunk generate(world::ChunkPos pos) const;
 
-    // The same. Appends reports of its 3D passes, but not of passes that had run already for neighbors.
+    // Does the same and appends reports of its 3D passes, without passes that had run already for neighbors.
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
 
     // Passes the chunk's blocks to `take`, layer by layer from the top, until no column is requested: cheaper
     // than generate() for views from above. Leaves out layers that are one block and equal the layer above.
-    // Threads and errors as generate(); `take` may throw.
-    void generateDown(world::ChunkPos pos, const LayerTaker& take) const;
+    // Threads and errors are those of generate(); `take` may throw.
+    void generateTopDown(world::ChunkPos pos, const LayerCallback& take) const;
 
-    // Values of a field in the chunk's columns, x + 16 y, for a graph without 3D passes (builder.h).
-    // Threads and errors as generate().
+    // Returns the values of a field in the chunk's columns, x + 16 y, for a graph without 3D passes
+    // (builder.h). Threads and errors are those of generate().
     std::array<Bits, 256> columns(world::ChunkPos pos, std::uint32_t field) const;
 
     const std::string& name() const;

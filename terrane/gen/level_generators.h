@@ -1,7 +1,8 @@
-// A generator at every level: chunks of any level of detail from one seed. Used by code that streams tiles.
+// A generator at every level: chunks of any level of detail from one seed. It is used by code that streams
+// tiles.
 //
 // The graph of a level and its Generator are made on the first request for the level: a world without far
-// tiles does not pay for them. Any thread.
+// tiles does not pay for them. Any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -17,9 +18,9 @@ namespace terrane::gen {
 
 class LevelGenerators {
   public:
-    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called at most twice
-    // a level, for its blocks and for its tint, by one thread at a time, later too: what it refers to lives
-    // as long as this object.
+    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called at most twice a
+    // level, for its blocks and for its tint, by one thread at a time, later too: objects that it refers to
+    // live as long as this object.
     using MakeGraph = std::function<base::Result<GeneratorGraph>(int level)>;
 
     LevelGenerators(MakeGraph makeGraph, std::uint64_t seed);
@@ -27,17 +28,18 @@ class LevelGenerators {
     LevelGenerators(LevelGenerators&&) noexcept;
     LevelGenerators& operator=(LevelGenerators&&) noexcept;
 
-    // The generator of a level, 0…world::kMaxLevel, which lives as long as this object; or the error of its
-    // graph.
+    // Returns the generator of a level, 0…world::kMaxLevel, which lives as long as this object; or the error
+    // of its graph.
     [[nodiscard]] base::Result<const Generator*> at(int level) const;
 
-    // The chunk of the position's level. Throws std::invalid_argument with the reason if there is none.
+    // Returns the chunk of the position's level. Throws std::invalid_argument with the reason if there is
+    // none.
     [[nodiscard]] world::Chunk generate(world::ChunkPos pos) const;
 
-    // Whether the generator has a tint at level 0. Records that level's graph, once.
+    // Returns whether the generator has a tint at level 0. The first call records that level's graph.
     [[nodiscard]] bool hasTint() const;
-    // The tint of the chunk's columns; none if its level or level 0 has none. Makes no blocks, and no
-    // generator of them. Errors as generate().
+    // Returns the tint of the chunk's columns; none if its level or level 0 has none. It generates no blocks.
+    // Errors are those of generate().
     [[nodiscard]] std::optional<world::TintTile> tint(world::ChunkPos pos) const;
 
   private:

@@ -1,7 +1,7 @@
 // Runs a generator's passes as compute shaders: the same blocks as gen::Generator, to the bit.
 //
 // Results come some frames later through a copy that nothing waits for. Intermediate results stay on the GPU
-// in slots, one a chunk, so that neighboring batches share them. Used on the context's thread.
+// in slots, one a chunk, so that neighboring batches share them. It is used on the context's thread.
 #pragma once
 
 #include <memory>
@@ -16,16 +16,16 @@
 
 namespace terrane::gen_gpu {
 
-// Rivers and lakes near the tiles of a dispatch as storage buffers (shared/drainage.h): made on the CPU from
-// the maps that it uses itself. On the context's thread.
-// Whether a pass reads drainage maps.
+// Rivers and lakes near the tiles of a dispatch are storage buffers (shared/drainage.h). Whether a pass reads
+// drainage maps.
 bool readsDrainage(const gen::GeneratorGraph& generator, const gen::PassGraph& pass);
 
 struct DrainageBuffers {
     gpu::Buffer lists, data;
 };
 
-// For tile jobs in the order of `chunks`: 48 bytes a segment near each, 16 a lake.
+// Uploads the rivers and lakes near the tiles of a dispatch, from the drainage maps that the CPU uses, on the
+// context's thread. `chunks` are the tile jobs in order. A segment near a tile takes 48 bytes, a lake 16.
 DrainageBuffers uploadDrainage(gen::DrainageMaps& maps, std::size_t mapCount,
                                std::span<const world::ChunkPos> chunks);
 
@@ -36,11 +36,11 @@ constexpr std::size_t kSlots = 640;
 
 class GpuGenerator : public gen::BatchGenerator {
   public:
-    // Memory on the GPU: a slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld, 15
-    // fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8 MiB,
-    // once on the GPU and once for each of three batches on their way back. Generators with more 3D passes
-    // have fewer slots, so that no buffer is larger than 256 MiB or than a shader can address. A generator
-    // whose single chunk needs more slots is refused.
+    // Creates the generator. A slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld,
+    // 15 fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8
+    // MiB, once on the GPU and once for each of three batches on their way back. Generators with more 3D
+    // passes have fewer slots, so that no buffer is larger than 256 MiB or than a shader can address. A
+    // generator whose single chunk needs more slots is refused.
     [[nodiscard]] static base::Result<GpuGenerator> create(const gpu::ShaderLoader& shaders,
                                                            const gen::GeneratorGraph& generator,
                                                            std::uint64_t seed);
@@ -48,8 +48,8 @@ class GpuGenerator : public gen::BatchGenerator {
     GpuGenerator& operator=(GpuGenerator&&) noexcept;
     ~GpuGenerator() override;
 
-    // Takes as many as kMaxBatch and the slots hold, which is most where they lie close together. Three
-    // batches may be in flight.
+    // Accepts as many as kMaxBatch and the slots hold; positions that are close together need the fewest
+    // slots. Three batches may be in flight.
     [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> positions) override;
     [[nodiscard]] std::vector<gen::GeneratedChunk> take(bool wait) override;
     std::string_view backend() const override { return "gpu"; }

@@ -1,4 +1,4 @@
-// Noise and random numbers for one sample, with the operations of gen/noise.h in the same order as the CPU's tiles.
+// Noise and random numbers for one sample, with the operations of gen/noise/noise.h in the same order as the CPU's tiles.
 #include "terrane/shared/det_math.h"
 #include "terrane/shared/hash.h"
 
@@ -32,7 +32,7 @@ float blend(float a, float b, float t) {
     return v;
 }
 
-// kQuadrant of gen/noise.h as bits: compilers round decimal constants differently.
+// kQuadrant of gen/noise/noise.h as bits: compilers round decimal constants differently.
 const float kQuadrant[4] = float[4](uintBitsToFloat(0x3FB18A86u), uintBitsToFloat(0x3F968317u),
                                     uintBitsToFloat(0x3F49234Eu), uintBitsToFloat(0x3E8D42AFu));
 

@@ -1,5 +1,5 @@
-// Plans the passes of each chunk that a batch needs: pure bookkeeping without OpenGL. Used by
-// gpu_generator.cpp. Any thread.
+// Plans the passes of each chunk that a batch needs: pure bookkeeping without OpenGL. gpu_generator.cpp uses
+// it. Any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +13,8 @@
 
 namespace terrane::gen_gpu {
 
-// Assigns slots on the GPU to the intermediate results of chunks, and counts their finished passes. Pure
-// bookkeeping without OpenGL. Used on one thread, that of gpu_generator.cpp.
+// Assigns slots on the GPU to the intermediate results of chunks, and counts their finished passes. It uses
+// no OpenGL. It is used on one thread, that of gpu_generator.cpp.
 class SlotCache {
   public:
     explicit SlotCache(std::size_t slots);
@@ -23,7 +23,7 @@ class SlotCache {
     // others replace the least recently used.
     void reserve(const std::vector<world::ChunkPos>& chunks);
 
-    // Slot of a chunk of the last reserve().
+    // Returns the slot of a chunk of the last reserve().
     std::uint32_t slot(world::ChunkPos pos) const { return entries_.at(pos).slot; }
     std::optional<std::uint32_t> find(world::ChunkPos pos) const;
     int passesDone(world::ChunkPos pos) const { return entries_.at(pos).passesDone; }
@@ -44,7 +44,7 @@ class SlotCache {
 
 using PassCounts = std::unordered_map<world::ChunkPos, int, world::ChunkPosHash>;
 
-// Number of passes that each chunk must have done so that all of `requested` can be finished.
+// Returns the number of passes that each chunk must have done so that all of `requested` can be finished.
 PassCounts neededPasses(const gen::GeneratorGraph& generator, const std::vector<world::ChunkPos>& requested);
 
 }  // namespace terrane::gen_gpu

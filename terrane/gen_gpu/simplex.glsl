@@ -1,4 +1,4 @@
-// Simplex noise for one sample, with the operations of gen/simplex_tile.h in the same order as the CPU's tiles.
+// Simplex noise for one sample, with the operations of gen/noise/simplex_tile.h in the same order as the CPU's tiles.
 
 const int kSimplexPeriod = 41, kSimplexShift = 15;
 // 15/41, 15/71 and 70.3 as bits: compilers round constant divisions and decimals differently.

@@ -1,4 +1,4 @@
-// The shapes that stand around a chunk: gen/stamp_tile.cpp for one voxel at a time, with the same rule. A work group first
+// The shapes that stand around a chunk: gen/noise/stamp_tile.cpp for one voxel at a time, with the same rule. A work group first
 // gathers the feet of its 3×3 chunks; each column then looks only at those.
 #include "terrane/gen_gpu/tile.glsl"
 

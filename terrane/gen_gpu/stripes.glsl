@@ -1,6 +1,6 @@
-// Stripes for one sample, with the operations of gen/stripe_tile.h in the same order as the CPU's tiles.
+// Stripes for one sample, with the operations of gen/noise/stripe_tile.h in the same order as the CPU's tiles.
 
-// 1 / kStripeReach2 of gen/stripe_tile.h as bits: compilers round constant divisions differently.
+// 1 / kStripeReach2 of gen/noise/stripe_tile.h as bits: compilers round constant divisions differently.
 const float kInverseStripeReach2 = uintBitsToFloat(0x3F25294Bu);
 
 // sin of so many turns.

@@ -1,4 +1,4 @@
-// Cells of random points for one sample, with the operations of gen/noise.h in the same order as the CPU's tiles.
+// Cells of random points for one sample, with the operations of gen/noise/noise.h in the same order as the CPU's tiles.
 #include "terrane/gen_gpu/noise.glsl"
 
 struct Voronoi {

@@ -1,6 +1,6 @@
 // Allocates ranges of several buffers (arenas) of limited size. A range lies in one arena. Units are the
-// caller's (quads). Plain bookkeeping without OpenGL: the caller makes the buffers that a growth asks for.
-// Not synchronized: one thread at a time.
+// caller's (quads). Plain bookkeeping without OpenGL: the caller creates the buffers of a growth. It is not
+// synchronized: one thread at a time may use it.
 //
 // An address is arena × arenaSize + offset, so that 32 bits name a unit in any arena. Only the last arena
 // grows: it doubles, which copies it, up to the limit. When it cannot grow further, or there is no room for
@@ -18,14 +18,14 @@
 
 namespace terrane::gpu {
 
-// Allocates ranges of one large buffer: best fit, neighbors merged when freed. Units are the caller's (bytes,
-// quads). Plain bookkeeping without OpenGL; not synchronized: one thread at a time.
+// Allocates ranges of one large buffer by best fit, and merges neighbors when they are freed. Units are the
+// caller's (bytes, quads). It uses no OpenGL and is not synchronized: one thread at a time may use it.
 class RangeAllocator {
   public:
     explicit RangeAllocator(std::uint32_t capacity);
 
-    // Allocates from the smallest free range that holds size, the lowest of those: O(log n). None if there is
-    // no such range.
+    // Allocates from the smallest free range that holds size, the lowest of those: O(log n). Returns nothing
+    // if there is no such range.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
     // Frees a range from allocate, or a part of one; the rest is freed later. O(log n).
     void free(std::uint32_t offset, std::uint32_t size);
@@ -64,14 +64,15 @@ class ArenaAllocator {
     // Begins with one arena. Addresses of all arenas must fit 32 bits.
     explicit ArenaAllocator(const ArenaSizes& sizes);
 
-    // Allocates from the first arena with a free range of at least `size`, by best fit there. None if no
-    // arena has one.
+    // Allocates from the first arena with a free range of at least `size`, by best fit there. Returns nothing
+    // if no arena has one.
     [[nodiscard]] std::optional<std::uint32_t> allocate(std::uint32_t size);
     // Frees a range from allocate, or a part of one.
     void free(std::uint32_t address, std::uint32_t size);
 
-    // The growth after which `size` units fit, if there is one that adds at most `room` units. While an arena
-    // is copied the old buffer exists beside the new one, so all of the new capacity counts as added.
+    // Returns the growth after which `size` units fit, if there is one that adds at most `room` units. While
+    // an arena is copied the old buffer exists beside the new one, so all of the new capacity counts as
+    // added.
     [[nodiscard]] std::optional<ArenaGrowth> planGrowth(std::uint32_t size, std::uint64_t room) const;
     // Applies a planned growth. The new units are free.
     void grow(const ArenaGrowth& growth);
@@ -88,7 +89,7 @@ class ArenaAllocator {
     std::vector<RangeAllocator> arenas_;
 };
 
-// The buffers of an ArenaAllocator's arenas, for code that writes to addresses in them. A plain value.
+// The buffers of an ArenaAllocator's arenas, for code that writes to addresses in them. It is a plain value.
 // Address a lies in buffers[a / arenaSize], at unit a % arenaSize.
 struct ArenaBuffers {
     std::vector<const Buffer*> buffers;  // one at least; they outlive this

@@ -1,4 +1,4 @@
-// A GL buffer of fixed size and its uploads. Used on the thread of its context.
+// A GL buffer of fixed size and its uploads. It is used on the thread of its context.
 #pragma once
 
 #include <cstddef>
@@ -13,23 +13,23 @@ namespace terrane::gpu {
 class Buffer {
   public:
     Buffer() = default;
-    // The content is undefined until written. Flags of glNamedBufferStorage: GL_DYNAMIC_STORAGE_BIT for
-    // upload().
+    // The content is undefined until written. `flags` are those of glNamedBufferStorage:
+    // GL_DYNAMIC_STORAGE_BIT for upload().
     Buffer(std::size_t sizeBytes, GLbitfield flags, std::string_view label);
-    // Holds a copy of data, which is not empty.
+    // Creates a buffer with a copy of `data`, which is not empty.
     Buffer(std::span<const std::byte> data, GLbitfield flags, std::string_view label);
 
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     [[nodiscard]] std::size_t sizeBytes() const { return sizeBytes_; }
 
-    // Needs GL_DYNAMIC_STORAGE_BIT.
+    // Uploads data; the buffer needs GL_DYNAMIC_STORAGE_BIT.
     void upload(std::size_t offsetBytes, std::span<const std::byte> data);
     template <class T>
     void uploadVector(std::size_t offsetBytes, const std::vector<T>& values) {
         upload(offsetBytes, std::as_bytes(std::span(values)));
     }
 
-    // Waits for the GPU; for tests and read-back outside the frame.
+    // Downloads data and waits for the GPU; for tests and read-back outside the frame.
     void download(std::size_t offsetBytes, std::span<std::byte> out) const;
 
     void bindStorage(GLuint index) const;
@@ -43,8 +43,8 @@ class Buffer {
 };
 
 // A buffer as a one-dimensional texture, which shaders read by texelFetch from a samplerBuffer, in a texture
-// format. Software renderers gather texels, but read storage buffers one number at a time. Used on the thread
-// of its context.
+// format. Software renderers gather texels, but read storage buffers one number at a time. It is used on the
+// thread of its context.
 class BufferTexture {
   public:
     BufferTexture() = default;
@@ -54,7 +54,7 @@ class BufferTexture {
     [[nodiscard]] GLuint id() const { return handle_.id(); }
     void bind(GLuint unit) const;
 
-    // Most elements of a buffer texture.
+    // Returns the most elements of a buffer texture.
     [[nodiscard]] static std::size_t maxElements();
 
   private:

@@ -11,7 +11,7 @@
 
 namespace terrane::gpu {
 
-// Properties and limits of the driver of the current context. Queried once after a context is made, on its
+// The properties and limits of the driver of a context, queried once after the context is created, on its
 // thread.
 struct DeviceInfo {
     std::string vendor;
@@ -32,7 +32,7 @@ struct DeviceInfo {
 
 [[nodiscard]] DeviceInfo queryDevice();
 
-// One line naming the first thing the current context lacks.
+// Returns an error that names the first feature that the current context lacks.
 [[nodiscard]] base::Result<void> checkRequirements();
 
 struct ContextOptions {
@@ -53,14 +53,15 @@ class HeadlessContext {
     ~HeadlessContext();
 
     void makeCurrent() const;
-    // Gives the current context a default framebuffer, which it lacks without a window; replaces a former
-    // one.
+    // Gives the current context a default framebuffer, which it lacks without a window; it replaces an
+    // earlier one.
     base::Result<void> setSurface(int width, int height);
     [[nodiscard]] bool valid() const { return context_ != nullptr; }
 
-    // Null without the debug option.
+    // Returns the log of driver messages; null without the debug option.
     [[nodiscard]] DebugLog* debugLog() const { return debugLog_.get(); }
-    // Errors counted since the start or the last DebugLog::clear(); 0 without the debug option.
+    // Returns the number of errors counted since the start or the last DebugLog::clear(); 0 without the debug
+    // option.
     [[nodiscard]] int debugErrorCount() const { return debugLog_ ? debugLog_->errorCount() : 0; }
 
   private:

@@ -15,7 +15,7 @@ class DebugLog {
     [[nodiscard]] int errorCount() const { return errors_; }
     void clear() { errors_ = 0; }
 
-    // An error of the driver; aborts the program after logging when the log is fatal.
+    // Counts and logs an error of the driver; aborts the program afterwards if the log is fatal.
     void addError(std::string_view message) const;
 
   private:

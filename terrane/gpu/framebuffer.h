@@ -1,5 +1,5 @@
-// Textures that are drawn into together. The textures must outlive the framebuffer. Used on the thread of its
-// context.
+// Textures that are drawn into together. The textures must outlive the framebuffer. It is used on the thread
+// of its context.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,7 +14,8 @@
 
 namespace terrane::gpu {
 
-// Level 0 of a texture, or of one layer of an array. Refers to the texture by its GL name, for a short while.
+// Level 0 of a texture, or of one layer of an array. It refers to the texture by its GL name and must not
+// outlive it.
 struct Attachment {
     Attachment() = default;
     Attachment(const Texture2D& texture);
@@ -34,12 +35,12 @@ struct FramebufferOptions {
 
 class Framebuffer {
   public:
-    // Fails when the driver cannot draw into this combination.
+    // Creates a framebuffer. It fails if the driver cannot draw into this combination.
     [[nodiscard]] static base::Result<Framebuffer> create(const FramebufferOptions& options,
                                                           std::string_view label);
     Framebuffer() = default;
 
-    // Makes draws go here, over the whole size.
+    // Binds the framebuffer for draws, over its whole size.
     void bind() const;
     void clearColor(int index, glm::vec4 color) const;
     void clearDepth(float depth) const;
@@ -61,8 +62,8 @@ class Framebuffer {
 void blitToWindow(const Framebuffer& from, int colorIndex, glm::ivec2 windowSize, GLenum filter);
 void clearWindow(glm::vec3 color);  // sRGB, as the screen shows it
 
-// Reads the colors as 8 bits a channel, the top row first. Waits for the GPU. Not from multisampled
-// framebuffers.
+// Reads the colors as 8 bits a channel, the top row first. Waits for the GPU. The framebuffer must not be
+// multisampled.
 [[nodiscard]] base::Image readPixels(const Framebuffer& from, int colorIndex = 0);
 
 }  // namespace terrane::gpu

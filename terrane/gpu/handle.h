@@ -1,6 +1,6 @@
 // The owner of one OpenGL name. Every GL type of this module holds one: 0 is the empty state, moving leaves 0
-// behind, destroying deletes the object. Used on the thread whose context made the object, while that context
-// is current.
+// behind, destroying deletes the object. It is used on the thread whose context made the object, while that
+// context is current.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -50,7 +50,7 @@ class Handle {
     GLuint id_ = 0;
 };
 
-// A query object for a target such as GL_TIMESTAMP.
+// Returns a query object for a target such as GL_TIMESTAMP.
 [[nodiscard]] Handle<ObjectKind::Query> createQuery(GLenum target);
 
 }  // namespace terrane::gpu

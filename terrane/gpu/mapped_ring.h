@@ -1,5 +1,5 @@
 // Memory that the CPU writes and the GPU reads in the same frame, without copies or waiting: one mapped
-// buffer cut into frame slices, one per frame in flight. Used by the renderer on the context's thread,
+// buffer cut into frame slices, one per frame in flight. The renderer uses it on the context's thread,
 // between beginFrame and endFrame.
 #pragma once
 
@@ -26,16 +26,17 @@ class MappedRing {
     };
 
     MappedRing() = default;
-    // frameSliceBytes: what one frame may take, rounded up to the alignment that bindings need. The ring
-    // takes three times that. Check isMapped() before use.
+    // Creates a ring in which one frame may use `frameSliceBytes`, rounded up to the alignment of bindings.
+    // The ring takes three times as much memory. Check isMapped() before use.
     MappedRing(std::size_t frameSliceBytes, std::string_view label);
 
-    // Waits only if the GPU still reads what was written kFrameSlices frames ago.
+    // Begins a frame. Waits only if the GPU still reads the slice that was written kFrameSlices frames ago.
     void beginFrame();
-    // Comes after the last GL command that reads this frame's allocations.
+    // Ends the frame, after the last GL command that reads its allocations.
     void endFrame();
 
-    // Allocates memory of this frame, aligned for every binding. None when the frame slice is full.
+    // Allocates memory of this frame, aligned for every binding. Returns nothing when the frame slice is
+    // full.
     [[nodiscard]] std::optional<Allocation> allocate(std::size_t sizeBytes);
     template <class T>
     [[nodiscard]] std::optional<Allocation> write(std::span<const T> values) {
@@ -54,7 +55,7 @@ class MappedRing {
         bindUniform(index, *allocation);
     }
 
-    // False if the driver has no memory for it.
+    // Returns whether the ring has memory; false if the driver has none for it.
     [[nodiscard]] bool isMapped() const { return mapped_ != nullptr; }
     [[nodiscard]] const Buffer& buffer() const { return buffer_; }
     [[nodiscard]] GLuint id() const { return buffer_.id(); }

@@ -1,5 +1,5 @@
 // The fixed-function state of a draw. Each draw states all of it, so that no pass depends on the state left
-// by the previous one. Used on the thread of the context.
+// by the previous one. It is used on the thread of the context.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -9,8 +9,8 @@
 
 namespace terrane::gpu {
 
-// Comparison of a fragment's depth with that of the target that must hold for it to pass. Off also writes no
-// depth.
+// The comparison of a fragment's depth with the target's that must hold for the fragment to pass. Off also
+// writes no depth.
 enum class DepthTest : std::uint8_t { Off, Always, Less, Equal, Greater };
 // Over: premultiplied color over the target.
 // Through: color plus the target times the second output of the shader, for each channel.
@@ -32,13 +32,13 @@ struct PipelineState {
     bool operator==(const PipelineState&) const = default;
 };
 
-// Sets the state of its context, and only what differs from the state before. Every object that draws in the
-// context has its own.
+// Sets the state of its context, and only the members that differ from the current ones. Every object that
+// draws in the context has a Pipeline of its own.
 class Pipeline {
   public:
     void set(const PipelineState& state);
-    // Other code may have changed the state: the next set() sets all of it.
-    void forget() { isKnown_ = false; }
+    // Call this if other code may have changed the state: the next set() sets all of it.
+    void invalidate() { isKnown_ = false; }
 
   private:
     PipelineState current_;
@@ -46,10 +46,10 @@ class Pipeline {
 };
 
 // Limits draws and clears of color and depth to a rectangle of the target while it lives. Copies are not
-// limited. One at a time. Used on the thread of the context.
+// limited. One at a time. It is used on the thread of the context.
 class Scissor {
   public:
-    // Pixels; row 0 is the lowest.
+    // The rectangle is in pixels; row 0 is the lowest.
     Scissor(glm::ivec2 corner, glm::ivec2 size) {
         glScissor(corner.x, corner.y, size.x, size.y);
         glEnable(GL_SCISSOR_TEST);

@@ -62,7 +62,7 @@ base::Result<Handle<ObjectKind::Shader>> compile(const ShaderSource& source, Sha
     glGetShaderiv(id, GL_COMPILE_STATUS, &compiled);
     if (compiled == GL_FALSE)
         return base::fail("{}: the shader does not compile: {}", source.files.front(),
-                          inOneLine(nameSources(shaderLog(id), source.files)));
+                          inOneLine(replaceSourceNumbers(shaderLog(id), source.files)));
     return shader;
 }
 

@@ -1,4 +1,4 @@
-// A linked GL program of shaders found by a ShaderLoader. Used on the thread of its context.
+// A linked GL program of shaders found by a ShaderLoader. It is used on the thread of its context.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -14,8 +14,8 @@ namespace terrane::gpu {
 
 class Program {
   public:
-    // Errors are one line: the shader or program, then the driver's messages, separated by " | ". Messages of
-    // the compiler have file and line.
+    // Compiles and links a program. Errors are one line: the shader or program, then the driver's messages,
+    // separated by " | ". Messages of the compiler have file and line.
     [[nodiscard]] static base::Result<Program> graphics(const ShaderLoader& loader,
                                                         std::string_view vertexName,
                                                         std::string_view fragmentName,
@@ -25,7 +25,7 @@ class Program {
     Program() = default;
 
     void use() const;
-    // Leaves no program current. Some drivers check the textures of the current program at each clear,
+    // Makes no program current. Some drivers check the textures of the current program at each clear,
     // including those deleted since its last draw.
     static void useNone();
 

@@ -1,5 +1,5 @@
-// Memory that the GPU copies results into and the CPU reads once a fence has passed. Used on the context's
-// thread.
+// Memory that the GPU copies results into and the CPU reads once a fence has passed. It is used on the
+// context's thread.
 #pragma once
 
 #include <epoxy/gl.h>
@@ -13,8 +13,8 @@
 
 namespace terrane::gpu {
 
-// A point in the stream of GL commands that can be asked whether the GPU has passed it. Used on the context's
-// thread.
+// A point in the stream of GL commands; passed() tests whether the GPU has reached it. It is used on the
+// context's thread.
 class Fence {
   public:
     Fence() = default;
@@ -28,7 +28,7 @@ class Fence {
     ~Fence();
 
     [[nodiscard]] bool valid() const { return sync_ != nullptr; }
-    // Does not wait. An empty fence is passed.
+    // Returns whether the GPU has passed the fence, without waiting. An empty fence counts as passed.
     [[nodiscard]] bool passed() const;
     void wait() const;
 
@@ -44,8 +44,8 @@ class ReadbackBuffer {
     // Queues a copy of the first `sizeBytes` of `from`, without waiting. data() holds it once a Fence
     // inserted afterwards has passed.
     void copyFrom(const Buffer& from, std::size_t sizeBytes);
-    // For shaders that write here themselves: they need glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT)
-    // before the fence.
+    // Binds the buffer for shaders that write to it; they need
+    // glMemoryBarrier(GL_CLIENT_MAPPED_BUFFER_BARRIER_BIT) before the fence.
     void bindStorage(GLuint index) const { buffer_.bindStorage(index); }
     [[nodiscard]] std::span<const std::byte> data() const { return {mapped_, buffer_.sizeBytes()}; }
 

@@ -186,7 +186,7 @@ std::string shaderHeader(ShaderStage stage, const ShaderDefines& defines) {
     return header;
 }
 
-std::string nameSources(std::string_view log, std::span<const std::string> files) {
+std::string replaceSourceNumbers(std::string_view log, std::span<const std::string> files) {
     std::string named;
     while (!log.empty()) {
         const std::string_view line = log.substr(0, log.find('\n'));

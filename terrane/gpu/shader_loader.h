@@ -1,6 +1,6 @@
 // Finds shaders and their includes: files embedded in the program, or, while developing, the files of a
-// source tree, which may change while the program runs. Made once by the program, used on the threads of its
-// GL contexts.
+// source tree, which may change while the program runs. It is made once by the program, used on the threads
+// of its GL contexts.
 #pragma once
 
 #include <cstdint>
@@ -19,8 +19,8 @@
 
 namespace terrane::gpu {
 
-// Text processing of shaders, without OpenGL: expanding includes, the lines before the first one, and naming
-// the files in a compiler's log. Pure functions, for ShaderLoader and for offline checks.
+// The next functions process the text of shaders without OpenGL: they expand includes, write the header and
+// name the files in a compiler's log. They are pure; ShaderLoader and offline checks call them.
 enum class ShaderStage : std::uint8_t { Vertex, Fragment, Compute };
 
 // Name and value of each #define, in order.
@@ -39,11 +39,11 @@ struct ShaderSource {
 // Includes under any other condition are always expanded. Fails with "file:line: …".
 [[nodiscard]] base::Result<ShaderSource> expandIncludes(std::string_view name, const ShaderLookup& lookup);
 
-// #version, extensions and defines, which precede the expanded text.
+// Returns #version, extensions and defines, which precede the expanded text.
 [[nodiscard]] std::string shaderHeader(ShaderStage stage, const ShaderDefines& defines);
 
 // Replaces the source numbers in a compiler's log, "0(12)" or "0:12(5)", by the names of the files.
-[[nodiscard]] std::string nameSources(std::string_view log, std::span<const std::string> files);
+[[nodiscard]] std::string replaceSourceNumbers(std::string_view log, std::span<const std::string> files);
 
 class ShaderLoader {
   public:
@@ -62,8 +62,8 @@ class ShaderLoader {
 
     [[nodiscard]] std::optional<std::string> find(std::string_view path) const;
 
-    // Time of the newest write to a .glsl or .h file in the root's folder terrane; none without such files.
-    // Looks at every file there, about 1 ms: for development, once in a while.
+    // Returns the time of the newest write to a .glsl or .h file in the root's folder terrane; none without
+    // such files. It visits every file there, which takes about 1 ms: for development, once in a while.
     [[nodiscard]] std::optional<std::filesystem::file_time_type> newestWrite() const;
 
   private:
@@ -71,8 +71,8 @@ class ShaderLoader {
     std::filesystem::path shaderRoot_;
 };
 
-// The shaders that are compiled into the program.
-// `shaderRoot`: a source tree whose shaders take precedence over the built-in ones; empty for none.
+// Returns a loader of the shaders that are compiled into the program. `shaderRoot` is a source tree whose
+// shaders take precedence over the built-in ones, or empty for none.
 ShaderLoader builtInShaders(const std::string& shaderRoot);
 
 }  // namespace terrane::gpu

@@ -1,7 +1,7 @@
-// Textures of fixed size and format. Used on the thread of their context. Formats and types are OpenGL's:
-// `format` of the constructors is a sized internal format (GL_RGBA8), `format` and `type` of uploads describe
-// the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0. sizeBytes() is
-// the memory of all texels, 0 for an empty texture; drivers may pad it.
+// Textures of fixed size and format. It is used on the thread of their context. Formats and types are
+// OpenGL's: `format` of the constructors is a sized internal format (GL_RGBA8), `format` and `type` of
+// uploads describe the bytes given (GL_RGBA, GL_UNSIGNED_BYTE), rows without padding, the first row at v = 0.
+// sizeBytes() is the memory of all texels, 0 for an empty texture; drivers may pad it.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -16,7 +16,7 @@
 
 namespace terrane::gpu {
 
-// Number of levels down to 1 × 1.
+// Returns the number of levels down to 1 × 1.
 [[nodiscard]] int fullLevels(glm::ivec2 size);
 [[nodiscard]] glm::ivec2 levelSize(glm::ivec2 size, int level);
 
@@ -75,7 +75,8 @@ class Texture2DArray {
 class Texture3D {
   public:
     Texture3D() = default;
-    // Content is undefined until written. One level, linear filtering (nearest for integer formats), clamped.
+    // The content is undefined until written. The texture has one level and linear filtering (nearest for
+    // integer formats), and it is clamped.
     Texture3D(glm::ivec3 size, GLenum format, std::string_view label);
 
     // Uploads a box of texels. Types may be packed ones; `data` has as many bytes as they need.
@@ -93,8 +94,8 @@ class Texture3D {
     GLenum format_ = GL_NONE;
 };
 
-// A render target with several samples per pixel, at the same places in every pixel. The driver may take more
-// samples than asked for: see samples().
+// A render target with several samples per pixel, at the same positions in every pixel. The driver may use
+// more samples than requested: see samples().
 class Texture2DMultisample {
   public:
     Texture2DMultisample() = default;
@@ -114,7 +115,7 @@ class Texture2DMultisample {
     int samples_ = 0;
 };
 
-// State by which a shader reads a texture: filters, wrapping, comparison. Used on the thread of its context.
+// The state by which a shader reads a texture: filters, wrapping, comparison.
 struct SamplerSettings {
     GLenum minFilter = GL_LINEAR;
     GLenum magFilter = GL_LINEAR;
@@ -137,12 +138,12 @@ class Sampler {
 };
 
 // The textures of a draw, each at a unit with the sampler that reads it. They are bound as a whole, so that
-// no draw depends on what another one left. At most kMax; refers to the objects by their GL names.
+// no draw depends on the bindings of another. At most kMax; refers to the objects by their GL names.
 class TextureSet {
   public:
     static constexpr std::size_t kMax = 24;
 
-    // `sampler`: null for the texture's own filters. A texture 0 is left out.
+    // Adds a texture. `sampler` is null for the texture's own filters. Texture 0 is skipped.
     TextureSet& add(GLuint unit, GLuint texture, const Sampler* sampler = nullptr);
     TextureSet& add(const TextureSet& others);
     void bind() const;

@@ -1,4 +1,4 @@
-// GPU time of named parts of a frame, read some frames later so that nothing waits. Used by the renderer on
+// GPU time of named parts of a frame, read some frames later so that nothing waits. The renderer uses it on
 // the context's thread.
 #pragma once
 
@@ -30,7 +30,7 @@ class GpuTimer {
     // frame is not measured when the GPU is as many frames behind as there are in the ring.
     void nextFrame();
 
-    // Zones may be nested, and all end within their frame.
+    // Begins a zone. Zones may be nested, and all end within their frame.
     void begin(std::string_view name);
     void end();
 

@@ -1,5 +1,5 @@
 // A vertex array without vertex attributes: shaders pull vertices from buffers. Core OpenGL draws nothing
-// without a vertex array. Used on the thread of its context.
+// without a vertex array. It is used on the thread of its context.
 #pragma once
 
 #include <cassert>
@@ -20,7 +20,7 @@ class VertexArray {
         handle_.label(label);
     }
 
-    // Indices for glDrawElements*; the buffer must outlive the vertex array.
+    // Sets the indices for glDrawElements*; the buffer must outlive the vertex array.
     void setElementBuffer(const Buffer& indices) { glVertexArrayElementBuffer(id(), indices.id()); }
 
     // Reads `count` integers (1…4) for each instance from the start of every `strideBytes` of the buffer,

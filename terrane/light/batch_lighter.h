@@ -1,6 +1,6 @@
 // Lights single chunks from scratch, in batches. Back ends: the calling thread here, compute shaders in
-// terrane/light_gpu. They give the same light as lightChunk (light_chunk.h), to the bit. Used on one thread;
-// that of terrane/light_gpu is the context's.
+// terrane/light_gpu. They give the same light as lightChunk (light_chunk.h), to the bit. It is used on one
+// thread; that of terrane/light_gpu is the context's.
 #pragma once
 
 #include <array>
@@ -16,8 +16,8 @@ namespace terrane::light {
 
 struct LightRequest {
     world::ChunkPos pos;  // level 0: light loses levels by the block
-    // The chunk to light in the middle (4) and its neighbors, by y, then x. Null: unknown, counts as dark and
-    // opaque.
+    // The chunk to light in the middle (4) and its neighbors, by y, then x. A null chunk is unknown: it
+    // counts as dark and opaque.
     std::array<world::ChunkPtr, kFieldChunks> chunks;
 };
 
@@ -31,9 +31,9 @@ class BatchLighter {
     virtual ~BatchLighter() = default;
 
     // Starts a batch from the front of `requests` and returns how many it took; 0 when no more batches fit in
-    // flight: take one first. Does not wait, and keeps what it needs of the chunks. A batch is cheapest when
-    // its chunks are neighbors, since they share blocks. Throws std::invalid_argument, and takes none, if a
-    // chunk of the batch is not of level 0.
+    // flight: take one first. It does not wait, and the chunks are not needed afterwards. A batch is cheapest
+    // when its chunks are neighbors, since they share blocks. Throws std::invalid_argument, and takes none,
+    // if a chunk of the batch is not of level 0.
     [[nodiscard]] virtual std::size_t submit(std::span<const LightRequest> requests) = 0;
 
     // Returns the results of the oldest batch, in the order of its requests, if it is finished (with `wait`:
@@ -43,17 +43,17 @@ class BatchLighter {
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
 };
 
-// Lights on the calling thread, which works in take() even without `wait`. Up to 64 requests a batch; 110 KB
-// for each chunk that they name while it is worked on. `table` outlives it.
+// Creates a lighter that works on the calling thread, in take(), even without `wait`. A batch has up to 64
+// requests and takes 110 KB for each chunk that they name. `table` outlives it.
 std::unique_ptr<BatchLighter> makeCpuLighter(const LightTable& table);
 
 // Returns the light of all chunks, in the order of `requests`. Waits; nothing else may be in flight.
 std::vector<ChunkLight> lightAll(BatchLighter& lighter, std::span<const LightRequest> requests);
 
-// Request for one chunk of an area with its neighbors in the area. The area's chunks outlive it.
+// Returns the request for one chunk of an area with its neighbors in the area. The area's chunks outlive it.
 LightRequest requestIn(const LightArea& area, int x, int y);
 
-// For back ends: throws std::invalid_argument if the chunk is not of level 0.
+// Back ends call it. It throws std::invalid_argument if the chunk is not of level 0.
 void requireLevel0(const LightRequest& request);
 
 }  // namespace terrane::light

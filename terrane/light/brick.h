@@ -1,6 +1,6 @@
 // Unpacked bricks to compute with: 16³ values of 16 bits, light or opacities (the same number in all four
-// nibbles). Index: x + 16 y + 256 z, so that 16 values along x, a row, are 32 bytes. Part of LocalLight
-// (light_chunk.h).
+// nibbles). The index is x + 16 y + 256 z, so that 16 values along x, a row, are 32 bytes. It is a part of
+// LocalLight (light_chunk.h).
 #pragma once
 
 #include <array>
@@ -26,14 +26,14 @@ struct BrickView {
     LightValue uniformValue() const { return values[0]; }
 };
 
-// Shared uniform bricks of the common values: darkness, full daylight and the sixteen opacities, 136 KiB.
-// Null for other values.
+// Returns the shared uniform brick of a common value: darkness, full daylight and the sixteen opacities, 136
+// KiB in all. Returns null for other values.
 const Brick* sharedUniformBrick(LightValue value);
 
 // Packs the values into their smallest form.
 LightBrick packBrick(BrickView view);
 
-// Owns the bricks of a computation and reuses them for the next. One thread at a time.
+// Owns the bricks of a computation and reuses them for the next. One thread at a time may use it.
 class BrickPool {
   public:
     // Returns a brick of 8 KiB with undefined content, valid until reset() or release().

@@ -13,8 +13,8 @@
 
 namespace terrane::light {
 
-// Light of a block: four levels of 0…15. Any thread.
-// Red in bits 0–3, green 4–7, blue 8–11, daylight 12–15.
+// Light of a block: four levels of 0…15. Any thread may use it. Red in bits 0–3, green 4–7, blue 8–11,
+// daylight 12–15.
 using LightValue = std::uint16_t;
 
 enum LightComponent : int { kRed, kGreen, kBlue, kDaylight, kComponentCount };
@@ -31,7 +31,7 @@ constexpr LightValue withLevel(LightValue value, int component, int level) {
     return static_cast<LightValue>((value & ~(kMaxLevel << 4 * component)) | level << 4 * component);
 }
 
-// The same level in all four components, the form of opacities.
+// Returns a value with the same level in all four components, the form of opacities.
 constexpr LightValue allComponents(int level) {
     return static_cast<LightValue>(level * 0x1111);
 }
@@ -43,10 +43,10 @@ using LightBrick = world::Section;
 class ChunkLight {
   public:
     LightValue at(world::BlockIndex i) const { return bricks_[i >> 12].get(i & 4095); }
-    // x and y in the chunk, 0…15; z 0…255.
+    // Returns the light of a block: x and y in the chunk, 0…15; z 0…255.
     LightValue get(int x, int y, int z) const { return at(world::blockIndex(x, y, z)); }
 
-    // Number 0…15 from below.
+    // Returns brick `number`, 0…15 from below.
     const LightBrick& brick(int number) const {
         assert(number >= 0 && number < world::kSectionsPerChunk && "number of a brick in a chunk");
         return bricks_[static_cast<std::size_t>(number)];

@@ -1,5 +1,5 @@
-// Half a row of light, eight voxels, in SIMD: in one vector of 32 bytes or in two of 16. Included once for
-// each instruction set by light_levels-inl.h.
+// Half a row of light, eight voxels, in SIMD: in one vector of 32 bytes or in two of 16. It is included once
+// for each instruction set by light_levels-inl.h.
 #if defined(TERRANE_LIGHT_HALF_LIGHT_LEVELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_LIGHT_HALF_LIGHT_LEVELS_INL_H
 #undef TERRANE_LIGHT_HALF_LIGHT_LEVELS_INL_H
@@ -60,7 +60,7 @@ HWY_INLINE void storeHalf(Half half, LightValue* values) {
                bytesOf(values));
 }
 
-// A level of 1.
+// Returns a level of 1.
 HWY_INLINE Half halfOfOnes() {
     return {evenAndOdd(0x0101010101010101, 0x1010101010101010)};
 }

@@ -129,8 +129,7 @@ void settleBrick(LightField& field, int index, Rule rule) {
 
 template <class Rule>
 void settle(LightField& field, Rule rule) {
-    for (int index = field.takeDirty(); index >= 0; index = field.takeDirty())
-        settleBrick(field, index, rule);
+    for (int index = field.popDirty(); index >= 0; index = field.popDirty()) settleBrick(field, index, rule);
 }
 
 void raise(LightField& field) {

@@ -1,4 +1,5 @@
-// The inner loops of the solver in SIMD, for the best instruction set of the machine. Inside the module.
+// The inner loops of the solver in SIMD, for the best instruction set of the machine. Only this module
+// includes it.
 //
 // A row of 16 voxels is handled at once, all four components of each: 64 levels.
 #pragma once
@@ -26,7 +27,7 @@ void raiseLight(LightField& field);
 // equals the level that a removed neighbor gave is removed too. Starts from the marked rows.
 void propagateDecreases(LightField& field);
 
-// light = source where `decreased` is not 0, else before: whole bricks.
+// Sets light = source where `decreased` is not 0, else before, for whole bricks.
 void replaceDecreased(const LightValue* decreased, const LightValue* source, const LightValue* before,
                       LightValue* light);
 

@@ -22,8 +22,8 @@ struct LightArea {
 // Throws std::invalid_argument if the chunks are not as LightArea says.
 void requireWhole(const LightArea& area);
 
-// Returns the light of all chunks, in the order of `area.chunks`; requireWhole(area). One thread; keeps three
-// rows of chunks unpacked (about 300 KiB for each chunk of a row).
+// Returns the light of all chunks, in the order of `area.chunks`; requireWhole(area). One thread; it unpacks
+// three rows of chunks at a time (about 300 KiB for each chunk of a row).
 std::vector<ChunkLight> lightArea(const LightArea& area, const LightTable& table);
 
 // Solves the light of areas from scratch. Back ends: the CPU here, compute shaders in terrane/light_gpu. They
@@ -37,7 +37,7 @@ class AreaSolver {
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
 };
 
-// Used on one thread, any. `table` outlives it.
+// Creates the solver of the CPU, which any one thread may use. `table` outlives it.
 std::unique_ptr<AreaSolver> makeCpuSolver(const LightTable& table);
 
 }  // namespace terrane::light

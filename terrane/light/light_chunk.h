@@ -17,8 +17,9 @@
 
 namespace terrane::light {
 
-// Result of stage 1; immutable, shared between threads. Unpacked, 17 KiB a brick that is not uniform: about
-// 110 KB in the overworld. No longer needed once the chunk and its eight neighbors are lit.
+// The result of stage 1; it is immutable and shared between threads. It is unpacked, with 17 KiB for each
+// brick that is not uniform: about 110 KB in the overworld. It is needed until the chunk and its eight
+// neighbors are lit.
 struct LocalLight {
     // Light at x = 0 or x = 15, index y + 16 z.
     using Side = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
@@ -41,8 +42,8 @@ struct LightScratch {
 
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
 
-// Index x + 3 y, the chunk itself in the middle (4). Null: unknown, counts as dark and opaque; the result is
-// then that of a world that ends there.
+// The index is x + 3 y, with the chunk itself in the middle (4). A null chunk is unknown: it counts as dark
+// and opaque; the result is then that of a world that ends there.
 using LocalLightNeighborhood = std::array<const LocalLight*, kFieldChunks>;
 
 ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch);

@@ -49,7 +49,7 @@ LightValue* LightField::writable(FieldBrick& brick) {
     return brick.light.writable;
 }
 
-int LightField::takeDirty() {
+int LightField::popDirty() {
     if (queueHead_ == queue_.size()) {
         queue_.clear();
         queueHead_ = 0;

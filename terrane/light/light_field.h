@@ -1,5 +1,5 @@
-// Working area of the solver: 3×3 chunks of bricks surrounded by darkness, and the rows that are to be
-// processed. Part of LightScratch (light_chunk.h); one thread at a time.
+// The working area of the solver: 3×3 chunks of bricks surrounded by darkness, and the rows that are to be
+// processed. It is a part of LightScratch (light_chunk.h); one thread at a time uses it.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ class LightField {
     LightField() { reset(); }
     void reset();  // all bricks outside, no marked rows
 
-    // Chunk 0…8, brick 0…15 from below.
+    // Returns the index of brick 0…15, from below, of chunk 0…8.
     static int indexOf(int chunk, int brick) {
         return (chunk % kFieldSide + 1) * kStepX + (chunk / kFieldSide + 1) * kStepY + (brick + 1) * kStepZ;
     }
@@ -61,7 +61,7 @@ class LightField {
     LightValue* writable(FieldBrick& brick);
 
     // Returns the next brick with marked rows, or -1. Its rows stay marked.
-    int takeDirty();
+    int popDirty();
 
     BrickPool& pool() { return pool_; }
 

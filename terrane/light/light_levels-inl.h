@@ -1,4 +1,4 @@
-// Rows of light in SIMD. Included once for each instruction set by kernels.cpp.
+// Rows of light in SIMD. It is included once for each instruction set by kernels.cpp.
 #if defined(TERRANE_LIGHT_LIGHT_LEVELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_LIGHT_LIGHT_LEVELS_INL_H
 #undef TERRANE_LIGHT_LIGHT_LEVELS_INL_H
@@ -53,14 +53,14 @@ HWY_INLINE bool isSame(const LightLevels& p, const LightLevels& q) {
     return hn::AllTrue(kBytes, hn::Eq(any, hn::Zero(kBytes)));
 }
 
-// 1 + opacity. In the high four bits 15 saturates at 255, which darkens 240 as 256 would.
+// Returns 1 + opacity. In the high four bits 15 saturates at 255, which darkens 240 as 256 would.
 HWY_INLINE LightLevels lossOf(const LightValue* opacity) {
     const LightLevels one = {halfOfOnes(), halfOfOnes()};
     return each([](Bytes a, Bytes b) HWY_ATTR { return hn::SaturatedAdd(a, b); }, loadRow(opacity), one);
 }
 
-// The brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east` begins
-// with the one after it. Shifts stay in blocks of 16 bytes.
+// Returns the brighter of the voxels at x − 1 and x + 1. `west` ends with the voxel before the row, `east`
+// begins with the one after it. Shifts stay in blocks of 16 bytes.
 HWY_INLINE LightLevels brighterBeside(const Half& west, const LightLevels& row, const Half& east) {
     const auto before = [](Bytes here, Bytes lower)
                             HWY_ATTR { return hn::CombineShiftRightBytes<14>(kBytes, here, lower); };

@@ -1,5 +1,5 @@
 // Light sources of a chunk from its own blocks, before light spreads: opacities, emission and the daylight of
-// its columns. Part of LocalLight (light_chunk.h); any thread.
+// its columns. It is a part of LocalLight (light_chunk.h); any thread may use it.
 #pragma once
 
 #include <array>
@@ -13,14 +13,15 @@
 
 namespace terrane::light {
 
-// Opacity and emission of block types, by id. Made once a session, immutable, shared by all threads.
+// Opacity and emission of block types, by id. It is made once a session, immutable, shared by all threads.
 class LightTable {
   public:
     explicit LightTable(const world::BlockRegistry& blocks);
 
-    // Opacity 0…15 of the block in each of the four components; unknown ids have that of "missing".
+    // Returns the opacity 0…15 of the block in each of the four components; unknown ids have that of
+    // "missing".
     LightValue opacity(world::BlockId id) const { return entry(id).opacity; }
-    // Red, green and blue; no daylight.
+    // Returns the emission in red, green and blue, without daylight.
     LightValue emission(world::BlockId id) const { return entry(id).emission; }
 
   private:

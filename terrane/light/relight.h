@@ -1,5 +1,5 @@
-// Updates light after blocks have changed: only what changes is computed again. The result is, to the bit,
-// that of a world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
+// Updates light after blocks have changed: only the changed light is computed again. The result is, to the
+// bit, that of a world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ using ChangedBricks = std::array<std::uint16_t, kFieldChunks>;
 ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes, const LightTable& table,
                       LightScratch& scratch);
 
-// The same for changes in any chunks, at once.
+// A chunk and its light, for changes in any chunks at once.
 
 struct LitChunk {
     world::ChunkPtr chunk;

@@ -1,4 +1,4 @@
-// Finds how the light sources of a chunk change with its blocks. Inside the module; any thread.
+// Finds how the light sources of a chunk change with its blocks. Inside the module; any thread may use it.
 #pragma once
 
 #include <span>

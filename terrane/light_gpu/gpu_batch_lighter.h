@@ -1,6 +1,6 @@
 // Lights chunks from scratch in compute shaders: the same levels as light::lightChunk, to the bit.
-// docs/light.md has the algorithm. Results come some frames later through memory that nothing waits for. Used
-// on the context's thread.
+// docs/light.md has the algorithm. Results come some frames later through memory that nothing waits for. It
+// is used on the context's thread.
 #pragma once
 
 #include <memory>
@@ -14,21 +14,22 @@ namespace terrane::light_gpu {
 
 class GpuBatchLighter : public light::BatchLighter {
   public:
-    // GPU memory of each of three batches in flight, sized for the largest batch so far: 133 KB a solved
-    // chunk (requests and their neighbors), 131 KB a request, and the blocks. Example: 64 requests in a
-    // square have 100 solved chunks; rounded up to 128 they take 25 MB. The most, 256 requests and 324 chunks
-    // rounded up to 384, takes 85 MB. `table` outlives it.
+    // Creates the lighter. Each of three batches in flight takes GPU memory, sized for the largest batch so
+    // far: 133 KB a solved chunk (requests and their neighbors), 131 KB a request, and the blocks. Example:
+    // 64 requests in a square have 100 solved chunks; rounded up to 128 they take 25 MB. The most, 256
+    // requests and 324 chunks rounded up to 384, takes 85 MB. Creates the solver; Creates the solver; `table`
+    // outlives it.
     [[nodiscard]] static base::Result<GpuBatchLighter> create(const gpu::ShaderLoader& shaders,
                                                               const light::LightTable& table);
     GpuBatchLighter(GpuBatchLighter&&) noexcept;
     GpuBatchLighter& operator=(GpuBatchLighter&&) noexcept;
     ~GpuBatchLighter() override;
 
-    // Takes up to 256 requests with up to 324 chunks in all. A batch ends before a request that has another
-    // snapshot of a chunk than those before it, or that asks for the same chunk again.
+    // Accepts up to 256 requests with up to 324 chunks in all. A batch ends before a request that has another
+    // snapshot of a chunk than those before it, or that requests the same chunk again.
     [[nodiscard]] std::size_t submit(std::span<const light::LightRequest> requests) override;
-    // Light in winding tunnels may need more rounds than a batch has; then several calls without `wait`
-    // return nothing.
+    // Returns finished results. Light in winding tunnels may need more rounds than a batch has; then several
+    // calls without `wait` return nothing.
     [[nodiscard]] std::vector<light::LightResult> take(bool wait) override;
     std::string_view backend() const override { return "gpu"; }
 
@@ -39,14 +40,14 @@ class GpuBatchLighter : public light::BatchLighter {
 };
 
 // Lights whole areas in compute shaders: GpuBatchLighter behind the interface that both back ends have for
-// files, tests and benchmarks. Used on the context's thread.
+// files, tests and benchmarks. It is used on the context's thread.
 class GpuLightSolver : public light::AreaSolver {
   public:
     // `table` outlives it.
     static base::Result<GpuLightSolver> create(const gpu::ShaderLoader& shaders,
                                                const light::LightTable& table);
 
-    // Takes areas of any size, in parts of 16×16 chunks, one batch each. Waits for the GPU.
+    // Lights areas of any size in parts of 16×16 chunks, one batch each. Waits for the GPU.
     std::vector<light::ChunkLight> solve(const light::LightArea& area) override;
     std::string_view backend() const override { return "gpu"; }
 

@@ -1,5 +1,5 @@
-// GPU memory of one batch, and the commands that light it. docs/light.md has the algorithm. Used by
-// gpu_batch_lighter.cpp on the context's thread.
+// GPU memory of one batch, and the commands that light it. docs/light.md has the algorithm.
+// gpu_batch_lighter.cpp uses it on the context's thread.
 #pragma once
 
 #include <span>
@@ -18,14 +18,12 @@
 
 namespace terrane::light_gpu {
 
-// Chunks as the shaders that solve light read them: sections in their packed form, with the opacity and
-// emission of blocks in place of their ids. Pure bookkeeping without OpenGL.
-// Appends the sixteen sections of a chunk, the lowest first.
+// The shaders that solve light read chunks as sections in their packed form, with the opacity and emission of
+// blocks in place of their ids. Appends the sixteen sections of a chunk, the lowest first.
 void appendChunk(world::PackedSections& packed, const world::Chunk& chunk, const light::LightTable& table);
 
-// Lists the chunks that are solved together, each once, and their neighbors. Pure bookkeeping without OpenGL.
-// Used by gpu_batch_lighter.cpp.
-// 16×16 neighboring chunks with one chunk around them, because light travels 15 blocks.
+// Lists the chunks that are solved together, each once, and their neighbors. It uses no OpenGL.
+// The limits are 16×16 neighboring chunks with one chunk around them, because light travels 15 blocks.
 constexpr std::size_t kMaxRequests = 16 * 16;
 constexpr std::size_t kMaxSolved = 18 * 18;
 
@@ -36,7 +34,7 @@ struct LightBatch {
 };
 
 // Takes as many requests from the front as fit, at least one. A batch has one snapshot of a chunk, so it ends
-// before a request that has another one, or that asks for the same chunk again.
+// before a request that has another one, or that requests the same chunk again.
 LightBatch gatherBatch(std::span<const light::LightRequest> requests);
 
 struct LightPrograms {
@@ -50,8 +48,8 @@ class LightWorkspace {
     bool isFree() const { return requested_.empty(); }
     // Uploads the chunks and submits as many rounds as most batches need, without waiting.
     void start(const LightPrograms& programs, const LightBatch& batch, const light::LightTable& table);
-    // Whether the result is available (with `wait`: once it is). Submits more rounds while light still
-    // spreads.
+    // Returns whether the result is available (with `wait`: once it is). Submits more rounds while light
+    // still spreads.
     bool isFinished(const LightPrograms& programs, bool wait);
     // Returns the results in the order of the batch's requests; the workspace is free again.
     std::vector<light::LightResult> takeResult();

@@ -1,4 +1,5 @@
-// Counts the steps, time and memory of a running script, and says which limit it met. One thread.
+// Counts the steps, time and memory of a running script, and reports which limit it exceeded. One thread uses
+// it.
 #pragma once
 
 #include <chrono>
@@ -29,8 +30,8 @@ struct Limits {
     std::chrono::milliseconds time{100};  // thread time
 };
 
-// Limits of what a script records. The larger generators of the program have some 3,000 nodes a pass. All
-// passes together have at most 100,000 nodes: Limits::steps / 40, the steps of a node (call.cpp).
+// Limits of the generator that a script records. The larger generators of the program have some 3,000 nodes a
+// pass. All passes together have at most 100,000 nodes: Limits::steps / 40, the steps of a node (call.cpp).
 constexpr std::size_t kMaxNodesInPass = 20'000;
 constexpr std::size_t kMaxPasses = 32;
 constexpr std::size_t kMaxFields = 128;
@@ -46,7 +47,7 @@ constexpr std::size_t kMaxLoopDepth = 2;
 constexpr double kMaxOperationsPerVoxel = 100'000;
 constexpr double kVoxelsOfChunk = 65'536;
 // Heights of one region of a drainage map: (128 + 2 · 88)² cells with 4 samples each
-// (gen/drainage_curves.cpp). A chunk at a corner needs four regions.
+// (gen/drainage/drainage_curves.cpp). A chunk at a corner needs four regions.
 constexpr double kColumnsOfRegion = 369'664;
 constexpr double kRegionsOfChunk = 4;
 // Rings of chunks around one that are made before it: (2 · 6 + 1)² = 169 chunks.
@@ -62,7 +63,7 @@ class Budget {
 
     // Returns false once a limit is used up. Reads the clock after every 2,000 steps.
     bool charge(std::int64_t steps);
-    // The same, and reads the clock in any case.
+    // Does the same, and reads the clock in any case.
     bool chargeAndReadClock(std::int64_t steps);
     // Stops counting the thread's time until the next call of resumeClock, for work that a process does once.
     void pauseClock();
@@ -73,10 +74,11 @@ class Budget {
 
     // Sets the state whose line line() gives.
     void watch(lua_State* state) { state_ = state; }
-    // The script's line where a limit was met, 0 if none ran. Steps and time come before memory.
+    // Returns the script's line where a limit was met, 0 if none ran. Steps and time come before memory.
     int line() const { return line_; }
 
-    // A lua_Alloc whose first argument is a Budget. Returns null beyond the limits; then Lua ends the script.
+    // Allocates memory for Lua, as a lua_Alloc whose first argument is a Budget. Returns null beyond the
+    // limits; then Lua ends the script.
     static void* allocate(void* budget, void* block, std::size_t oldBytes, std::size_t newBytes);
 
   private:
@@ -92,9 +94,9 @@ class Budget {
     int line_ = 0;
 };
 
-// Bounds the time that a chunk of a recorded generator takes. script.cpp checks each script's. Any thread.
-// Returns the reason if a chunk may take too long, else an empty string. The graph has no mistakes. Stamps
-// count once it has its table of shapes.
+// Bounds the time that a chunk of a recorded generator takes. script.cpp checks each script's. Any thread may
+// call it. Returns the reason if a chunk may take too long, else an empty string. The graph has no mistakes.
+// Stamps count once it has its table of shapes.
 std::string unboundedWork(const gen::GeneratorGraph& graph);
 
 }  // namespace terrane::lua

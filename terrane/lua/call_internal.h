@@ -47,7 +47,7 @@ class Call {
     int count() const { return arguments_; }
     bool isMissing(int argument) const { return lua_isnoneornil(L, argument); }
     bool isNumber(int argument) const { return lua_type(L, argument) == LUA_TNUMBER; }
-    // The value as messages show it: "Float", "number 1.5", "nil".
+    // Returns the value as messages show it: "Float", "number 1.5", "nil".
     std::string described(int argument) const;
     [[noreturn]] void expected(int argument, std::string_view what) const;
 
@@ -59,23 +59,24 @@ class Call {
     std::int32_t size(int argument) const { return integer(argument, 1, 65536); }  // in blocks
     std::vector<float> weights(int argument);                                      // of 1 to 12 octaves
     void table(int argument) const;
-    // The length of a list. Throws if its positive whole keys are not exactly 1…n: if a list has holes,
-    // the length that Lua gives depends on a hash seed. Goes through all keys, which costs steps.
+    // Returns the length of a list. Throws if its positive whole keys are not exactly 1…n: if a list has
+    // holes, the length that Lua gives depends on a hash seed. Goes through all keys, which costs steps.
     lua_Integer listLength(int argument);
     void function_(int argument) const;
 
-    // The expression that an argument is, if any; null for literals. Throws if it belongs to another pass.
+    // Returns the expression that an argument is, if any; null for literals. Throws if it belongs to another
+    // pass.
     const Expression* expression(int argument) const;
-    // An argument as an expression of a kind: literals of the kind too.
+    // Returns an argument as an expression of a kind: literals of the kind too.
     Parts parts(int argument, Kind kind);
     template <class T>
     T get(int argument) {
         return fromParts<T>(parts(argument, kKindOf<T>));
     }
-    // The kind that arguments share: numbers take that of the others. Throws if there is none.
+    // Returns the kind that arguments share: numbers take that of the others. Throws if there is none.
     Kind commonKind(std::initializer_list<int> arguments) const;
     const Object& object(int argument, Tag tag) const;
-    // The number of the field that is the argument. Throws unless it is of this kind.
+    // Returns the number of the field that is the argument. Throws unless it is of this kind.
     std::uint32_t field(int argument, Kind kind) const;
 
     // Pushes a value; literals but for blocks as Lua's own.
@@ -91,7 +92,7 @@ class Call {
         lua_setfield(L, -2, key);
     }
 
-    // Throws the last mistake that the builder noted, or that a limit of what is recorded is exceeded.
+    // Throws the last mistake that the builder noted, or an error if the recording exceeds a limit.
     void checkMistakes();
 
     // Sets how many arguments the function was called with, after the object of a method.
@@ -107,15 +108,15 @@ struct Function {
     int (*call)(Call&);
 };
 
-// Whether the value is a number that is not a number: its sign, which C prints, differs by processor.
+// Returns whether the value is a number that is not a number: its sign, which C prints, differs by processor.
 bool isNotANumber(lua_State* L, int index);
-// Whether the text of the value is the same on every machine. That of tables, functions and objects is an
-// address.
+// Returns whether the text of the value is the same on every machine. That of tables, functions and objects
+// is an address.
 bool hasText(lua_State* L, int index);
 
 // Pushes the function. `self`: of which object it is a method, with a colon; Tag::None: of none.
 void pushFunction(lua_State* L, const Function& function, Tag self);
-// Gives them to the table on top of the stack, by their names.
+// Adds the functions to the table on top of the stack, by their names.
 void addFunctions(lua_State* L, std::span<const Function> functions, Tag self);
 
 // Tables of named numbers, {size = 128, octaves = 5}, as arguments.

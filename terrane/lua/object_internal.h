@@ -16,7 +16,7 @@ namespace terrane::lua {
 // given by name.
 enum class Kind : std::uint8_t { Bool, Int, Float, Block, Vec2, Vec3, IVec2, IVec3, Count };
 
-// A scalar, or the components of a vector. Lua keeps it as bytes.
+// A scalar, or the components of a vector. Lua stores it as bytes.
 struct Expression {
     Kind kind = Kind::Int;
     std::uint32_t pass = 0;  // Recording::passNumber; 0: literals, which are good in every pass
@@ -31,7 +31,7 @@ constexpr std::size_t partCount(Kind kind) {
     return kind == Kind::Vec3 || kind == Kind::IVec3 ? 3 : 1;
 }
 
-// The type of a scalar or of a vector's components.
+// Returns the type of a scalar or of a vector's components.
 constexpr gen::Type typeOf(Kind kind) {
     if (kind == Kind::Bool) return gen::Type::Bool;
     return kind == Kind::Float || kind == Kind::Vec2 || kind == Kind::Vec3 ? gen::Type::Float
@@ -86,15 +86,15 @@ struct Object {
     Expression expression{};   // a variable, field or pass sets kind and pass alone
 };
 
-// Null if the value is no object.
+// Returns the object of a value; null if the value is no object.
 const Object* objectAt(lua_State* L, int index);
-// "Float", "Pass", "Field": what type() gives.
+// Returns the name that type() returns: "Float", "Pass", "Field".
 std::string_view nameOf(const Object& object);
-// The same for any value: "number", "Float".
+// Returns the same for any value: "number", "Float".
 std::string_view typeNameAt(lua_State* L, int index);
 
 void pushObject(lua_State* L, const Object& object);
-// Makes what pushObject needs: operators and methods of each kind of object.
+// Creates the operators and methods of each kind of object, for pushObject().
 void makeObjectTypes(lua_State* L);
 
 }  // namespace terrane::lua

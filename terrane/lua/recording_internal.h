@@ -1,5 +1,5 @@
 // The state that functions of a script share while it runs: the generator that it records, the open pass, the
-// used part of its limits. Each Lua state has one Recording. One thread.
+// used part of its limits. Each Lua state has one Recording. One thread uses it.
 #pragma once
 
 #include <cstdint>
@@ -18,12 +18,12 @@
 
 namespace terrane::lua {
 
-// Finds the blocks of a registry by the names that scripts use, and keeps the names that it found.
+// Finds the blocks of a registry by the names that scripts use, and records the names that it found.
 class BlockNames {
   public:
     using Aliases = std::map<std::string, std::string, std::less<>>;
 
-    // `aliases`: names in the registry, by name in the script.
+    // `aliases` has names in the registry by the names in the script.
     BlockNames(const world::BlockRegistry& blocks, std::string_view pack, Aliases aliases = {})
         : blocks_(blocks), pack_(pack), aliases_(std::move(aliases)) {}
 
@@ -70,11 +70,11 @@ struct Recording {
     bool readsStep = false;  // so that levels may record different passes
     int printedLines = 0;
 
-    // Whether a value of the pass with this number can be used now.
+    // Returns whether a value of the pass with this number can be used now.
     bool isOpenPass(std::uint32_t number) const { return pass != nullptr && number == passNumber; }
 };
 
-// The recording of a state from makeState().
+// Returns the recording of a state from makeState().
 inline Recording& recordingOf(lua_State* L) {
     return **static_cast<Recording**>(lua_getextraspace(L));
 }

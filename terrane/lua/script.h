@@ -2,8 +2,8 @@
 // as gen::GeneratorBuilder does for C++; nothing of Lua runs when chunks are made.
 //
 // Used by code that opens a world whose generator is a script. Any thread: each call has a Lua state of its
-// own. Scripts are untrusted: they reach no files, no clock and no other script, and a limit stops each of
-// memory, steps, time and what they record (budget_internal.h). The same script gives the same graph on every
+// own. Scripts are untrusted: they reach no files, no clock and no other script, and memory, steps, time and
+// the size of the recording are limited (budget_internal.h). The same script gives the same graph on every
 // machine.
 #pragma once
 
@@ -25,14 +25,15 @@ struct ScriptNames {
     std::string pack;       // block "x" is "PACK:x" if the registry has it, else "x"; empty: only "x"
 };
 
-// The graph of one level, 0…world::kMaxLevel. An error is one line, "FILE:LINE: reason", or "FILE: reason"
-// if it concerns the whole generator.
+// Returns the graph of one level, 0…world::kMaxLevel. An error is one line, "FILE:LINE: reason", or "FILE:
+// reason" if it concerns the whole generator.
 [[nodiscard]] base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
                                                              const world::BlockRegistry& blocks, int level);
 
-// 1…2^31 − 1: a hash of what the script records (at level 0; at all levels if it reads the step) and of
-// the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
-// comments or layout. Saves keep it as the generator's version. print() of the script writes nothing.
+// Returns 1…2^31 − 1: a hash of everything that the script records (at level 0; at all levels if it reads the
+// step) and of the names of its blocks. It does not depend on the other blocks of the registry, nor on names
+// of passes, comments or layout. Saves store it as the generator's version. print() of the script writes
+// nothing.
 [[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
                                               const world::BlockRegistry& blocks);
 

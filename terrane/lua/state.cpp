@@ -5,7 +5,6 @@
 
 #include "terrane/base/text.h"
 #include "terrane/lua/function_tables_internal.h"
-#include "terrane/lua/state.h"
 
 namespace terrane::lua {
 namespace {

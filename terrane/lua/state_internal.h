@@ -1,4 +1,4 @@
-// A Lua state with nothing in it but what scripts may use. One thread.
+// A Lua state that has only the functions that scripts may use. One thread uses it.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,16 @@ struct CloseState {
 };
 using StatePtr = std::unique_ptr<lua_State, CloseState>;
 
-// The recording must outlive the state, whose memory it counts. Null if there is no memory.
+// Creates a state. The recording must outlive the state, whose memory it counts. Returns null if there is no
+// memory.
 StatePtr makeState(Recording& recording);
 
 // Runs the script. Returns the reason if it fails, "FILE:LINE: reason", else an empty string.
 std::string runScript(lua_State* state, const Script& script);
+
+// Returns the names of all functions and members that scripts can use, sorted: "select", "string.rep",
+// "Generator:field", "Expression:lt", "Variable.value" … Any thread; tests compare them with the
+// documentation.
+std::vector<std::string> scriptFunctions();
 
 }  // namespace terrane::lua

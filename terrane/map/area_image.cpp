@@ -24,7 +24,8 @@ void copyInto(base::Image& image, const base::Image& piece, int left, int top) {
 }  // namespace
 
 base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect, const EditedPositions& edited,
-                                   base::JobSystem& jobs, const std::function<bool(int rows)>& goesOn) {
+                                   base::JobSystem& jobs,
+                                   const std::function<bool(int rows)>& shouldContinue) {
     base::Image image{rect.width, rect.height, {}};
     image.rgba.resize(static_cast<std::size_t>(rect.width) * static_cast<std::size_t>(rect.height) * 4);
     const int count = (rect.width + kPieceWidth - 1) / kPieceWidth;
@@ -44,7 +45,7 @@ base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect, 
         }));
         for (const base::Result<void>& result : results)
             if (!result) return tl::unexpected(result.error());
-        if (!goesOn(top + height)) return base::fail("the image is not wanted any more");
+        if (!shouldContinue(top + height)) return base::fail("the image is not wanted any more");
     }
     return image;
 }

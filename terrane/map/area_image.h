@@ -8,10 +8,10 @@
 
 namespace terrane::map {
 
-// Paints by day, a pixel a column, north up. `goesOn` is called after each strip with the number of rows
-// painted: false ends it with an error.
+// Paints by day, a pixel a column, north up. It calls `shouldContinue` after each strip with the number of
+// painted rows; false ends it with an error.
 [[nodiscard]] base::Result<base::Image> drawArea(MapPainter& painter, const ColumnRect& rect,
                                                  const EditedPositions& edited, base::JobSystem& jobs,
-                                                 const std::function<bool(int rows)>& goesOn);
+                                                 const std::function<bool(int rows)>& shouldContinue);
 
 }  // namespace terrane::map

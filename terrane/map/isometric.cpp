@@ -136,7 +136,7 @@ class ChunkPainter {
 
 }  // namespace
 
-std::vector<ChunkPos> chunksSeen(const IsometricTile& tile) {
+std::vector<ChunkPos> visibleChunks(const IsometricTile& tile) {
     // A chunk is visible if its columns, from the world's ground to its top, reach into the tile.
     const double width = world::kChunkSize * columnPixels(tile.zoom);  // half of a chunk's, pixels
     const double highest = world::kChunkHeight * pixelsOfHeight(tile.zoom);
@@ -160,7 +160,7 @@ std::vector<ChunkPos> chunksSeen(const IsometricTile& tile) {
     return chunks;
 }
 
-std::vector<IsometricTile> tilesSeeing(ChunkPos chunk, int zoom) {
+std::vector<IsometricTile> isometricTilesShowing(ChunkPos chunk, int zoom) {
     const double width = world::kChunkSize * columnPixels(zoom);
     const double highest = world::kChunkHeight * pixelsOfHeight(zoom);
     const double right = -static_cast<double>(std::int64_t{chunk.x} + chunk.y) * width;

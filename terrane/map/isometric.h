@@ -1,4 +1,4 @@
-// Isometric tiles: land seen from the southeast and above, without perspective. Any thread.
+// Isometric tiles: land seen from the southeast and above, without perspective. Any thread may use it.
 //
 // A point at x, y, z (blocks) is at the pixel (of zoom 0, to the right and downward)
 //     X = -x - y,  Y = (y - x) / 2 - kIsometricHeight · z
@@ -23,13 +23,14 @@ struct IsometricTile {
     std::int32_t x = 0, y = 0;
 };
 
-// The chunks of level levelOf(zoom) that may be visible in a tile, the farthest from the eye first.
-std::vector<world::ChunkPos> chunksSeen(const IsometricTile& tile);
+// Returns the chunks of level levelOf(zoom) that may be visible in a tile, the farthest from the eye first.
+std::vector<world::ChunkPos> visibleChunks(const IsometricTile& tile);
 
-// The tiles of a zoom in which the chunk may be visible. The zoom's level is the chunk's.
-std::vector<IsometricTile> tilesSeeing(world::ChunkPos chunk, int zoom);
+// Returns the tiles of a zoom in which the chunk may be visible. The zoom has the chunk's level.
+std::vector<IsometricTile> isometricTilesShowing(world::ChunkPos chunk, int zoom);
 
-// `chunks`: those that chunksSeen() gives. `surfaces` and `tints`: one for each of them.
+// The input of a tile: `chunks` is the result of visibleChunks(); `surfaces` and `tints` have one entry for
+// each chunk.
 struct IsometricLand {
     std::span<const world::ChunkPos> chunks;
     std::span<const SurfacePtr> surfaces;

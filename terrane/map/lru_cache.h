@@ -1,4 +1,4 @@
-// A cache that keeps the most recently used items within a number of bytes. Not synchronized.
+// A cache of the most recently used items, limited by a number of bytes. It is not synchronized.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,8 @@ class LruCache {
   public:
     explicit LruCache(std::size_t maxBytes) : maxBytes_(maxBytes) {}
 
-    // Null if it is not there. Counts as a use. The pointer is valid until the next call of put() or erase().
+    // Returns the value, or null if the cache does not have it. This counts as a use. The pointer is valid
+    // until the next call of put() or erase().
     const Value* find(const Key& key) {
         const auto found = places_.find(key);
         if (found == places_.end()) return nullptr;
@@ -22,7 +23,7 @@ class LruCache {
         return &items_.front().value;
     }
 
-    // Like find(), but does not count as a use.
+    // Returns whether the cache has the key, without counting as a use.
     bool contains(const Key& key) const { return places_.contains(key); }
 
     // Replaces the value of the key. Removes the least recently used items.

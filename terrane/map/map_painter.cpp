@@ -133,7 +133,7 @@ MapPainter::MapPainter(Parts parts, MapColors colors)
 
 std::vector<ChunkPos> MapPainter::chunksFor(const MapTile& tile) {
     if (tile.layer == Layer::Biome) return {};
-    if (tile.layer == Layer::Isometric) return chunksSeen({tile.zoom, tile.x, tile.y});
+    if (tile.layer == Layer::Isometric) return visibleChunks({tile.zoom, tile.x, tile.y});
     return chunksTouching(columnsOf(tile));
 }
 
@@ -153,7 +153,7 @@ std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
                      ++tx)
                     tiles.push_back({layer, zoom, tx, ty});
         }
-        for (const IsometricTile& tile : tilesSeeing(chunk, zoom))
+        for (const IsometricTile& tile : isometricTilesShowing(chunk, zoom))
             tiles.push_back({Layer::Isometric, zoom, tile.x, tile.y});
     }
     return tiles;
@@ -162,7 +162,7 @@ std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
 base::Result<base::Image> MapPainter::isometricImage(const MapTile& tile,
                                                      std::span<const EditedChunk> edited) {
     const IsometricTile pixels{tile.zoom, tile.x, tile.y};
-    const std::vector<ChunkPos> chunks = chunksSeen(pixels);
+    const std::vector<ChunkPos> chunks = visibleChunks(pixels);
     const auto surfaces = surfaces_->surfaces(chunks, edited);
     if (!surfaces) return tl::unexpected(surfaces.error());
     std::vector<world::PackedColor> tints;
@@ -223,16 +223,16 @@ base::Result<std::uint64_t> MapPainter::surfaceDigest(ChunkPos pos, std::span<co
     return base::hash64(std::string_view(reinterpret_cast<const char*>(surface.data()), sizeof(surface)));
 }
 
-base::Result<ColumnFacts> MapPainter::facts(std::int32_t x, std::int32_t y,
-                                            std::span<const EditedChunk> edited) {
+base::Result<ColumnInfo> MapPainter::columnInfo(std::int32_t x, std::int32_t y,
+                                                std::span<const EditedChunk> edited) {
     const ChunkPos chunk = world::chunkOf({x, y, 0});
     const auto surfaces = surfaces_->surfaces(std::span(&chunk, 1), edited);
     if (!surfaces) return tl::unexpected(surfaces.error());
     const auto index = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
     const SurfaceColumn& column = (*surfaces->front())[index];
     const bool isLiquid = column.top < colors_.size() && colors_[column.top].kind == SurfaceKind::Liquid;
-    return ColumnFacts{column.top, column.topZ, isLiquid ? column.topZ - column.underZ : 0,
-                       biomes_ ? gen::Biomes::names()[biomes_->of(chunk)[index]] : std::string_view()};
+    return ColumnInfo{column.top, column.topZ, isLiquid ? column.topZ - column.underZ : 0,
+                      biomes_ ? gen::Biomes::names()[biomes_->of(chunk)[index]] : std::string_view()};
 }
 
 }  // namespace terrane::map

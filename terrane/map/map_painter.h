@@ -1,5 +1,5 @@
 // Paints tiles of a world's map: finds the surfaces, chooses the painter of the layer, and makes a PNG. Any
-// thread, several at a time.
+// number of threads may use it at a time.
 #pragma once
 
 #include <array>
@@ -20,29 +20,31 @@
 
 namespace terrane::map {
 
-// Overlays of a map: images of heights and biomes as colors. Any thread. Rows and columns as in paint.h.
-// The color of ground at a height, 0…255: blue below the sea, then green, yellow, brown and white.
+// Overlays of a map show heights and biomes as colors. Rows and columns are those of paint.h. The color of
+// ground at a height, 0…255: blue below the sea, then green, yellow, brown and white.
 Rgb heightColor(int z);
-// The color of a biome by its number (gen/generators/biomes.h).
+// Returns the color of a biome by its number (gen/generators/biomes.h).
 Rgb biomeColor(std::size_t number);
 
-// The height of the ground, under water too, with a darker line each 16 blocks. Under a crown over water the
-// height of the water, since surfaces do not have its depth. The margin is kReliefMargin.
+// Paints the height of the ground, under water too, with a darker line every 16 blocks. Under a tree crown
+// over water it paints the height of the water, since surfaces do not store its depth. The margin is
+// kReliefMargin.
 base::Image paintHeights(const PaintedArea& area);
-// `biomes`: numbers of the rectangle's columns, x + width · y. Each column is `scale`² pixels.
+// Paints biomes. `biomes` are the numbers of the rectangle's columns, x + width · y. Each column is `scale`²
+// pixels.
 base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes);
 
-// Facts of one column of level 0, shown for the column under the mouse pointer.
-struct ColumnFacts {
+// Information about one column of level 0, shown for the column under the mouse pointer.
+struct ColumnInfo {
     world::BlockId top = world::kAir;  // the topmost block; of plants only those that glow
     int topZ = 0;
     int depth = 0;           // blocks of liquid, if it is one
     std::string_view biome;  // empty where the generator has none
 };
 
-// The number of columns at each side of a tile that change its image; of layers seen from above.
+// Returns the number of columns at each side of a tile that change its image; of layers seen from above.
 int marginOf(Layer layer);
-// The columns that a tile seen from above is painted from: its own and the margin.
+// Returns the columns that a tile seen from above is painted from: its own and the margin.
 ColumnRect columnsOf(const MapTile& tile);
 
 class MapPainter {
@@ -58,13 +60,13 @@ class MapPainter {
     // Fails if a texture cannot be read. All parts but the textures outlive this.
     [[nodiscard]] static base::Result<MapPainter> create(Parts parts);
 
-    // The digest of all inputs of images besides the land: colors of blocks, and the way of painting.
+    // Returns the digest of all inputs of images besides the land: colors of blocks, and the way of painting.
     std::uint64_t colorDigest() const;
     bool hasLayer(Layer layer) const { return layer != Layer::Biome || biomes_.has_value(); }
-    // The chunks whose surfaces a tile shows; callers pass the edited ones to paint(). Empty for a tile of
-    // biomes, which edits do not change.
+    // Returns the chunks whose surfaces a tile shows; callers pass the edited ones to paint(). The result is
+    // empty for a tile of biomes, which edits do not change.
     static std::vector<world::ChunkPos> chunksFor(const MapTile& tile);
-    // The tiles that show the chunk: of all layers but biomes, and of the zooms of the chunk's level.
+    // Returns the tiles that show the chunk: of all layers but biomes, and of the zooms of the chunk's level.
     static std::vector<MapTile> tilesShowing(world::ChunkPos chunk);
     // Paints a PNG file. `edited`: the edited ones of chunksFor().
     [[nodiscard]] base::Result<std::string> paint(const MapTile& tile, std::span<const EditedChunk> edited);
@@ -72,14 +74,14 @@ class MapPainter {
     // Paints a rectangle by day, a pixel a column. Chunks of `edited` are read from the store.
     [[nodiscard]] base::Result<base::Image> paintArea(const ColumnRect& rect, const EditedPositions& edited);
 
-    // The digest of the surface of a chunk or tile, from `edited` or as generated. Equal digests: it looks
-    // the same from above.
+    // Returns the digest of the surface of a chunk or tile, from `edited` or as generated. With equal digests
+    // it looks the same from above.
     [[nodiscard]] base::Result<std::uint64_t> surfaceDigest(world::ChunkPos pos,
                                                             std::span<const EditedChunk> edited);
 
-    // x and y in blocks; `edited`: their chunk if it is edited.
-    [[nodiscard]] base::Result<ColumnFacts> facts(std::int32_t x, std::int32_t y,
-                                                  std::span<const EditedChunk> edited);
+    // Returns information about the column at x, y (blocks). `edited` is its chunk if it is edited.
+    [[nodiscard]] base::Result<ColumnInfo> columnInfo(std::int32_t x, std::int32_t y,
+                                                      std::span<const EditedChunk> edited);
 
   private:
     MapPainter(Parts parts, MapColors colors);

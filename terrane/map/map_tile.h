@@ -1,4 +1,5 @@
-// Layers, zooms and tiles of a map, and the land that a tile shows. Plain values; any thread.
+// Layers, zooms and tiles of a map, and the land that a tile shows. All are plain values; any thread may use
+// them.
 //
 // North is up: a tile's first row is the one with the smallest y, and its first column the one with the
 // largest x (east is -x, docs/building.md). A tile is 256×256 pixels. At zoom 0 a pixel is a block, at zoom 2
@@ -35,19 +36,19 @@ struct MapTile {
     auto operator<=>(const MapTile&) const = default;
 };
 
-// The level of the chunks that a zoom is painted from: one column a pixel; above zoom 0 a block is several
-// pixels.
+// Returns the level of the chunks that a zoom is painted from: one column a pixel; above zoom 0 a block is
+// several pixels.
 constexpr int levelOf(int zoom) {
     return zoom < 0 ? -zoom : 0;
 }
-// Pixels along each side of a column, seen from above.
+// Returns the number of pixels along each side of a column, seen from above.
 constexpr int columnPixels(int zoom) {
     return zoom > 0 ? 1 << zoom : 1;
 }
 constexpr std::int64_t blocksAcross(int zoom) {
     return zoom < 0 ? std::int64_t{kTilePixels} << -zoom : kTilePixels >> zoom;
 }
-// The number of the tile that holds a column, if tiles are `across` columns wide.
+// Returns the number of the tile that holds a column, if tiles are `across` columns wide.
 constexpr std::int64_t tileOf(std::int64_t column, std::int64_t across) {
     return column >= 0 ? column / across : (column + 1) / across - 1;
 }
@@ -55,25 +56,25 @@ struct MapTileHash {
     std::size_t operator()(const MapTile& tile) const;
 };
 
-// Whether some of the tile is in the world.
+// Returns whether some of the tile is in the world.
 bool isInWorld(const MapTile& tile);
 
-// The tiles of a map of an area. Plain values; any thread.
-// Blocks x0 … x1 - 1, y0 … y1 - 1.
+// The tiles of a map of an area. All are plain values; any thread may use them. Blocks x0 … x1 - 1, y0 … y1 -
+// 1.
 struct BlockRect {
     std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
 };
 BlockRect blocksOf(const world::ChunkArea& chunks);  // of level 0
 
-// Whether some of the area, up to the world's top, may be seen in a tile.
+// Returns whether some of the area, up to the world's top, may be visible in a tile.
 bool shows(const MapTile& tile, const BlockRect& area);
-// The tiles that show the area, from the widest zoom to the finest. Layers of one place follow each other,
-// since they are painted from the same surfaces. None outside the world.
+// Returns the tiles that show the area, from the widest zoom to the finest. Layers of one place follow each
+// other, since they are painted from the same surfaces. Returns nothing outside the world.
 std::vector<MapTile> tilesOf(const BlockRect& area, std::span<const Layer> layers, int minZoom, int maxZoom);
-// An upper bound of their number.
+// Returns an upper bound of the number of these tiles.
 std::int64_t countTiles(const BlockRect& area, std::span<const Layer> layers, int minZoom, int maxZoom);
 
-// "tiles/day/-2/4/-7.png", as in URLs.
+// Returns the path of a tile as in URLs: "tiles/day/-2/4/-7.png".
 std::string pathOf(const MapTile& tile);
 
 }  // namespace terrane::map

@@ -1,4 +1,4 @@
-// Images of surfaces seen from above: by day with relief, by night with lamps. Any thread.
+// Images of surfaces seen from above: by day with relief, by night with lamps. Any thread may use it.
 //
 // North is up: the first row of pixels is the one with the smallest y, the first pixel of a row the one with
 // the largest x.
@@ -25,7 +25,7 @@
 namespace terrane::map {
 
 // The colors of blocks on a map: means of their top faces and, for blocks several pixels wide, 4×4 texels.
-// Plain values; any thread.
+// All are plain values; any thread may use them.
 constexpr int kTexels = 4;  // along each side of a block
 
 struct BlockColor {
@@ -38,13 +38,13 @@ struct BlockColor {
 };
 using MapColors = std::vector<BlockColor>;  // by block id
 
-// The color of a liquid with ground under it: deeper is darker and shows less of the ground.
+// Returns the color of a liquid with ground under it: deeper is darker and shows less of the ground.
 glm::vec3 throughLiquid(const glm::vec3& liquid, const glm::vec3& ground, float depthBlocks);
-// The same for a block; a glowing liquid hides its ground. `liquid`: the block's color, tinted.
+// Returns the same for a block; a glowing liquid hides its ground. `liquid` is the block's color, tinted.
 glm::vec3 colorOfLiquid(const BlockColor& block, const glm::vec3& liquid, const glm::vec3& ground,
                         float depthBlocks);
 
-// Fails if a texture cannot be read; the message names it.
+// Computes the colors. It fails if a texture cannot be read; the message names it.
 [[nodiscard]] base::Result<MapColors> mapColors(const world::BlockRegistry& blocks,
                                                 const world::TextureSource& textures);
 
@@ -62,10 +62,10 @@ struct PaintedArea {
 };
 
 base::Image paintDay(const PaintedArea& area, const MapColors& colors);
-// The margin is kLampMargin.
+// Paints the area at night. The margin is kLampMargin.
 base::Image paintNight(const PaintedArea& area, const MapColors& colors);
 
-// The pixels of an area of a map in the order of an image: north up, east to the right. Included by the
+// The pixels of an area of a map in the order of an image: north up, east to the right. It is included by the
 // painters of maps.
 struct Rgb {
     std::uint8_t red = 0, green = 0, blue = 0;
@@ -89,8 +89,8 @@ inline PixelGrid gridOf(const PaintedArea& area) {
     return {area.surfaces.rect.width, area.surfaces.rect.height, area.margin, area.scale};
 }
 
-// `color(x, y, texel)` gives the Rgb of each pixel: x, y is its column from the corner of the grid, `texel`
-// the part of the column, 0…scale - 1 along both sides.
+// Makes an image. `color(x, y, texel)` returns the Rgb of each pixel: x, y is its column from the corner of
+// the grid, `texel` the part of the column, 0…scale - 1 along both sides.
 template <class Color>
 base::Image imageOf(const PixelGrid& grid, Color color) {
     const int width = grid.width - 2 * grid.margin, height = grid.height - 2 * grid.margin;

@@ -23,9 +23,9 @@ class LookDown {
     explicit LookDown(const SurfaceKinds& kinds) : kinds_(kinds) {}
 
     // Drops the columns that are done with this layer.
-    void passLayer(int z, std::span<const BlockId, kSurfaceColumns> layer, gen::WantedColumns& wanted) {
+    void passLayer(int z, std::span<const BlockId, kSurfaceColumns> layer, gen::RequestedColumns& requested) {
         for (std::size_t y = 0; y < kRow; ++y)
-            if (wanted.rows() >> y & 1u) passRow(z, y * kRow, layer, wanted);
+            if (requested.rows() >> y & 1u) passRow(z, y * kRow, layer, requested);
         isFirst_ = false;
     }
 
@@ -37,14 +37,14 @@ class LookDown {
     // Four columns at a time: most are done or have the same block as in the layer before, which changes
     // nothing.
     void passRow(int z, std::size_t row, std::span<const BlockId, kSurfaceColumns> layer,
-                 gen::WantedColumns& wanted) {
+                 gen::RequestedColumns& requested) {
         for (std::size_t first = row; first < row + kRow; first += kWord) {
             const std::uint64_t here = wordOf(&layer[first]);
             if (((here ^ wordOf(&before_[first])) & ~wordOf(&isDone_[first])) == 0 && !isFirst_) continue;
             for (std::size_t k = first; k < first + kWord; ++k)
                 if (isDone_[k] == 0 && passBlock(z, surface_[k], layer[k])) {
                     isDone_[k] = kDone;
-                    wanted.drop(k);
+                    requested.drop(k);
                 }
             std::memcpy(&before_[first], &here, sizeof(here));
         }
@@ -102,7 +102,7 @@ SurfaceKinds surfaceKinds(const world::BlockRegistry& blocks) {
 
 Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds) {
     LookDown look(kinds);
-    gen::WantedColumns wanted;
+    gen::RequestedColumns requested;
     std::array<BlockId, world::kBlocksPerSection> blocks;
     for (int s = world::kSectionsPerChunk; s-- > 0;) {
         const world::Section& section = chunk.section(s);
@@ -111,8 +111,8 @@ Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds) {
         for (int layer = world::kSectionSize; layer-- > 0;) {
             const auto first = blocks.begin() + static_cast<std::ptrdiff_t>(layer * kSurfaceColumns);
             look.passLayer(s * world::kSectionSize + layer,
-                           std::span<const BlockId, kSurfaceColumns>(first, kSurfaceColumns), wanted);
-            if (wanted.rows() == 0) return look.surface();
+                           std::span<const BlockId, kSurfaceColumns>(first, kSurfaceColumns), requested);
+            if (requested.rows() == 0) return look.surface();
         }
     }
     return look.surface();
@@ -120,8 +120,9 @@ Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds) {
 
 Surface surfaceOf(const gen::Generator& generator, world::ChunkPos pos, const SurfaceKinds& kinds) {
     LookDown look(kinds);
-    generator.generateDown(
-        pos, [&](int z, auto layer, gen::WantedColumns& wanted) { look.passLayer(z, layer, wanted); });
+    generator.generateTopDown(pos, [&](int z, auto layer, gen::RequestedColumns& requested) {
+        look.passLayer(z, layer, requested);
+    });
     return look.surface();
 }
 

@@ -1,5 +1,5 @@
-// The surface of a chunk of any level, seen from above: for each column the topmost block, and what lies
-// beneath water or a crown. Maps are painted from it. Plain values; any thread.
+// The surface of a chunk of any level, seen from above: for each column the topmost block, and the block
+// beneath water or a tree crown. Maps are painted from it. All are plain values; any thread may use them.
 #pragma once
 
 #include <array>
@@ -37,7 +37,8 @@ constexpr std::size_t kSurfaceColumns = static_cast<std::size_t>(world::kChunkSi
 using Surface = std::array<SurfaceColumn, kSurfaceColumns>;  // x + 16 y
 
 Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds);
-// The same for a generated chunk; generates no more of it than needed. Errors as gen::Generator::generate().
+// Returns the surface of a generated chunk and generates no more of it than needed. Errors are those of
+// gen::Generator::generate().
 Surface surfaceOf(const gen::Generator& generator, world::ChunkPos pos, const SurfaceKinds& kinds);
 
 }  // namespace terrane::map

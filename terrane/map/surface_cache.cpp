@@ -314,7 +314,7 @@ std::optional<std::vector<SurfaceColumn>> SurfaceCache::find(BlobPos pos) {
         const std::lock_guard lock(impl_->mutex);
         if (!impl_->rows.contains(key)) return std::nullopt;
         impl_->noteUse(key);
-        const store::ResetAfter reset(*impl_->select);
+        const store::ResetGuard reset(*impl_->select);
         impl_->select->bind(1, key);
         const auto row = impl_->select->step();
         if (row && *row) {

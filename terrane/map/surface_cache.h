@@ -1,6 +1,6 @@
 // A cache of generated surfaces on the disk: a file that never grows beyond a number of bytes and may be
-// deleted at any time. It never holds edits, so it is valid as long as the generator is the same. Any thread;
-// calls wait for each other.
+// deleted at any time. It never holds edits, so it is valid as long as the generator is the same. Any thread
+// may use it; concurrent calls wait for each other.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +18,14 @@
 namespace terrane::map {
 
 // Compresses 256×256 columns of surface for a cache on the disk: 0.1 to 0.8 bytes a column at level 0, up to
-// 1.5 at level 4 and 2 at level 8. Block ids are those of the registry, which the bytes do not name.
-// Any thread.
+// 1.5 at level 4 and 2 at level 8. Block ids are those of the registry, which the bytes do not name. Any
+// thread may use it.
 constexpr int kBlobColumns = 256;  // along each side
 constexpr std::size_t kColumnsOfBlob = std::size_t{kBlobColumns} * kBlobColumns;
 
-// `columns`: kColumnsOfBlob, x + 256 y.
+// Encodes kColumnsOfBlob columns, x + 256 y.
 store::Bytes encodeSurfaces(std::span<const SurfaceColumn> columns);
-// Takes any bytes; Damaged if they are not such columns.
+// Decodes any bytes; returns Damaged if they are not such columns.
 [[nodiscard]] base::Result<std::vector<SurfaceColumn>> decodeSurfaces(store::ByteView bytes);
 
 // 256×256 columns of a level: those from 256 x, 256 y on.
@@ -38,22 +38,23 @@ struct BlobPos {
 
 class SurfaceCache {
   public:
-    // `origin` identifies the inputs of the surfaces: seed, generator, its version, the block ids. A file is
-    // replaced by an empty one if it has another origin, is damaged, comes from a newer program or is larger
-    // than `maxBytes`. Fails if the file cannot be written, or if another program has it open.
+    // Opens the cache. `origin` identifies the inputs of the surfaces: seed, generator, its version, the
+    // block ids. A file is replaced by an empty one if it has another origin, is damaged, comes from a newer
+    // program or is larger than `maxBytes`. Fails if the file cannot be written, or if another program has it
+    // open.
     [[nodiscard]] static base::Result<std::unique_ptr<SurfaceCache>> open(const std::filesystem::path& file,
                                                                           const std::string& origin,
                                                                           std::int64_t maxBytes);
     ~SurfaceCache();
 
     bool contains(BlobPos pos) const;
-    // Nothing if the entry is missing or damaged; a damaged one is removed.
+    // Returns the columns of an entry, or nothing if it is missing or damaged; a damaged entry is removed.
     std::optional<std::vector<SurfaceColumn>> find(BlobPos pos);
     // Removes the least recently used entries if the file would grow too large. A failure to write is logged
     // once.
     void put(BlobPos pos, std::span<const SurfaceColumn> columns);
 
-    // Writing failed: put() does nothing any more.
+    // Returns whether writing failed; put() then does nothing.
     bool isBroken() const;
     std::int64_t bytes() const;  // in the file, for all entries
 

@@ -128,7 +128,7 @@ base::Result<void> SurfaceSource::Impl::loadEdited(std::span<const ChunkPos> chu
     if (chunks.empty() || !parts.store) return {};
     const std::vector<store::LoadedChunk> loaded = parts.store->loadMany(chunks);
     for (std::size_t k = 0; k < chunks.size(); ++k) {
-        if (loaded[k].isUnread && !loaded[k].isOverBudget)
+        if (loaded[k].isUnreadable && !loaded[k].isOverBudget)
             return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(chunks[k]), loaded[k].problem);
         if (loaded[k].chunk)
             result[chunks[k]] = std::make_shared<const Surface>(surfaceOf(*loaded[k].chunk, parts.kinds));

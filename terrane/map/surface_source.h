@@ -1,5 +1,5 @@
 // Surfaces of any part of a world: from the generator, from a cache on the disk, and from edited chunks. Any
-// thread, several at a time.
+// number of threads may use it at a time.
 #pragma once
 
 #include <algorithm>
@@ -25,13 +25,13 @@ struct ColumnRect {
     int width = 0, height = 0;
 };
 
-// The columns of chunks of a level.
+// Returns the columns of chunks of a level.
 ColumnRect columnsOf(const world::ChunkArea& chunks, int level);
 
-// The chunk with these coordinates; a position outside the world if they are too large.
+// Returns the chunk with these coordinates; a position outside the world if they are too large.
 world::ChunkPos chunkAt(std::int64_t x, std::int64_t y, int level);
 
-// The chunks that a rectangle touches, row by row; they may lie outside the world.
+// Returns the chunks that a rectangle touches, row by row; they may lie outside the world.
 std::vector<world::ChunkPos> chunksTouching(const ColumnRect& rect);
 
 // Copies a chunk's columns, x + 16 y, to their places in a rectangle, x + width · y; columns outside of it
@@ -55,7 +55,7 @@ struct SurfaceArea {
     ColumnRect rect;
     std::vector<SurfaceColumn> columns;  // x + width · y; without blocks outside the world
 
-    // x and y count from the rectangle's corner.
+    // Returns a column; x and y count from the rectangle's corner.
     const SurfaceColumn& at(int x, int y) const {
         return columns[static_cast<std::size_t>(y) * static_cast<std::size_t>(rect.width) +
                        static_cast<std::size_t>(x)];
@@ -82,12 +82,12 @@ class SurfaceSource {
     explicit SurfaceSource(const Parts& parts);
     ~SurfaceSource();
 
-    // The surfaces of chunks of one level, in the order of `chunks`; without blocks outside the world.
-    // `edited`: the edited ones of them, in any order. Takes about 0.1 ms for each chunk that neither memory
-    // nor the disk has. Fails if the level has no generator, or if the store cannot read a chunk.
+    // Returns the surfaces of chunks of one level, in the order of `chunks`; without blocks outside the
+    // world. `edited`: the edited ones of them, in any order. Takes about 0.1 ms for each chunk that neither
+    // memory nor the disk has. Fails if the level has no generator, or if the store cannot read a chunk.
     [[nodiscard]] base::Result<std::vector<SurfacePtr>> surfaces(std::span<const world::ChunkPos> chunks,
                                                                  std::span<const EditedChunk> edited);
-    // The same for a rectangle.
+    // Does the same for a rectangle.
     [[nodiscard]] base::Result<SurfaceArea> area(const ColumnRect& rect, std::span<const EditedChunk> edited);
 
   private:
@@ -99,13 +99,13 @@ class SurfaceSource {
 // on any thread while nothing is added.
 class EditedPositions {
   public:
-    // Adds a chunk of level 0. False if it was there.
+    // Adds a chunk of level 0. Returns false if it was there.
     bool add(world::ChunkPos chunk);
     std::size_t count() const { return positions_.front().size(); }  // of level 0
-    // Whether this is an edited chunk of level 0, or a tile with an edited chunk beneath it.
+    // Returns whether this is an edited chunk of level 0, or a tile with an edited chunk beneath it.
     bool contains(world::ChunkPos chunk) const;
 
-    // The edited ones of these chunks, to be read from the store.
+    // Returns the edited ones of these chunks, to be read from the store.
     std::vector<EditedChunk> among(std::span<const world::ChunkPos> chunks) const;
 
   private:

@@ -1,5 +1,5 @@
-// The tint of grass and leaves over an area of a map, from a few samples, since it changes slowly. Any
-// thread.
+// The tint of grass and leaves over an area of a map, from a few samples, since it changes slowly. Any thread
+// may use it.
 #pragma once
 
 #include <mutex>
@@ -20,16 +20,16 @@ struct TintField {
     std::vector<world::PackedColor> samples;  // sample (i, j) is at i + width · j
 };
 
-// Makes such fields, and caches tints that neighbors share.
+// Computes tint fields, and caches tints that neighbors share.
 class TintSource {
   public:
     // `generators` outlives this.
     explicit TintSource(const gen::LevelGenerators& generators) : generators_(generators) {}
 
-    // Reaches beyond the rectangle, so that each of its columns lies between four samples. Neutral if the
-    // generator has no tint, and outside the world.
+    // Returns a field that extends beyond the rectangle, so that each of its columns lies between four
+    // samples. The tint is neutral outside the world and if the generator has none.
     TintField field(const ColumnRect& rect);
-    // The tint of a whole chunk.
+    // Returns the tint of a whole chunk.
     world::PackedColor of(world::ChunkPos chunk);
 
   private:

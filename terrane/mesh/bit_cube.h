@@ -1,5 +1,5 @@
-// Sets of blocks of a section as bits, so that one machine instruction handles 64 blocks. Used by the
-// mesher's stages; pure functions, any thread.
+// Sets of blocks of a section as bits, so that one machine instruction handles 64 blocks. The mesher's stages
+// use it; pure functions, any thread.
 #pragma once
 
 #include <array>
@@ -40,11 +40,7 @@ constexpr bool isAlongZ(world::Face side) {
     return side == world::kFaceNegZ || side == world::kFacePosZ;
 }
 
-inline std::uint16_t cubeRow(const BitCube& cube, std::size_t layer, std::size_t row) {
-    return static_cast<std::uint16_t>(cube[4 * layer + row / 4] >> (16 * (row % 4)));
-}
-
-// The layers of `range` from the first to the last that has bits in both.
+// Returns the layers of `range` from the first to the last that has bits in both.
 LayerRange commonLayers(const BitCube& a, const BitCube& b, LayerRange range);
 
 inline BitCube both(const BitCube& a, const BitCube& b, LayerRange range) {
@@ -59,7 +55,7 @@ inline BitCube without(const BitCube& a, const BitCube& b, LayerRange range) {
     return out;
 }
 
-// The blocks in `layers` for which `is` returns true, called with their index in the section.
+// Returns the blocks in `layers` for which `is` returns true, called with their index in the section.
 template <class Is>
 BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
     BitCube out;
@@ -73,7 +69,7 @@ BitCube blocksWhere(const BitCube& blocks, LayerRange layers, Is is) {
     return out;
 }
 
-// Exchanges bits and rows of each layer: from rows along x to rows along y and back.
+// Transposes bits and rows of each layer: from rows along x to rows along y and back.
 BitCube transposed(const BitCube& cube, LayerRange range = {});
 
 // Returns for each block the bit of its neighbor on a side. The cube has rows along y for the sides of x,

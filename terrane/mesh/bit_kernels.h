@@ -1,5 +1,5 @@
-// Kernels on many words of bits, in SIMD through Highway, for the best instruction set of the machine. Used
-// by the mesher's stages; pure functions, any thread.
+// Kernels on many words of bits, in SIMD through Highway, for the best instruction set of the machine. The
+// mesher's stages use it; pure functions, any thread.
 #pragma once
 
 #include <cstddef>
@@ -16,7 +16,8 @@ struct BitPlanes {
     std::size_t bits, groups;  // groups is a multiple of 4
 };
 
-// packed: groups · bits words as in world::Section, bits is 0, 1, 2, 4, 8 or 16. planes: as many words.
+// Sorts packed indices into planes. `packed` has groups · bits words as in world::Section, `bits` is 0, 1, 2,
+// 4, 8 or 16, and `planes` has as many words.
 void sortIntoPlanes(const std::uint64_t* packed, std::size_t bits, std::size_t groups, std::uint64_t* planes);
 
 // Finds the blocks that have an index: one word a group.

@@ -1,5 +1,6 @@
-// Makes the mesh of a chunk: hidden faces dropped, equal neighboring faces merged, quads sorted for drawing.
-// Called by the streaming workers, each with a scratch of its own; the result depends on the input only.
+// Makes the mesh of a chunk: drops hidden faces, merges equal neighboring faces and sorts the quads for
+// drawing. The streaming workers call it, each with a scratch of its own; the result depends on the input
+// only.
 #pragma once
 
 #include <array>
@@ -30,7 +31,7 @@ struct MeshInput {
 // which counts as air.
 using MeshBlocks = std::array<world::ChunkPtr, 5>;
 
-// Points into `chunks`.
+// Returns the input of the mesh of the first chunk; it points into `chunks`.
 MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks, const MeshOptions& options);
 
 // Memory reused from chunk to chunk; it has no state between calls.
@@ -39,7 +40,8 @@ struct MeshScratch {
     std::vector<shared::Quad> quads;
 };
 
-// Quads stay inside one section and mesh section, so they are at most 16 blocks wide and high.
+// Meshes a chunk. Quads stay inside one section and mesh section, so they are at most 16 blocks wide and
+// high.
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch);
 
 // Meshes a chunk surrounded by air.
@@ -64,7 +66,7 @@ class BatchMesher {
     virtual std::string_view backend() const = 0;  // "cpu" or "gpu"
 };
 
-// Used on one thread, any.
+// Creates the mesher of the CPU, which any one thread may use.
 std::unique_ptr<BatchMesher> makeCpuMesher();
 
 }  // namespace terrane::mesh

@@ -1,5 +1,5 @@
-// Sorting of faces for drawing: by draw bucket (the needs of a draw call) and by face direction. Used by the
-// mesher and the renderer. Pure functions; any thread.
+// Sorting of faces for drawing: by draw bucket (the needs of a draw call) and by face direction. The mesher
+// and the renderer use it. All functions are pure; any thread may call them.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Turns sets of visible faces of one section into merged quads in their draw buckets. Used by
-// section_faces.cpp on the meshing worker's thread.
+// Turns sets of visible faces of one section into merged quads in their draw buckets. section_faces.cpp uses
+// it on the meshing worker's thread.
 #pragma once
 
 #include <array>
@@ -15,8 +15,6 @@
 
 namespace terrane::mesh {
 
-// Merges set bits of a 16×16 plane into quads, by one of the methods. Called by the face writer for each
-// plane of faces; any thread.
 // A 16×16 plane that lies in 16 layers of 16 rows: row r is rows[r·step].
 struct PlaneRows {
     std::uint16_t* rows;

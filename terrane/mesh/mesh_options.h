@@ -21,7 +21,7 @@ enum class MergeMethod : std::uint8_t {
     Count,
 };
 
-// Names in options, in the order of the values.
+// The names in options, in the order of the values.
 constexpr std::array<std::string_view, static_cast<std::size_t>(MergeMethod::Count)> kMergeMethodNames = {
     "none", "lines", "squares", "squares-ext", "greedy"};
 

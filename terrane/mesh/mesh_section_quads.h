@@ -1,5 +1,5 @@
-// Places of the quads of a mesh section: its ranges follow each other from the first on. Pure functions; any
-// thread.
+// The quads of a chunk's mesh by mesh section: the ranges of a mesh section follow each other from the first
+// on. All functions are pure; any thread may call them.
 #pragma once
 
 #include <array>
@@ -46,7 +46,7 @@ inline std::uint32_t quadCount(const MeshSection& meshSection) {
     return count;
 }
 
-// Ranges in the order of a GPU record: two-sided buckets have faces of the last direction only.
+// Returns the ranges in the order of a GPU record: two-sided buckets have faces of the last direction only.
 inline std::array<QuadRange, shared::kRangesPerMeshSection> rangesOf(const MeshSection& meshSection) {
     std::array<QuadRange, shared::kRangesPerMeshSection> ranges;
     std::size_t next = 0;
@@ -59,7 +59,7 @@ inline std::array<QuadRange, shared::kRangesPerMeshSection> rangesOf(const MeshS
     return ranges;
 }
 
-// The same mesh section with its quads from `first` on.
+// Returns the same mesh section with its quads from `first` on.
 inline MeshSection movedTo(std::uint32_t first, MeshSection meshSection) {
     const std::uint32_t by = first - firstQuad(meshSection);  // modulo 2³²: it may be negative
     for (auto& bucket : meshSection.ranges) {

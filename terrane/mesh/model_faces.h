@@ -1,4 +1,4 @@
-// Faces of blocks whose shape is a model, one quad a face. Used by section_faces.cpp on the meshing worker's
+// Faces of blocks whose shape is a model, one quad a face. section_faces.cpp uses it on the meshing worker's
 // thread.
 #pragma once
 
@@ -19,7 +19,8 @@ struct ModelBlocks {
     LayerRange layers;
 };
 
-// The bit of a block, given by its index in the section, in a cube that has rows along y for -x and +x.
+// Returns whether the bit of a block is set, given by its index in the section, in a cube that has rows along
+// y for -x and +x.
 bool hasBit(const BitCube& cube, world::Face side, std::size_t block);
 void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::ModelFace& face,
                  QuadCollector& out);
@@ -29,9 +30,8 @@ void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::Mode
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,
                    QuadCollector& out);
 
-// Faces of flowing liquids, one quad a face. Used by section_faces.cpp on the meshing worker's thread;
-// terrane/mesh_gpu/liquids.glsl has the same rules.
-// Whether a liquid flows in the section or its neighbors.
+// Returns whether a liquid flows in the section or its neighbors. terrane/mesh_gpu/liquids.glsl has the same
+// rules for flowing liquids.
 bool hasFlow(const SectionView& view);
 
 BitCube flowingBlocks(const ModelBlocks& liquid);

@@ -34,7 +34,7 @@ class QuadArray {
 
 class QuadCollector {
   public:
-    // Array of one draw bucket and face direction. Valid until finishMeshSection().
+    // Returns the array of one draw bucket and face direction. Valid until finishMeshSection().
     QuadArray& quadsOf(int bucket, int direction);
     // Widens the mesh section's bounds by blocks minZ … maxZ − 1.
     void coverHeight(int minZ, int maxZ);

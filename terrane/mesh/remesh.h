@@ -1,5 +1,5 @@
-// Remeshing after an edit: the mesh sections that may change with a block, and the mesh of only these. Pure
-// functions, any thread.
+// Remeshing after an edit: the mesh sections that may change with a block, and the mesh of only these. All
+// functions are pure; any thread may call them.
 #pragma once
 
 #include <cstdint>

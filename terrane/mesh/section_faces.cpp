@@ -357,7 +357,7 @@ BitSlice SectionFaces::ownKindBeyond(world::BlockId id, Face side) const {
 BitCube SectionFaces::visible(const TypeBlocks& blocks, Face side) const {
     const LayerRange layers = blocks.layers;
     const BitCube faces = both(blocks.facing(side), uncovered_[side], layers);
-    if (blocks.type.opaqueCube || !hidesOwnKind(blocks.type, side, *view_.blocks)) return faces;
+    if (blocks.type.opaqueCube || !hidesSameType(blocks.type, side, *view_.blocks)) return faces;
     return without(faces, neighborBits(blocks.facing(side), side, ownKindBeyond(blocks.id, side), layers),
                    layers);
 }

@@ -1,5 +1,5 @@
-// Finds the visible faces of one section by the rules of each shape and passes them to a FaceWriter. Called
-// by chunk_mesher.cpp for each section of a chunk, on the meshing worker's thread.
+// Finds the visible faces of one section by the rules of each shape and passes them to a FaceWriter.
+// chunk_mesher.cpp calls it for each section of a chunk, on the meshing worker's thread.
 #pragma once
 
 #include <array>
@@ -17,31 +17,32 @@
 
 namespace terrane::mesh {
 
-// The rules of block types that both back ends of the mesher follow. Pure functions; any thread.
-// Whether a face toward a block of the same type is left out. Blocks with inner faces have two at each shared
-// side. If both are two-sided they look the same, so only the block at the lower coordinate has one.
-inline bool hidesOwnKind(const world::BlockType& type, world::Face side, const world::BlockRegistry& blocks) {
+// Returns whether a face toward a block of the same type is left out. Both back ends of the mesher follow
+// this rule and the next. Blocks with inner faces have two at each shared side. If both are two-sided they
+// look the same, so only the block at the lower coordinate has one.
+inline bool hidesSameType(const world::BlockType& type, world::Face side,
+                          const world::BlockRegistry& blocks) {
     if (!type.innerFaces || type.shape == world::Shape::Liquid) return true;
     const bool isPositive = side % 2 == 1;
     return !isPositive && blocks.materials()[type.material[oppositeSide(side)]].twoSided;
 }
 
-// Faces whose texture waves at the top only do not merge: a face taller than one block would wave only at its
-// top.
+// Returns whether faces merge. Faces whose texture waves at the top only do not: a face taller than one block
+// would wave only at its top.
 inline bool mergesFaces(const world::BlockType& type, world::Face side, const world::BlockRegistry& blocks) {
     return blocks.materials()[type.material[side]].animation != world::Animation::TopWaves;
 }
 
 // Blocks of one section as sets of bits, one set for each distinct id. Read from the packed form: the bits of
-// all indices are sorted into planes once, then the blocks of an id take a few ANDs. Used by
-// section_faces.cpp for one section at a time; any thread.
+// all indices are sorted into planes once, then the blocks of an id take a few ANDs. section_faces.cpp uses
+// it for one section at a time; any thread may use it.
 class SectionBits {
   public:
     explicit SectionBits(const world::Section& section);
 
-    // Distinct ids; some may have no block.
+    // Returns the distinct ids; some may have no block.
     std::span<const world::BlockId> ids() const { return ids_; }
-    // Blocks of ids()[number], in rows along x.
+    // Returns the blocks of ids()[number], in rows along x.
     BitCube blocks(std::size_t number) const;
 
   private:
@@ -53,9 +54,8 @@ class SectionBits {
     std::array<std::uint64_t, kGroups * kMaxBits> planes_;  // as in bit_kernels.h
 };
 
-// The outermost layer of a section as bits, for the adjacent section. Used by section_faces.cpp for the six
-// neighbors of a section; any thread.
-// The layer of a section on one of its sides. Refers to the section.
+// The outermost layer of a section on one of its sides as bits, for the meshing of the adjacent section. It
+// refers to the section.
 class SectionSide {
   public:
     SectionSide(const world::Section& section, world::Face side);
@@ -74,13 +74,13 @@ class SectionSide {
     std::array<std::uint64_t, kGroups * 16> planes_;  // as in bit_kernels.h; 16 bits at most
 };
 
-// True if all blocks of the section are opaque cubes; may be false for some such sections.
+// Returns true if all blocks of the section are opaque cubes; may be false for some such sections.
 bool isAllOpaque(const world::Section& section, const world::BlockRegistry& blocks);
 
 // A section and its neighbors.
 struct SectionView {
     const world::Section* center = nullptr;
-    // By side. Null above the world, where there is air; below it, which is never seen; and beyond an open
+    // By side. Null above the world, where there is air; below it, which is never visible; and beyond an open
     // border (MeshInput).
     std::array<const world::Section*, world::kFaceCount> neighbors{};
     const world::Section* blockState = nullptr;             // of the section's blocks

@@ -11,9 +11,9 @@
 
 namespace terrane::mesh {
 
-// kShapeFaceCount faces; the index is the one in a quad.
+// Returns kShapeFaceCount faces; their indices are those in quads.
 std::span<const shared::ShapeFace> shapeFaces();
-// These and the faces of the blocks' models.
+// Returns these faces and those of the blocks' models.
 std::vector<shared::ShapeFace> shapeFaces(const world::BlockRegistry& blocks);
 
 // Outward, of length 1.
@@ -22,7 +22,7 @@ glm::vec3 normalOf(const shared::ShapeFace& face);
 // The side that a face faces, or kFaceCount if its normal is not along an axis. Not for faces of models.
 world::Face shapeFaceSide(shared::uint shapeFace);
 
-// The side opposite to `side`.
+// Returns the side opposite to `side`.
 constexpr world::Face oppositeSide(world::Face side) {
     return static_cast<world::Face>(side ^ 1);
 }

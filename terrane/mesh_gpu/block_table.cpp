@@ -30,7 +30,7 @@ uint flagsOf(const BlockType& type, const world::BlockRegistry& blocks) {
     uint flags = static_cast<uint>(type.shape) | (type.opaqueCube ? shared::kMeshOpaqueBit : 0);
     for (uint side = 0; side < world::kFaceCount; ++side) {
         const auto face = static_cast<Face>(side);
-        flags |= uint{mesh::hidesOwnKind(type, face, blocks)} << (shared::kMeshHidesShift + side);
+        flags |= uint{mesh::hidesSameType(type, face, blocks)} << (shared::kMeshHidesShift + side);
         flags |= uint{mesh::mergesFaces(type, face, blocks)} << (shared::kMeshMergesShift + side);
     }
     return flags;

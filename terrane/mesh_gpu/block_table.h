@@ -1,5 +1,5 @@
-// Block types in the form that the meshing shaders read: rules of visibility and merging as bits, materials
-// with their draw buckets. Pure bookkeeping without OpenGL.
+// The block types in the form that the meshing shaders read: rules of visibility and merging as bits,
+// materials with their draw buckets. It uses no OpenGL.
 #pragma once
 
 #include <vector>

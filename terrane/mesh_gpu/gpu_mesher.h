@@ -1,5 +1,5 @@
 // The mesher in compute shaders: quads go straight into the buffer that is drawn from. They are those of
-// mesh::meshChunk, in another order within their ranges. Used on the context's thread.
+// mesh::meshChunk, in another order within their ranges. It is used on the context's thread.
 //
 // A batch is counted first; the counts (104 bytes a mesh section) come back through a copy that nothing waits
 // for, the host makes room for each mesh section, and a second run writes the quads there. Cost of each run,
@@ -31,8 +31,8 @@ class GpuMesher {
   public:
     static constexpr std::size_t kMaxChunks = 256;  // a batch
 
-    // GPU memory besides what batches upload (9 KB a chunk): 2.5 MB for counts and places of 8,192 mesh
-    // sections.
+    // Creates the mesher. Besides the uploads of batches (9 KB a chunk) it takes 2.5 MB of GPU memory, for
+    // counts and addresses of 8,192 mesh sections.
     static base::Result<GpuMesher> create(const gpu::ShaderLoader& shaders,
                                           const world::BlockRegistry& blocks);
     GpuMesher(GpuMesher&&) noexcept;
@@ -42,17 +42,17 @@ class GpuMesher {
     // Starts to count the quads of up to kMaxChunks chunks with the same options. Previous counts are
     // discarded. The chunks are not needed afterwards.
     void count(std::span<const mesh::MeshInput> chunks);
-    // Does not wait.
+    // Returns whether the counts are available, without waiting.
     bool isCounted() const;
-    // Mesh sections of all chunks, the lowest of each first; waits until isCounted(). Ranges count from the
-    // mesh section's first quad.
+    // Returns the mesh sections of all chunks, the lowest of each first; waits until isCounted(). Ranges
+    // count from the mesh section's first quad.
     std::vector<mesh::MeshSection> meshSections() const;
-    // GPU time of count(), once isCounted() is true.
+    // Returns the GPU time of count(), once isCounted() is true.
     double countMilliseconds() const;
-    // Size of all buffers, including those of the current batch.
+    // Returns the size of all buffers, including those of the current batch.
     std::size_t gpuBytes() const;
     // Writes the quads of each mesh section from `firstQuads` on, in the order of meshSections(), or leaves
-    // them out (kNoPlace). Once for each buffer that mesh sections of the batch lie in. Shaders that run
+    // them out (kNoPlace). Call it once for each buffer with mesh sections of the batch. Shaders that run
     // later see the quads.
     void write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads);
 
@@ -63,7 +63,7 @@ class GpuMesher {
 };
 
 // GpuMesher behind the interface that both back ends have: the quads are read back. For files, tests and
-// benchmarks; drawing uses quads that stay on the GPU. Used on the context's thread.
+// benchmarks; drawing uses quads that stay on the GPU. It is used on the context's thread.
 class GpuBatchMesher : public mesh::BatchMesher {
   public:
     explicit GpuBatchMesher(GpuMesher mesher) : mesher_(std::move(mesher)) {}

@@ -1,4 +1,4 @@
-// Faces of flowing liquids, one quad a face: the rules of mesh/liquid_faces.cpp. Needs quads.glsl.
+// Faces of flowing liquids, one quad a face: the rules of mesh/model_faces.cpp. Needs quads.glsl.
 
 const uint kStillHeight = kFlowHeights - 1u;
 

@@ -40,10 +40,10 @@ void MeshQueue::add(world::ChunkPos pos) {
 
 void MeshQueue::remove(world::ChunkPos pos) {
     isWaiting_.erase(pos);
-    if (isOnTheWay(pos)) isRemoved_.insert(pos);
+    if (isInFlight(pos)) isRemoved_.insert(pos);
 }
 
-bool MeshQueue::isOnTheWay(world::ChunkPos pos) const {
+bool MeshQueue::isInFlight(world::ChunkPos pos) const {
     return std::ranges::find(counting_, pos) != counting_.end() && !isRemoved_.contains(pos);
 }
 

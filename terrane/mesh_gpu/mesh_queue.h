@@ -1,6 +1,6 @@
 // Meshes chunks on the GPU between frames, as many at a time as a budget allows, without waiting: a batch is
 // counted in one frame, and its quads are written in the next frame in which the counts are available. Until
-// then the old quads are drawn. Used on the context's thread.
+// then the old quads are drawn. It is used on the context's thread.
 #pragma once
 
 #include <chrono>
@@ -29,20 +29,20 @@ using FirstQuads = std::vector<std::uint32_t>;
 //   if (chunks = queue.takeWaiting(); !chunks.empty()) queue.count(inputs of these chunks);
 class MeshQueue {
   public:
-    // Time budget of a batch, on the CPU or the GPU, whichever takes longer; 0: batches are as large as
-    // possible.
+    // The budget is the time of a batch on the CPU or the GPU, whichever takes longer; with 0 batches are as
+    // large as possible.
     MeshQueue(GpuMesher mesher, double budgetMilliseconds);
 
     // Queues the chunk for meshing, again if a batch with it is in flight.
     void add(world::ChunkPos pos);
     // Removes the chunk from the queue and from a batch in flight.
     void remove(world::ChunkPos pos);
-    // Whether the chunk is queued or in flight.
-    bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isOnTheWay(pos); }
+    // Returns whether the chunk is queued or in flight.
+    bool contains(world::ChunkPos pos) const { return isWaiting_.contains(pos) || isInFlight(pos); }
     std::size_t size() const { return isWaiting_.size() + counting_.size(); }
     std::size_t gpuBytes() const { return mesher_.gpuBytes(); }
 
-    // Whether a batch is in flight and its counts are available.
+    // Returns whether a batch is in flight and its counts are available.
     bool isCounted() const { return !counting_.empty() && mesher_.isCounted(); }
     // Returns the chunks of that batch without those removed since it was counted. write() comes next.
     std::vector<CountedChunk> takeCounted();
@@ -59,7 +59,7 @@ class MeshQueue {
   private:
     using Clock = std::chrono::steady_clock;
 
-    bool isOnTheWay(world::ChunkPos pos) const;
+    bool isInFlight(world::ChunkPos pos) const;
     void adaptBatch(std::size_t chunks, double milliseconds);
 
     GpuMesher mesher_;

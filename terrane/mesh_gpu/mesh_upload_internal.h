@@ -1,5 +1,5 @@
 // Chunks in the form that the meshing shaders read: sections in their packed form, and a list of those with
-// faces that may be visible. Pure bookkeeping without OpenGL.
+// faces that may be visible. It uses no OpenGL.
 #pragma once
 
 #include <span>

@@ -41,7 +41,7 @@ base::Result<void> checkRequired(const std::vector<Pack>& packs) {
 
 }  // namespace
 
-base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs) {
+base::Result<std::vector<Pack>> loadOrder(Pack builtIn, std::vector<Pack> packs) {
     TERRANE_TRY(checkRequired(packs));
     std::vector<Pack> ordered;
     std::set<std::string> done{std::string(kBuiltInPack)};
@@ -75,12 +75,12 @@ std::string texturePath(std::string_view name) {
 
 // The pack's own texture, or the built-in one.
 std::string textureName(const Pack& pack, const Pack& builtIn, const std::string& name) {
-    if (fileOf(pack, texturePath(name))) return qualified(pack, name);
+    if (fileOf(pack, texturePath(name))) return qualifiedName(pack, name);
     return fileOf(builtIn, texturePath(name)) ? name : std::string();
 }
 
 base::Result<void> qualifyTextures(const Pack& pack, const Pack& builtIn, world::BlockDescription& block) {
-    const auto qualify = [&](world::FaceLook& face) -> base::Result<void> {
+    const auto qualify = [&](world::FaceDescription& face) -> base::Result<void> {
         std::string name = textureName(pack, builtIn, face.texture);
         if (name.empty())
             return base::fail(base::ErrorCode::BadInput,
@@ -89,8 +89,8 @@ base::Result<void> qualifyTextures(const Pack& pack, const Pack& builtIn, world:
         face.texture = std::move(name);
         return {};
     };
-    for (world::FaceLook& face : block.faces) TERRANE_TRY(qualify(face));
-    for (world::FaceLook& face : block.growth) TERRANE_TRY(qualify(face));
+    for (world::FaceDescription& face : block.faces) TERRANE_TRY(qualify(face));
+    for (world::FaceDescription& face : block.growth) TERRANE_TRY(qualify(face));
     return {};
 }
 
@@ -106,17 +106,17 @@ void qualifyBlocks(const Pack& pack, std::vector<world::BlockDescription>& block
     std::unordered_set<std::string> own;
     for (const world::BlockDescription& block : blocks) own.insert(block.type.name);
     for (world::BlockDescription& block : blocks) {
-        block.type.name = qualified(pack, block.type.name);
+        block.type.name = qualifiedName(pack, block.type.name);
         for (world::BehaviorCall& call : block.calls)
             for (auto& [parameter, name] : call.arguments.blocks)
-                if (own.contains(name)) name = qualified(pack, name);
+                if (own.contains(name)) name = qualifiedName(pack, name);
     }
 }
 
 base::Result<void> readBlocks(const Pack& pack, const Pack& builtIn, BlockCollector& collector) {
     const std::string* text = fileOf(pack, "blocks.toml");
     if (!text) return {};
-    auto read = TERRANE_TRY(world::parseBlocks(*text, placeOf(pack, "blocks.toml"), collector.behaviors,
+    auto read = TERRANE_TRY(world::parseBlocks(*text, displayPath(pack, "blocks.toml"), collector.behaviors,
                                                collector.builtInShapes));
     for (world::BlockDescription& block : read.blocks) TERRANE_TRY(qualifyTextures(pack, builtIn, block));
     qualifyBlocks(pack, read.blocks);
@@ -133,7 +133,7 @@ world::TextureSource texturesOf(std::shared_ptr<const std::vector<Pack>> packs) 
         const std::string path = texturePath(colon == name.npos ? name : name.substr(colon + 1));
         for (const Pack& pack : *packs)
             if (const std::string* data = pack.info.name == prefix ? fileOf(pack, path) : nullptr)
-                return base::decodePng(*data, placeOf(pack, path));
+                return base::decodePng(*data, displayPath(pack, path));
         return base::fail("{}: there is none in the pack {}", path, prefix);
     };
 }
@@ -149,9 +149,9 @@ base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t cou
         for (const auto& [path, data] : pack.files) {
             if (!path.starts_with("textures/")) continue;
             const auto image = TERRANE_TRY(
-                base::decodePng(data, placeOf(pack, path),
+                base::decodePng(data, displayPath(pack, path),
                                 std::int64_t{content::kMaxTextureSide} * content::kMaxTextureSide));
-            TERRANE_TRY(content::checkTexture(image, placeOf(pack, path)));
+            TERRANE_TRY(content::checkTexture(image, displayPath(pack, path)));
             widest = std::max(widest, static_cast<std::size_t>(image.width));
             pixelBytes += image.rgba.size();
             if (pixelBytes > kMaxTextureBytes)
@@ -169,7 +169,7 @@ base::Result<void> checkTextures(const std::vector<Pack>& packs, std::size_t cou
 base::Result<void> checkLanguages(const Pack& pack) {
     for (const auto& [path, text] : pack.files)
         if (path.starts_with("languages/"))
-            (void)TERRANE_TRY(content::parseLanguage(text, placeOf(pack, path)));
+            (void)TERRANE_TRY(content::parseLanguage(text, displayPath(pack, path)));
     return {};
 }
 
@@ -185,13 +185,13 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
          file != pack.files.end() && file->first.starts_with(kFolder); ++file) {
         const std::string_view path = file->first;
         const std::string name =
-            qualified(pack, path.substr(kFolder.size(), path.size() - kFolder.size() - kEnding.size()));
+            qualifiedName(pack, path.substr(kFolder.size(), path.size() - kFolder.size() - kEnding.size()));
         const auto script =
-            std::make_shared<const lua::Script>(lua::Script{file->second, placeOf(pack, path)});
+            std::make_shared<const lua::Script>(lua::Script{file->second, displayPath(pack, path)});
         const lua::ScriptNames names{name, pack.info.name == kBuiltInPack ? std::string() : pack.info.name};
         if (std::chrono::steady_clock::now() > until)
             return base::fail(base::ErrorCode::BadInput, "{}: the scripts of the packs take more than {} s",
-                              placeOf(pack, path), kLongestRecording.count());
+                              displayPath(pack, path), kLongestRecording.count());
         const auto version = TERRANE_TRY(lua::scriptVersion(*script, names, blocks));
         const auto record = [script, names](const world::BlockRegistry& registry, int level) {
             return lua::recordScript(*script, names, registry, level);
@@ -205,7 +205,7 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
 
 base::Result<Content> loadContent(std::vector<Pack> packs, const world::BehaviorTable& behaviors) {
     auto builtIn = TERRANE_TRY(builtInPack());
-    auto ordered = TERRANE_TRY(inOrder(std::move(builtIn), std::move(packs)));
+    auto ordered = TERRANE_TRY(loadOrder(std::move(builtIn), std::move(packs)));
     Content content;
     content.packs = std::make_shared<const std::vector<Pack>>(std::move(ordered));
 
@@ -231,8 +231,8 @@ base::Result<void> addBlockNames(content::Language& language, const Content& con
         const std::string path = fileOf(pack, wanted) ? wanted : "languages/en.toml";
         const std::string* text = fileOf(pack, path);
         if (!text) continue;
-        auto read = TERRANE_TRY(content::parseLanguage(*text, placeOf(pack, path)));
-        for (auto& [name, shown] : read.blocks) language.blocks[qualified(pack, name)] = std::move(shown);
+        auto read = TERRANE_TRY(content::parseLanguage(*text, displayPath(pack, path)));
+        for (auto& [name, shown] : read.blocks) language.blocks[qualifiedName(pack, name)] = std::move(shown);
     }
     return {};
 }

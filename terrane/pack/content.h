@@ -1,5 +1,5 @@
-// The block types, textures and generators of a session, put together from content packs. Made on the thread
-// that starts a session; afterwards any thread reads it.
+// The block types, textures and generators of a session, merged from content packs. The thread that starts a
+// session creates it; afterwards any thread reads it.
 #pragma once
 
 #include <memory>
@@ -14,10 +14,10 @@
 
 namespace terrane::pack {
 
-// The order in which packs are loaded. Any thread.
-// `builtIn` first, then each pack after those that it requires, otherwise as given. An error if a pack is
-// given twice, requires a missing one, or requires itself through others.
-[[nodiscard]] base::Result<std::vector<Pack>> inOrder(Pack builtIn, std::vector<Pack> packs);
+// Sorts the packs into the order of loading: `builtIn` first, then each pack after those that it requires,
+// otherwise as given. Any thread may call it. Returns an error if a pack is given twice, requires a missing
+// one, or requires itself through others.
+[[nodiscard]] base::Result<std::vector<Pack>> loadOrder(Pack builtIn, std::vector<Pack> packs);
 
 struct Content {
     // In the order of loading, the built-in one first. Textures are read from their files.
@@ -34,7 +34,7 @@ struct Content {
 [[nodiscard]] base::Result<Content> loadContent(
     std::vector<Pack> packs, const world::BehaviorTable& behaviors = world::builtInBehaviors());
 
-// Adds the names that the packs have for their blocks in this language, or in English where they have none.
+// Adds the packs' names of their blocks in this language, or in English where a pack has none.
 [[nodiscard]] base::Result<void> addBlockNames(content::Language& language, const Content& content,
                                                std::string_view code);
 

@@ -30,7 +30,7 @@ base::Result<Pack> readNamed(const std::string& nameOrPath) {
 }  // namespace
 
 std::vector<std::filesystem::path> packFolders() {
-    const auto folder = store::dataFolder(store::savePlaces());
+    const auto folder = store::dataFolder(store::saveEnvironment());
     return folder ? std::vector{*folder / "packs"} : std::vector<std::filesystem::path>();
 }
 
@@ -60,7 +60,7 @@ base::Result<void> addPacks(std::vector<Pack>& packs, const std::vector<std::str
     return {};
 }
 
-base::Result<void> addRequired(std::vector<Pack>& packs) {
+base::Result<void> addRequiredPacks(std::vector<Pack>& packs) {
     for (std::size_t k = 0; k < packs.size() && packs.size() < kMaxRequired; ++k) {
         const std::vector<std::string> required = packs[k].info.requiredPacks;
         for (const std::string& name : required) {
@@ -75,12 +75,12 @@ base::Result<void> addRequired(std::vector<Pack>& packs) {
     return {};
 }
 
-base::Result<Content> loadAgain(const Content& content) {
+base::Result<Content> reloadPacks(const Content& content) {
     std::vector<std::string> paths;
     for (const Pack& pack : *content.packs)
         if (pack.info.name != kBuiltInPack) paths.push_back(pack.where);
     auto packs = TERRANE_TRY(readPacks(paths));
-    TERRANE_TRY(addRequired(packs));
+    TERRANE_TRY(addRequiredPacks(packs));
     return loadContent(std::move(packs));
 }
 
@@ -103,7 +103,7 @@ std::vector<std::string> linesOf(const std::string& metadata) {
 
 }  // namespace
 
-std::vector<std::string> rememberedPacks(const store::Metadata& metadata) {
+std::vector<std::string> savedPackNames(const store::Metadata& metadata) {
     const auto found = metadata.find(kPacksMetadata);
     std::vector<std::string> names;
     if (found != metadata.end())
@@ -111,7 +111,7 @@ std::vector<std::string> rememberedPacks(const store::Metadata& metadata) {
     return names;
 }
 
-void rememberPacks(store::ChunkStore& store, const Content& content) {
+void savePackNames(store::ChunkStore& store, const Content& content) {
     const std::string before = store.metadata(kPacksMetadata).value_or("");
     std::string lines;
     for (const Pack& pack : *content.packs)

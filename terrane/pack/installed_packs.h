@@ -1,4 +1,4 @@
-// Packs by name or path, from the packs folder of the user. Any thread.
+// Packs by name or path, from the packs folder of the user. Any thread may use it.
 #pragma once
 
 #include <filesystem>
@@ -11,8 +11,8 @@
 
 namespace terrane::pack {
 
-// The folders that are searched for packs by name: $XDG_DATA_HOME/terrane/packs. None if no variable names a
-// home.
+// Returns the folders that are searched for packs by name: $XDG_DATA_HOME/terrane/packs. The result is empty
+// if no variable names a home folder.
 std::vector<std::filesystem::path> packFolders();
 
 // Reads packs by names and paths. A pack that is named twice is read once.
@@ -23,18 +23,17 @@ std::vector<std::filesystem::path> packFolders();
 [[nodiscard]] base::Result<void> addPacks(std::vector<Pack>& packs, const std::vector<std::string>& names);
 
 // Adds required packs that are not among `packs`, from the packs folder.
-[[nodiscard]] base::Result<void> addRequired(std::vector<Pack>& packs);
+[[nodiscard]] base::Result<void> addRequiredPacks(std::vector<Pack>& packs);
 
 // Reads the same packs again from their files.
-[[nodiscard]] base::Result<Content> loadAgain(const Content& content);
+[[nodiscard]] base::Result<Content> reloadPacks(const Content& content);
 
-// The packs of a world, stored as the metadata "packs" of its save, a line "NAME VERSION HASH" each. Any
-// thread.
-// The names, at most 256; invalid lines are left out.
-std::vector<std::string> rememberedPacks(const store::Metadata& metadata);
+// Returns the names of the packs of a world, at most 256. They are stored as the metadata "packs" of its
+// save, a line "NAME VERSION HASH" each; invalid lines are skipped.
+std::vector<std::string> savedPackNames(const store::Metadata& metadata);
 
 // Stores the packs of `content`. Other names that the world has stay: it may still have blocks of a pack that
 // is not loaded now.
-void rememberPacks(store::ChunkStore& store, const Content& content);
+void savePackNames(store::ChunkStore& store, const Content& content);
 
 }  // namespace terrane::pack

@@ -135,11 +135,11 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
     return pack;
 }
 
-std::string placeOf(const Pack& pack, std::string_view path) {
+std::string displayPath(const Pack& pack, std::string_view path) {
     return pack.where.empty() ? std::string(path) : fmt::format("{}/{}", pack.where, path);
 }
 
-std::string qualified(const Pack& pack, std::string_view name) {
+std::string qualifiedName(const Pack& pack, std::string_view name) {
     return pack.info.name == kBuiltInPack ? std::string(name) : fmt::format("{}:{}", pack.info.name, name);
 }
 

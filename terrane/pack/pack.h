@@ -1,6 +1,6 @@
 // A content pack: block types, textures, generators and names of blocks as files (docs/packs.md). Read from a
-// folder or a zip file (pack_files.h), or from the archive that servers send (pack_files.h). Plain values;
-// any thread.
+// folder or a zip file (pack_files.h), or from the archive that servers send (pack_files.h). All are plain
+// values; any thread may use them.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace terrane::pack {
 
-// Bounds of one pack. Larger packs are refused, so untrusted packs stay within them.
+// Limits of one pack. Larger packs are refused.
 constexpr std::size_t kMaxFiles = 4096;
 constexpr std::size_t kMaxPackBytes = std::size_t{64} << 20;  // of all files together
 constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
@@ -46,28 +46,28 @@ struct Pack {
 bool isPackName(std::string_view text);
 bool hasPack(const std::vector<Pack>& packs, std::string_view name);
 
-// Whether a file of this path belongs to packs: pack.toml, blocks.toml, textures/NAME.png,
+// Returns whether a file of this path belongs to packs: pack.toml, blocks.toml, textures/NAME.png,
 // generators/NAME.lua, languages/CODE.toml. Others are left out.
 bool isPackPath(std::string_view path);
 
 // Reads pack.toml. Errors read "WHERE/pack.toml:line: key: what is wrong".
 [[nodiscard]] base::Result<Pack> makePack(PackFiles files, std::string where);
 
-// The path of a file for messages: "WHERE/blocks.toml"; of the built-in pack "blocks.toml".
-std::string placeOf(const Pack& pack, std::string_view path);
+// Returns the path of a file for messages: "WHERE/blocks.toml", or "blocks.toml" of the built-in pack.
+std::string displayPath(const Pack& pack, std::string_view path);
 
-// The name of a block, texture or generator of the pack outside of it: "isles:glow_rock"; for the built-in
-// pack the name itself.
-std::string qualified(const Pack& pack, std::string_view name);
+// Returns the name of a block, texture or generator of the pack outside of it: "isles:glow_rock"; for the
+// built-in pack the name itself.
+std::string qualifiedName(const Pack& pack, std::string_view name);
 
 [[nodiscard]] base::Result<Pack> builtInPack();
 
-// The template that new packs start from. Any thread.
-// The name of the skeleton's generator, within the pack.
+// The template that new packs start from. Any thread may use it. The name of the skeleton's generator, within
+// the pack.
 constexpr std::string_view kSkeletonGenerator = "hills";
 
 // Writes a pack that works as it is: a glowing block with its texture, a generator that uses it, names of
-// blocks, all with comments. The pack has the folder's name. An error if the folder exists.
+// blocks, all with comments. The pack has the folder's name. Returns an error if the folder exists.
 [[nodiscard]] base::Result<void> writeSkeleton(const std::filesystem::path& folder);
 
 }  // namespace terrane::pack

@@ -1,4 +1,4 @@
-// Uniforms of the air, set once a frame. world/air.h has the model and its constants.
+// Uniforms of the air, set once a frame. world/sky/air.h has the model and its constants.
 #ifndef TERRANE_SHARED_AIR_H
 #define TERRANE_SHARED_AIR_H
 
@@ -6,7 +6,7 @@
 
 SHARED_BEGIN
 
-// The table of the sky (world/sky_light.h): columns by azimuth to the light, rows by elevation.
+// The table of the sky (world/sky/environment.h): columns by azimuth to the light, rows by elevation.
 const uint kSkyTableColumns = 64u;
 const uint kSkyTableRows = 32u;
 

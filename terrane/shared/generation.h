@@ -21,7 +21,7 @@ const uint kNoiseSeedsBinding = 4u;
 const uint kHashSeedsBinding = 5u;
 const uint kShapesBinding = 6u;  // 3D passes that stamp
 
-// Shapes of a generator (gen/shape_table.h): a foot names one with 10 bits on the GPU.
+// Shapes of a generator (gen/cpu/shape_table.h): a foot names one with 10 bits on the GPU.
 const uint kMaxShapes = 1024u;
 // Pairs of a block and a rank that shapes have; 0 is no block.
 const uint kShapePaletteWords = 256u;

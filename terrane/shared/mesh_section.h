@@ -52,8 +52,8 @@ const uint kMaxQuadsPerCommand = 16384u;
 // Lists of commands, one for each draw bucket.
 const uint kDrawLists = 6u;
 
-// The first lists, of opaque and tested faces, draw lists of quads (render/quad_list.h): their base vertex is
-// 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
+// The first lists, of opaque and tested faces, draw lists of quads (render/cull/quad_list.h): their base
+// vertex is 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
 const uint kListedDrawLists = 4u;
 const uint kFirstListedQuad = 1u << 28;
 

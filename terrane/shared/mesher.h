@@ -63,7 +63,7 @@ const uint kMeshShapeHash = 4u;
 const uint kMeshShapeInset = 5u;
 const uint kMeshShapeModel = 6u;
 
-// Block state of liquids, as world/liquid_flow.h has it
+// Block state of liquids, as world/changes/liquid_flow.h has it
 const uint kMeshFlowMask = 15u;
 const uint kMeshFlowFalling = 8u;
 

@@ -1,4 +1,4 @@
-// A section in its packed form, as shaders that light and mesh read it: made by world/packed_sections.h,
+// A section in its packed form, as shaders that light and mesh read it: made by world/section.h,
 // decoded by shared/packed_section.glsl.
 #ifndef TERRANE_SHARED_PACKED_SECTION_H
 #define TERRANE_SHARED_PACKED_SECTION_H

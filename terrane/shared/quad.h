@@ -20,7 +20,7 @@ SHARED_BEGIN
 
 const uint kQuadBytes = 8u;
 
-// Bits of word 1: see render/quad_cull.h.
+// Bits of word 1: see render/cull/cull_pass.h.
 const uint kQuadSeen = 1u << 30;
 const uint kQuadNew = 1u << 31;
 

@@ -26,7 +26,7 @@ base::Result<Wave> parseWave(std::string_view bytes, std::string_view name);
 
 using SoundSet = std::map<std::string, std::vector<Wave>, std::less<>>;
 
-// The sounds that tools/synthesize_sounds.py made for the program: "stone_step" has the variants
+// Returns the sounds that tools/synthesize_sounds.py made for the program: "stone_step" has the variants
 // stone_step_1.wav, stone_step_2.wav…; empty in a build without sounds.
 base::Result<SoundSet> builtInSounds();
 

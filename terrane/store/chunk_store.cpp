@@ -13,11 +13,11 @@ std::string nameOf(world::ChunkPos pos) {
     return name;
 }
 
-base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
-                                                     std::span<const LoadedChunk> stored) {
+base::Result<std::vector<world::ChunkPos>> missingChunks(std::span<const world::ChunkPos> positions,
+                                                         std::span<const LoadedChunk> stored) {
     std::vector<world::ChunkPos> missing;
     for (std::size_t k = 0; k < positions.size(); ++k) {
-        if (stored[k].isUnread && !stored[k].isOverBudget)
+        if (stored[k].isUnreadable && !stored[k].isOverBudget)
             return base::fail(base::ErrorCode::Io, "{}", stored[k].problem);
         if (!stored[k].chunk) missing.push_back(positions[k]);
     }

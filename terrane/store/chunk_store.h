@@ -1,6 +1,6 @@
-// Interface of the stores that keep chunks and metadata of a world between sessions. SqliteStore keeps them
-// in a file, MemoryStore until the program ends, OverlayStore in memory over another store. open_world.h
-// opens the store for a location. All of them pass the tests of tests/store/chunk_store_contract_test.cpp.
+// The interface of the stores of a world's chunks and metadata between sessions. SqliteStore stores them in a
+// file, MemoryStore until the program ends, OverlayStore in memory over another store. open_world.h opens the
+// store for a location. All of them pass the tests of tests/store/chunk_store_contract_test.cpp.
 //
 // Any thread may call everything.
 #pragma once
@@ -39,38 +39,40 @@ struct LoadedChunk {
     Provenance provenance = Provenance::Generated;
     std::string problem;
     // If damaged: the row could not be read now and may be intact. It stays in place.
-    bool isUnread = false;
+    bool isUnreadable = false;
     bool isOverBudget = false;  // unread because of SaveLimits::entityBytes
 };
 
-// A copy of the chunk as load() returns it; Absent for null.
+// Returns a copy of the chunk as load() returns it; Absent for null.
 LoadedChunk loadedCopy(const world::ChunkPtr& chunk, Provenance provenance);
 
-// "chunk 5,-6"; at higher levels "chunk 5,-6 of level 2".
+// Returns "chunk 5,-6", or at higher levels "chunk 5,-6 of level 2".
 std::string nameOf(world::ChunkPos pos);
 
-// The `positions` that must be generated, because nothing is stored or the stored row is damaged. `stored`:
-// the results of loadMany(). A chunk over the memory budget counts as damaged; its row stays. Returns Io if a
-// chunk could not be read for another reason: it may exist, and a generated one would not be saved.
-[[nodiscard]] base::Result<std::vector<world::ChunkPos>> missingOf(std::span<const world::ChunkPos> positions,
-                                                                   std::span<const LoadedChunk> stored);
+// Returns the `positions` that must be generated, because nothing is stored or the stored row is damaged.
+// `stored` has the results of loadMany(). A chunk over the memory budget counts as damaged; its row stays.
+// Returns Io if a chunk could not be read for another reason: it may exist, and a generated one would not be
+// saved.
+[[nodiscard]] base::Result<std::vector<world::ChunkPos>> missingChunks(
+    std::span<const world::ChunkPos> positions, std::span<const LoadedChunk> stored);
 
 // Read access to a world.
 class ReadableStore {
   public:
     virtual ~ReadableStore() = default;
 
-    // Blocks for about 50 µs, over a network for milliseconds: reads and decodes on the calling thread. Sees
-    // all earlier saves, durable or not.
+    // Loads a chunk: reads and decodes it on the calling thread, which takes about 50 µs, over a network
+    // milliseconds. The result includes all earlier saves, durable or not.
     virtual LoadedChunk load(world::ChunkPos pos) = 0;
-    // Same as load() of each, in the order of `positions`, but in one transaction, or one round trip over a
-    // network. A job loads its chunks with one call.
+    // Returns the same as load() of each position, in their order, but reads in one transaction, or one round
+    // trip over a network. A job loads its chunks with one call.
     virtual std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions);
     virtual bool contains(world::ChunkPos pos) = 0;  // whether load() finds a row; does not read the chunk
-    // The edited chunks of level 0, ordered by x, then y, without unsaved ones. Scans all rows of a file.
+    // Returns the edited chunks of level 0, ordered by x, then y, without unsaved ones. Scans all rows of a
+    // file.
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
 
-    // Small texts by name, for example the player's position.
+    // Returns a small text by its name, for example the player's position.
     virtual std::optional<std::string> metadata(std::string_view name) = 0;
     virtual const WorldIdentity& identity() const = 0;
 };
@@ -93,24 +95,27 @@ class ChunkStore : public ReadableStore {
     // chunk never replaces an edited one.
     virtual SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) = 0;
 
-    // Saved in order with chunks. The metadata of identity() (seed, generator, generator_version) and
-    // kDerivedRowsMark cannot be set: an attempt is logged as an error and changes nothing.
+    // Sets metadata, which is saved in order with chunks. The metadata of identity() (seed, generator,
+    // generator_version) and kDerivedRowsMark cannot be set: an attempt is logged as an error and changes
+    // nothing.
     virtual SaveNumber setMetadata(std::string_view name, std::string value) = 0;
 
     // Blocks until all queued saves are durable, or an attempt to write failed.
     [[nodiscard]] virtual base::Result<void> flush() = 0;
     virtual SaveStatus status() = 0;
 
-    // From now on, derived rows are written in one transaction with the edited chunks that they depend on.
-    // Empty functions disable this. Returns when no previous function is running any more.
+    // Sets the functions of derived rows: from now on, these rows are written in one transaction with the
+    // edited chunks that they depend on. Empty functions disable this. Returns when no previous function is
+    // running any more.
     virtual void setDerivedRows(DerivedRows rows) = 0;
     // Deletes all rows of levels above 0 and derives them again from all edited chunks, in one transaction,
     // on the calling thread; written() is not called. Saves wait meanwhile. Sets kDerivedRowsMark to `rules`.
     // Call setDerivedRows() first.
     [[nodiscard]] virtual base::Result<void> deriveAll(std::string_view rules) = 0;
 
-    // For a world that several servers write: declares that later saves include all edits of the history up
-    // to this one. A late older snapshot never replaces a newer one. Other stores ignore it.
+    // A server calls it in a world that several servers write: it declares that later saves include all edits
+    // of the history up to this one. A late older snapshot never replaces a newer one. Other stores ignore
+    // it.
     virtual void setVersion(std::int64_t /*newestEdit*/) {}
 
     virtual bool isPersistent() const = 0;  // false: all is lost when the program ends

@@ -25,8 +25,8 @@ struct ChunkRow {
 };
 
 // Reads the edited chunk or derived row at a position as of the last durable batch, without queued saves.
-// Null if nothing edited is saved there (a generated, damaged or absent row). Called by derive() only, on its
-// thread.
+// Null if nothing edited is saved there (a generated, damaged or absent row). It is called by derive() only,
+// on its thread.
 using ReadEdited = std::function<world::ChunkPtr(world::ChunkPos)>;
 
 // The functions are never called concurrently. They may load and save, but must not wait for the store:
@@ -36,7 +36,7 @@ struct DerivedRows {
     // written, each position once. Called on the writing thread before each batch with edited chunks, and
     // again with newer ones if writing failed. May take long: only saves wait.
     std::function<std::vector<ChunkRow>(std::span<const ChunkRow> edited, const ReadEdited& saved)> derive;
-    // Called when rows of derive() are stored. Same thread, after each batch that has some.
+    // Called when rows of derive() are stored, on the same thread, after each batch that has some.
     std::function<void(std::span<const ChunkRow>)> written;
 };
 
@@ -45,12 +45,12 @@ struct DerivedRows {
 // rows and a regeneration remove it.
 inline constexpr std::string_view kDerivedRowsMark = "tiles";
 
-// Calls deriveAll() if the world lacks rows by these rules: it is new, was written by a program without them
-// or with others, or has been regenerated. Returns whether it did. Call after setDerivedRows(), before rows
-// of higher levels are loaded.
+// Calls deriveAll() if the world lacks rows by these rules: it is new, was written by a program without these
+// rules or with others, or has been regenerated. Returns whether it called deriveAll(). Call after
+// setDerivedRows(), before rows of higher levels are loaded.
 [[nodiscard]] base::Result<bool> ensureDerivedRows(ChunkStore& store, std::string_view rules);
 
-// For stores. Derives the rows of all `edited` chunks in groups of at most kDeriveGroup; each group is
+// Stores call it. Derives the rows of all `edited` chunks in groups of at most kDeriveGroup; each group is
 // written before the next is derived. `saved` reads chunks and must see the written rows.
 constexpr std::size_t kDeriveGroup = 256;  // edited chunks of about 10 KB in memory: 2.5 MB
 using WriteRows = std::function<base::Result<void>(std::span<const ChunkRow>)>;

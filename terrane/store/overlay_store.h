@@ -1,5 +1,5 @@
-// Keeps changes in memory over a store that is not changed: for playing without saving, and for commands that
-// must not change a world. MemoryStore is an overlay over an empty world.
+// Stores changes in memory over a store that is not changed: for playing without saving, and for commands
+// that must not change a world. MemoryStore is an overlay over an empty world.
 #pragma once
 
 #include <map>
@@ -17,7 +17,7 @@ class OverlayStore : public ChunkStore {
     explicit OverlayStore(std::unique_ptr<ReadableStore> below, SaveLimits limits = {});
     ~OverlayStore() override;
 
-    // Loads from `below_` if nothing was saved here.
+    // Loads from the store below if nothing was saved in memory.
     LoadedChunk load(world::ChunkPos pos) override;
     std::vector<LoadedChunk> loadMany(std::span<const world::ChunkPos> positions) override;
     bool contains(world::ChunkPos pos) override;
@@ -52,7 +52,7 @@ class OverlayStore : public ChunkStore {
     std::unique_ptr<SaveQueue> queue_;                                         // destroyed first
 };
 
-// A store in memory, kept until the program ends.
+// A store in memory, which lasts until the program ends.
 class MemoryStore : public OverlayStore {
   public:
     explicit MemoryStore(WorldIdentity identity, SaveLimits limits = {});

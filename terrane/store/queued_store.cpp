@@ -11,7 +11,7 @@ world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
     const StoredRow row = read_(pos);
     if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
     LoadedChunk loaded = decodeRow(row, ids_, budget_);
-    if (loaded.state == LoadedChunk::State::Damaged) metDamage_ = true;
+    if (loaded.state == LoadedChunk::State::Damaged) foundDamage_ = true;
     if (result_ && !row && row.error().code != base::ErrorCode::Damaged)
         result_ = tl::unexpected(row.error());
     return std::move(loaded.chunk);
@@ -24,16 +24,16 @@ QueuedStore::QueuedStore(std::unique_ptr<ChunkRows> rows, const SaveLimits& limi
 
 namespace {
 
-LoadedChunk copyOf(const WaitingChunk& waiting) {
+LoadedChunk copyOf(const QueuedChunk& waiting) {
     return loadedCopy(waiting.chunk, waiting.provenance);
 }
 
-bool isEdited(const std::optional<WaitingChunk>& waiting) {
+bool isEdited(const std::optional<QueuedChunk>& waiting) {
     return waiting && waiting->provenance == Provenance::Edited;
 }
 
 // Whether the queued chunk replaces the stored one: a generated chunk never replaces an edited one.
-bool hides(const std::optional<WaitingChunk>& waiting, const LoadedChunk& stored) {
+bool hides(const std::optional<QueuedChunk>& waiting, const LoadedChunk& stored) {
     const bool isEditedRow =
         stored.state == LoadedChunk::State::Present && stored.provenance == Provenance::Edited;
     return waiting && !isEditedRow;
@@ -41,16 +41,16 @@ bool hides(const std::optional<WaitingChunk>& waiting, const LoadedChunk& stored
 
 }  // namespace
 
-void QueuedStore::setUnread(world::ChunkPos pos, bool isUnread) {
+void QueuedStore::setUnread(world::ChunkPos pos, bool isUnreadable) {
     const std::lock_guard lock(unreadMutex_);
-    if (isUnread) {
+    if (isUnreadable) {
         unread_.insert(pos);
     } else if (!unread_.empty()) {
         unread_.erase(pos);
     }
 }
 
-bool QueuedStore::isUnread(world::ChunkPos pos) {
+bool QueuedStore::isUnreadable(world::ChunkPos pos) {
     const std::lock_guard lock(unreadMutex_);
     return unread_.contains(pos);
 }
@@ -65,11 +65,11 @@ ChunkPosSet QueuedStore::unreadOf(const SaveBatch& batch) {
 
 LoadedChunk QueuedStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
     LoadedChunk loaded = decodeRow(row, rows_->ids(), budget_);
-    setUnread(pos, loaded.isUnread);
+    setUnread(pos, loaded.isUnreadable);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     const std::string reason =
         std::exchange(loaded.problem, fmt::format("{}: {}: {}", rows_->name(), nameOf(pos), loaded.problem));
-    if (loaded.isUnread) {
+    if (loaded.isUnreadable) {
         if (!loaded.isOverBudget || budget_.isFirstRefusal())
             base::logWarning("{}; its saved data stays", loaded.problem);
     } else {
@@ -119,7 +119,7 @@ bool QueuedStore::contains(world::ChunkPos pos) {
 }
 
 SaveNumber QueuedStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
-    if (provenance == Provenance::Generated && isUnread(pos)) return queue_->status().queued;
+    if (provenance == Provenance::Generated && isUnreadable(pos)) return queue_->status().queued;
     return queue_->add(pos, {std::move(chunk), provenance, version_});
 }
 
@@ -155,7 +155,7 @@ base::Result<DerivedBatch> QueuedStore::derive(const std::vector<ChunkRow>& edit
     DerivedBatch derived;
     if (!edited.empty() && derivedRows_.derive) derived.rows = derivedRows_.derive(edited, saved.reader());
     if (!saved.result()) return tl::unexpected(saved.result().error());
-    derived.isComplete = edited.empty() || (derivedRows_.derive && !saved.metDamage());
+    derived.isComplete = edited.empty() || (derivedRows_.derive && !saved.foundDamage());
     return derived;
 }
 

@@ -40,13 +40,13 @@ class ReadableRows {
   public:
     virtual ~ReadableRows() = default;
 
-    // State when the world was opened. `name`: the file or database, for messages.
+    // These return the state when the world was opened. name() is the file or database, for messages.
     virtual const std::string& name() const = 0;
     virtual const WorldIdentity& identity() const = 0;
     virtual const Metadata& metadata() const = 0;
     virtual const BlockIdMap& ids() const = 0;
 
-    // Any thread.
+    // Reads a row. Any thread may call it.
     [[nodiscard]] virtual StoredRow read(world::ChunkPos pos) = 0;
     // Passes each row with its index in `positions` to `take` before reading many more. Up to 256 rows are
     // read as of one moment.
@@ -55,7 +55,8 @@ class ReadableRows {
     [[nodiscard]] virtual base::Result<bool> contains(world::ChunkPos pos) = 0;
     // See ReadableStore::editedChunks().
     [[nodiscard]] virtual base::Result<std::vector<world::ChunkPos>> editedChunks() = 0;
-    // The next rows by key, of all levels: at most `count`, and no more after kBytesOfRows. Empty at the end.
+    // Returns the next rows by key, of all levels: at most `count`, and no more after kBytesOfRows. Empty at
+    // the end.
     [[nodiscard]] virtual base::Result<std::vector<KeyedRow>> rowsAfter(std::int64_t key,
                                                                         std::size_t count) = 0;
     [[nodiscard]] virtual base::Result<std::uint64_t> rowCount() = 0;
@@ -65,13 +66,13 @@ class ChunkRows : public ReadableRows {
   public:
     // Writes the batch and its derived rows in one transaction. Rows in `unread` are quarantined before they
     // are replaced. Returns false if the world lost kDerivedRowsMark. `derive` may be called again if the
-    // transaction is retried. One thread at a time.
+    // transaction is retried. One thread at a time may use it.
     [[nodiscard]] virtual base::Result<bool> write(const SaveBatch& batch, const ChunkPosSet& unread,
                                                    const DeriveBatch& derive) = 0;
     // See ChunkStore::deriveAll().
     [[nodiscard]] virtual base::Result<void> deriveAll(const DerivedRows& rows, std::string_view rules,
                                                        EntityBudget& budget) = 0;
-    // For copies of worlds (world_copy.h). Checks and derives nothing.
+    // Writes changes of a copy of a world (world_copy.h) without checking or deriving rows.
     [[nodiscard]] virtual base::Result<void> change(const RowChanges& changes) = 0;
 };
 
@@ -86,15 +87,15 @@ class SavedRows {
         return [this](world::ChunkPos pos) { return editedChunk(pos); };
     }
 
-    bool metDamage() const { return metDamage_; }
-    // The first read error; then the derived rows must not be written. Damaged rows are not an error.
+    bool foundDamage() const { return foundDamage_; }
+    // Returns the first read error; then the derived rows must not be written. Damaged rows are not an error.
     const base::Result<void>& result() const { return result_; }
 
   private:
     ReadRow read_;
     const BlockIdMap& ids_;
     EntityBudget& budget_;
-    bool metDamage_ = false;
+    bool foundDamage_ = false;
     base::Result<void> result_;
 };
 
@@ -108,7 +109,8 @@ class QueuedStore : public ChunkStore {
     [[nodiscard]] base::Result<std::vector<world::ChunkPos>> editedChunks() override {
         return rows_->editedChunks();
     }
-    // A chunk with more block entity data than a save keeps (62 MiB) is reported and not saved.
+    // Queues a chunk. A chunk with more block entity data than a save can store (62 MiB) is reported and not
+    // saved.
     SaveNumber save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) override;
     std::optional<std::string> metadata(std::string_view name) override;
     SaveNumber setMetadata(std::string_view name, std::string value) override;
@@ -122,8 +124,8 @@ class QueuedStore : public ChunkStore {
 
   private:
     LoadedChunk loadStored(const StoredRow& row, world::ChunkPos pos);
-    void setUnread(world::ChunkPos pos, bool isUnread);
-    bool isUnread(world::ChunkPos pos);
+    void setUnread(world::ChunkPos pos, bool isUnreadable);
+    bool isUnreadable(world::ChunkPos pos);
     ChunkPosSet unreadOf(const SaveBatch& batch);
     base::Result<DerivedBatch> derive(const std::vector<ChunkRow>& edited, const ReadRow& read);
     base::Result<void> write(const SaveBatch& batch);

@@ -12,7 +12,7 @@ namespace terrane::store {
 namespace {
 
 // The newer chunk replaces the older one, except a generated chunk after an edited one.
-void put(WaitingChunks& chunks, world::ChunkPos pos, WaitingChunk newer) {
+void put(QueuedChunks& chunks, world::ChunkPos pos, QueuedChunk newer) {
     const auto [entry, isNew] = chunks.try_emplace(pos, newer);
     if (!isNew && newer.provenance >= entry->second.provenance) entry->second = std::move(newer);
 }
@@ -55,7 +55,7 @@ std::string contentOf(const SaveBatch& batch) noexcept {
 
 }  // namespace
 
-std::vector<ChunkRow> editedOf(const WaitingChunks& chunks) {
+std::vector<ChunkRow> editedOf(const QueuedChunks& chunks) {
     std::vector<ChunkRow> edited;
     for (const auto& [pos, chunk] : chunks)
         if (pos.level == 0 && chunk.provenance == Provenance::Edited) edited.push_back({pos, chunk.chunk});
@@ -82,7 +82,7 @@ SaveQueue::~SaveQueue() {
     } else {
         thread_.join();
     }
-    if (!waiting_.isEmpty() && !isProblemTold_)
+    if (!waiting_.isEmpty() && !isProblemReported_)
         base::logError("{}; lost: {}", problem_.message, contentOf(waiting_));
 }
 
@@ -93,7 +93,7 @@ SaveNumber SaveQueue::addNumbered(Add add) {
     {
         const std::lock_guard lock(mutex_);
         add();
-        isProblemTold_ = false;
+        isProblemReported_ = false;
         number = ++queued_;
         const bool isFirst = due_ == Clock::time_point::max();
         if (isFirst) due_ = now() + limits_.delay;
@@ -103,7 +103,7 @@ SaveNumber SaveQueue::addNumbered(Add add) {
     return number;
 }
 
-SaveNumber SaveQueue::add(world::ChunkPos pos, WaitingChunk chunk) {
+SaveNumber SaveQueue::add(world::ChunkPos pos, QueuedChunk chunk) {
     return addNumbered([&] { put(waiting_.chunks, pos, std::move(chunk)); });
 }
 
@@ -119,7 +119,7 @@ void SaveQueue::add(DamagedRow row) {
     (void)addNumbered([&] { waiting_.damaged.push_back(std::move(row)); });
 }
 
-std::optional<WaitingChunk> SaveQueue::findLocked(world::ChunkPos pos) const {
+std::optional<QueuedChunk> SaveQueue::findLocked(world::ChunkPos pos) const {
     for (const SaveBatch* batch : {&waiting_, &writing_}) {
         const auto found = batch->chunks.find(pos);
         if (found != batch->chunks.end()) return found->second;
@@ -127,13 +127,13 @@ std::optional<WaitingChunk> SaveQueue::findLocked(world::ChunkPos pos) const {
     return std::nullopt;
 }
 
-std::optional<WaitingChunk> SaveQueue::find(world::ChunkPos pos) {
+std::optional<QueuedChunk> SaveQueue::find(world::ChunkPos pos) {
     const std::lock_guard lock(mutex_);
     return findLocked(pos);
 }
 
-std::vector<std::optional<WaitingChunk>> SaveQueue::findMany(std::span<const world::ChunkPos> positions) {
-    std::vector<std::optional<WaitingChunk>> found;
+std::vector<std::optional<QueuedChunk>> SaveQueue::findMany(std::span<const world::ChunkPos> positions) {
+    std::vector<std::optional<QueuedChunk>> found;
     found.reserve(positions.size());
     const std::lock_guard lock(mutex_);
     for (const world::ChunkPos pos : positions) found.push_back(findLocked(pos));
@@ -151,7 +151,7 @@ base::Result<void> SaveQueue::flush() {
     if (limits_.clock) writeOnce(lock, false);
     written_.wait(lock, [&] { return durable_ >= goal || finished_ >= attempt; });
     if (durable_ >= goal) return {};
-    isProblemTold_ = true;
+    isProblemReported_ = true;
     return tl::unexpected(problem_);
 }
 
@@ -217,14 +217,14 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
                            contentOf(writing_));
         if (problem_.message.empty()) failingSince_ = now();
         problem_ = std::move(done.error());
-        takeBack(std::exchange(writing_, {}));
+        requeue(std::exchange(writing_, {}));
     }
     ++finished_;
     written_.notify_all();
 }
 
 // Saves queued meanwhile are newer. Allocates no memory, since writing may have failed for lack of it.
-void SaveQueue::takeBack(SaveBatch failed) {
+void SaveQueue::requeue(SaveBatch failed) {
     for (auto& [pos, newer] : waiting_.chunks) {
         const auto older = failed.chunks.find(pos);
         if (older != failed.chunks.end() && newer.provenance < older->second.provenance)

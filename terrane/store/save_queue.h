@@ -1,5 +1,5 @@
 // Collects saves and writes them in batches on its own thread. Failed writes, for example because the disk is
-// full, are kept and tried again. Any thread may call everything.
+// full, are queued and tried again. Any thread may call everything.
 #pragma once
 
 #include <chrono>
@@ -22,7 +22,7 @@
 
 namespace terrane::store {
 
-struct WaitingChunk {
+struct QueuedChunk {
     world::ChunkPtr chunk;
     Provenance provenance = Provenance::Generated;
     std::int64_t version = 0;  // ChunkStore::setVersion()
@@ -47,19 +47,19 @@ struct KeyOrder {
 using ChunkPosSet = std::set<world::ChunkPos, KeyOrder>;
 
 // Sorted by key, so that pages of a file are filled one after the other.
-using WaitingChunks = std::map<world::ChunkPos, WaitingChunk, KeyOrder>;
-std::vector<ChunkRow> editedOf(const WaitingChunks& chunks);  // of level 0
+using QueuedChunks = std::map<world::ChunkPos, QueuedChunk, KeyOrder>;
+std::vector<ChunkRow> editedOf(const QueuedChunks& chunks);  // of level 0
 
 struct SaveBatch {
-    WaitingChunks chunks;
+    QueuedChunks chunks;
     std::map<std::string, std::string> metadata;
     std::list<DamagedRow> damaged;
 
     bool isEmpty() const { return chunks.empty() && metadata.empty() && damaged.empty(); }
 };
 
-// A clock set by tests, for queues without a thread: they write on the calling thread, in writeIfDue(),
-// flush() and the destructor. Outlives its queue.
+// A clock that tests set, for queues without a thread: they write on the calling thread, in writeIfDue(),
+// flush() and the destructor. It outlives its queue.
 struct ManualClock {
     std::chrono::steady_clock::time_point now{};
     std::function<void()> writeIfDue;  // of the queue that has the clock
@@ -80,7 +80,7 @@ struct SaveLimits {
 
 class SaveQueue {
   public:
-    // Makes all of a batch durable, or nothing of it. Called on the queue's thread, never concurrently.
+    // Makes all of a batch durable, or nothing of it. The queue calls it on its thread, never concurrently.
     using WriteBatch = std::function<base::Result<void>(const SaveBatch&)>;
 
     SaveQueue(WriteBatch write, SaveLimits limits);
@@ -88,13 +88,13 @@ class SaveQueue {
     SaveQueue(const SaveQueue&) = delete;
     SaveQueue& operator=(const SaveQueue&) = delete;
 
-    SaveNumber add(world::ChunkPos pos, WaitingChunk chunk);
+    SaveNumber add(world::ChunkPos pos, QueuedChunk chunk);
     SaveNumber add(const std::string& name, std::string value);
     void add(DamagedRow row);
 
-    std::optional<WaitingChunk> find(world::ChunkPos pos);  // queued or being written
-    // In the order of `positions`, as of one moment.
-    std::vector<std::optional<WaitingChunk>> findMany(std::span<const world::ChunkPos> positions);
+    std::optional<QueuedChunk> find(world::ChunkPos pos);  // queued or being written
+    // Returns the queued chunks in the order of `positions`, as of one moment.
+    std::vector<std::optional<QueuedChunk>> findMany(std::span<const world::ChunkPos> positions);
     [[nodiscard]] base::Result<void> flush();  // see ChunkStore::flush()
     SaveStatus status();
 
@@ -106,8 +106,8 @@ class SaveQueue {
     Clock::time_point now() const { return limits_.clock ? limits_.clock->now : Clock::now(); }
     bool isDue() const;
     void writeOnce(std::unique_lock<std::mutex>& lock, bool isLast);
-    void takeBack(SaveBatch failed);
-    std::optional<WaitingChunk> findLocked(world::ChunkPos pos) const;
+    void requeue(SaveBatch failed);
+    std::optional<QueuedChunk> findLocked(world::ChunkPos pos) const;
     template <class Add>
     SaveNumber addNumbered(Add add);
 
@@ -122,7 +122,7 @@ class SaveQueue {
     std::uint64_t finished_ = 0;                          // attempts
     base::Error problem_;                                 // of the last attempt; no message if it succeeded
     Clock::time_point failingSince_;                      // while there is a problem
-    bool isProblemTold_ = false;                          // reported by flush(), and nothing was added since
+    bool isProblemReported_ = false;                      // reported by flush(), and nothing was added since
     bool isEnding_ = false;
     std::thread thread_;  // none with a ManualClock
 };

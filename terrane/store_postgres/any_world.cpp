@@ -32,7 +32,7 @@ StoreResult openDatabase(const Address& address, const world::BlockRegistry& blo
                          const store::WorldRequest& request) {
     if (request.access == store::WorldAccess::ReadOnly) {
         auto saved = TERRANE_TRY(openReader(address, blocks, request.limits));
-        return store::openOver(std::move(saved), request, address.shown);
+        return store::openOverlay(std::move(saved), request, address.shown);
     }
     store::SaveAccess access;
     access.create = request.create;

@@ -25,7 +25,7 @@ std::string shownOf(const store::WorldLocation& location);
 // The metadata of an existing world. Errors as opening it for reading.
 [[nodiscard]] base::Result<store::Metadata> anyWorldMetadata(const store::WorldLocation& location);
 
-// The rows of a world, for a copy (store/world_copy.h).
+// The rows of a world, for a copy (store/saves/world_copy.h).
 [[nodiscard]] base::Result<std::unique_ptr<store::ReadableRows>> openAnyRowsToRead(
     const store::WorldLocation& location, const world::BlockRegistry& blocks);
 [[nodiscard]] base::Result<std::unique_ptr<store::ChunkRows>> openAnyRows(

@@ -17,9 +17,9 @@ namespace {
 
 using store::ChunkRow;
 using store::Provenance;
+using store::QueuedChunks;
 using store::StoredChunk;
 using store::StoredRow;
-using store::WaitingChunks;
 using world::ChunkPos;
 
 // Tiles are always replaced, since they are derived from the current chunks.
@@ -152,8 +152,8 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
 }
 
 // The batch without chunks that are older than the row of another server.
-base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch& batch) {
-    WaitingChunks chunks = batch.chunks;
+base::Result<QueuedChunks> PostgresWriter::newestChunks(const store::SaveBatch& batch) {
+    QueuedChunks chunks = batch.chunks;
     std::vector<std::int64_t> keys, versions;
     for (const ChunkRow& row : store::editedOf(chunks)) {
         keys.push_back(store::keyOf(row.pos));
@@ -166,7 +166,7 @@ base::Result<WaitingChunks> PostgresWriter::newestChunks(const store::SaveBatch&
 }
 
 // Writes rows in key order, so that two writers cannot deadlock.
-base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
+base::Result<void> PostgresWriter::writeChunks(const QueuedChunks& chunks) {
     std::vector<std::int64_t> keys, versions;
     for (const auto& [pos, chunk] : chunks) keys.push_back(store::keyOf(pos));
     TERRANE_TRY(quarantineDamaged(keys));
@@ -205,7 +205,7 @@ base::Result<void> PostgresWriter::writeChunks(const WaitingChunks& chunks) {
 }
 
 base::Result<void> PostgresWriter::writeDerived(std::span<const ChunkRow> rows) {
-    WaitingChunks written;
+    QueuedChunks written;
     std::vector<std::int64_t> deleted;
     for (const ChunkRow& row : rows) {
         if (row.chunk)

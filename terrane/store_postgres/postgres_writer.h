@@ -39,8 +39,8 @@ class PostgresWriter {
     base::Result<void> quarantineRow(world::ChunkPos pos, std::string_view reason);
     base::Result<void> quarantineDamaged(std::span<const std::int64_t> keys);
     base::Result<void> writeDerived(std::span<const store::ChunkRow> rows);
-    base::Result<store::WaitingChunks> newestChunks(const store::SaveBatch& batch);
-    base::Result<void> writeChunks(const store::WaitingChunks& chunks);
+    base::Result<store::QueuedChunks> newestChunks(const store::SaveBatch& batch);
+    base::Result<void> writeChunks(const store::QueuedChunks& chunks);
     base::Result<void> changeRows(const store::RowChanges& changes);
     base::Result<void> writeMetadata(const store::Metadata& metadata);
 

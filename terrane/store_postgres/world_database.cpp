@@ -184,11 +184,11 @@ base::Result<void> copyAndDelete(Connection& connection, const Address& address,
 }
 
 base::Result<void> regenerate(Connection& connection, const Address& address, const store::Regeneration& by) {
-    const auto copy = TERRANE_TRY(by.keepsCopy ? freeSchema(connection, address) : std::string());
+    const auto copy = TERRANE_TRY(by.keepsBackup ? freeSchema(connection, address) : std::string());
     TERRANE_TRY(inTransaction(connection, [&] { return copyAndDelete(connection, address, by, copy); }));
     base::logInfo("{}: regenerated{}{}{}", address.shown,
                   by.chunks == Regenerate::All ? "" : " except for chunks with edits",
-                  by.keepsCopy ? "; the old world is the schema " : "", copy);
+                  by.keepsBackup ? "; the old world is the schema " : "", copy);
     return {};
 }
 

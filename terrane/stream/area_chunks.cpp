@@ -38,7 +38,7 @@ base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos
         for (std::size_t k = 0; k < part.size(); ++k) {
             // Generating the chunk instead would be wrong, and a caller that saves it would overwrite the
             // stored one.
-            if (stored[k].isUnread && !stored[k].isOverBudget) problems[job] = stored[k].problem;
+            if (stored[k].isUnreadable && !stored[k].isOverBudget) problems[job] = stored[k].problem;
             if (stored[k].chunk) {
                 chunks[first + k] = std::move(*stored[k].chunk);
             } else if (world::isInWorld(part[k])) {

@@ -1,4 +1,4 @@
-// Chunks of an area for commands: loaded from the store, else generated.
+// Provides the chunks of an area for commands, from the store or the generator.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace terrane::stream {
 
-// In the order of `positions`; empty chunks outside the world. `save` may be null.
+// Returns the chunks in the order of `positions`; chunks outside the world are empty. `save` may be null.
 base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos> positions,
                                                  store::ReadableStore* save, const gen::Generator& generator,
                                                  base::JobSystem& jobs);

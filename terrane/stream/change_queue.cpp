@@ -49,7 +49,7 @@ void ChangeQueue::hide(ChunkPos pos) {
     changed.isHidden = true;
 }
 
-void ChangeQueue::putFirst(ChunkPos pos) {
+void ChangeQueue::prioritize(ChunkPos pos) {
     if (first_.empty() || first_.back() != pos) first_.push_back(pos);
 }
 

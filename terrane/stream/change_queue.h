@@ -1,5 +1,5 @@
-// Changes on screen that were not taken yet, one entry for each chunk. Edited chunks come first, then the
-// rest in order of change.
+// The changes on screen that the renderer has not received yet, one entry for each chunk. Edited chunks come
+// first, then the rest in order of change.
 #pragma once
 
 #include <cstddef>
@@ -17,16 +17,16 @@ class ChangeQueue {
     void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks);
     // Sets new quads of `meshSections`. Other sections of a waiting mesh stay.
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
-    // Asks the taker of the change to make the mesh.
+    // Requests that the receiver of the change makes the mesh.
     void requestMesh(world::ChunkPos pos);
     bool isMeshRequested(world::ChunkPos pos) const;
-    // The chunk is no longer on screen.
+    // Marks the chunk as no longer on screen.
     void hide(world::ChunkPos pos);
     // Moves an edited chunk ahead of all that were not edited.
-    void putFirst(world::ChunkPos pos);
+    void prioritize(world::ChunkPos pos);
 
     std::vector<ChunkChange> take(std::size_t limit);
-    // Takes only the chunks that are no longer on screen.
+    // Removes and returns only the chunks that are no longer on screen.
     std::vector<world::ChunkPos> takeHidden();
     std::size_t size() const { return changes_.size(); }
 
@@ -34,7 +34,7 @@ class ChangeQueue {
     ChunkChange& change(world::ChunkPos pos);
 
     std::unordered_map<world::ChunkPos, ChunkChange, world::ChunkPosHash> changes_;
-    // May have positions that were taken meanwhile; take() skips them.
+    // They may have positions that were taken meanwhile; take() skips these.
     std::deque<world::ChunkPos> first_, others_;
 };
 

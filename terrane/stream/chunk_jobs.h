@@ -22,19 +22,19 @@ struct ChunkSource {
     bool storesGenerated = false;               // else only edited chunks are stored
 };
 
-// Loads a chunk from the store. Null if it has none.
+// Loads a chunk from the store. Returns null if it has none.
 std::shared_ptr<world::Chunk> loadStored(const ChunkSource& source, world::ChunkPos pos);
-// Generates a chunk, and stores it if the source says so. Null if there is no generator.
+// Generates a chunk, and stores it if the source says so. Returns null if there is no generator.
 std::shared_ptr<world::Chunk> generateChunk(const ChunkSource& source, world::ChunkPos pos);
 
 // Stores a generated chunk if the source says so.
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk);
 
-// The light of a chunk's own blocks.
+// Returns the light of a chunk's own blocks.
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table);
 
-// The input for the light and mesh of a chunk: 3×3 chunks, x + 3 y. Null beyond the world's edge, which
-// counts as air for meshes and as dark for light. Local light that is null is computed first.
+// The input for the light and mesh of a chunk: 3×3 chunks, x + 3 y. A chunk is null beyond the world's edge,
+// which counts as air for meshes and as dark for light. Local light that is null is computed first.
 struct ChunkNeighborhood {
     std::array<world::ChunkPtr, 9> chunks;
     std::array<LocalLightPtr, 9> localLights;
@@ -42,7 +42,7 @@ struct ChunkNeighborhood {
 };
 
 light::ChunkLightPtr lightOf(const ChunkNeighborhood& around, const light::LightTable& table);
-// Selects the input of the mesh of the middle one of 3×3 chunks.
+// Returns the input of the mesh of the middle one of 3×3 chunks.
 inline mesh::MeshBlocks meshBlocksOf(const std::array<world::ChunkPtr, 9>& chunks) {
     return {chunks[4], chunks[3], chunks[5], chunks[1], chunks[7]};
 }

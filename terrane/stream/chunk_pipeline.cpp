@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds kBatchPause{1};
 }  // namespace
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
-    : parts_(parts), beyond_(chunkBeyond(parts.blocks)), workers_(parts_) {
+    : parts_(parts), beyond_(borderChunk(parts.blocks)), workers_(parts_) {
     if (parts_.batchGenerator) parts_.source.generator = nullptr;
 }
 
@@ -214,8 +214,8 @@ void ChunkPipeline::exchangeLight() {
     }
 }
 
-void ChunkPipeline::waitForWorkers(std::chrono::milliseconds atMost) {
-    workers_.waitForAny(generating_ + lighting_ > 0 ? std::min(atMost, kBatchPause) : atMost);
+void ChunkPipeline::waitForWorkers(std::chrono::milliseconds timeout) {
+    workers_.waitForAny(generating_ + lighting_ > 0 ? std::min(timeout, kBatchPause) : timeout);
 }
 
 void ChunkPipeline::submitLighting() {
@@ -250,7 +250,7 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             record = findRecord(table_, chunk);
             assert(record && "a chunk in the world has a record");
             if (!record->editedAt) record->editedAt = now_;
-            outdateLighting(table_, chunk);
+            invalidateLighting(table_, chunk);
         }
         if (edit.before == edit.after) {  // only its state or data changed
             requestEditedMesh(table_, chunk,
@@ -276,13 +276,13 @@ void ChunkPipeline::relight() {
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
-        changes_.putFirst(change.pos);
+        changes_.prioritize(change.pos);
     }
 }
 
 void ChunkPipeline::meshEdits() {
     for (const MeshRequest& request : popEditedMeshes(table_, kEditedMeshesPerUpdate)) {
-        changes_.putFirst(request.pos);
+        changes_.prioritize(request.pos);
         showMesh(request.pos, request.meshSections);
     }
 }
@@ -299,9 +299,9 @@ void ChunkPipeline::showMesh(ChunkPos pos, mesh::MeshSectionSet meshSections) {
 
 // Saves chunks some time after their edits, and unloads chunks that nobody needs.
 void ChunkPipeline::runHousekeeping() {
-    nextHousekeeping_ = now_ + kHousekeepingEvery;
+    nextHousekeeping_ = now_ + kHousekeepingInterval;
     for (auto& [pos, record] : table_.records) {
-        if (record.editedAt && now_ - *record.editedAt >= kSaveAfter) save(pos, record);
+        if (record.editedAt && now_ - *record.editedAt >= kSaveDelay) save(pos, record);
     }
     for (const ChunkPos pos : findUnneeded(table_, now_)) {
         if (!save(pos, *findRecord(table_, pos))) continue;

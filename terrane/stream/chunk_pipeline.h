@@ -1,7 +1,7 @@
-// Keeps the chunks around a camera loaded, lit and meshed on worker threads, and brings edits to the screen
-// and the disk.
+// Loads, lights and meshes the chunks around a camera on worker threads, and passes edits to the screen and
+// the store.
 //
-// Three schedulers over one table of chunk records (chunk_table.h) decide what is next; this runs the work.
+// Three schedulers over one table of chunk records (chunk_table.h) select the next work; this class runs it.
 // All functions are called on one thread, the one that owns the world; workers see only immutable snapshots
 // and return results through a queue.
 #pragma once
@@ -30,61 +30,65 @@ class ChunkPipeline {
     explicit ChunkPipeline(const PipelineParts& parts);
     ~ChunkPipeline();  // waits for its running jobs, the others do nothing; saves edited chunks
 
-    // Chunks up to `viewDistance` (Chebyshev) around `center` become visible, tiles beyond them to `horizon`:
-    // see TileView. `direction`: see ViewOrder.
+    // Sets the view: chunks up to `viewDistance` (Chebyshev) around `center` become visible, and tiles beyond
+    // them up to `horizon` (see TileView). `direction` is that of ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {}, int horizon = 0);
-    // Visible chunks are meshed again in the next updates; they are shown as before until then.
+    // Sets the options. Visible chunks are meshed again in the next updates; they are shown as before until
+    // then.
     void setMeshOptions(const mesh::MeshOptions& options);
     const mesh::MeshOptions& meshOptions() const { return meshOptions_; }
-    // The current blocks that the chunk is meshed from.
+    // Returns the current blocks that the chunk is meshed from.
     mesh::MeshBlocks meshBlocks(world::ChunkPos pos) const;
-    // Takes the results of workers, puts edits on screen and submits new work. Call each frame. Throws what a
-    // worker threw.
+    // Receives the results of workers, updates meshes and light after edits, and submits new work. Call it
+    // each frame. It rethrows exceptions of workers.
     void update(Time now = std::chrono::steady_clock::now());
     // Blocks until a worker or a batch may have a result, or the time is over. Runs a job if there are no
     // threads.
-    void waitForWorkers(std::chrono::milliseconds atMost);
+    void waitForWorkers(std::chrono::milliseconds timeout);
 
-    // The chunk; null if it is not loaded, and then it is loaded soon. Each call keeps it for 5 s.
+    // Returns the chunk, or null if it is not loaded; then it is loaded soon. Each call keeps it loaded for 5
+    // s.
     world::ChunkPtr maybeLoadChunkAt(world::ChunkPos pos);
-    // Blocks until the chunk is loaded. `pos` is in the world.
+    // Returns the chunk and blocks until it is loaded. `pos` is in the world.
     world::ChunkPtr chunkAt(world::ChunkPos pos);
 
     // Reports changed blocks. Light and mesh follow in the next update; the chunks go to the store after
-    // kSaveAfter and are in the file store::SaveLimits::delay later: within two seconds in all.
+    // kSaveDelay and are in the file store::SaveLimits::delay later: within two seconds in all.
     void onEdits(std::span<const world::BlockEdit> edits);
-    static constexpr std::chrono::milliseconds kSaveAfter{500};
-    static constexpr std::chrono::milliseconds kHousekeepingEvery{250};
-    // Hands all edited chunks to the store.
+    static constexpr std::chrono::milliseconds kSaveDelay{500};
+    static constexpr std::chrono::milliseconds kHousekeepingInterval{250};
+    // Passes all edited chunks to the store.
     void saveAll();
-    // Chunks for which the filter is false are not saved now and stay loaded: their changes may yet be
-    // reverted. Empty: all are saved.
+    // Sets a filter: chunks for which it returns false are not saved yet and stay loaded, because their
+    // changes may be reverted. With an empty filter all chunks are saved.
     void setSaveFilter(std::function<bool(world::ChunkPos)> maySave) { maySave_ = std::move(maySave); }
-    // Whether the chunk has edits that the store was not given yet.
+    // Returns whether the chunk has edits that were not passed to the store yet.
     bool isUnsaved(world::ChunkPos pos) const;
-    // The chunks that were loaded since the last call; the first call begins to record them. For callers that
-    // add to what the store has.
+    // Returns the chunks that were loaded since the last call; the first call begins to record them. Callers
+    // that change loaded chunks need it.
     std::vector<world::ChunkPos> takeLoaded();
 
     // Returns up to `limit` chunks whose mesh or light changed since the last call. Edited chunks come first,
     // then the rest in order of change.
     std::vector<ChunkChange> takeChanges(std::size_t limit) { return changes_.take(limit); }
-    // Takes only chunks that are no longer on screen, ahead of all other changes: they free memory.
+    // Removes and returns only chunks that are no longer on screen, before all other changes, since they free
+    // memory.
     std::vector<world::ChunkPos> takeHidden() { return changes_.takeHidden(); }
-    // Takes all chunks off the screen. They are lit, meshed and shown again in the next updates.
+    // Removes all chunks from the screen. They are lit, meshed and shown again in the next updates.
     void hideAll();
     std::size_t waitingChanges() const { return changes_.size(); }
     // Reports the light of all visible chunks again, for a renderer with a new store of light.
     void resendLight();
 
-    // None if the chunk is absent.
+    // Returns the stage of the chunk, or nothing if it is absent.
     std::optional<ChunkStage> stageAt(world::ChunkPos pos) const { return stream::stageAt(table_, pos); }
-    // The light in a block; none if its chunk is not visible, and above and below the world.
+    // Returns the light in a block; none if its chunk is not visible, and above and below the world.
     std::optional<light::LightValue> lightAt(world::BlockPos pos) const;
     std::vector<TaskTime> taskTimes() const { return workers_.taskTimes(); }
     std::size_t queuedCount() const;  // chunks that are being loaded, lit or meshed
     Progress progress() const;
-    // Bytes of the light of visible chunks, and of local light, which is kept until the neighbors are lit.
+    // These return the bytes of the light of visible chunks, and of local light, which is stored until the
+    // neighbors are lit.
     std::size_t lightBytes() const;
     std::size_t localLightBytes() const;
 
@@ -116,7 +120,7 @@ class ChunkPipeline {
     world::ChunkPtr beyond_;
     ChangeQueue changes_;
     ChunkWorkers workers_;
-    // Chunks for the batch generator and the batch lighter, and the number of those that they work on.
+    // The chunks for the batch generator and the batch lighter, and the number of chunks in flight in each.
     std::deque<world::ChunkPos> toGenerate_, toLight_;
     std::size_t generating_ = 0, lighting_ = 0;
     PendingEdits toRelight_;

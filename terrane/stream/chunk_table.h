@@ -1,7 +1,7 @@
 // One record for each chunk that is loaded or being loaded, and the view that orders them: the data that the
-// three schedulers share. residency.h decides what is loaded and unloaded, lighting.h what is lit, meshing.h
-// what is meshed again. None of them uses threads, clocks or blocks; chunk_pipeline.h runs their work. One
-// thread.
+// three schedulers share. residency.h decides which chunks are loaded and unloaded, lighting.h which are lit,
+// meshing.h which are meshed again. None of them uses threads, clocks or blocks; chunk_pipeline.h runs their
+// work. One thread uses it.
 //
 //   (absent) ─► Loading ─► Loaded ─► Lighting ─► Visible
 //                            ▲ │ ▲──────┘ blocks changed meanwhile
@@ -46,10 +46,10 @@ struct ChunkRecord {
     std::optional<Time> editedAt{};  // of the first edit that the store does not have
 
     // Lighting.
-    std::uint8_t loadedAround = 0;  // of its eight neighbors; those beyond the world count
-    bool isOutdated = false;        // blocks, mesh options or open sides changed after its lighting began
-    LocalLightPtr localLight{};     // null once nobody needs it
-    light::ChunkLightPtr light{};   // of visible chunks
+    std::uint8_t loadedNeighbors = 0;  // of its eight neighbors; those beyond the world count
+    bool isOutdated = false;           // blocks, mesh options or open sides changed after its lighting began
+    LocalLightPtr localLight{};        // null once nobody needs it
+    light::ChunkLightPtr light{};      // of visible chunks
 
     // Meshing again, of visible chunks.
     mesh::MeshSectionSet toMesh = 0;  // sections that wait to be meshed
@@ -84,7 +84,7 @@ std::optional<ChunkStage> stageAt(const ChunkTable& table, world::ChunkPos pos);
 bool isAt(const ChunkTable& table, world::ChunkPos pos, ChunkStage stage);
 std::size_t countOf(const ChunkTable& table, ChunkStage stage);
 
-// For the schedulers: these keep the counts. A new record is Loading.
+// The schedulers call these, which update the counts. A new record is Loading.
 ChunkRecord& addRecord(ChunkTable& table, world::ChunkPos pos);
 void eraseRecord(ChunkTable& table, world::ChunkPos pos);
 void setStage(ChunkTable& table, world::ChunkPos pos, ChunkRecord& record, ChunkStage stage);

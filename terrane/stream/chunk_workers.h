@@ -1,5 +1,5 @@
 // Runs the pipeline's work on workers: each submit function makes one job, and takeResults() returns the
-// results. Workers see only immutable snapshots. Used on the pipeline's thread.
+// results. Workers see only immutable snapshots. It is used on the pipeline's thread.
 #pragma once
 
 #include <chrono>
@@ -35,14 +35,14 @@ class ChunkWorkers {
     void submitMesh(base::JobPriority priority, const MeshJob& job, const ChunkNeighborhood& around,
                     const mesh::MeshOptions& options);
 
-    // Takes the results. Throws what a job threw, nearly always for lack of memory.
+    // Removes and returns the results. It rethrows exceptions of jobs, nearly always for lack of memory.
     WorkerResults::Lists takeResults();
     // Blocks until there is a result or the time is over. Runs a job if there are no threads.
-    void waitForAny(std::chrono::milliseconds atMost) {
-        if (!parts_.jobs.runNextWithoutThreads()) results_->waitForAny(atMost);
+    void waitForAny(std::chrono::milliseconds timeout) {
+        if (!parts_.jobs.runNextWithoutThreads()) results_->waitForAny(timeout);
     }
 
-    // The number of jobs of a kind that may be in flight, more if updates are rare.
+    // Returns the number of jobs of a kind that may be in flight, more if updates are rare.
     std::size_t jobLimit(std::chrono::nanoseconds sinceUpdate) const;
     std::vector<TaskTime> taskTimes() const;
 

@@ -61,7 +61,7 @@ ChildBlocks compareBlocks(const world::DownsampleRule& rule, const world::Chunk&
                           const world::Chunk& generated) {
     ChildBlocks child{.edited = unpackChunk(edited), .generated = unpackChunk(generated)};
     const int ground = std::min(lowestGround(rule, child.edited), lowestGround(rule, child.generated));
-    child.seenFrom = std::max(0, ground - kSeenDepth);
+    child.seenFrom = std::max(0, ground - kVisibleDepth);
     for (std::size_t i = world::blockIndex(0, 0, child.seenFrom); i < child.edited.size(); ++i) {
         if (child.edited[i] != child.generated[i]) child.hasChanged.set(i % kColumns);
     }
@@ -164,12 +164,6 @@ bool isSameTile(const ChunkPtr& a, const ChunkPtr& b) {
 
 }  // namespace
 
-ChunkPtr editedTile(const gen::LevelGenerators& generators, const world::DownsampleRule& rule, ChunkPos tile,
-                    const std::array<ChunkPtr, 4>& children) {
-    GeneratedChunks generated(generators);
-    return editedTileOf(generated, rule, tile, children);
-}
-
 std::vector<TileChange> tilesAfterEdits(const gen::LevelGenerators& generators,
                                         const world::DownsampleRule& rule,
                                         std::span<const ChunkPos> editedChunks, const ReadTile& read,
@@ -239,8 +233,8 @@ std::vector<store::ChunkRow> rowsAfterEdits(const gen::LevelGenerators& generato
 
 }  // namespace
 
-void keepTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
-                  const world::BlockRegistry& blocks, TileListener listener) {
+void maintainTileRows(store::ChunkStore& store, const gen::LevelGenerators& generators,
+                      const world::BlockRegistry& blocks, TileListener listener) {
     const auto tell = [listener = std::move(listener)](std::span<const store::ChunkRow> rows) {
         if (!listener) return;
         std::vector<ChunkPos> tiles;

@@ -15,9 +15,9 @@ constexpr int kNeighbors = 8;
 
 }  // namespace
 
-void considerLighting(ChunkTable& table, ChunkPos pos) {
+void requestLighting(ChunkTable& table, ChunkPos pos) {
     const ChunkRecord* record = findRecord(table, pos);
-    if (!record || record->loadedAround != kNeighbors || !isNeeded(table.view, pos)) return;
+    if (!record || record->loadedNeighbors != kNeighbors || !isNeeded(table.view, pos)) return;
     table.lightCursor = std::min(table.lightCursor, rankOf(table.view, pos));
 }
 
@@ -29,7 +29,7 @@ std::vector<ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit) 
         if (isInView(table.view, pos) && world::isInWorld(pos)) {
             ChunkRecord* record = findRecord(table, pos);
             const bool isReady =
-                record && record->stage == ChunkStage::Loaded && record->loadedAround == kNeighbors;
+                record && record->stage == ChunkStage::Loaded && record->loadedNeighbors == kNeighbors;
             if (isReady) {
                 record->isOutdated = false;
                 setStage(table, pos, *record, ChunkStage::Lighting);
@@ -48,11 +48,11 @@ bool finishLighting(ChunkTable& table, ChunkPos pos) {
     assert(record && record->stage == ChunkStage::Lighting && "what is finished was popped");
     const bool isGood = !record->isOutdated && isNeeded(table.view, pos);
     setStage(table, pos, *record, isGood ? ChunkStage::Visible : ChunkStage::Loaded);
-    if (!isGood) considerLighting(table, pos);
+    if (!isGood) requestLighting(table, pos);
     return isGood;
 }
 
-void outdateLighting(ChunkTable& table, ChunkPos pos) {
+void invalidateLighting(ChunkTable& table, ChunkPos pos) {
     for (const ChunkPos at : neighborhood(pos)) {
         if (ChunkRecord* record = findRecord(table, at)) record->isOutdated = true;
     }

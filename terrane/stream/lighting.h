@@ -15,8 +15,8 @@
 
 namespace terrane::stream {
 
-// A chunk and the eight around it.
-// By y, then x: index x + 3 y, the chunk itself is 4. Some may lie beyond the world.
+// Returns a chunk and the eight around it by y, then x: the index is x + 3 y, and the chunk itself is 4. Some
+// may lie beyond the world.
 inline std::array<world::ChunkPos, 9> neighborhood(world::ChunkPos pos) {
     std::array<world::ChunkPos, 9> around;
     for (int n = 0; n < 9; ++n) {
@@ -25,31 +25,33 @@ inline std::array<world::ChunkPos, 9> neighborhood(world::ChunkPos pos) {
     return around;
 }
 
-// Takes up to `limit` Loaded chunks in view whose neighbors are loaded, most urgent first, and makes them
-// Lighting.
+// Removes and returns up to `limit` Loaded chunks in view whose neighbors are loaded, most urgent first, and
+// makes them Lighting.
 std::vector<world::ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit);
 
-// Called when the lighting of a Lighting chunk is finished: makes it Visible. False if blocks of it or of a
+// Finishes the lighting of a Lighting chunk, which becomes Visible. Returns false if blocks of it or of a
 // neighbor, the mesh options or its open sides changed meanwhile, or if the view has left it: the result is
 // outdated, and the chunk is Loaded again.
 bool finishLighting(ChunkTable& table, world::ChunkPos pos);
 
-// Called when blocks of a chunk changed: lighting in progress for it and its neighbors is outdated.
-void outdateLighting(ChunkTable& table, world::ChunkPos pos);
+// Marks lighting in progress for a chunk and its neighbors as outdated, after blocks of the chunk changed.
+void invalidateLighting(ChunkTable& table, world::ChunkPos pos);
 
-// Called when the chunk or a neighbor was loaded: it may be ready to be lit.
-void considerLighting(ChunkTable& table, world::ChunkPos pos);
+// Requests the lighting of a chunk if it and its neighbors are loaded. Called after the chunk or a neighbor
+// was loaded.
+void requestLighting(ChunkTable& table, world::ChunkPos pos);
 
 // Brings the light of visible chunks up to date after edits, on the world's thread.
 constexpr std::uint16_t kAllBricks = 0xFFFF;  // of a chunk, a bit each
 
-// The chunk and its neighbors with the local light that is known.
+// Returns the chunk and its neighbors with the local light that is known.
 ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& world, world::ChunkPos pos);
 
-// `world` has the new blocks; each block is in `edits` once, with the id it had at first. Replaces
-// ChunkRecord::light where it changes and returns the changed bricks. Chunks whose neighbors are all lit are
-// relit incrementally; if a neighbor is not lit yet, so that light from beyond is not known, only the visible
-// chunks around that edit are lit from scratch. The result equals that of lighting everything from scratch.
+// Updates the light of visible chunks after edits, on the world's thread. `world` has the new blocks; each
+// block is in `edits` once, with the id it had at first. Replaces ChunkRecord::light where it changes and
+// returns the changed bricks. Chunks whose neighbors are all lit are relit incrementally; if a neighbor is
+// not lit yet, so that light from beyond is not known, only the visible chunks around that edit are lit from
+// scratch. The result equals that of lighting everything from scratch.
 std::vector<light::LightChange> relightEdits(ChunkTable& table, const world::World& world,
                                              std::span<const world::BlockEdit> edits,
                                              const light::LightTable& lights);

@@ -84,7 +84,7 @@ SideSet openSides(const TileView& view, ChunkPos pos) {
     return sides;
 }
 
-world::ChunkPtr chunkBeyond(const world::BlockRegistry& blocks) {
+world::ChunkPtr borderChunk(const world::BlockRegistry& blocks) {
     const auto types = blocks.types();
     const auto found = std::ranges::find(types, world::Shape::Liquid, &world::BlockType::shape);
     auto chunk = std::make_shared<world::Chunk>();

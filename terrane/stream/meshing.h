@@ -14,7 +14,7 @@
 
 namespace terrane::stream {
 
-// Ignores chunks that are not Visible: they are meshed when they are lit.
+// These request meshes. They ignore chunks that are not Visible, which are meshed when they are lit.
 void requestEditedMesh(ChunkTable& table, world::ChunkPos pos, mesh::MeshSectionSet meshSections);
 void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
 
@@ -22,36 +22,37 @@ struct MeshRequest {
     world::ChunkPos pos;
     mesh::MeshSectionSet meshSections = 0;  // all if the chunk waited for a mesh job or was in one
 };
-// Takes up to `limit` chunks that edits touched; the caller meshes them at once.
+// Removes and returns up to `limit` chunks that edits touched; the caller meshes them at once.
 std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);
 
 struct MeshJob {
     world::ChunkPos pos;
     std::uint64_t number = 0;
 };
-// Takes up to `limit` whole chunks for workers. Each job ends with finishMeshJob().
+// Removes and returns up to `limit` whole chunks for workers. Each job ends with finishMeshJob().
 std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit);
-// False if the result is outdated: the chunk was meshed since, or is not shown any more.
+// Finishes a job. Returns false if the result is outdated: the chunk was meshed since, or is not shown any
+// more.
 bool finishMeshJob(ChunkTable& table, const MeshJob& job);
 
-// Chunks that wait or are being meshed; some may count twice.
+// Returns the number of chunks that wait or are being meshed; some may count twice.
 inline std::size_t pendingMeshes(const ChunkTable& table) {
     return table.editedMeshes.size() + table.otherMeshes.size() + table.meshJobCount;
 }
 
-// Borders between chunks of level 0 and tiles. A chunk is meshed against its neighbors: if a tile with lower
-// land is in a neighbor's place, a gap would be visible. So the sides of chunks are open there, as those of
-// tiles are (mesh::meshTile): opaque faces go down to the bottom of the world. Used by the chunk pipeline.
-// Pure functions but for the table.
-// A bit for each side, in the order of mesh::MeshBlocks: -x, +x, -y, +y.
+// The next functions handle borders between chunks of level 0 and tiles. A chunk is meshed against its
+// neighbors: if a tile with lower land is in a neighbor's place, a gap would be visible. So the sides of
+// chunks are open there, as those of tiles are (mesh::meshTile): opaque faces go down to the bottom of the
+// world.
+// A set of sides, a bit for each in the order of mesh::MeshBlocks: -x, +x, -y, +y.
 using SideSet = std::uint8_t;
 
-// The sides of a chunk beyond which tiles lie. None for a chunk in whose own place a tile is.
+// Returns the sides of a chunk beyond which tiles lie. A chunk that a tile replaces has none.
 SideSet openSides(const TileView& view, world::ChunkPos pos);
 
-// The neighbor beyond an open side for meshing: all water, since faces of opaque blocks are drawn toward it
-// and those of water are not. Air if there is no liquid.
-world::ChunkPtr chunkBeyond(const world::BlockRegistry& blocks);
+// Returns the neighbor beyond an open side for meshing: all water, since faces of opaque blocks are drawn
+// toward it and those of water are not. Air if there is no liquid.
+world::ChunkPtr borderChunk(const world::BlockRegistry& blocks);
 
 // Requests new meshes of chunks whose open sides changed.
 void remeshBorders(ChunkTable& table, const TileView& before, const TileView& now);

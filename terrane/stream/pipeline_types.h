@@ -11,7 +11,7 @@
 
 namespace terrane::stream {
 
-// A change of a chunk on screen. Null: as before.
+// A change of a chunk on screen. A null member is unchanged.
 struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
@@ -37,7 +37,7 @@ struct TaskTime {
     double microseconds = 0;  // of all
 };
 
-// The maker of meshes of whole chunks: workers, or the taker of the changes, for example on the GPU, from
+// Selects who meshes whole chunks: workers, or the receiver of the changes, for example on the GPU, from
 // ChunkPipeline::meshBlocks(). The pipeline meshes sections that edits touch either way, so that edits are
 // visible in the next frame.
 enum class MeshPolicy : std::uint8_t { Workers, Caller };

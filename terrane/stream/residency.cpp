@@ -25,8 +25,8 @@ void changeLoadedAround(ChunkTable& table, ChunkPos pos, int change) {
     for (const ChunkPos at : neighborhood(pos)) {
         ChunkRecord* record = at == pos ? nullptr : findRecord(table, at);
         if (!record) continue;
-        record->loadedAround = static_cast<std::uint8_t>(record->loadedAround + change);
-        if (change > 0) considerLighting(table, at);
+        record->loadedNeighbors = static_cast<std::uint8_t>(record->loadedNeighbors + change);
+        if (change > 0) requestLighting(table, at);
     }
 }
 
@@ -78,7 +78,7 @@ std::vector<ChunkPos> popLoadRequests(ChunkTable& table, std::size_t limit) {
         if (!world::isInWorld(pos) || findRecord(table, pos)) return;
         ChunkRecord& record = addRecord(table, pos);
         record.isRequested = isRequested;
-        record.loadedAround = countLoadedAround(table, pos);
+        record.loadedNeighbors = countLoadedAround(table, pos);
         popped.push_back(pos);
     };
     for (; popped.size() < limit && !table.requests.empty(); table.requests.pop_front()) {
@@ -103,7 +103,7 @@ void finishLoad(ChunkTable& table, ChunkPos pos, Time now) {
     record->neededAt = now;
     setStage(table, pos, *record, ChunkStage::Loaded);
     changeLoadedAround(table, pos, 1);
-    considerLighting(table, pos);
+    requestLighting(table, pos);
 }
 
 void abandonLoad(ChunkTable& table, ChunkPos pos) {
@@ -114,7 +114,7 @@ void abandonLoad(ChunkTable& table, ChunkPos pos) {
 
 std::vector<ChunkPos> popVisible(ChunkTable& table) {
     std::vector<ChunkPos> popped = popVisibleWhere(table, [](ChunkPos) { return true; });
-    for (const ChunkPos pos : popped) considerLighting(table, pos);
+    for (const ChunkPos pos : popped) requestLighting(table, pos);
     return popped;
 }
 
@@ -126,7 +126,7 @@ std::vector<ChunkPos> findUnneeded(ChunkTable& table, Time now) {
     std::vector<ChunkPos> unneeded;
     for (auto& [pos, record] : table.records) {
         if (isNeeded(table.view, pos)) record.neededAt = now;
-        if (record.stage == ChunkStage::Loaded && now - record.neededAt >= kUnloadAfter) {
+        if (record.stage == ChunkStage::Loaded && now - record.neededAt >= kUnloadDelay) {
             unneeded.push_back(pos);
         }
     }

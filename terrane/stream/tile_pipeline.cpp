@@ -51,11 +51,11 @@ void raiseDeepFloor(world::Chunk& tile, const world::BlockRegistry& blocks) {
     for (int y = 0; y < world::kChunkSize; ++y) {
         for (int x = 0; x < world::kChunkSize; ++x) {
             const Column column = liquidAt(tile, blocks, x, y, height);
-            if (column.floor < 0 || column.surface - column.floor <= kDeepestSeen) continue;
+            if (column.floor < 0 || column.surface - column.floor <= kMaxVisibleDepth) continue;
             const BlockId floor = tile.block(world::blockIndex(x, y, column.floor));
             if (!blocks.type(floor).opaqueCube) continue;
             if (ground == world::kAir) ground = floor;
-            for (int z = column.floor; z <= column.surface - kDeepestSeen; ++z)
+            for (int z = column.floor; z <= column.surface - kMaxVisibleDepth; ++z)
                 tile.setBlock(world::blockIndex(x, y, z), ground);
         }
     }
@@ -131,7 +131,7 @@ TilePipeline::~TilePipeline() {
 
 void TilePipeline::update(mesh::MergeMethod method) {
     takeResults();
-    if (std::exchange(method_, method) != method) outdateAllTiles(table_);
+    if (std::exchange(method_, method) != method) invalidateAllTiles(table_);
     const std::size_t limit = kJobsPerWorker * parts_.jobs.threadCount();
     for (const ChunkPos tile : popTileRequests(table_, limit - std::min(limit, jobs_.size()))) submit(tile);
 }
@@ -143,7 +143,7 @@ void TilePipeline::takeResults() {
         if (jobs_.erase(made.job) > 0) finished_.push_back(std::move(made.tile));
     }
     results_->made.clear();
-    for (const ChunkPos tile : results_->outdated) outdateTile(table_, tile);
+    for (const ChunkPos tile : results_->outdated) invalidateTile(table_, tile);
     results_->outdated.clear();
 }
 
@@ -153,11 +153,11 @@ TileChanges TilePipeline::takeChanges() {
     TileChanges changes = updateTiles(table_);
     std::erase_if(jobs_, [&](const auto& entry) {
         const Job& job = entry.second;
-        if (isAwaited(table_, job.tile)) return false;
+        if (isTileLoading(table_, job.tile)) return false;
         job.handle.cancel();
         return true;
     });
-    std::erase_if(finished_, [&](const TileMesh& mesh) { return !isAwaited(table_, mesh.pos); });
+    std::erase_if(finished_, [&](const TileMesh& mesh) { return !isTileLoading(table_, mesh.pos); });
     return changes;
 }
 
@@ -188,10 +188,10 @@ TileListener TilePipeline::tileListener() const {
     };
 }
 
-void TilePipeline::waitForWorkers(std::chrono::milliseconds atMost) {
+void TilePipeline::waitForWorkers(std::chrono::milliseconds timeout) {
     if (parts_.jobs.runNextWithoutThreads()) return;
     std::unique_lock lock(results_->mutex);
-    results_->changed.wait_for(lock, atMost, [&] {
+    results_->changed.wait_for(lock, timeout, [&] {
         return !results_->made.empty() || !results_->outdated.empty() || results_->failure;
     });
 }
@@ -208,7 +208,7 @@ std::vector<TileMesh> TilePipeline::takeMeshes(std::size_t limit) {
 }
 
 void TilePipeline::putBack(TileMesh mesh) {
-    unfinishTile(table_, mesh.pos);
+    reopenTile(table_, mesh.pos);
     finished_.push_back(std::move(mesh));
 }
 
@@ -217,7 +217,7 @@ TaskTime TilePipeline::taskTime() const {
     return {"tile", results_->count, results_->microseconds};
 }
 
-void TilePipeline::forgetAll() {
+void TilePipeline::invalidateAll() {
     const TileView view = table_.view;
     table_ = {};
     setTileView(table_, view);

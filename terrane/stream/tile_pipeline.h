@@ -1,6 +1,6 @@
 // Makes the tiles that a view needs beyond its chunks, on worker threads: from the store if edits changed
-// them, else from the generator, without light and without neighbors. tile_table.h has the rules. Used on the
-// thread that owns the world; workers return results through a queue.
+// them, else from the generator, without light and without neighbors. tile_table.h has the rules. It is used
+// on the thread that owns the world; workers return results through a queue.
 #pragma once
 
 #include <chrono>
@@ -21,16 +21,15 @@
 
 namespace terrane::stream {
 
-// Simplifies the ground under deep water of tiles. Any thread.
 // The depth of water in blocks that hides the ground: on far tiles no light is left after 15
-// (render/water.glsl), and the color of the water itself is within a twentieth of that of deep water.
-constexpr int kDeepestSeen = 24;
+// (render/water/water.glsl), and the color of the water itself is within a twentieth of that of deep water.
+constexpr int kMaxVisibleDepth = 24;
 
-// Raises ground that lies deeper than that under a liquid to that depth, with one kind of block: in tiles
-// with a quarter of sea this saves most quads, which are invisible.
+// Raises ground of a tile that lies deeper than kMaxVisibleDepth under a liquid to that depth, with one kind
+// of block: in tiles with a quarter of sea this saves most quads, which are invisible.
 void raiseDeepFloor(world::Chunk& tile, const world::BlockRegistry& blocks);
 
-// Everything outlives the pipeline.
+// The parts of the pipeline, which all outlive it.
 struct TileParts {
     base::JobSystem& jobs;
     const world::BlockRegistry& blocks;  // as seen from afar
@@ -43,10 +42,10 @@ struct TileMesh {
     MeshPtr mesh;
 };
 
-// Called with tiles that have changed. Any thread may call it, also when the pipeline is gone.
+// Receives tiles that have changed. Any thread may call it, also after the end of the pipeline.
 using TileListener = std::function<void(std::span<const world::ChunkPos>)>;
 
-// Makes the mesh of a tile. Any thread. Throws if the level has no generator.
+// Makes the mesh of a tile. Any thread may call it. Throws if the level has no generator.
 MeshPtr makeTile(const TileParts& parts, world::ChunkPos pos, mesh::MergeMethod method);
 
 class TilePipeline {
@@ -57,28 +56,30 @@ class TilePipeline {
     void setView(const TileView& view) { setTileView(table_, view); }
     // Sets whether a chunk of level 0 can be shown.
     void setChunkReady(world::ChunkPos pos, bool isReady) { stream::setChunkReady(table_, pos, isReady); }
-    // Returns a listener; the pipeline makes the tiles that it is called with again. It may outlive the
-    // pipeline.
+    // Returns a listener. The pipeline makes the tiles of its calls again. It may outlive the pipeline.
     TileListener tileListener() const;
-    // Takes the results of workers and submits new work. Call each frame. Throws what a worker threw.
+    // Receives the results of workers and submits new work. Call it each frame. It rethrows exceptions of
+    // workers.
     void update(mesh::MergeMethod method);
     // Blocks until a worker may have finished a tile, or the time is over. Runs a job if there are no
     // threads.
-    void waitForWorkers(std::chrono::milliseconds atMost);
+    void waitForWorkers(std::chrono::milliseconds timeout);
 
-    // Takes up to `limit` new tiles, which the caller can show from now on.
+    // Removes and returns up to `limit` new tiles, which the caller can show from now on.
     std::vector<TileMesh> takeMeshes(std::size_t limit);
-    // Puts back a tile that found no room: it is taken again, unless the view has no place for it any more.
+    // Returns a tile to the pipeline for lack of memory: takeMeshes() returns it again, unless the view no
+    // longer includes it.
     void putBack(TileMesh mesh);
-    // Tiles to show, hide and drop among those that the caller has. Cancels the work on dropped tiles.
+    // Returns the tiles to show, hide and drop among those that the caller has. Cancels the work on dropped
+    // tiles.
     TileChanges takeChanges();
 
-    // The caller has dropped all chunks and tiles: all tiles are made again.
-    void forgetAll();
+    // Makes all tiles again, after the caller has dropped all chunks and tiles.
+    void invalidateAll();
 
     const TileTable& table() const { return table_; }
     TaskTime taskTime() const;  // of tiles made so far, on all workers
-    // Requested tiles that the caller does not have.
+    // Returns the number of requested tiles that the caller does not have.
     std::size_t missing() const { return missingTiles(table_); }
 
   private:

@@ -244,13 +244,13 @@ std::vector<ChunkPos> popTileRequests(TileTable& table, std::size_t limit) {
     return popped;
 }
 
-bool isAwaited(const TileTable& table, ChunkPos tile) {
+bool isTileLoading(const TileTable& table, ChunkPos tile) {
     const auto found = table.records.find(tile);
     return found != table.records.end() && found->second.isLoading;
 }
 
 void finishTile(TileTable& table, ChunkPos tile) {
-    assert(isAwaited(table, tile) && "only what is loading becomes ready");
+    assert(isTileLoading(table, tile) && "only what is loading becomes ready");
     TileRecord& record = table.records.at(tile);
     record.isLoading = false;
     record.isReady = true;
@@ -258,7 +258,7 @@ void finishTile(TileTable& table, ChunkPos tile) {
     table.isOutdated = true;
 }
 
-void unfinishTile(TileTable& table, ChunkPos tile) {
+void reopenTile(TileTable& table, ChunkPos tile) {
     TileRecord& record = table.records.at(tile);
     record.isLoading = true;
     record.isReady = false;
@@ -267,14 +267,14 @@ void unfinishTile(TileTable& table, ChunkPos tile) {
     table.hasGone = table.hasGone || record.isShown;
 }
 
-void outdateTile(TileTable& table, ChunkPos tile) {
+void invalidateTile(TileTable& table, ChunkPos tile) {
     const auto found = table.records.find(tile);
     if (found == table.records.end() || tile.level == 0) return;
     found->second.isStale = true;
     table.isOutdated = true;
 }
 
-void outdateAllTiles(TileTable& table) {
+void invalidateAllTiles(TileTable& table) {
     for (auto& [pos, record] : table.records) record.isStale = pos.level > 0;
     table.isOutdated = true;
 }

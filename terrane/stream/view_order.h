@@ -22,13 +22,13 @@ struct ViewOrder {
     std::vector<std::size_t> ranks;
 
     std::size_t size() const { return offsets.size(); }
-    // The chunk with a rank; it may lie beyond the world.
+    // Returns the chunk with a rank; it may lie beyond the world.
     world::ChunkPos at(std::size_t rank) const {
         return world::offsetBy(center, offsets[rank].x, offsets[rank].y);
     }
 };
 
-// A view's chunks become visible. One ring more is needed to light and mesh them.
+// The chunks in a view become visible. One more ring of chunks is needed to light and mesh them.
 inline bool isInView(const ViewOrder& view, world::ChunkPos pos) {
     return world::chunkDistance(pos, view.center) <= view.distance;
 }
@@ -39,10 +39,10 @@ inline bool isNeeded(const ViewOrder& view, world::ChunkPos pos) {
 // Sets the view; sorts the offsets again only where distance or direction changed.
 void moveView(ViewOrder& view, world::ChunkPos center, int distance, glm::vec2 direction);
 
-// The urgency of any chunk, in the view or not. The smaller the sooner.
+// Returns the urgency of any chunk, in the view or not. A smaller number is more urgent.
 std::int64_t urgency(const ViewOrder& view, world::ChunkPos pos);
 
-// The place of a needed chunk in the order.
+// Returns the index of a needed chunk in the order.
 std::size_t rankOf(const ViewOrder& view, world::ChunkPos pos);
 
 }  // namespace terrane::stream

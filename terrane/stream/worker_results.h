@@ -17,7 +17,7 @@ namespace terrane::stream {
 
 enum Task : std::size_t { kLoad, kGenerate, kLocalLight, kLight, kMesh, kTaskCount };
 
-// Filled by any thread. Jobs share it, since they may end after the pipeline.
+// Any thread adds results. Jobs share the object, since they may end after the pipeline.
 struct WorkerResults {
     struct Load {
         world::ChunkPos pos;
@@ -50,7 +50,8 @@ struct WorkerResults {
     Lists lists;                      // under the mutex
     std::atomic<bool> isOver{false};  // no results are taken any more: jobs that begin now do nothing
 
-    // Runs work that returns a pointer, and counts it unless that is null. Any thread, without the mutex.
+    // Runs work that returns a pointer, and counts it unless the pointer is null. Any thread may call it,
+    // without the mutex.
     template <class Work>
     auto timed(std::size_t task, Work work) {
         const auto start = std::chrono::steady_clock::now();
@@ -79,9 +80,9 @@ struct WorkerResults {
         const std::lock_guard lock(mutex);
         return std::exchange(lists, {});
     }
-    void waitForAny(std::chrono::milliseconds atMost) {
+    void waitForAny(std::chrono::milliseconds timeout) {
         std::unique_lock lock(mutex);
-        changed.wait_for(lock, atMost, [&] { return !lists.isEmpty(); });
+        changed.wait_for(lock, timeout, [&] { return !lists.isEmpty(); });
     }
 };
 

@@ -1,4 +1,5 @@
-// Destination of the frames of a video: a file made by ffmpeg, or a folder of images. One thread.
+// The destination of the frames of a video: a file that ffmpeg writes, or a folder of images. One thread uses
+// it.
 #pragma once
 
 #include <filesystem>

@@ -20,7 +20,7 @@ bool isSolid(const world::World& world, const world::BlockRegistry& blocks, cons
 void BlockParticles::burst(world::BlockPos pos, world::BlockId block) {
     std::uniform_real_distribution<float> share(0, 1);
     const auto spread = [&] { return 2 * share(random_) - 1; };
-    for (std::size_t k = 0; k < kOfABlock; ++k) {
+    for (std::size_t k = 0; k < kParticlesPerBlock; ++k) {
         Particle p;
         p.position = {pos.x + 0.1 + 0.8 * double{share(random_)}, pos.y + 0.1 + 0.8 * double{share(random_)},
                       pos.z + 0.1 + 0.8 * double{share(random_)}};
@@ -31,9 +31,9 @@ void BlockParticles::burst(world::BlockPos pos, world::BlockId block) {
         p.block = block;
         particles_.push_back(p);
     }
-    if (particles_.size() > kMost)
+    if (particles_.size() > kMaxParticles)
         particles_.erase(particles_.begin(),
-                         particles_.begin() + static_cast<std::ptrdiff_t>(particles_.size() - kMost));
+                         particles_.begin() + static_cast<std::ptrdiff_t>(particles_.size() - kMaxParticles));
 }
 
 void BlockParticles::advance(double seconds, const world::World& world, const world::BlockRegistry& blocks) {

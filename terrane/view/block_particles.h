@@ -1,4 +1,4 @@
-// Particles of a broken block: plain values that fall and end. Used on the world's thread.
+// Particles of a broken block: plain values that fall and end. It is used on the world's thread.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ struct Particle {
 class BlockParticles {
   public:
     // 24 particles a block, at most 480 in all; the oldest are removed first. 480 × 48 bytes = 23 KB.
-    static constexpr std::size_t kOfABlock = 24, kMost = 480;
+    static constexpr std::size_t kParticlesPerBlock = 24, kMaxParticles = 480;
     static constexpr float kSeconds = 0.8f, kGravity = 18;
 
     void burst(world::BlockPos pos, world::BlockId block);

@@ -1,5 +1,5 @@
-// Lit images of single blocks, for the selected block and the slots of containers. Each is drawn once and
-// kept: 83 KB a block type, 16 MB for all, and at most 11 MB of textures. Used on the thread of
+// Lit images of single blocks, for the selected block and the slots of containers. Each image is drawn once
+// and cached: 83 KB a block type, 16 MB for all, and at most 11 MB of textures. It is used on the thread of
 // the OpenGL context.
 #pragma once
 
@@ -18,7 +18,7 @@ class BlockPreview {
     static constexpr int kSize = 144;  // pixels
     static render::RenderOptions options();
 
-    // `shaders` and `blocks` outlive this.
+    // Creates the renderer of the images. `shaders` and `blocks` outlive this.
     static base::Result<BlockPreview> create(const gpu::ShaderLoader& shaders,
                                              const world::BlockRegistry& blocks,
                                              const render::TextureSource& textures,
@@ -26,8 +26,9 @@ class BlockPreview {
     base::Result<void> setTextures(const render::TextureSource& textures);
     base::Result<void> reloadShaders();  // all images are drawn again on request
 
-    // The OpenGL texture with the block's image, transparent around the block; the first row is the top. 0 if
-    // the image does not exist yet and the limit of beginFrame() is reached: it is drawn in a later frame.
+    // Returns the OpenGL texture with the block's image, transparent around the block; the first row is the
+    // top. The result is 0 if the image does not exist yet and the limit of beginFrame() is reached: it is
+    // drawn in a later frame.
     unsigned image(world::BlockId block);
     // Sets how many images may be drawn until the next call, at some milliseconds each.
     void beginFrame(int images) { leftInFrame_ = images; }

@@ -1,4 +1,4 @@
-// Camera and time of day between the keys of a shot. Any thread.
+// Camera and time of day between the keys of a shot. Any thread may use it.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -11,7 +11,7 @@
 
 namespace terrane::view {
 
-// Conversions between the pose of a player and a camera.
+// These convert between the pose of a player and a camera.
 inline render::Camera cameraOf(const world::Pose& pose, float fieldOfView = render::Camera().fieldOfView) {
     return {pose.position, pose.yaw, pose.pitch, fieldOfView};
 }
@@ -19,19 +19,19 @@ inline world::Pose poseOf(const render::Camera& camera) {
     return {camera.position, camera.yaw, camera.pitch};
 }
 
-// Distance in blocks at which the fog is complete.
+// Returns the distance in blocks at which the fog is complete.
 inline float fogDistance(int viewDistance) {
     return static_cast<float>(viewDistance) * static_cast<float>(world::kChunkSize);
 }
 
 // A smooth curve through values at given times. Between two values it stays between them, without overshoot.
-// Any thread.
+// Any thread may use it.
 class MonotoneCurve {
   public:
-    // As many times as values, at least one; times ascend strictly.
+    // There are as many times as values, at least one; times ascend strictly.
     MonotoneCurve(std::vector<double> times, std::vector<double> values);
 
-    // The first value before the first time, the last one after the last.
+    // Returns the value at a time: the first value before the first time, the last one after the last.
     double at(double time) const;
 
   private:
@@ -68,7 +68,7 @@ class CameraPath {
     MonotoneCurve timeDay_, fieldOfView_;
 };
 
-// Direction from one point to another, degrees.
+// The direction from one point to another, degrees.
 struct Look {
     double yaw = 0, pitch = 0;
 };

@@ -18,7 +18,7 @@ void FarView::setView(world::ChunkPos center, int viewDistance, const Horizon& h
     tiles_.setView({center, viewDistance, horizon.distance, horizon.detail});
 }
 
-void FarView::beforeChunk(world::ChunkPos pos) {
+void FarView::prepareChunk(world::ChunkPos pos) {
     if (!tiles_.table().records.contains(pos)) renderer_.setShown(pos, false);
 }
 

@@ -1,5 +1,5 @@
 // Shows land beyond the chunks: passes tiles to the renderer, and shows chunks and tiles so that each column
-// is drawn once (stream/tile_table.h). Used by WorldView on the thread of the OpenGL context.
+// is drawn once (stream/tile_table.h). WorldView uses it on the thread of the OpenGL context.
 #pragma once
 
 #include <chrono>
@@ -9,7 +9,7 @@
 
 namespace terrane::view {
 
-// Distance of tiles and width of their rings, in chunks: see stream::TileView.
+// The distance of tiles and the width of their rings, in chunks: see stream::TileView.
 struct Horizon {
     int distance = 0;  // 0: no tiles
     int detail = 12;
@@ -19,27 +19,27 @@ struct Horizon {
 
 class FarView {
   public:
-    // Both outlive this.
+    // Both arguments outlive this.
     FarView(game::Session& session, render::Renderer& renderer)
         : tiles_(session.tiles()), pipeline_(session.pipeline()), renderer_(renderer) {}
 
     void setView(world::ChunkPos center, int viewDistance, const Horizon& horizon);
-    // Comes before the renderer gets a chunk for the first time: the chunk stays hidden until it can replace
-    // a tile.
-    void beforeChunk(world::ChunkPos pos);
-    // The chunk is complete in the renderer, or was removed from it.
+    // Call this before the renderer gets a chunk for the first time: the chunk stays hidden until it can
+    // replace a tile.
+    void prepareChunk(world::ChunkPos pos);
+    // Sets whether the chunk is complete in the renderer; false after it was removed.
     void setChunkReady(world::ChunkPos pos, bool isReady) { tiles_.setChunkReady(pos, isReady); }
-    // The renderer has removed all chunks and tiles.
-    void forgetAll() { tiles_.forgetAll(); }
+    // Call this after the renderer has removed all chunks and tiles.
+    void invalidateAll() { tiles_.invalidateAll(); }
 
     // Receives finished tiles and submits new work.
     void update() { tiles_.update(pipeline_.meshOptions().method); }
-    // Passes tiles to the renderer until the deadline. False if there is no room for one.
+    // Passes tiles to the renderer until the deadline. Returns false if there is no room for one.
     bool upload(std::chrono::steady_clock::time_point deadline);
-    // Shows new tiles and hides replaced ones. While tiles load, at most every 15 ms, unless a shown one is
-    // gone.
+    // Shows new tiles and hides replaced ones. While tiles load, it works at most every 15 ms, unless a shown
+    // tile was removed.
     void applyChanges();
-    // The same at once.
+    // Does the same at once.
     void applyNow();
 
     std::size_t missing() const { return tiles_.missing(); }

@@ -39,21 +39,21 @@ class Pilot {
 
     FlightLog run() {
         log_.secondsToLoad = standUntilLoaded();
-        const auto takeOff = Clock::now();
-        log_.takeOff = log_.frames.size();
-        lastFrame_ = takeOff;
+        const auto flightBegin = Clock::now();
+        log_.flightBegin = log_.frames.size();
+        lastFrame_ = flightBegin;
         do {
             frame({.forward = true});
-            log_.secondsOfFlight = secondsSince(takeOff);
+            log_.secondsOfFlight = secondsSince(flightBegin);
         } while (log_.secondsOfFlight < flight_.seconds);
-        log_.landing = log_.frames.size();
+        log_.flightEnd = log_.frames.size();
         const FlightFrame& last = log_.frames.back();
         log_.missing = std::min(last.inView, last.inView - last.visible + view_.waiting());
         log_.secondsToLoadAgain = standUntilLoaded();
         log_.camera = camera();
         log_.viewDistance = view_.viewDistance();
         for (FlightFrame& frame : log_.frames)
-            frame.seconds -= std::chrono::duration<double>(takeOff - start_).count();
+            frame.seconds -= std::chrono::duration<double>(flightBegin - start_).count();
         return std::move(log_);
     }
 
@@ -108,9 +108,9 @@ class Pilot {
 
     void draw(float seconds) {
         const render::Camera from = camera();
-        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.sightDistance()),
+        renderer_.draw({from, world::environmentAt(flight_.timeDay), fogDistance(view_.visibleDistance()),
                         seconds, render::View::Color, game::waterAbove(session_, from.position),
-                        render::ShadowClipmap::kTilesAFrame});
+                        render::ShadowClipmap::kTilesPerFrame});
         glFinish();
     }
 
@@ -125,12 +125,13 @@ class Pilot {
 
 }  // namespace
 
-FlightLog fly(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight) {
+FlightLog runFlight(game::Session& session, WorldView& view, render::Renderer& renderer,
+                    const Flight& flight) {
     return Pilot(session, view, renderer, flight).run();
 }
 
 std::span<const FlightFrame> framesInFlight(const FlightLog& log) {
-    return std::span(log.frames).subspan(log.takeOff, log.landing - log.takeOff);
+    return std::span(log.frames).subspan(log.flightBegin, log.flightEnd - log.flightBegin);
 }
 
 base::Result<void> writeFrames(const std::string& file, std::span<const FlightFrame> frames) {

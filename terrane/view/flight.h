@@ -19,7 +19,7 @@ struct Flight {
 
 struct FlightFrame {
     double seconds = 0;  // start of the frame, since take-off
-    // Milliseconds of the frame and of its parts; each includes the work of the GPU for it.
+    // Milliseconds of the frame and of its parts; each includes its work on the GPU.
     double all = 0, follow = 0, upload = 0, draw = 0;
     // CPU time of this thread in these parts: if other programs use the machine too, any part of a frame may
     // have to wait for them.
@@ -29,20 +29,22 @@ struct FlightFrame {
     double loadingCpu() const { return followCpu + uploadCpu; }
 };
 
-// The camera stands until all in view is loaded, flies, and stands again until all is loaded.
+// The camera waits until all in view is loaded, moves, and waits again until all is loaded.
 struct FlightLog {
     std::vector<FlightFrame> frames;
-    std::size_t takeOff = 0, landing = 0;  // frames: the flight's first, the first after it
+    std::size_t flightBegin = 0, flightEnd = 0;  // frames: the flight's first, the first after it
     double secondsToLoad = 0, secondsOfFlight = 0, secondsToLoadAgain = 0;
     render::Camera camera;    // at the end
     std::size_t missing = 0;  // chunks in view that were not loaded on landing
     int viewDistance = 0;     // at the end: less than requested if GPU memory allows no more
 };
 
-// Flies and draws into the renderer's own image. On the thread of the session and of the OpenGL context.
-FlightLog fly(game::Session& session, WorldView& view, render::Renderer& renderer, const Flight& flight);
+// Runs the flight and draws into the renderer's own image, on the thread of the session and of the OpenGL
+// context.
+FlightLog runFlight(game::Session& session, WorldView& view, render::Renderer& renderer,
+                    const Flight& flight);
 
-// Frames between take-off and landing; at least one.
+// Returns the frames of the flight itself; at least one.
 std::span<const FlightFrame> framesInFlight(const FlightLog& log);
 
 // Writes frames as CSV, a line a frame.

@@ -31,8 +31,8 @@ class FrameMeter {
     }
     // Frames that began in the last whole second; 0 in the first.
     int lastSecond() const { return lastSecond_; }
-    // The most frequent count of frames in a second, the higher if equal, as the thesis measures; 0 in the
-    // first second.
+    // Returns the most frequent count of frames in a second, the higher if equal, as the thesis measures; 0
+    // in the first second.
     int mode() const {
         const auto most = std::max_element(seconds_.rbegin(), seconds_.rend(),
                                            [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -63,7 +63,7 @@ struct FrameTimes {
     std::map<std::string, std::vector<double>> passes;  // GPU milliseconds of frames, by name
 };
 
-// Draws `count` frames, on the thread of the context.
+// Draws `count` frames on the thread of the context and returns their times.
 FrameTimes measureFrames(render::Renderer& renderer, const render::FrameInput& input, int count);
 
 std::map<std::string, double> passMedians(const FrameTimes& times);  // milliseconds by name

@@ -38,7 +38,7 @@ LandView::LandView(const game::Session& session, render::Renderer& renderer) : r
         return tileOf(generators, blocks, pos);
     };
     try {
-        maker_.emplace(2 * kTilesAFrame, make);
+        maker_.emplace(2 * kTilesPerFrame, make);
     } catch (const std::system_error& error) {
         base::logWarning("no thread can be started for the light of the land: {}", error.what());
     }

@@ -1,5 +1,5 @@
-// A thread that makes tiles of a clipmap (render/clipmap.h) one after the other. Used by views of the tint
-// and of the land on the thread of the OpenGL context.
+// A thread that makes tiles of a clipmap (render/land/clipmap.h) one after the other. It is used by views of
+// the tint and of the land on the thread of the OpenGL context.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,8 @@ class TileMaker {
   public:
     using Tile = std::pair<world::ChunkPos, T>;
 
-    // `maxRequested`: tiles requested at once; the fewer, the sooner the thread follows a moving camera.
-    // Throws std::system_error if no thread can be started. `make` is called by the thread and throws
+    // `maxRequested` limits the tiles requested at once; with fewer tiles the thread follows a moving camera
+    // sooner. Throws std::system_error if no thread can be started. `make` is called by the thread and throws
     // nothing.
     TileMaker(std::size_t maxRequested, std::function<T(world::ChunkPos)> make)
         : maxRequested_(maxRequested), make_(std::move(make)), thread_([this] { run(); }) {}
@@ -56,12 +56,12 @@ class TileMaker {
         return tiles;
     }
     std::size_t maxRequested() const { return maxRequested_; }
-    // Requested and not taken.
+    // Returns the number of tiles that are requested and not taken.
     std::size_t pending() const { return requested_.size(); }
     // Blocks until a tile is finished, or the time is over.
-    void wait(std::chrono::milliseconds atMost) {
+    void wait(std::chrono::milliseconds timeout) {
         std::unique_lock lock(mutex_);
-        hasFinished_.wait_for(lock, atMost, [this] { return !finished_.empty(); });
+        hasFinished_.wait_for(lock, timeout, [this] { return !finished_.empty(); });
     }
 
   private:

@@ -81,9 +81,9 @@ std::size_t WorldView::upload(double budgetSeconds) {
     }
     far_.applyChanges();
     const bool hasNoLimit = std::isinf(budgetSeconds);
-    const double reach = double{world::kChunkSize} * sightDistance();
-    tints_.update(center_, reach, hasNoLimit ? TintView::kAllTiles : TintView::kTilesAFrame);
-    land_.update(center_, reach, hasNoLimit ? LandView::kAllTiles : LandView::kTilesAFrame);
+    const double reach = double{world::kChunkSize} * visibleDistance();
+    tints_.update(center_, reach, hasNoLimit ? TintView::kAllTiles : TintView::kTilesPerFrame);
+    land_.update(center_, reach, hasNoLimit ? LandView::kAllTiles : LandView::kTilesPerFrame);
     noticeShortView();
     return count;
 }
@@ -138,7 +138,7 @@ void WorldView::keepWithinBudget() {
     session_.pipeline().hideAll();
     for (const world::ChunkPos pos : session_.pipeline().takeHidden()) hide(pos);
     renderer_.clearChunks();
-    far_.forgetAll();
+    far_.invalidateAll();
 }
 
 void WorldView::noticeShortView() {
@@ -152,7 +152,7 @@ void WorldView::noticeShortView() {
 
 void WorldView::show(const stream::ChunkChange& change) {
     if (change.isHidden) return hide(change.pos);
-    far_.beforeChunk(change.pos);
+    far_.prepareChunk(change.pos);
     const auto setLight = [&] { return renderer_.setLight(change.pos, *change.light, change.bricks); };
     if (change.light && !makeRoomFor(change.pos, setLight)) return;
     // An edited chunk that is queued or in flight is meshed again as a whole.
@@ -223,14 +223,14 @@ void WorldView::warnOfNoRoom(world::ChunkPos pos) {
         renderer_.memoryBudget() >> 20, viewDistance_, pos.x, pos.y);
 }
 
-void WorldView::waitForWorkers(std::chrono::milliseconds atMost) {
+void WorldView::waitForWorkers(std::chrono::milliseconds timeout) {
     const bool hasChunks = session_.pipeline().progress().isUpToDate();
     if (hasChunks && missingTiles() == 0 && missingClipmapTiles() > 0) {
-        tints_.missing() > 0 ? tints_.wait(atMost) : land_.wait(atMost);
+        tints_.missing() > 0 ? tints_.wait(timeout) : land_.wait(timeout);
     } else if (hasChunks) {
-        session_.tiles().waitForWorkers(atMost);
+        session_.tiles().waitForWorkers(timeout);
     } else {
-        session_.pipeline().waitForWorkers(atMost);
+        session_.pipeline().waitForWorkers(timeout);
     }
 }
 

@@ -33,22 +33,23 @@ bool hasHigherLevel(std::span<const world::ChunkPos> chunks) {
 }  // namespace
 
 base::Result<void> readBlocks(OpenedWorld& world, const BlockArea& area, std::span<world::BlockId> blocks,
-                              const GoesOn& goesOn) {
+                              const ShouldContinue& shouldContinue) {
     const world::ChunkArea chunks = chunksOver(area);
-    return readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, const world::Chunk& chunk) {
-        copyBlocks(chunk, chunkIn(chunks, number), area, blocks);
-    });
+    return readChunks(world, chunksOf(chunks), shouldContinue,
+                      [&](std::int64_t number, const world::Chunk& chunk) {
+                          copyBlocks(chunk, chunkIn(chunks, number), area, blocks);
+                      });
 }
 
 base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
-                                   std::span<world::BlockId> blocks, const GoesOn& goesOn) {
+                                   std::span<world::BlockId> blocks, const ShouldContinue& shouldContinue) {
     for (const world::ChunkPos pos : chunks)
         if (!world::isInWorld(pos))
             return base::fail(base::ErrorCode::BadInput, "{}: outside the world", store::nameOf(pos));
-    if (hasHigherLevel(chunks)) TERRANE_TRY(world.settleTiles());
+    if (hasHigherLevel(chunks)) TERRANE_TRY(world.waitForTiles());
     const ChunkList list{static_cast<std::int64_t>(chunks.size()),
                          [&](std::int64_t number) { return chunks[static_cast<std::size_t>(number)]; }};
-    return readChunks(world, list, goesOn, [&](std::int64_t number, const world::Chunk& chunk) {
+    return readChunks(world, list, shouldContinue, [&](std::int64_t number, const world::Chunk& chunk) {
         const world::ChunkPos pos = list.at(number);
         constexpr std::size_t kBlocks = world::kBlocksPerChunk;
         copyBlocks(chunk, pos, areaOfChunk(pos),
@@ -56,14 +57,15 @@ base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::Ch
     });
 }
 
-base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& area, const GoesOn& goesOn) {
+base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& area,
+                                   const ShouldContinue& shouldContinue) {
     base::Digest digest;
     std::vector<world::Chunk> chunks;
     for (std::int64_t first = 0; first < area.chunkCount(); first += kChunksOfDigest) {
         const ChunkList list{std::min(kChunksOfDigest, area.chunkCount() - first),
                              [&](std::int64_t number) { return chunkIn(area, first + number); }};
         chunks.resize(static_cast<std::size_t>(list.count));
-        TERRANE_TRY(readChunks(world, list, goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
+        TERRANE_TRY(readChunks(world, list, shouldContinue, [&](std::int64_t number, world::Chunk&& chunk) {
             chunks[static_cast<std::size_t>(number)] = std::move(chunk);
         }));
         for (const world::Chunk& chunk : chunks) world::addToDigest(digest, chunk);
@@ -88,19 +90,20 @@ class LitSquare {
     LitSquare(OpenedWorld& world, const world::ChunkArea& area)
         : world_(world), area_(area), around_{area.x0 - 1, area.y0 - 1, area.x1 + 1, area.y1 + 1} {}
 
-    base::Result<void> load(const GoesOn& goesOn) {
+    base::Result<void> load(const ShouldContinue& shouldContinue) {
         locals_.resize(static_cast<std::size_t>(around_.chunkCount()));
-        return readChunks(world_, chunksOf(around_), goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
-            // Beyond the world's edge it is dark.
-            if (!world::isInWorld(chunkIn(around_, number))) return;
-            locals_[static_cast<std::size_t>(number)] =
-                light::solveLocal(chunk, world_.lights(), volumeLightScratch());
-        });
+        return readChunks(world_, chunksOf(around_), shouldContinue,
+                          [&](std::int64_t number, world::Chunk&& chunk) {
+                              // Beyond the world's edge it is dark.
+                              if (!world::isInWorld(chunkIn(around_, number))) return;
+                              locals_[static_cast<std::size_t>(number)] =
+                                  light::solveLocal(chunk, world_.lights(), volumeLightScratch());
+                          });
     }
 
     base::Result<void> copyTo(const BlockArea& area, std::span<LightLevels> levels,
-                              const GoesOn& goesOn) const {
-        return forEachPart(world_, area_.chunkCount(), goesOn, [&](std::int64_t number) {
+                              const ShouldContinue& shouldContinue) const {
+        return forEachPart(world_, area_.chunkCount(), shouldContinue, [&](std::int64_t number) {
             const world::ChunkPos pos = chunkIn(area_, number);
             copyLight(light::lightChunk(around(pos), volumeLightScratch()), pos, area, levels);
             return base::Result<void>();
@@ -127,21 +130,22 @@ class LitSquare {
 }  // namespace
 
 base::Result<void> readLight(OpenedWorld& world, const BlockArea& area, std::span<LightLevels> levels,
-                             const GoesOn& goesOn) {
+                             const ShouldContinue& shouldContinue) {
     const world::ChunkArea chunks = chunksOver(area);
     for (std::int32_t y = chunks.y0; y < chunks.y1; y += kSquareChunks) {
         for (std::int32_t x = chunks.x0; x < chunks.x1; x += kSquareChunks) {
             LitSquare square(world, {x, y, std::min(x + kSquareChunks, chunks.x1),
                                      std::min(y + kSquareChunks, chunks.y1)});
-            TERRANE_TRY(square.load(goesOn));
-            TERRANE_TRY(square.copyTo(area, levels, goesOn));
+            TERRANE_TRY(square.load(shouldContinue));
+            TERRANE_TRY(square.copyTo(area, levels, shouldContinue));
         }
     }
     return {};
 }
 
 base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
-                                     std::span<const world::BlockId> blocks, const GoesOn& goesOn) {
+                                     std::span<const world::BlockId> blocks,
+                                     const ShouldContinue& shouldContinue) {
     const std::size_t types = world.blocks().types().size();
     const auto unknown = std::ranges::find_if(blocks, [&](world::BlockId id) { return id >= types; });
     if (unknown != blocks.end())
@@ -150,15 +154,16 @@ base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
     const std::lock_guard lock(world.editMutex());
     const world::ChunkArea chunks = chunksOver(area);
     std::atomic<std::int64_t> changed{0};
-    TERRANE_TRY(readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
-        const world::ChunkPos pos = chunkIn(chunks, number);
-        const std::int64_t count = writeBlocks(blocks, area, pos, chunk);
-        if (count == 0) return;
-        changed += count;
-        world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
-                           store::Provenance::Edited);
-        world.noteEdited(std::span(&pos, 1));
-    }));
+    TERRANE_TRY(
+        readChunks(world, chunksOf(chunks), shouldContinue, [&](std::int64_t number, world::Chunk&& chunk) {
+            const world::ChunkPos pos = chunkIn(chunks, number);
+            const std::int64_t count = writeBlocks(blocks, area, pos, chunk);
+            if (count == 0) return;
+            changed += count;
+            world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
+                               store::Provenance::Edited);
+            world.markEdited(std::span(&pos, 1));
+        }));
     return changed.load();
 }
 

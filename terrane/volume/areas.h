@@ -1,5 +1,5 @@
 // Areas of a world as arrays: block ids, light, surfaces, digests. Any thread; all of the world's threads
-// work on a call. All ask `goesOn` (opened_world.h), which may be empty.
+// work on a call. They call `shouldContinue` (opened_world.h), which may be empty.
 #pragma once
 
 #include <cstdint>
@@ -12,30 +12,33 @@
 
 namespace terrane::volume {
 
-// Block ids of a checked area. `blocks` begins as zeros. Errors as readChunks().
+// Reads the block ids of a checked area. `blocks` must be zeros at first. Errors are those of readChunks().
 [[nodiscard]] base::Result<void> readBlocks(OpenedWorld& world, const BlockArea& area,
-                                            std::span<world::BlockId> blocks, const GoesOn& goesOn);
+                                            std::span<world::BlockId> blocks,
+                                            const ShouldContinue& shouldContinue);
 
-// Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
-// as zeros. BadInput if a chunk is outside the world.
+// Reads whole chunks of any level in the order of `chunks`. `blocks` has 65,536 for each, by z, y, x, and
+// must be zeros at first. Returns BadInput if a chunk is outside the world.
 [[nodiscard]] base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
-                                                 std::span<world::BlockId> blocks, const GoesOn& goesOn);
+                                                 std::span<world::BlockId> blocks,
+                                                 const ShouldContinue& shouldContinue);
 
-// Light of a checked area, as if all of the world around it were loaded.
+// Reads the light of a checked area, as if all of the world around it were loaded.
 [[nodiscard]] base::Result<void> readLight(OpenedWorld& world, const BlockArea& area,
-                                           std::span<LightLevels> levels, const GoesOn& goesOn);
+                                           std::span<LightLevels> levels,
+                                           const ShouldContinue& shouldContinue);
 
-// The digest that `terrane generate --digest` prints (world/chunk_digest.h).
+// Returns the digest that `terrane generate --digest` prints (world/chunk.h).
 [[nodiscard]] base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& area,
-                                                 const GoesOn& goesOn);
+                                                 const ShouldContinue& shouldContinue);
 
-// Sets the blocks of areas. Any thread; all of the world's threads work on a call, and other writes wait.
-// Sets a checked area to exactly these blocks: one id for all, or one for each by z, y, x. No behavior runs
-// (world/block_behavior.h): sand stays in the air. Chunks that change are saved as edited; they are durable
-// after the store's next flush(). Returns how many blocks changed. BadInput if an id is not a block's: then
-// nothing is written. After another error some chunks may be written.
+// Sets a checked area to exactly these blocks; other writes wait meanwhile: one id for all, or one for each
+// by z, y, x. No behavior runs (world/blocks/block_behavior.h): sand stays in the air. Chunks that change are
+// saved as edited; they are durable after the store's next flush(). Returns how many blocks changed. Returns
+// The error is BadInput if an id is not a block's; then nothing is written. After another error some chunks
+// may be written.
 [[nodiscard]] base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
                                                    std::span<const world::BlockId> blocks,
-                                                   const GoesOn& goesOn);
+                                                   const ShouldContinue& shouldContinue);
 
 }  // namespace terrane::volume

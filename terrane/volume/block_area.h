@@ -1,5 +1,5 @@
-// Boxes of blocks that are read or written as arrays: which blocks, which chunks, and where a chunk's blocks
-// lie in the array. Plain values; any thread.
+// Boxes of blocks that are read or written as arrays: their blocks, their chunks, and the position of a
+// chunk's blocks in the array. All are plain values; any thread may use them.
 //
 // An array of an area holds its blocks by z, then y, then x: x is contiguous.
 #pragma once
@@ -26,13 +26,13 @@ struct BlockArea {
 // 2 GiB of block ids, 4 GiB of light.
 constexpr std::int64_t kMaxAreaBlocks = std::int64_t{1} << 30;
 
-// BadInput unless the area lies within the world, has a block, and at most kMaxAreaBlocks of them.
+// Returns BadInput unless the area lies within the world, has a block, and at most kMaxAreaBlocks of them.
 [[nodiscard]] base::Result<void> checkArea(const BlockArea& area);
 
-// The chunks of level 0 that a checked area touches.
+// Returns the chunks of level 0 that a checked area touches.
 world::ChunkArea chunksOver(const BlockArea& area);
 
-// Chunk `number` of an area, by y, then x.
+// Returns chunk `number` of an area, by y, then x.
 world::ChunkPos chunkIn(const world::ChunkArea& area, std::int64_t number);
 
 // The part of an area that lies in one chunk. x and y count from the chunk's corner, z is the world's.
@@ -42,7 +42,7 @@ struct ChunkPart {
     std::int64_t first = 0;  // place of the block x0, y0, z0 in the area's array
 };
 
-// The chunk is one of chunksOver().
+// Returns the part of the area in a chunk of chunksOver().
 ChunkPart partOf(const BlockArea& area, world::ChunkPos chunk);
 
 }  // namespace terrane::volume

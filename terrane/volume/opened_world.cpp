@@ -19,12 +19,12 @@ OpenedWorld::OpenedWorld(WorldParts parts)
 
 base::Result<std::unique_ptr<OpenedWorld>> OpenedWorld::create(WorldParts parts) {
     std::unique_ptr<OpenedWorld> world(new OpenedWorld(std::move(parts)));
-    stream::keepTileRows(*world->store_, world->generators_, *world->blocks_, {});
+    stream::maintainTileRows(*world->store_, world->generators_, *world->blocks_, {});
     TERRANE_TRY(stream::buildTileRows(*world->store_));
     return world;
 }
 
-void OpenedWorld::noteEdited(std::span<const world::ChunkPos> chunks) {
+void OpenedWorld::markEdited(std::span<const world::ChunkPos> chunks) {
     if (chunks.empty()) return;
     hasUnsettledTiles_ = true;
     const std::lock_guard lock(editedMutex_);
@@ -32,7 +32,7 @@ void OpenedWorld::noteEdited(std::span<const world::ChunkPos> chunks) {
     for (const world::ChunkPos chunk : chunks) edited_->add(chunk);
 }
 
-base::Result<void> OpenedWorld::settleTiles() {
+base::Result<void> OpenedWorld::waitForTiles() {
     const std::lock_guard lock(settleMutex_);  // other callers wait as well
     if (!hasUnsettledTiles_.exchange(false)) return {};
     auto flushed = store_->flush();

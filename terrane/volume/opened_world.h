@@ -28,20 +28,21 @@ struct WorldParts {
     unsigned threads = 1;  // that work at a time, the calling one among them; 1 or more
 };
 
-// Called from time to time on the calling thread: false ends the work with the error kStopped.
-using GoesOn = std::function<bool()>;
+// The reading and writing functions call it from time to time on the calling thread; if it returns false,
+// they stop with the error kStopped.
+using ShouldContinue = std::function<bool()>;
 inline constexpr const char* kStopped = "stopped by the caller";
 
 class OpenedWorld {
   public:
-    // Builds the tiles of a world that lacks them (stream/tile_rows.h).
+    // Builds the tiles of a world that lacks them (stream/edited_tiles.h).
     [[nodiscard]] static base::Result<std::unique_ptr<OpenedWorld>> create(WorldParts parts);
     OpenedWorld(const OpenedWorld&) = delete;
     OpenedWorld& operator=(const OpenedWorld&) = delete;
 
     const world::BlockRegistry& blocks() const { return *blocks_; }
     const light::LightTable& lights() const { return lights_; }
-    // The generator of a level, 0…15.
+    // Returns the generator of a level, 0…15.
     [[nodiscard]] base::Result<const gen::Generator*> generator(int level) const {
         return generators_.at(level);
     }
@@ -50,11 +51,12 @@ class OpenedWorld {
     map::SurfaceSource& surfaces() { return surfaces_; }
     std::mutex& editMutex() { return editMutex_; }  // held while chunks are read, changed and saved
 
-    // Notes edited chunks that were saved to the store: their tiles and the surfaces of the land change.
-    void noteEdited(std::span<const world::ChunkPos> chunks);
+    // Call this after edited chunks were saved to the store: their tiles and the surfaces of the land change.
+    void markEdited(std::span<const world::ChunkPos> chunks);
     // Waits until tiles of levels above 0 show all edits so far.
-    [[nodiscard]] base::Result<void> settleTiles();
-    // The chunks among these, of any level, that are edited. The first call reads all rows of a saved world.
+    [[nodiscard]] base::Result<void> waitForTiles();
+    // Returns the chunks among these, of any level, that are edited. The first call reads all rows of a saved
+    // world.
     [[nodiscard]] base::Result<std::vector<map::EditedChunk>> editedAmong(
         std::span<const world::ChunkPos> chunks);
 

@@ -130,7 +130,7 @@ class FirstError {
 base::Result<world::Chunk> chunkFrom(store::LoadedChunk& stored, world::ChunkPos pos,
                                      const OpenedWorld& world) {
     if (!world::isInWorld(pos)) return world::Chunk();  // its key is that of another chunk
-    if (stored.isUnread && !stored.isOverBudget)
+    if (stored.isUnreadable && !stored.isOverBudget)
         return base::fail(base::ErrorCode::Io, "{}: {}", store::nameOf(pos), stored.problem);
     if (stored.chunk) return std::move(*stored.chunk);
     const auto generator = TERRANE_TRY(world.generator(pos.level));
@@ -143,7 +143,7 @@ ChunkList chunksOf(const world::ChunkArea& area) {
     return {area.chunkCount(), [area](std::int64_t number) { return chunkIn(area, number); }};
 }
 
-base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const GoesOn& goesOn,
+base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const ShouldContinue& shouldContinue,
                                const std::function<base::Result<void>(std::int64_t)>& work) {
     const auto caller = std::this_thread::get_id();
     FirstError first;
@@ -151,7 +151,7 @@ base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const Goe
     TERRANE_TRY(base::parallelFor(world.jobs(), static_cast<std::size_t>(count), [&](std::size_t k) {
         const auto number = static_cast<std::int64_t>(k);
         if (isStopped || first.isBelow(number)) return;
-        if (goesOn && std::this_thread::get_id() == caller && !goesOn()) {
+        if (shouldContinue && std::this_thread::get_id() == caller && !shouldContinue()) {
             isStopped = true;
             return;
         }
@@ -162,10 +162,10 @@ base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const Goe
     return {};
 }
 
-base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list, const GoesOn& goesOn,
+base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list, const ShouldContinue& shouldContinue,
                               const UseChunk& use) {
     const std::int64_t parts = (list.count + kChunksOfPart - 1) / kChunksOfPart;
-    return forEachPart(world, parts, goesOn, [&](std::int64_t part) -> base::Result<void> {
+    return forEachPart(world, parts, shouldContinue, [&](std::int64_t part) -> base::Result<void> {
         std::vector<world::ChunkPos> positions;
         const std::int64_t first = part * kChunksOfPart;
         for (std::int64_t k = first; k < std::min(first + kChunksOfPart, list.count); ++k)

@@ -1,5 +1,5 @@
 // Reads chunks of a world on all of its threads: from the store, else generated. The module's other readers
-// use it. Called by any thread, which works too.
+// use it. Any thread may call it and takes part in the work.
 #pragma once
 
 #include <array>
@@ -14,9 +14,7 @@
 
 namespace terrane::volume {
 
-// Copies between chunks and the arrays of areas. Plain functions; any thread, one array by many threads as
-// long as their chunks differ.
-// Light of a block as four bytes, each 0…15, in this order.
+// The light of a block as four bytes, each 0…15, in this order.
 enum LightChannel : int { kSun, kRed, kGreen, kBlue, kChannelCount };
 using LightLevels = std::array<std::uint8_t, kChannelCount>;
 
@@ -27,7 +25,7 @@ LightLevels lightLevels(light::LightValue value);
 void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
                 std::span<world::BlockId> blocks);
 
-// The same for light; every block is written.
+// Does the same for light and writes every block.
 void copyLight(const light::ChunkLight& light, world::ChunkPos pos, const BlockArea& area,
                std::span<LightLevels> levels);
 
@@ -46,14 +44,15 @@ ChunkList chunksOf(const world::ChunkArea& area);  // by y, then x
 
 // Calls use(number, chunk) once for each chunk, on several threads and in any order; the chunk is its own.
 // Chunks outside the world are empty. Chunks that are damaged in the store are generated. Fails if the store
-// could not read a chunk that it may have, if a level has no generator, or if `goesOn` says so.
+// could not read a chunk that it may have, if a level has no generator, or if `shouldContinue` says so.
 using UseChunk = std::function<void(std::int64_t number, world::Chunk&& chunk)>;
-[[nodiscard]] base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list, const GoesOn& goesOn,
-                                            const UseChunk& use);
+[[nodiscard]] base::Result<void> readChunks(OpenedWorld& world, const ChunkList& list,
+                                            const ShouldContinue& shouldContinue, const UseChunk& use);
 
-// Calls work(k) for k = 0 … count − 1 on the world's threads; the calling thread asks goesOn between parts.
-// The error is that of the lowest k that has one.
-[[nodiscard]] base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count, const GoesOn& goesOn,
+// Calls work(k) for k = 0 … count − 1 on the world's threads; the calling thread calls shouldContinue between
+// parts. The error is that of the lowest k that has one.
+[[nodiscard]] base::Result<void> forEachPart(OpenedWorld& world, std::int64_t count,
+                                             const ShouldContinue& shouldContinue,
                                              const std::function<base::Result<void>(std::int64_t)>& work);
 
 }  // namespace terrane::volume

@@ -62,15 +62,16 @@ base::Result<ColumnArea> columnsOver(int level, std::int64_t x0, std::int64_t y0
 }
 
 base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer,
-                                const SurfaceArrays& arrays, const GoesOn& goesOn) {
-    if (area.level > 0) TERRANE_TRY(world.settleTiles());
-    return forEachPart(world, pieceCount(area), goesOn, [&](std::int64_t number) -> base::Result<void> {
-        const map::ColumnRect rect = pieceOf(area, number);
-        const auto edited = TERRANE_TRY(world.editedAmong(map::chunksTouching(rect)));
-        const auto piece = TERRANE_TRY(world.surfaces().area(rect, edited));
-        copyPiece(piece, area, layer, arrays);
-        return {};
-    });
+                                const SurfaceArrays& arrays, const ShouldContinue& shouldContinue) {
+    if (area.level > 0) TERRANE_TRY(world.waitForTiles());
+    return forEachPart(world, pieceCount(area), shouldContinue,
+                       [&](std::int64_t number) -> base::Result<void> {
+                           const map::ColumnRect rect = pieceOf(area, number);
+                           const auto edited = TERRANE_TRY(world.editedAmong(map::chunksTouching(rect)));
+                           const auto piece = TERRANE_TRY(world.surfaces().area(rect, edited));
+                           copyPiece(piece, area, layer, arrays);
+                           return {};
+                       });
 }
 
 }  // namespace terrane::volume

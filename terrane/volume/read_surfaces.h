@@ -16,11 +16,10 @@ constexpr std::int64_t kMaxColumns = std::int64_t{1} << 28;  // 512 MiB of heigh
 struct ColumnArea {
     int level = 0;
     std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
-    std::int64_t columnCount() const { return (x1 - x0) * (y1 - y0); }  // of a checked area
 };
 
-// The columns of a level that cover blocks x0 … x1 − 1, y0 … y1 − 1. BadInput if the level is not 0…15,
-// the area is outside the world, is empty, or has more than kMaxColumns.
+// Returns the columns of a level that cover blocks x0 … x1 − 1, y0 … y1 − 1. Returns BadInput if the level is
+// not 0…15, the area is outside the world, is empty, or has more than kMaxColumns.
 [[nodiscard]] base::Result<ColumnArea> columnsOver(int level, std::int64_t x0, std::int64_t y0,
                                                    std::int64_t x1, std::int64_t y1);
 
@@ -35,6 +34,7 @@ struct SurfaceArrays {
     std::span<world::BlockId> blocks;  // its id, or air
 };
 [[nodiscard]] base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer,
-                                              const SurfaceArrays& arrays, const GoesOn& goesOn);
+                                              const SurfaceArrays& arrays,
+                                              const ShouldContinue& shouldContinue);
 
 }  // namespace terrane::volume

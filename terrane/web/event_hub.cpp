@@ -12,13 +12,13 @@ void EventHub::add(Listener listener) {
     listeners_.emplace(++lastId_, std::move(listener));
 }
 
-void EventHub::tell(std::string_view name, std::string_view data, bool isRemembered) {
+void EventHub::publish(std::string_view name, std::string_view data, bool isRemembered) {
     const auto text = std::make_shared<const std::string>(fmt::format("event: {}\ndata: {}\n\n", name, data));
     if (isRemembered) remembered_[std::string(name)] = text;
     send(text);
 }
 
-void EventHub::forget(std::string_view name) {
+void EventHub::removeRemembered(std::string_view name) {
     if (const auto found = remembered_.find(name); found != remembered_.end()) remembered_.erase(found);
 }
 

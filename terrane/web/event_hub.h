@@ -1,5 +1,5 @@
-// Server-sent events, broadcast to all listeners. A listener that reads too slowly is dropped. On the web's
-// thread.
+// Server-sent events, broadcast to all listeners. A listener that reads too slowly is removed. It is used on
+// the web's thread.
 #pragma once
 
 #include <cstddef>
@@ -16,14 +16,14 @@ using EventText = std::shared_ptr<const std::string>;
 
 class EventHub {
   public:
-    // Receives each event as text; returns false if the listener is gone.
+    // Receives each event as text; returns false if the listener has disconnected.
     using Listener = std::function<bool(const EventText&)>;
     // Adds a listener and sends it the last remembered event of each name.
     void add(Listener listener);
     // Sends an event. `data`: one line. A remembered event is also sent to later listeners.
-    void tell(std::string_view name, std::string_view data, bool isRemembered);
-    void forget(std::string_view name);
-    // Sends a comment, which detects lost connections and keeps proxies from closing idle ones.
+    void publish(std::string_view name, std::string_view data, bool isRemembered);
+    void removeRemembered(std::string_view name);
+    // Sends a comment, which detects lost connections and prevents proxies from closing idle ones.
     void sendKeepAlive();
     std::size_t count() const { return listeners_.size(); }
 

@@ -10,9 +10,9 @@
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/gen/generators/biomes.h"
-#include "terrane/web/place_list.h"
-#include "terrane/web/seen_changes.h"
+#include "terrane/web/marker_list.h"
 #include "terrane/web/tile_service.h"
+#include "terrane/web/visible_changes.h"
 
 #include <nlohmann/json.hpp>
 
@@ -25,12 +25,12 @@ constexpr std::chrono::milliseconds kEditsEvery{250}, kPlacesEvery{1000}, kKeepA
 constexpr std::chrono::milliseconds kProblemsEvery{10000};
 
 // The page's files, each with one text shared by all responses.
-std::map<std::string, Answer, std::less<>> pageAnswers() {
-    std::map<std::string, Answer, std::less<>> answers;
+std::map<std::string, Response, std::less<>> pageAnswers() {
+    std::map<std::string, Response, std::less<>> answers;
     for (const base::EmbeddedFile& file : pageFiles())
-        answers.emplace(file.path, Answer{.type = typeOf(file.path),
-                                          .body = std::make_shared<const std::string>(file.data),
-                                          .tag = fmt::format("{:016x}", base::hash64(file.data))});
+        answers.emplace(file.path, Response{.type = typeOf(file.path),
+                                            .body = std::make_shared<const std::string>(file.data),
+                                            .tag = fmt::format("{:016x}", base::hash64(file.data))});
     return answers;
 }
 
@@ -66,26 +66,26 @@ struct MapSite::Impl {
                    [this](std::span<const world::ChunkPos> chunks) { return tiles.editedAmong(chunks); },
                    [this](std::span<const world::ChunkPos> chunks) { showChanges(chunks); }}) {}
 
-    PageFacts facts();
+    PageInfo info();
     Cancel answer(const Route& route, const Reply& reply);
     Cancel answerTile(const map::MapTile& tile, const Reply& reply);
     Cancel answerBlock(const BlockAt& at, const Reply& reply);
-    Answer blockAnswer(const BlockAt& at, std::span<const map::EditedChunk> edited);
-    Answer pageAnswer(const std::string& name) const;
+    Response blockAnswer(const BlockAt& at, std::span<const map::EditedChunk> edited);
+    Response pageAnswer(const std::string& name) const;
     std::string metrics();
-    void tellList(const char* name, PlaceList& list);
+    void tellList(const char* name, MarkerList& list);
     void showChanges(std::span<const world::ChunkPos> chunks);
     void logProblem(const std::string& what, const base::Error& error);
 
     boost::asio::io_context& context;
     MapSiteParts parts;
-    std::map<std::string, Answer, std::less<>> page;  // by name
+    std::map<std::string, Response, std::less<>> page;  // by name
     map::MapPainter painter;
     base::JobSystem jobs;  // destroyed before painter and parts; TileService waits for its jobs
     TileService tiles;
     EventHub events;
     std::unique_ptr<WebServer> server;
-    SeenChanges changes;
+    VisibleChanges changes;
     // Number of the last event of edits. Starts with the current time, so that numbers of different runs
     // differ.
     std::uint64_t edits = static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
@@ -93,30 +93,30 @@ struct MapSite::Impl {
                                                          .count());
     Every editsEvery{kEditsEvery}, placesEvery{kPlacesEvery}, keepAliveEvery{kKeepAliveEvery},
         problemsEvery{kProblemsEvery};
-    PlaceList players{parts.players}, places{parts.places};
+    MarkerList players{parts.players}, places{parts.places};
     std::shared_ptr<bool> isAlive = std::make_shared<bool>(true);  // for functions posted before destruction
 };
 
-PageFacts MapSite::Impl::facts() {
-    PageFacts facts{.identity = parts.store.identity(), .name = parts.name, .spawn = parts.spawn};
-    facts.places = places.places();
+PageInfo MapSite::Impl::info() {
+    PageInfo info{.identity = parts.store.identity(), .name = parts.name, .spawn = parts.spawn};
+    info.places = places.places();
     for (int k = 0; k < map::kLayerCount; ++k)
         if (painter.hasLayer(static_cast<map::Layer>(k)))
-            facts.layers.emplace_back(map::nameOf(static_cast<map::Layer>(k)));
-    facts.minZoom = map::kMinZoom;
-    facts.maxZoom = map::kMaxZoom;
-    facts.edits = edits;
-    return facts;
+            info.layers.emplace_back(map::nameOf(static_cast<map::Layer>(k)));
+    info.minZoom = map::kMinZoom;
+    info.maxZoom = map::kMaxZoom;
+    info.edits = edits;
+    return info;
 }
 
-Answer MapSite::Impl::pageAnswer(const std::string& name) const {
+Response MapSite::Impl::pageAnswer(const std::string& name) const {
     const auto found = page.find(name);
-    return found == page.end() ? textAnswer(404, "not found\n") : found->second;
+    return found == page.end() ? textResponse(404, "not found\n") : found->second;
 }
 
 Cancel MapSite::Impl::answerTile(const map::MapTile& tile, const Reply& reply) {
     if (!painter.hasLayer(tile.layer)) {
-        reply(textAnswer(404, "this world has no such layer\n"));
+        reply(textResponse(404, "this world has no such layer\n"));
         return nullptr;
     }
     const auto ready = [this, reply, tile](base::Result<TileFilePtr> file) {
@@ -127,9 +127,9 @@ Cancel MapSite::Impl::answerTile(const map::MapTile& tile, const Reply& reply) {
                           .tag = (*file)->tag});
         }
         if (file.error().code == base::ErrorCode::Busy)
-            return reply(busyAnswer(503, "too many tiles wait\n"));
+            return reply(busyResponse(503, "too many tiles wait\n"));
         logProblem(map::pathOf(tile), file.error());
-        reply(textAnswer(500, "the tile cannot be painted\n"));
+        reply(textResponse(500, "the tile cannot be painted\n"));
     };
     const TileService::Ticket ticket = tiles.request(tile, ready);
     if (ticket == 0) return nullptr;
@@ -137,10 +137,10 @@ Cancel MapSite::Impl::answerTile(const map::MapTile& tile, const Reply& reply) {
 }
 
 Cancel MapSite::Impl::answerBlock(const BlockAt& at, const Reply& reply) {
-    const world::ChunkPos chunk = world::chunkOf({at.x, at.y, 0});
+    const world::ChunkPos chunk = world::chunkOf(world::BlockPos{at.x, at.y, 0});
     auto edited = std::make_shared<std::vector<map::EditedChunk>>(tiles.editedAmong(std::span(&chunk, 1)));
     const base::JobHandle job = jobs.submit(0, [this, at, reply, edited, alive = isAlive] {
-        Answer found = blockAnswer(at, *edited);
+        Response found = blockAnswer(at, *edited);
         boost::asio::post(context, [reply, found = std::move(found), alive] {
             if (*alive) reply(found);
         });
@@ -149,19 +149,19 @@ Cancel MapSite::Impl::answerBlock(const BlockAt& at, const Reply& reply) {
 }
 
 // Runs on a worker.
-Answer MapSite::Impl::blockAnswer(const BlockAt& at, std::span<const map::EditedChunk> edited) {
+Response MapSite::Impl::blockAnswer(const BlockAt& at, std::span<const map::EditedChunk> edited) {
     try {
-        const auto found = painter.facts(at.x, at.y, edited);
-        if (!found) return textAnswer(500, "the place cannot be read\n");
+        const auto found = painter.columnInfo(at.x, at.y, edited);
+        if (!found) return textResponse(500, "the place cannot be read\n");
         const nlohmann::json json = {{"x", at.x},
                                      {"y", at.y},
                                      {"z", found->topZ},
                                      {"block", parts.blocks.type(found->top).name},
                                      {"depth", found->depth},
                                      {"biome", found->biome}};
-        return jsonAnswer(json.dump());
+        return jsonResponse(json.dump());
     } catch (const std::exception&) {  // out of memory
-        return textAnswer(500, "the place cannot be read\n");
+        return textResponse(500, "the place cannot be read\n");
     }
 }
 
@@ -205,25 +205,25 @@ Cancel MapSite::Impl::answer(const Route& route, const Reply& reply) {
     if (const auto* at = std::get_if<BlockAt>(&route)) return answerBlock(*at, reply);
     if (const auto* file = std::get_if<PageFile>(&route))
         reply(pageAnswer(file->name));
-    else if (std::holds_alternative<WorldFacts>(route))
-        reply(jsonAnswer(web::textOf(facts())));
+    else if (std::holds_alternative<WorldInfo>(route))
+        reply(jsonResponse(web::textOf(info())));
     else if (std::holds_alternative<WorldScript>(route))
-        reply({.type = typeOf("world.js"), .body = std::make_shared<const std::string>(scriptOf(facts()))});
+        reply({.type = typeOf("world.js"), .body = std::make_shared<const std::string>(scriptOf(info()))});
     else if (std::holds_alternative<PlayerList>(route))
-        reply(jsonAnswer(players.text()));
+        reply(jsonResponse(players.text()));
     else if (std::holds_alternative<Metrics>(route))
         reply({.type = "text/plain; version=0.0.4", .body = std::make_shared<const std::string>(metrics())});
     else if (std::holds_alternative<Health>(route))
-        reply(textAnswer(200, "ok\n"));
+        reply(textResponse(200, "ok\n"));
     else
-        reply(textAnswer(404, "not found\n"));
+        reply(textResponse(404, "not found\n"));
     return nullptr;
 }
 
 // The newest event is remembered: a page finds by its number what it missed.
 void MapSite::Impl::showChanges(std::span<const world::ChunkPos> chunks) {
-    tiles.forget(chunks);
-    events.tell("edits", editEvent(++edits, chunks), true);
+    tiles.invalidate(chunks);
+    events.publish("edits", editEvent(++edits, chunks), true);
 }
 
 void MapSite::Impl::logProblem(const std::string& what, const base::Error& error) {
@@ -232,16 +232,16 @@ void MapSite::Impl::logProblem(const std::string& what, const base::Error& error
 }
 
 // Sends the list if it changed; forgets it while nobody listens.
-void MapSite::Impl::tellList(const char* name, PlaceList& list) {
+void MapSite::Impl::tellList(const char* name, MarkerList& list) {
     if (events.count() == 0) {
-        events.forget(name);
-        list.told.clear();
+        events.removeRemembered(name);
+        list.sent.clear();
         return;
     }
     const std::string& text = list.text();
-    if (text == list.told) return;
-    list.told = text;
-    events.tell(name, text, true);
+    if (text == list.sent) return;
+    list.sent = text;
+    events.publish(name, text, true);
 }
 
 base::Result<std::unique_ptr<MapSite>> MapSite::open(boost::asio::io_context& context, MapSiteParts parts,
@@ -253,7 +253,7 @@ base::Result<std::unique_ptr<MapSite>> MapSite::open(boost::asio::io_context& co
     const std::vector<world::ChunkPos> edited = std::move(parts.edited);
     auto impl = std::make_unique<Impl>(context, std::move(parts), std::move(painter));
     impl->tiles.addEdited(edited);
-    impl->events.tell("edits", editEvent(impl->edits, {}), true);
+    impl->events.publish("edits", editEvent(impl->edits, {}), true);
     auto server = WebServer::open(
         context, address,
         [&site = *impl](const Route& route, const Reply& reply) { return site.answer(route, reply); },
@@ -281,7 +281,7 @@ void MapSite::onChanged(std::span<const world::ChunkPos> chunks) {
 void MapSite::tick() {
     Impl& site = *impl_;
     const Clock::time_point now = Clock::now();
-    if (site.editsEvery.isDue(now)) site.changes.look();
+    if (site.editsEvery.isDue(now)) site.changes.examine();
     if (site.placesEvery.isDue(now)) {
         site.tellList("players", site.players);
         site.tellList("places", site.places);

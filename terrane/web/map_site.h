@@ -1,6 +1,6 @@
 // The map of a world as a web site: page, tiles, live changes, Prometheus metrics. Combines the parts of this
-// module; the owner of the world provides the contents. On one thread, which runs the context; tiles are
-// painted by its own workers.
+// module; the owner of the world provides the contents. It is used on one thread, which runs the context;
+// workers of its own paint the tiles.
 #pragma once
 
 #include <cstdint>
@@ -29,16 +29,18 @@ struct MapSiteParts {
     const world::TextureSource& textures;  // only read by open()
     store::ReadableStore& store;           // of the world; workers read edited chunks
     std::string name;                      // display name of the world
-    NamedPlace spawn;
+    MapMarker spawn;
     unsigned threads = 1;
     map::SurfaceCache* cache = nullptr;             // null: no disk cache
     std::size_t tileBytes = std::size_t{64} << 20;  // limit of tiles in memory
     std::vector<world::ChunkPos> edited = {};       // edited chunks of level 0 so far
-    // A loaded chunk of level 0 of a running game; null if not loaded. May be empty.
+    // Returns a loaded chunk of level 0 of a running game; null if it is not loaded. The function may be
+    // empty.
     std::function<world::ChunkPtr(world::ChunkPos)> liveChunk = {};
-    // Players and places to show; called each second while there are listeners. May be empty.
-    std::function<std::vector<NamedPlace>()> players = {}, places = {};
-    // Adds metrics of the program. May be empty.
+    // These return the players and places to show; called each second while there are listeners. They may be
+    // empty.
+    std::function<std::vector<MapMarker>()> players = {}, places = {};
+    // Adds metrics of the program. It may be empty.
     std::function<void(MetricsText&)> metrics = {};
 };
 
@@ -52,9 +54,9 @@ class MapSite {
     ~MapSite();
 
     std::uint16_t port() const;
-    // Edited chunks of level 0, and stored tiles that changed with them: browsers reload them.
+    // Reports edited chunks of level 0 and stored tiles that changed with them; browsers reload them.
     void onChanged(std::span<const world::ChunkPos> chunks);
-    // Tells browsers about changes. Call a few times per second.
+    // Sends changes to browsers. Call it a few times per second.
     void tick();
 
   private:

@@ -1,5 +1,5 @@
-// Metrics in the text format of Prometheus (prometheus.io, "Exposition formats", version 0.0.4). Plain
-// values.
+// Metrics in the text format of Prometheus (prometheus.io, "Exposition formats", version 0.0.4). All are
+// plain values.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,7 @@ struct Histogram {
 
 class MetricsText {
   public:
-    // `name`: letters, digits and "_". `help`: one line.
+    // Add a counter or a gauge. `name` has letters, digits and "_"; `help` is one line.
     void counter(std::string_view name, std::string_view help, double value) {
         add(name, help, "counter", value);
     }

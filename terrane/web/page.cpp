@@ -18,14 +18,14 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-Json jsonOf(const NamedPlace& place) {
+Json jsonOf(const MapMarker& place) {
     const auto rounded = [](double value) { return std::round(value * 10) / 10; };
     return {{"name", place.name}, {"x", rounded(place.x)}, {"y", rounded(place.y)}, {"z", rounded(place.z)}};
 }
 
-Json jsonOf(const std::vector<NamedPlace>& places) {
+Json jsonOf(const std::vector<MapMarker>& places) {
     Json list = Json::array();
-    for (const NamedPlace& place : places) list.push_back(jsonOf(place));
+    for (const MapMarker& place : places) list.push_back(jsonOf(place));
     return list;
 }
 
@@ -42,41 +42,35 @@ constexpr std::pair<std::string_view, std::string_view> kTypes[] = {{".html", "t
 
 }  // namespace
 
-std::string textOf(const PageFacts& facts) {
-    Json json = {{"name", facts.name},
-                 {"seed", std::to_string(facts.identity.seed)},
-                 {"generator", facts.identity.generator},
+std::string textOf(const PageInfo& info) {
+    Json json = {{"name", info.name},
+                 {"seed", std::to_string(info.identity.seed)},
+                 {"generator", info.identity.generator},
                  {"seaLevel", gen::kSeaLevel},
                  {"isometricHeight", map::kIsometricHeight},
-                 {"spawn", jsonOf(facts.spawn)},
-                 {"places", jsonOf(facts.places)},
-                 {"layers", facts.layers},
-                 {"minZoom", facts.minZoom},
-                 {"maxZoom", facts.maxZoom},
-                 {"edits", facts.edits},
-                 {"isLive", facts.isLive}};
-    if (facts.area)
+                 {"spawn", jsonOf(info.spawn)},
+                 {"places", jsonOf(info.places)},
+                 {"layers", info.layers},
+                 {"minZoom", info.minZoom},
+                 {"maxZoom", info.maxZoom},
+                 {"edits", info.edits},
+                 {"isLive", info.isLive}};
+    if (info.area)
         json["area"] = {
-            {"x0", facts.area->x0}, {"y0", facts.area->y0}, {"x1", facts.area->x1}, {"y1", facts.area->y1}};
+            {"x0", info.area->x0}, {"y0", info.area->y0}, {"x1", info.area->x1}, {"y1", info.area->y1}};
     return dump(json);
 }
 
-std::string textOf(const std::vector<NamedPlace>& places) {
+std::string textOf(const std::vector<MapMarker>& places) {
     return dump(jsonOf(places));
 }
 
-std::string scriptOf(const PageFacts& facts) {
-    return "window.terraneWorld = " + textOf(facts) + ";\n";
+std::string scriptOf(const PageInfo& info) {
+    return "window.terraneWorld = " + textOf(info) + ";\n";
 }
 
 std::span<const base::EmbeddedFile> pageFiles() {
     return embedded::page();
-}
-
-const base::EmbeddedFile* pageFile(std::string_view name) {
-    const auto files = pageFiles();
-    const auto found = std::ranges::find(files, name, &base::EmbeddedFile::path);
-    return found == files.end() ? nullptr : &*found;
 }
 
 std::string_view typeOf(std::string_view fileName) {

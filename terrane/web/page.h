@@ -1,4 +1,4 @@
-// The map's page, and the facts about a world that it gets. Any thread.
+// The map's page, and the information about a world that it shows. Any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -13,34 +13,33 @@
 
 namespace terrane::web {
 
-// A named player or place; position in blocks.
-struct NamedPlace {
+// A named player or place on the map, with its position in blocks.
+struct MapMarker {
     std::string name;
     double x = 0, y = 0, z = 0;
 
-    bool operator==(const NamedPlace&) const = default;
+    bool operator==(const MapMarker&) const = default;
 };
 
-struct PageFacts {
+struct PageInfo {
     store::WorldIdentity identity;
     std::string name;  // display name of the world
-    NamedPlace spawn;
-    std::vector<NamedPlace> places = {};
+    MapMarker spawn;
+    std::vector<MapMarker> places = {};
     std::vector<std::string> layers = {};
     int minZoom = 0, maxZoom = 0;
     std::uint64_t edits = 0;                  // number of the last event of edits
     bool isLive = true;                       // served by a program, not static files
     std::optional<map::BlockRect> area = {};  // area with tiles; no value: the whole world
 };
-// Formats as JSON.
-std::string textOf(const PageFacts& facts);
-std::string textOf(const std::vector<NamedPlace>& places);
-// The facts as a script for the page: world.js.
-std::string scriptOf(const PageFacts& facts);
+// These format values as JSON.
+std::string textOf(const PageInfo& info);
+std::string textOf(const std::vector<MapMarker>& places);
+// Returns the information as a script for the page: world.js.
+std::string scriptOf(const PageInfo& info);
 
-// The files of the page, except world.js.
+// Returns the files of the page, except world.js.
 std::span<const base::EmbeddedFile> pageFiles();
-const base::EmbeddedFile* pageFile(std::string_view name);  // null if there is none
-std::string_view typeOf(std::string_view fileName);         // for Content-Type
+std::string_view typeOf(std::string_view fileName);  // for Content-Type
 
 }  // namespace terrane::web

@@ -108,7 +108,7 @@ Route blockRoute(const Target& target) {
 Route apiRoute(const Target& target) {
     if (target.segments.size() != 2) return NotFound{};
     const std::string& name = target.segments[1];
-    if (name == "world") return WorldFacts{};
+    if (name == "world") return WorldInfo{};
     if (name == "block") return blockRoute(target);
     if (name == "players") return PlayerList{};
     if (name == "edits") return EventStream{};

@@ -1,4 +1,4 @@
-// Maps request targets to routes. Plain values; any thread.
+// Maps request targets to routes. All are plain values; any thread may use them.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,6 @@
 
 namespace terrane::web {
 
-// Parses the target of a request, path and query, from any bytes. Plain values; any thread.
 // Longer targets, and targets with more parts, are rejected.
 constexpr std::size_t kMaxTargetBytes = 1024, kMaxSegments = 8, kMaxParameters = 8;
 
@@ -26,7 +25,7 @@ struct Target {
     std::vector<std::string> segments;
     std::vector<Parameter> query;
 
-    // The value of the first parameter of this name, if any.
+    // Returns the value of the first parameter of this name, if there is one.
     std::optional<std::string_view> parameter(std::string_view name) const;
 };
 
@@ -44,8 +43,8 @@ struct TileImage {
 struct BlockAt {
     std::int32_t x = 0, y = 0;
 };
-struct WorldScript {};  // the world's facts for the page, as JavaScript
-struct WorldFacts {};   // the same as JSON
+struct WorldScript {};  // the information about the world for the page, as JavaScript
+struct WorldInfo {};    // the same as JSON
 struct PlayerList {};
 struct EventStream {};
 struct Metrics {};
@@ -55,7 +54,7 @@ struct BadRequest {
     std::string why;
 };
 
-using Route = std::variant<NotFound, BadRequest, PageFile, TileImage, BlockAt, WorldScript, WorldFacts,
+using Route = std::variant<NotFound, BadRequest, PageFile, TileImage, BlockAt, WorldScript, WorldInfo,
                            PlayerList, EventStream, Metrics, Health>;
 
 // /                              index.html           /api/world             the world

@@ -110,7 +110,7 @@ void TileService::cancel(Ticket ticket) {
 }
 
 // A render in progress is still delivered to its waiting requests, but not cached.
-void TileService::forget(const MapTile& tile) {
+void TileService::invalidate(const MapTile& tile) {
     files_.erase(tile);
     renders_.erase(tile);
 }
@@ -120,9 +120,9 @@ void TileService::addEdited(std::span<const world::ChunkPos> chunks) {
         if (chunk.level == 0) edited_.add(chunk);
 }
 
-void TileService::forget(std::span<const world::ChunkPos> chunks) {
+void TileService::invalidate(std::span<const world::ChunkPos> chunks) {
     for (const world::ChunkPos chunk : chunks)
-        for (const MapTile& tile : map::MapPainter::tilesShowing(chunk)) forget(tile);
+        for (const MapTile& tile : map::MapPainter::tilesShowing(chunk)) invalidate(tile);
 }
 
 std::vector<map::EditedChunk> TileService::editedAmong(std::span<const world::ChunkPos> chunks) const {

@@ -1,5 +1,6 @@
-// Provides the tiles of a map as PNG files. Recent ones are cached in memory. Workers paint the others, once
-// for concurrent requests; queued tiles that nobody waits for any more are cancelled. On the web's thread.
+// Provides the tiles of a map as PNG files. Recent tiles are cached in memory. Workers paint the others, once
+// for concurrent requests; queued tiles without waiting requests are cancelled. It is used on the web's
+// thread.
 #pragma once
 
 #include <chrono>
@@ -35,9 +36,10 @@ class TileService {
     struct Parts {
         map::MapPainter& painter;
         base::JobSystem& jobs;
-        // Runs a function on the web's thread soon. Any thread.
+        // Runs a function on the web's thread soon. Any thread may call it.
         std::function<void(std::function<void()>)> post;
-        // A loaded chunk of level 0 of a running game; null if not loaded. May be empty.
+        // Returns a loaded chunk of level 0 of a running game; null if it is not loaded. The function may be
+        // empty.
         std::function<world::ChunkPtr(world::ChunkPos)> liveChunk = {};
         std::size_t maxBytes = std::size_t{64} << 20;  // limit of files in memory
         std::size_t maxWaiting = 256;                  // limit of queued tiles
@@ -51,17 +53,17 @@ class TileService {
     // Calls `ready` once: immediately if the tile is in memory, or with Busy if too many are queued,
     // otherwise later. Returns 0 if it was called immediately, otherwise a ticket for cancel().
     Ticket request(const map::MapTile& tile, Ready ready);
-    // `ready` will not be called. Cancels painting if nobody else waits for the tile and no worker has
-    // started.
+    // Cancels a request: its `ready` is not called. Painting is cancelled if no other request waits for the
+    // tile and no worker has started.
     void cancel(Ticket ticket);
 
     // Adds edited chunks of level 0; ignores other levels.
     void addEdited(std::span<const world::ChunkPos> chunks);
     const map::EditedPositions& edited() const { return edited_; }
     // Drops tiles that show these chunks or tiles, so that they are painted again.
-    void forget(std::span<const world::ChunkPos> chunks);
+    void invalidate(std::span<const world::ChunkPos> chunks);
 
-    // The edited chunks among these, for the painter.
+    // Returns the edited chunks among these, for the painter.
     std::vector<map::EditedChunk> editedAmong(std::span<const world::ChunkPos> chunks) const;
     const TileStatistics& statistics();
 
@@ -71,7 +73,7 @@ class TileService {
     void start(const map::MapTile& tile, const RenderPtr& render);
     void finish(const map::MapTile& tile, const RenderPtr& render, base::Result<std::string> png,
                 double seconds);
-    void forget(const map::MapTile& tile);
+    void invalidate(const map::MapTile& tile);
 
     Parts parts_;
     map::EditedPositions edited_;

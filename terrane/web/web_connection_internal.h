@@ -1,4 +1,4 @@
-// A browser's connection, used by web_server_internal.h. On the web's thread.
+// A browser's connection, used by web_server_internal.h. It is used on the web's thread.
 #pragma once
 
 #include <boost/asio/ip/tcp.hpp>
@@ -33,7 +33,7 @@ enum class Stage : std::uint8_t {
 };
 
 // Usage by one address.
-struct AddressUse {
+struct AddressUsage {
     std::size_t connections = 0, answering = 0;
     base::TokenBucket requests;
     Time seen = std::chrono::steady_clock::now();
@@ -45,9 +45,9 @@ struct Connection {
 
     std::uint64_t id;
     Tcp::socket socket;
-    std::string address;        // for IPv6 the network
-    AddressUse* use = nullptr;  // shared by the address
-    bool isLimited = true;      // limits per address apply
+    std::string address;          // for IPv6 the network
+    AddressUsage* use = nullptr;  // shared by the address
+    bool isLimited = true;        // limits per address apply
     Stage stage = Stage::Idle;
     Time since = std::chrono::steady_clock::now();  // start of this stage
     std::optional<Time> begun = {};                 // arrival of the first bytes of the request being read

@@ -33,7 +33,7 @@ void WebServer::Impl::onRead(const ConnectionPtr& connection, const SocketError&
     connection->isHead = false;
     connection->knownTag.clear();
     if (error == asio::error::not_found)
-        return reply(connection, textAnswer(431, "the header is too large\n"));
+        return reply(connection, textResponse(431, "the header is too large\n"));
     if (error) return close(connection);
     RequestParser parser;
     parser.header_limit(static_cast<std::uint32_t>(bytes + 1));
@@ -42,13 +42,13 @@ void WebServer::Impl::onRead(const ConnectionPtr& connection, const SocketError&
     parser.put(asio::const_buffer(connection->buffer.data().data(), bytes), wrong);
     connection->buffer.consume(bytes);
     if (wrong == http::error::body_limit)
-        return reply(connection, textAnswer(413, "requests have no body here\n"));
-    if (wrong || !parser.is_header_done()) return reply(connection, textAnswer(400, "not a request\n"));
+        return reply(connection, textResponse(413, "requests have no body here\n"));
+    if (wrong || !parser.is_header_done()) return reply(connection, textResponse(400, "not a request\n"));
     handle(connection, parser);
 }
 
 bool WebServer::Impl::mayAsk(Connection& connection) {
-    AddressUse& use = *connection.use;
+    AddressUsage& use = *connection.use;
     use.seen = std::chrono::steady_clock::now();
     return !connection.isLimited || use.requests.take(1, use.seen);
 }
@@ -86,30 +86,30 @@ void WebServer::Impl::handle(const ConnectionPtr& connection, const RequestParse
         connection->knownTag = std::string(tag->value());
     if (!mayAsk(*connection)) {
         ++statistics.refused;
-        return reply(connection, busyAnswer(429, "too many requests\n"));
+        return reply(connection, busyResponse(429, "too many requests\n"));
     }
-    if (hasBody) return reply(connection, textAnswer(413, "requests have no body here\n"));
+    if (hasBody) return reply(connection, textResponse(413, "requests have no body here\n"));
     if (const auto refusal = refusalOfHost(request, own))
-        return reply(connection, textAnswer(refusal->first, std::string(refusal->second)));
+        return reply(connection, textResponse(refusal->first, std::string(refusal->second)));
     if (request.method() != http::verb::get && !connection->isHead)
-        return reply(connection, textAnswer(405, "only GET and HEAD are allowed\n"));
+        return reply(connection, textResponse(405, "only GET and HEAD are allowed\n"));
     const auto target = parseTarget({request.target().data(), request.target().size()});
-    if (!target) return reply(connection, textAnswer(400, "not a path\n"));
+    if (!target) return reply(connection, textResponse(400, "not a path\n"));
     const Route route = routeOf(*target);
     if (const auto* bad = std::get_if<BadRequest>(&route))
-        return reply(connection, textAnswer(400, bad->why + "\n"));
-    if (std::holds_alternative<NotFound>(route)) return reply(connection, textAnswer(404, "not found\n"));
+        return reply(connection, textResponse(400, bad->why + "\n"));
+    if (std::holds_alternative<NotFound>(route)) return reply(connection, textResponse(404, "not found\n"));
     if (std::holds_alternative<EventStream>(route)) {
         if (!connection->isHead) return stream(connection);
         return reply(connection, {.type = "text/event-stream", .body = nullptr});
     }
-    if (connection->isLimited && connection->use->answering >= limits.answersOfAddress) {
+    if (connection->isLimited && connection->use->answering >= limits.responsesPerAddress) {
         ++statistics.refused;
-        return reply(connection, busyAnswer(503, "too many requests at a time\n"));
+        return reply(connection, busyResponse(503, "too many requests at a time\n"));
     }
     enter(*connection, Stage::Answering);
     const std::uint64_t number = connection->request;
-    Cancel cancel = answer(route, [this, weak = std::weak_ptr(connection), number](Answer found) {
+    Cancel cancel = answer(route, [this, weak = std::weak_ptr(connection), number](Response found) {
         const ConnectionPtr waiting = weak.lock();
         if (waiting && waiting->stage == Stage::Answering && waiting->request == number)
             reply(waiting, std::move(found));
@@ -131,7 +131,7 @@ void WebServer::Impl::watch(const ConnectionPtr& connection) {
     });
 }
 
-void WebServer::Impl::reply(const ConnectionPtr& connection, Answer found) {
+void WebServer::Impl::reply(const ConnectionPtr& connection, Response found) {
     connection->cancel = nullptr;
     SocketError ignored;
     connection->socket.cancel(ignored);  // ends watch(), so that consecutive requests leave none behind

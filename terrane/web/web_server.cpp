@@ -25,7 +25,7 @@ constexpr std::string_view kSafety =
 
 }  // namespace
 
-std::string headerOf(const Answer& answer, bool keepsOpen) {
+std::string headerOf(const Response& answer, bool keepsOpen) {
     std::string text =
         fmt::format("HTTP/1.1 {} {}\r\n", answer.status,
                     std::string_view(http::obsolete_reason(static_cast<http::status>(answer.status))));
@@ -91,9 +91,9 @@ void WebServer::Impl::add(Tcp::socket socket) {
     const asio::ip::address address = base::addressOf(peer);
     connection->address = base::networkOf(address);
     connection->isLimited = !address.is_loopback();
-    const AddressUse unused{0, 0, {limits.requestsPerSecond, limits.requestsAtOnce}};
-    AddressUse& use = addresses.try_emplace(connection->address, unused).first->second;
-    if (connection->isLimited && use.connections >= limits.connectionsOfAddress) {
+    const AddressUsage unused{0, 0, {limits.requestsPerSecond, limits.requestBurst}};
+    AddressUsage& use = addresses.try_emplace(connection->address, unused).first->second;
+    if (connection->isLimited && use.connections >= limits.connectionsPerAddress) {
         ++statistics.refused;
         return;
     }
@@ -118,13 +118,13 @@ void WebServer::Impl::close(const ConnectionPtr& connection) {
 }
 
 bool WebServer::Impl::isSlow(Connection& connection, Time time) const {
-    if (connection.stage == Stage::Sending) return time - connection.since > limits.sentWithin;
+    if (connection.stage == Stage::Sending) return time - connection.since > limits.sendTimeout;
     if (connection.stage != Stage::Idle) return false;
     // The deadline of the first request counts from connecting.
     if (!connection.begun && connection.request == 0) connection.begun = connection.since;
     if (!connection.begun && connection.buffer.size() > 0) connection.begun = time;
-    if (connection.begun) return time - *connection.begun > limits.headerWithin;
-    return time - connection.since > limits.idleFor;
+    if (connection.begun) return time - *connection.begun > limits.headerTimeout;
+    return time - connection.since > limits.idleTimeout;
 }
 
 void WebServer::Impl::closeSlow() {
@@ -140,7 +140,7 @@ void WebServer::Impl::closeSlow() {
 }
 
 base::Result<std::unique_ptr<WebServer>> WebServer::open(asio::io_context& context, const WebAddress& address,
-                                                         AnswerRoute answer, EventHub& events,
+                                                         RouteHandler answer, EventHub& events,
                                                          const WebLimits& limits) {
     auto impl = std::make_shared<Impl>(context, std::move(answer), events, limits);
     TERRANE_TRY(impl->listen(address));

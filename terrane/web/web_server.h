@@ -1,8 +1,8 @@
-// An HTTP server for browsers, with limits that protect it from any client. A function provides the answers.
-// On one thread, which runs the context; a game server ticks on the same thread.
+// An HTTP server for browsers, with limits that protect it from any client. A function provides the
+// responses. It is used on one thread, which runs the context; a game server ticks on the same thread.
 //
 // HTTP/1.1 without TLS (a proxy can add it), only GET and HEAD, no request bodies. A connection costs at most
-// about 20 KB plus an answer shared with others; slow and idle connections are closed.
+// about 20 KB plus a response shared with others; slow and idle connections are closed.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,8 @@
 
 namespace terrane::web {
 
-// An HTTP response. Plain values.
-struct Answer {
+// An HTTP response. All are plain values.
+struct Response {
     int status = 200;
     std::string_view type = "text/plain; charset=utf-8";  // refers to a constant
     std::shared_ptr<const std::string> body = nullptr;    // null: empty
@@ -31,21 +31,22 @@ struct Answer {
     int retryAfter = 0;  // seconds; 0: no header
 };
 
-// The head of an HTTP/1.1 response: status line, fields, empty line. `keepsOpen`: another request may follow.
-std::string headerOf(const Answer& answer, bool keepsOpen);
-// The head of a stream of server-sent events.
+// Returns the head of an HTTP/1.1 response: status line, fields, empty line. `keepsOpen`: another request may
+// follow.
+std::string headerOf(const Response& answer, bool keepsOpen);
+// Returns the head of a stream of server-sent events.
 std::string streamHeader();
 
-inline Answer textAnswer(int status, std::string text) {
+inline Response textResponse(int status, std::string text) {
     return {.status = status, .body = std::make_shared<const std::string>(std::move(text))};
 }
-// An error that may be temporary: asks the client to retry after a second.
-inline Answer busyAnswer(int status, std::string text) {
-    Answer answer = textAnswer(status, std::move(text));
+// Returns a response for a temporary error, which makes the client retry after a second.
+inline Response busyResponse(int status, std::string text) {
+    Response answer = textResponse(status, std::move(text));
     answer.retryAfter = 1;
     return answer;
 }
-inline Answer jsonAnswer(std::string text) {
+inline Response jsonResponse(std::string text) {
     return {.type = "application/json", .body = std::make_shared<const std::string>(std::move(text))};
 }
 
@@ -68,14 +69,14 @@ struct WebAddress {
 struct WebLimits {
     std::size_t connections = 1024;
     // Per address, except for loopback addresses, where a proxy makes many connections.
-    std::size_t connectionsOfAddress = 64;
-    std::size_t answersOfAddress = 16;                      // being prepared at a time, per address as above
-    double requestsPerSecond = 200, requestsAtOnce = 1000;  // per address, as above
+    std::size_t connectionsPerAddress = 64;
+    std::size_t responsesPerAddress = 16;                 // being prepared at a time, per address as above
+    double requestsPerSecond = 200, requestBurst = 1000;  // per address, as above
     std::size_t headerBytes = 8192;
     std::size_t unsentEventBytes = 256 << 10;  // per listener
-    std::chrono::seconds headerWithin{10};     // from the first byte, or from connecting
-    std::chrono::seconds idleFor{60};          // between requests
-    std::chrono::seconds sentWithin{30};       // per answer
+    std::chrono::seconds headerTimeout{10};    // from the first byte, or from connecting
+    std::chrono::seconds idleTimeout{60};      // between requests
+    std::chrono::seconds sendTimeout{30};      // per answer
 };
 
 struct WebStatistics {
@@ -87,16 +88,16 @@ struct WebStatistics {
 
 // Calls `reply` once, immediately or later, on the web's thread. The returned function, which may be empty,
 // is called if the client no longer waits.
-using Reply = std::function<void(Answer)>;
+using Reply = std::function<void(Response)>;
 using Cancel = std::function<void()>;
-using AnswerRoute = std::function<Cancel(const Route& route, Reply reply)>;
+using RouteHandler = std::function<Cancel(const Route& route, Reply reply)>;
 
 class WebServer {
   public:
     // Starts to listen. The context, the function and the hub outlive this.
     [[nodiscard]] static base::Result<std::unique_ptr<WebServer>> open(boost::asio::io_context& context,
                                                                        const WebAddress& address,
-                                                                       AnswerRoute answer, EventHub& events,
+                                                                       RouteHandler answer, EventHub& events,
                                                                        const WebLimits& limits = {});
     ~WebServer();  // closes all connections
 

@@ -14,7 +14,8 @@
 namespace terrane::web {
 
 struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
-    Impl(boost::asio::io_context& io, AnswerRoute answerRoute, EventHub& eventHub, const WebLimits& webLimits)
+    Impl(boost::asio::io_context& io, RouteHandler answerRoute, EventHub& eventHub,
+         const WebLimits& webLimits)
         : acceptor(io), answer(std::move(answerRoute)), events(eventHub), limits(webLimits) {}
 
     base::Result<void> listen(const WebAddress& address);
@@ -26,7 +27,7 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
     void handle(const ConnectionPtr& connection, const RequestParser& parser);
     bool mayAsk(Connection& connection);
     void watch(const ConnectionPtr& connection);
-    void reply(const ConnectionPtr& connection, Answer answer);
+    void reply(const ConnectionPtr& connection, Response answer);
     void stream(const ConnectionPtr& connection);
     bool addEvent(const ConnectionPtr& connection, const EventText& event);
     void sendEvents(const ConnectionPtr& connection);
@@ -42,12 +43,12 @@ struct WebServer::Impl : std::enable_shared_from_this<WebServer::Impl> {
 
     Tcp::acceptor acceptor;
     OwnHosts own;
-    AnswerRoute answer;
+    RouteHandler answer;
     EventHub& events;
     WebLimits limits;
     WebStatistics statistics;
     std::map<std::uint64_t, ConnectionPtr> connections;
-    std::map<std::string, AddressUse> addresses;
+    std::map<std::string, AddressUsage> addresses;
     std::uint64_t lastId = 0;
     bool isAccepting = false;
 };

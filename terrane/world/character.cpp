@@ -219,8 +219,8 @@ Aabb characterBox(glm::dvec3 feet) {
     return {feet - glm::dvec3(kHalf, kHalf, 0), feet + glm::dvec3(kHalf, kHalf, kCharacterHeight)};
 }
 
-Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
-                  const CharacterInput& input) {
+Character advanceCharacter(const World& world, const BlockRegistry& blocks, const Character& before,
+                           const CharacterInput& input) {
     Character c = before;
     if (collides(world, blocks, characterBox(c.feet))) {
         // Chunks that are not loaded count as full: the character waits for them.
@@ -231,7 +231,7 @@ Character stepped(const World& world, const BlockRegistry& blocks, const Charact
     }
     c.isSwimming = isInLiquid(world, blocks, c.feet + glm::dvec3(0, 0, kCharacterHeight * 0.45));
     c.isClimbing = isInClimbable(world, blocks, c.feet);
-    const bool meetsBlock = c.isBlocked && c.isOnGround && input.jumpsByItself && input.hasGravity;
+    const bool meetsBlock = c.isBlocked && c.isOnGround && input.autoJump && input.hasGravity;
     CharacterInput wanted = input;
     if (meetsBlock && canJumpOver(world, blocks, c, input.direction)) wanted.jumps = true;
     accelerate(c, wanted);

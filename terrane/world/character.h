@@ -1,5 +1,5 @@
-// A player who walks, jumps, swims and falls. Called at a fixed rate on the thread that owns the world;
-// characterEye() interpolates between two steps.
+// A character that walks, jumps, swims and falls. It advances at a fixed rate on the thread that owns the
+// world; characterEye() interpolates between two steps.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -10,7 +10,7 @@
 
 namespace terrane::world {
 
-// Moves a box among blocks, which stop it. Called on the thread that owns the world.
+// A sweep moves a box until blocks stop it, on the thread that owns the world.
 //
 // Moves axis by axis, each in one sweep over all blocks on the way, so that no speed takes a box through a
 // block. Chunks that are not loaded count as full.
@@ -24,16 +24,16 @@ struct Sweep {
     glm::bvec3 blocked{false};  // by axis: less far than asked for
 };
 
-// The distance that `box` moves by `motion` (cut to kMaxMotion along each axis): first up or down, then along
-// x, then y. Stops kSkin before an obstacle. A box that is already inside a block can leave it.
+// Returns the distance that `box` moves by `motion` (cut to kMaxMotion along each axis): first up or down,
+// then along x, then y. Stops kSkin before an obstacle. A box that is already inside a block can leave it.
 Sweep sweep(const World& world, const BlockRegistry& blocks, const Aabb& box, glm::dvec3 motion);
 constexpr double kMaxMotion = 64, kSkin = 1.0 / 4096;
 
-// Whether a collision box of a block overlaps the box; touching does not count.
+// Returns whether a collision box of a block overlaps the box; touching does not count.
 bool collides(const World& world, const BlockRegistry& blocks, const Aabb& box);
 
-// Whether the point is in a liquid. The cell of a source counts as full, that of flowing liquid up to its
-// surface.
+// Returns whether the point is in a liquid. The cell of a source counts as full, that of flowing liquid up to
+// its surface.
 bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 point);
 
 // Blocks and seconds. A jump reaches kJumpSpeed² / 2 kGravity = 1.28 blocks, enough for one.
@@ -52,22 +52,22 @@ struct Character {
     bool isBlocked = false;  // by an obstacle, in the last step
 };
 
-// The player's input. `direction`: horizontal, of length 0…1.
+// The player's input. `direction` is horizontal, of length 0…1.
 struct CharacterInput {
     glm::dvec2 direction{0};
     bool runs = false, jumps = false, dives = false;
-    bool hasGravity = true;      // else up and down are `jumps` and `dives`, at walking speed
-    bool jumpsByItself = false;  // onto a block that is in the way
+    bool hasGravity = true;  // else up and down are `jumps` and `dives`, at walking speed
+    bool autoJump = false;   // onto a block that is in the way
 };
 
-// The character kStepSeconds later. A character inside a block, as after one was placed on it, is lifted out;
-// one that reaches into a chunk that is not loaded waits for it.
-Character stepped(const World& world, const BlockRegistry& blocks, const Character& before,
-                  const CharacterInput& input);
+// Returns the character kStepSeconds later. A character inside a block, for example after a block was placed
+// there, is lifted out; a character that extends into a chunk that is not loaded waits for it.
+Character advanceCharacter(const World& world, const BlockRegistry& blocks, const Character& before,
+                           const CharacterInput& input);
 
 Aabb characterBox(glm::dvec3 feet);
 
-// The eye at `share` (0…1) between two steps. This smooths steps up, too.
+// Returns the eye at `share` (0…1) between two steps. This smooths steps up, too.
 inline glm::dvec3 characterEye(const Character& before, const Character& now, double share) {
     return before.feet + (now.feet - before.feet) * share + glm::dvec3(0, 0, kEyeHeight);
 }

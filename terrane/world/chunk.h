@@ -18,11 +18,11 @@ namespace terrane::world {
 using BlockId = std::uint16_t;
 constexpr BlockId kAir = 0;
 
-// Bytes that a block keeps beyond its 16 bits of block state, for example the text of a sign.
+// The bytes of a block beyond its 16 bits of block state, for example the text of a sign.
 using BlockEntityData = std::vector<std::byte>;
 using BlockEntityDataPtr = std::shared_ptr<const BlockEntityData>;
 
-// Block access is O(1). Not synchronised; the world shares chunks between threads as `shared_ptr<const
+// Block access is O(1). It is not synchronised; the world shares chunks between threads as `shared_ptr<const
 // Chunk>`.
 class Chunk {
   public:
@@ -33,7 +33,7 @@ class Chunk {
     std::uint16_t blockState(BlockIndex i) const { return blockState_[i >> 12].get(i & 4095); }
     void setBlockState(BlockIndex i, std::uint16_t value);
 
-    // Block entity data of a block, beside its block state.
+    // The functions below access the block entity data of a block.
     const BlockEntityData* blockEntityData(BlockIndex i) const;  // null if the block has none
     BlockEntityDataPtr sharedBlockEntityData(BlockIndex i) const;
     void setBlockEntityData(BlockIndex i, BlockEntityData data);
@@ -64,10 +64,9 @@ class Chunk {
 
 using ChunkPtr = std::shared_ptr<const Chunk>;
 
-// The digest of chunks that `terrane generate --digest` prints and Python's World.digest() returns. Any
-// thread.
-// Adds a chunk's blocks by z, y, x, as 16-bit little-endian ids. Block state and block entity data do not
-// count. The digest of an area takes its chunks by y, then x.
+// Adds a chunk to the digest that `terrane generate --digest` prints and Python's World.digest() returns: its
+// blocks by z, y, x, as 16-bit little-endian ids. Block state and block entity data do not count. The digest
+// of an area takes its chunks by y, then x.
 void addToDigest(base::Digest& digest, const Chunk& chunk);
 
 }  // namespace terrane::world

@@ -40,17 +40,17 @@ struct BlockPos {
 // Index of a block in its chunk: x + 16 y + 256 z, so that a layer of equal z and a section are contiguous.
 using BlockIndex = std::uint16_t;
 
-// The chunk of level 0 that holds the block. Floors, also below zero.
+// Returns the chunk of level 0 that holds the block. Coordinates are rounded down, also below zero.
 constexpr ChunkPos chunkOf(BlockPos p) {
     return {p.x >> 4, p.y >> 4};
 }
 
-// The chunk of the same level that lies dx, dy chunks away.
+// Returns the chunk of the same level that lies dx, dy chunks away.
 constexpr ChunkPos offsetBy(ChunkPos c, std::int32_t dx, std::int32_t dy) {
     return {c.x + dx, c.y + dy, c.level};
 }
 
-// Width of a column of a chunk, in blocks.
+// Returns the width of a column of a chunk, in blocks.
 constexpr std::int32_t columnWidth(int level) {
     return std::int32_t{1} << level;
 }
@@ -59,12 +59,12 @@ constexpr BlockIndex blockIndex(int xInChunk, int yInChunk, int z) {
     return static_cast<BlockIndex>(xInChunk | yInChunk << 4 | z << 8);
 }
 
-// p.z must be in 0…255.
+// Returns the index of a block in its chunk; p.z must be in 0…255.
 constexpr BlockIndex blockIndex(BlockPos p) {
     return blockIndex(p.x & 15, p.y & 15, p.z);
 }
 
-// The block, or at higher levels the block of the column with the lowest x and y.
+// Returns the block, or at higher levels the block of the column with the lowest x and y.
 constexpr BlockPos blockPos(ChunkPos c, BlockIndex i) {
     const std::int32_t width = columnWidth(c.level);
     return {(c.x * kChunkSize + (i & 15)) * width, (c.y * kChunkSize + ((i >> 4) & 15)) * width, i >> 8};
@@ -74,13 +74,13 @@ constexpr bool isInHeight(int z) {
     return z >= 0 && z < kChunkHeight;
 }
 
-// True where every block of the chunk has 32-bit coordinates.
+// Returns true if every block of the chunk has 32-bit coordinates.
 constexpr bool isInWorld(ChunkPos c) {
     const std::int32_t low = kMinChunk >> c.level, high = kMaxChunk >> c.level;
     return c.x >= low && c.x <= high && c.y >= low && c.y <= high;
 }
 
-// Chebyshev distance in chunks between two of one level, without overflow.
+// Returns the Chebyshev distance between two chunks of one level, without overflow.
 constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
     const std::int64_t dx = std::int64_t{a.x} - b.x, dy = std::int64_t{a.y} - b.y;
     const std::int64_t ax = dx < 0 ? -dx : dx, ay = dy < 0 ? -dy : dy;
@@ -94,7 +94,7 @@ struct BlockBox {
     std::int64_t blockCount() const {
         return (std::int64_t{high.x} - low.x + 1) * (std::int64_t{high.y} - low.y + 1) * (high.z - low.z + 1);
     }
-    // 0 ≤ number < blockCount(), in the order of z, y, x.
+    // Returns block `number` in the order of z, y, x; 0 ≤ number < blockCount().
     BlockPos blockAt(std::int64_t number) const {
         const std::int64_t width = std::int64_t{high.x} - low.x + 1, depth = std::int64_t{high.y} - low.y + 1;
         return {static_cast<std::int32_t>(low.x + number % width),
@@ -109,7 +109,7 @@ struct ChunkArea {
     std::int64_t chunkCount() const { return (std::int64_t{x1} - x0) * (std::int64_t{y1} - y0); }
 };
 
-// (2 radius + 1)² chunks of the middle's level, row by row.
+// Returns (2 radius + 1)² chunks of the middle's level, row by row.
 inline std::vector<ChunkPos> chunksWithin(ChunkPos middle, int radius) {
     std::vector<ChunkPos> chunks;
     for (int dy = -radius; dy <= radius; ++dy)
@@ -118,7 +118,7 @@ inline std::vector<ChunkPos> chunksWithin(ChunkPos middle, int radius) {
     return chunks;
 }
 
-// The chunks of a level that cover an area of chunks of level 0.
+// Returns the chunks of a level that cover an area of chunks of level 0.
 constexpr ChunkArea areaOver(const ChunkArea& area, int level) {
     const auto above = [level](std::int32_t end) { return ((end - 1) >> level) + 1; };
     return {area.x0 >> level, area.y0 >> level, above(area.x1), above(area.y1)};

@@ -1,5 +1,5 @@
-// Makes one column, twice as wide, of 2×2 columns of blocks, and so tiles of the next level from edited
-// chunks. Called by stream/edited_tiles.cpp. Pure functions; any thread.
+// Makes one column, twice as wide, of 2×2 columns of blocks. stream/edited_tiles.cpp makes tiles of the next
+// level from edited chunks with it. All functions are pure; any thread may call them.
 #pragma once
 
 #include <array>
@@ -38,18 +38,18 @@ struct DownsampleRule {
     const DownsampleKind& kind(BlockId id) const { return kinds[id < kinds.size() ? id : kinds.size() - 1]; }
 };
 
-// Weaker light counts as none: else glimmering ore would cover a whole quarry by the rule below.
+// Weaker light counts as none; otherwise glimmering ore would cover a whole quarry by the rule below.
 constexpr int kMinFarEmission = 8;
 
 DownsampleRule downsampleRule(const BlockRegistry& blocks);
 
-// The number of the four blocks that must be solid for the parent to be: 1…4, each for a quarter of all
-// columns. So the mean cover of many columns stays the same at every level. It does not depend on z: a tower
-// stays whole or is removed.
+// Returns the number of the four blocks that must be solid for the parent to be: 1…4, each for a quarter of
+// all columns. So the mean cover of many columns stays the same at every level. It does not depend on z: a
+// tower stays whole or is removed.
 int coverThreshold(ColumnPos parent);
 
-// The column of `parent` from the four under it, in the order (0, 0), (1, 0), (0, 1), (1, 1). The first rule
-// that holds decides each slice:
+// Computes the column of `parent` from the four below it, in the order (0, 0), (1, 0), (0, 1), (1, 1). The
+// first rule that holds decides each slice:
 //   1. One of the four glows: the one with the strongest light. Light is seen from farther than its lamp.
 //   2. At least coverThreshold() are solid: one of these. First those with nothing opaque above, then
 //      those beside a block of the four that is not opaque, then the others.

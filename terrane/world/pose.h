@@ -22,8 +22,8 @@ BlockPos blockOf(const glm::dvec3& position);  // the block that it lies in
 glm::vec3 lookDirection(float yaw, float pitch);
 glm::vec3 rightDirection(float yaw);
 
-// The figure of a player at one moment: its place, its directions, the phase of its walk. Plain value, made
-// by game::FigureMotion, drawn by render.
+// The figure of a player at one moment: its position, its directions, the phase of its walk.
+// game::FigureMotion makes this plain value, and render draws it.
 struct Figure {
     glm::dvec3 eyes{0};      // blocks; kEyeHeight above the feet
     float yaw = 0;           // degrees, of the head, as in Pose

@@ -1,5 +1,5 @@
-// Finds the first block that a ray from the camera hits, which a player looks at, breaks or builds on. Called
-// by the application and by tools, on the thread that owns the world.
+// Finds the first block that a ray from the camera hits: the block that a player looks at, breaks or builds
+// on. The application and tools call it on the thread that owns the world.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -21,10 +21,10 @@ struct RayHit {
     double distance = 0;    // from the origin, in blocks
 };
 
-// The first block whose selection box the ray enters within `maxDistance` blocks. A box around the origin is
-// hit at distance 0, on the face through which the ray would have entered it. Chunks that are not loaded are
-// passed as air. None also for a direction of length zero and for values that are not finite. Rays pass
-// liquids, but stop at the sources of `liquid`, if given.
+// Returns the first block whose selection box the ray enters within `maxDistance` blocks. A box around the
+// origin is hit at distance 0, on the face through which the ray would have entered it. Chunks that are not
+// loaded are passed as air. Returns nothing also for a direction of length zero and for values that are not
+// finite. Rays pass liquids, but stop at the sources of `liquid`, if given.
 std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry, const Ray& ray,
                               double maxDistance, BlockId liquid = kAir);
 

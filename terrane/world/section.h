@@ -20,20 +20,20 @@ namespace terrane::world {
 //   uniform  one value                                    0 bytes beside the object
 //   palette  distinct values + 1, 2, 4 or 8 bits a block  512, 1,024, 2,048 or 4,096 bytes + palette
 //   dense    16 bits a block                              8,192 bytes
-// A set() that brings a new value widens the form; compact() finds the smallest again.
-// Not synchronised: one writer or many readers.
+// A set() that brings a new value widens the form; compact() finds the smallest again. It is not
+// synchronised: one writer or many readers may use it.
 class Section {
   public:
     using Value = std::uint16_t;
 
     explicit Section(Value value = 0) : uniform_(value) {}
 
-    // The smallest form of 4,096 values.
+    // Returns the smallest form of 4,096 values.
     static Section fromValues(std::span<const Value, kBlocksPerSection> values);
 
-    // A section that is not uniform from its bits(), palette() and words(), in the same form. Nothing unless
-    // `bits` is 1, 2, 4, 8 or 16 and `words` holds 64 · bits of them, or if the index of a block has no value
-    // in the palette, or if the palette is longer than `bits` can tell apart.
+    // Returns a section that is not uniform from its bits(), palette() and words(), in the same form. Returns
+    // nothing unless `bits` is 1, 2, 4, 8 or 16 and `words` holds 64 · bits of them, or if the index of a
+    // block has no value in the palette, or if the palette is longer than `bits` can tell apart.
     static std::optional<Section> fromPacked(int bits, std::vector<Value> palette,
                                              std::vector<std::uint64_t> words);
 
@@ -45,8 +45,8 @@ class Section {
     }
     void set(int index, Value value);
     void unpack(std::span<Value, kBlocksPerSection> values) const;
-    // Like unpack, with mapped[k] in place of palette()[k]: one lookup for each palette entry instead of each
-    // block. Palette form only; mapped has the size of palette().
+    // Unpacks the section with mapped[k] in place of palette()[k]: one lookup for each palette entry instead
+    // of each block. Palette form only; mapped has the size of palette().
     void unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const;
     void compact();
 
@@ -54,16 +54,17 @@ class Section {
     Value uniformValue() const { return uniform_; }  // only where isUniform()
     bool isDense() const { return bits_ == 16; }
 
-    // Bits a block: 0 (uniform), 1, 2, 4, 8 (palette) or 16 (dense).
+    // Returns the bits of a block: 0 (uniform), 1, 2, 4, 8 (palette) or 16 (dense).
     int bits() const { return bits_; }
-    // Distinct values in order of index; may have values that no block has any more. Empty unless palette
-    // form.
+    // Returns the distinct values in order of index; may have values that no block has any more. The result
+    // is empty unless palette form.
     std::span<const Value> palette() const { return palette_; }
-    // Palette form: indices, bits() each, lowest index in the lowest bits. Dense form: values, 16 bits each.
+    // Returns the packed data. Palette form: indices, bits() each, lowest index in the lowest bits. Dense
+    // form: values, 16 bits each.
     std::span<const std::uint64_t> words() const { return words_; }
 
-    // True if all values surely meet the condition. False for dense sections, which are not searched, and if
-    // a value of the palette does not meet it, even if no block has that value any more.
+    // Returns true if all values surely meet the condition. Returns false for dense sections, which are not
+    // searched, and if a value of the palette does not meet it, even if no block has that value any more.
     template <class Condition>
     bool surelyAll(const Condition& condition) const {
         if (isUniform()) return condition(uniform_);
@@ -89,8 +90,9 @@ class Section {
     std::uint8_t bits_ = 0;
 };
 
-// Sections in the format of shaders (shared/packed_section.h): a list of heads, and their palettes and words
-// one after the other. Light and meshing upload them to buffers of their own. No OpenGL; any thread.
+// Sections in the format of shaders (shared/packed_section.h): a list of headers, and their palettes and
+// words one after the other. Light and meshing upload them to buffers of their own. They need no OpenGL; any
+// thread may use them.
 struct PackedSections {
     std::vector<shared::PackedSection> sections;
     std::vector<shared::uint> data;  // about 9 KB an overworld chunk

@@ -1,5 +1,5 @@
-// The tint of columns: the color that grass has there. Made by generators (gen/builder.h), applied to the
-// textures of tinted faces (docs/blocks.md). Plain values; any thread.
+// The tint of columns: the color that grass has there. Generators compute it (gen/language/builder.h), and it
+// is applied to the textures of tinted faces (docs/blocks.md). All are plain values; any thread may use them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -35,20 +35,20 @@ using TintTile = std::array<PackedColor, static_cast<std::size_t>(kChunkSize) * 
 // 1994), through (n, t) instead of (1/2, t). For display; block_tint.glsl does the same.
 glm::vec3 tinted(glm::vec3 color, PackedColor tint);
 
-// The mean color of each kind of block seen from above, for maps and for light that the ground reflects. Any
-// thread.
-// The color of a block's top face.
+// The mean color of a block's top face, for maps and for light that the ground reflects.
 struct TopColor {
     glm::vec3 mean{0.0f};  // sRGB, 0…255
     bool tinted = false;
 };
 using TopColors = std::vector<TopColor>;  // by block id
 
-// Blocks without a shape are black. Fails if a texture cannot be read; the message names it.
+// Returns the colors of the top faces; blocks without a shape are black. Fails if a texture cannot be read;
+// the message names it.
 base::Result<TopColors> topColors(const BlockRegistry& blocks, const TextureSource& textures);
 
 // The surface of a chunk of any level as seen from above: height and topmost block of its columns. Far
-// shadows and light from the ground are computed from it (render/land_map.h). Plain values; any thread.
+// shadows and light from the ground are computed from it (render/land/land_map.h). All are plain values; any
+// thread may use them.
 struct LandTile {
     static constexpr std::size_t kColumns = static_cast<std::size_t>(kChunkSize) * kChunkSize;
 
@@ -58,7 +58,8 @@ struct LandTile {
     PackedColor tint = kNeutralTint;               // of the whole tile
 };
 
-// Crowns of trees and the surface of water count, plants do not. Columns without blocks have height 0.
+// Returns the surface of a chunk. Tree crowns and the surface of water count, plants do not. Columns without
+// blocks have height 0.
 LandTile landTileOf(const Chunk& chunk, const BlockRegistry& blocks);
 
 }  // namespace terrane::world

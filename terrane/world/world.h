@@ -1,6 +1,6 @@
-// The chunks in memory and access to their blocks. Used on one thread (the one that runs the game); chunks
-// themselves are shared with workers as immutable snapshots: an edit (block_edit.h) replaces the chunk by a
-// changed copy when a worker holds it.
+// The chunks in memory and access to their blocks. It is used on one thread (the one that runs the game);
+// chunks themselves are shared with workers as immutable snapshots: an edit (block_edit.h) replaces the chunk
+// by a changed copy when a worker holds it.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 namespace terrane::world {
 
 // The full value of a block, and the recorded values of blocks before a change: for undo, and for copies of
-// blocks. Plain values; any thread.
+// blocks. All are plain values; any thread may use them.
 class World;
 
 struct BlockValue {
@@ -30,16 +30,16 @@ struct PlacedBlock {
     BlockValue value;
 };
 
-// The value at `pos`; air above and below the world and where no chunk is loaded.
+// Returns the value at `pos`; air above and below the world and where no chunk is loaded.
 BlockValue blockValue(const World& world, BlockPos pos);
 
 // Records the values of blocks before a change of the world (block_edit.h).
 class BlockRecorder {
   public:
-    // Called before each write to a block.
+    // Records the value of a block. It is called before each write to the block.
     void note(BlockPos pos, BlockValue value) { notes_.push_back({pos, std::move(value)}); }
-    // Each block once, with the value before its first write, chunk by chunk and in a chunk by block index.
-    // The recorder is empty afterwards.
+    // Returns each block once, with the value before its first write, chunk by chunk and in a chunk by block
+    // index. The recorder is empty afterwards.
     std::vector<PlacedBlock> take();
 
   private:
@@ -48,25 +48,25 @@ class BlockRecorder {
 
 class World {
   public:
-    // The chunk, or null unless it is loaded.
+    // Returns the chunk, or null unless it is loaded.
     ChunkPtr maybeChunkAt(ChunkPos pos) const;
 
-    // Adds a chunk or replaces the one there. The world owns it from here on: the caller may keep the pointer
-    // to read, never to write.
+    // Adds a chunk or replaces the one there. The world owns it from now on: the caller may read through its
+    // pointer, but not write.
     void insert(ChunkPos pos, std::shared_ptr<Chunk> chunk);
     void erase(ChunkPos pos) { chunks_.erase(pos); }
 
-    // Air above and below the world and where no chunk is loaded.
+    // Returns a block; air above and below the world and where no chunk is loaded.
     BlockId block(BlockPos pos) const;
 
-    // A block's 16 bits of block state, and the bytes it keeps beyond them. Where no chunk is loaded there
-    // are none. A pointer holds until the chunk changes or goes.
+    // These return a block's 16 bits of block state and its block entity data. Where no chunk is loaded there
+    // are none. A pointer is valid until the chunk changes or is erased.
     std::uint16_t blockState(BlockPos pos) const;
     const BlockEntityData* blockEntityData(BlockPos pos) const;  // null if the block has none
 
     std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t memoryBytes() const;  // of all chunks
-    // use(ChunkPos, ChunkPtr) for each chunk, in no order.
+    // Calls use(ChunkPos, ChunkPtr) for each chunk, in no order.
     template <class Use>
     void forEachChunk(Use use) const {
         for (const auto& [pos, chunk] : chunks_) use(pos, ChunkPtr(chunk));

@@ -11,9 +11,9 @@ namespace {
 
 class ChildProcessTest : public testing::Test {
   protected:
-    Result<ChildEnd> shell(const std::string& script, std::chrono::milliseconds atMost = kHangs) {
+    Result<ChildResult> shell(const std::string& script, std::chrono::milliseconds timeout = kHangs) {
         return runChild({"/bin/sh", "-c", script},
-                        {folder.path(), folder / "errors", atMost, {{"TERRANE_TEST", "set"}}});
+                        {folder.path(), folder / "errors", timeout, {{"TERRANE_TEST", "set"}}});
     }
 
     TempFolder folder;
@@ -25,7 +25,7 @@ TEST_F(ChildProcessTest, GivesOutputAndExitCode) {
     EXPECT_EQ(end->exitCode, 3);
     EXPECT_EQ(end->output, "out\n" + std::filesystem::canonical(folder.path()).string() + "\n");
     EXPECT_EQ(*readFile(folder / "errors"), "error\n");
-    EXPECT_FALSE(end->tookTooLong);
+    EXPECT_FALSE(end->timedOut);
     EXPECT_GT(end->seconds, 0);
 }
 
@@ -48,10 +48,10 @@ std::string crashing(int crashes, const std::string& signal) {
 }
 
 TEST_F(ChildProcessTest, RunsACrashedProgramAgain) {
-    const auto run = [&](const std::string& script, int mostRuns) {
+    const auto run = [&](const std::string& script, int maxRuns) {
         std::filesystem::remove(folder / "runs");
         return runChild({"/bin/sh", "-c", script},
-                        {.folder = folder.path(), .errorOutput = folder / "errors", .mostRuns = mostRuns});
+                        {.folder = folder.path(), .errorOutput = folder / "errors", .maxRuns = maxRuns});
     };
     const auto good = run(crashing(2, "SEGV"), 3), bad = run(crashing(3, "ABRT"), 3);
     const auto single = run(crashing(1, "SEGV"), 1), killed = run(crashing(1, "TERM"), 3);
@@ -70,7 +70,7 @@ TEST_F(ChildProcessTest, RunsACrashedProgramAgain) {
 TEST_F(ChildProcessTest, EndsWhatTakesTooLong) {
     const auto end = shell("echo before; exec sleep 1000", std::chrono::milliseconds(20));
     ASSERT_TRUE(end);
-    EXPECT_TRUE(end->tookTooLong);
+    EXPECT_TRUE(end->timedOut);
     EXPECT_NE(end->exitCode, 0);
 }
 

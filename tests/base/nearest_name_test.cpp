@@ -45,7 +45,7 @@ TEST(NearestName, AsAQuestion) {
     const std::vector<std::string> names = {"low", "high"};
     EXPECT_EQ(didYouMean("hihg", names), "; did you mean high?");
     EXPECT_EQ(didYouMean("nothing", names), "");
-    EXPECT_EQ(notOneOf(names, "hihg"), "expected one of low, high, got \"hihg\"; did you mean high?");
+    EXPECT_EQ(expectedOneOf(names, "hihg"), "expected one of low, high, got \"hihg\"; did you mean high?");
 }
 
 }  // namespace

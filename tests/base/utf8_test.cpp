@@ -8,11 +8,11 @@ namespace terrane::base {
 namespace {
 
 TEST(Utf8, FirstCharacters) {
-    EXPECT_EQ(firstCharacter("a").code, U'a');
-    EXPECT_EQ(firstCharacter("čx").code, U'č');
-    EXPECT_EQ(firstCharacter("čx").bytes, 2u);
-    EXPECT_EQ(firstCharacter("€").bytes, 3u);
-    EXPECT_EQ(firstCharacter("\U0010FFFF").code, char32_t{0x10FFFF});
+    EXPECT_EQ(firstCodePoint("a").code, U'a');
+    EXPECT_EQ(firstCodePoint("čx").code, U'č');
+    EXPECT_EQ(firstCodePoint("čx").bytes, 2u);
+    EXPECT_EQ(firstCodePoint("€").bytes, 3u);
+    EXPECT_EQ(firstCodePoint("\U0010FFFF").code, char32_t{0x10FFFF});
 }
 
 TEST(Utf8, WhatIsNone) {
@@ -32,7 +32,7 @@ TEST(Utf8, ExactlyTheCodesOfUnicode) {
             for (unsigned third = 0; third < 256; ++third) {
                 const std::string text{static_cast<char>(first), static_cast<char>(second),
                                        static_cast<char>(third)};
-                if (firstCharacter(text).bytes == 3) ++count;
+                if (firstCodePoint(text).bytes == 3) ++count;
             }
     EXPECT_EQ(count, 0x10000u - 0x800u - 0x800u) << "from U+0800 on, without surrogates";
 }

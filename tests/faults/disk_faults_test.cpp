@@ -31,7 +31,7 @@ class DiskFaults : public testing::TestWithParam<StartCase> {
         arrange();
         play.run(lasts);
         const bool hasFailed = disk.failures() > 0 || disk.hasStopped();
-        EXPECT_TRUE(play.tellsAll || (hasFailed && !isHarmless_)) << "nothing failed";
+        EXPECT_TRUE(play.reportsAll || (hasFailed && !isHarmless_)) << "nothing failed";
         disk.restart();
         play.verify();
         return hasFailed;

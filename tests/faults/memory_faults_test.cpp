@@ -45,7 +45,7 @@ class MemoryFaults : public testing::Test {
             hasFailed = base::FailingMemory::hasFailed();
             allocations_ = base::FailingMemory::allocations();
         }
-        EXPECT_TRUE(play.tellsAll || hasFailed) << "nothing failed";
+        EXPECT_TRUE(play.reportsAll || hasFailed) << "nothing failed";
         play.verify();
         return hasFailed;
     }

@@ -67,7 +67,7 @@ std::unique_ptr<SqliteStore> Play::open() {
     const FewLogPages few;
     auto store = SqliteStore::open(path_, registry_, {.create = kIdentity, .decide = {}}, kNever);
     if (!store) {
-        tellsAll = false;
+        reportsAll = false;
         return nullptr;
     }
     FewLogPages::apply();
@@ -92,7 +92,7 @@ void Play::flush(SqliteStore& store) {
         EXPECT_EQ(isDone, status.problem.empty());
         if (isDone) return;
         EXPECT_LT(attempt, lasts_ ? 2 : 1) << status.problem;
-        tellsAll = false;
+        reportsAll = false;
     }
 }
 
@@ -105,20 +105,20 @@ void Play::expectLoads(SqliteStore& store) {
         ASSERT_EQ(loaded.size(), all.size());
         int unread = 0;
         for (std::size_t k = 0; k < all.size(); ++k) {
-            const bool isUnread = loaded[k].state == LoadedChunk::State::Damaged;
-            unread += isUnread ? 1 : 0;
-            EXPECT_TRUE(isUnread || ledger_.mayHold(all[k], contentOf(loaded[k])))
+            const bool isUnreadable = loaded[k].state == LoadedChunk::State::Damaged;
+            unread += isUnreadable ? 1 : 0;
+            EXPECT_TRUE(isUnreadable || ledger_.mayHold(all[k], contentOf(loaded[k])))
                 << nameOf(all[k]) << " holds " << contentOf(loaded[k]);
         }
         if (unread <= damaged_) return;
-        tellsAll = false;
+        reportsAll = false;
         EXPECT_LT(attempt, lasts_ ? 2 : 1) << unread << " chunks still cannot be read, " << loaded[0].problem;
     }
 }
 
 void Play::session(SqliteStore& store) {
     store.setDerivedRows({deriveSums, {}});
-    if (!ensureDerivedRows(store, kSumRules)) tellsAll = false;
+    if (!ensureDerivedRows(store, kSumRules)) reportsAll = false;
     expectLoads(store);
     for (int x = 0; x < 3; ++x) save(store, {x, 0});
     store.save({9, 9}, markedChunk(1), Provenance::Generated);

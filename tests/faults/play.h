@@ -39,7 +39,7 @@ class Play {
     // Without faults: durable saves exist, the save is intact and usable.
     void verify();
 
-    bool tellsAll = true;  // the play completed without a refusal
+    bool reportsAll = true;  // the play completed without a refusal
 
   private:
     std::unique_ptr<SqliteStore> open();

@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     for (const world::BlockType& type : blocks->types()) fuzz::require(blocks->find(type.name) == &type);
-    const world::BlockRegistry far = blocks->seenFromAfar();
+    const world::BlockRegistry far = blocks->forFarTiles();
     fuzz::require(far.types().size() == blocks->types().size());
     fuzz::require(far.missing() == blocks->missing());
     return 0;

@@ -17,6 +17,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         fuzz::requireReason(bookmarks.error());
         return 0;
     }
-    for (const world::Pose& pose : *bookmarks) fuzz::require(game::poseFrom(game::textOf(pose)) == pose);
+    for (const world::Pose& pose : *bookmarks) fuzz::require(game::parsePose(game::textOf(pose)) == pose);
     return 0;
 }

@@ -1,6 +1,6 @@
-// libFuzzer: actions of connections on a server (net/server.h) in any order: open, close, log in, send valid,
-// nearly valid or random messages, while time passes. One server for all inputs, with a flat world in memory;
-// between inputs all clients leave. Its answers must be messages that a client can decode.
+// libFuzzer: actions of connections on a server (net/server/server.h) in any order: open, close, log in, send
+// valid, nearly valid or random messages, while time passes. One server for all inputs, with a flat world in
+// memory; between inputs all clients leave. Its answers must be messages that a client can decode.
 #include <array>
 #include <memory>
 
@@ -131,7 +131,7 @@ class FuzzServer {
         onMessage(server(), connection.id, bytes, now_);
         read(connection);
     }
-    // Passes bytes to the server as net/server_sockets.h does.
+    // Passes bytes to the server as net/server/server_sockets.h does.
     void stream(Connection& connection, const net::Bytes& bytes) {
         if (connection.id == 0) return;
         connection.reader.add(bytes);

@@ -28,7 +28,7 @@ TEST_F(BlockInteractionTest, BreaksTheBlockThatIsLookedAt) {
 }
 
 TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
-    takeInHand(interaction_.hotbar, contentBlock("sand"));
+    selectBlock(interaction_.hotbar, contentBlock("sand"));
     act(interaction_.building);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), contentBlock("sand"));
 }
@@ -36,10 +36,10 @@ TEST_F(BlockInteractionTest, BuildsOnTheFaceThatIsLookedAt) {
 TEST_F(BlockInteractionTest, WhatIsBuiltTakesThePlaceOfGrass) {
     const world::BlockPos meadow{5, 5, kGroundHeight};
     session_.edit({kNoPlayer, meadow, world::SetBlock{contentBlock("tall_grass")}, {}});
-    takeInHand(interaction_.hotbar, contentBlock("lamp_white"));
+    selectBlock(interaction_.hotbar, contentBlock("lamp_white"));
     act(interaction_.building);
     EXPECT_EQ(session_.world().block(meadow), contentBlock("lamp_white"));
-    ASSERT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
+    ASSERT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
     EXPECT_EQ(session_.world().block(meadow), contentBlock("tall_grass"));
 }
 
@@ -50,7 +50,7 @@ TEST_F(BlockInteractionTest, GrassBesideTheFaceIsReplaced) {
     // Over the grass, at the stone's side.
     player_.placeAt({.position = {8.5, 5.5, kGroundHeight + 0.9}, .yaw = 180, .pitch = 0}, Movement::Fast);
     session_.setPlayer(kLocalPlayer, player_.pose());
-    takeInHand(interaction_.hotbar, contentBlock("glass"));
+    selectBlock(interaction_.hotbar, contentBlock("glass"));
     act(interaction_.building);
     ASSERT_EQ(session_.world().block(grass), contentBlock("glass"));
     EXPECT_EQ(session_.world().block({7, 5, kGroundHeight}), world::kAir);
@@ -60,7 +60,7 @@ TEST_F(BlockInteractionTest, FlowersAndGrassOfTheSameKindStay) {
     for (const char* name : {"poppy", "tall_grass"}) {
         const world::BlockPos meadow{5, 5, kGroundHeight};
         session_.edit({kNoPlayer, meadow, world::SetBlock{contentBlock(name)}, {}});
-        takeInHand(interaction_.hotbar, contentBlock("tall_grass"));
+        selectBlock(interaction_.hotbar, contentBlock("tall_grass"));
         act(interaction_.building);
         EXPECT_EQ(session_.world().block(meadow), contentBlock(name));
     }
@@ -68,7 +68,7 @@ TEST_F(BlockInteractionTest, FlowersAndGrassOfTheSameKindStay) {
 
 TEST_F(BlockInteractionTest, WaterIsPlacedFlowsAndIsTaken) {
     const world::BlockId water = contentBlock("water");
-    takeInHand(interaction_.hotbar, water);
+    selectBlock(interaction_.hotbar, water);
     act(interaction_.building);
     ASSERT_EQ(session_.world().block({5, 5, kGroundHeight}), water);
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
@@ -89,14 +89,14 @@ TEST_F(BlockInteractionTest, FlowingWaterIsReplacedByASourceAndNotTaken) {
     session_.edit({kNoPlayer, {6, 5, kGroundHeight}, world::SetBlock{water}, {}});
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
     ASSERT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1);
-    takeInHand(interaction_.hotbar, water);
+    selectBlock(interaction_.hotbar, water);
     act(interaction_.building);
     session_.advance(1, {0, 0});
     EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 0);
-    ASSERT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
+    ASSERT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
     for (int second = 0; second < 4; ++second) session_.advance(1, {0, 0});
     EXPECT_EQ(session_.world().blockState({5, 5, kGroundHeight}), 1) << "again what flows there";
-    takeInHand(interaction_.hotbar, contentBlock("stone"));
+    selectBlock(interaction_.hotbar, contentBlock("stone"));
     act(interaction_.breaking);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight - 1}), world::kAir) << "rays pass water";
 }
@@ -105,7 +105,7 @@ TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
     player_.placeAt({.position = {5.5, 5.5, kGroundHeight + world::kEyeHeight}, .pitch = -89.9f},
                     Movement::Walls);
     session_.setPlayer(kLocalPlayer, player_.pose());
-    takeInHand(interaction_.hotbar, contentBlock("stone"));
+    selectBlock(interaction_.hotbar, contentBlock("stone"));
     act(interaction_.building);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
 }
@@ -132,7 +132,7 @@ TEST_F(BlockInteractionTest, TellsWhatBecameOfTheCommand) {
 }
 
 TEST_F(BlockInteractionTest, AnEmptySlotBuildsNothing) {
-    interaction_.hotbar.blocks[interaction_.hotbar.chosen] = world::kAir;
+    interaction_.hotbar.blocks[interaction_.hotbar.selected] = world::kAir;
     act(interaction_.building);
     EXPECT_EQ(session_.world().block({5, 5, kGroundHeight}), world::kAir);
 }

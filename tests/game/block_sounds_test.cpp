@@ -57,7 +57,7 @@ TEST(BlockSounds, DoorsKnockAndPlantsGrowInSilence) {
 TEST(BlockSounds, LargeChangesAreNoLouder) {
     std::vector<BlockEdit> edits;
     for (int x = 0; x < 100; ++x) edits.push_back({{x, 0, 70}, contentBlock("stone"), world::kAir});
-    EXPECT_EQ(heard(edits).size(), kMaxSoundsAChange);
+    EXPECT_EQ(heard(edits).size(), kMaxSoundsPerChange);
     edits.clear();
     for (int z = 70; z < 80; ++z) edits.push_back({{0, 0, z}, contentBlock("sand"), world::kAir});
     EXPECT_EQ(heard(edits).size(), 1u) << "a column is one sound";
@@ -74,7 +74,7 @@ TEST_F(SessionTest, EditsAreTold) {
     const world::BlockPos pos{1, 0, 63};
     session_.edit({kLocalPlayer, pos, world::SetBlock{world::kAir}, {}});
     session_.edit({kLocalPlayer, pos, world::SetBlock{world::kAir}, {}});
-    (void)session_.takeBack(kLocalPlayer, HistoryWay::Undo);
+    (void)session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo);
     EXPECT_THAT(players, ElementsAre(kLocalPlayer, kLocalPlayer)) << "of what changed nothing is told";
     EXPECT_THAT(told, ElementsAre(BlockEdit{pos, contentBlock("stone"), world::kAir},
                                   BlockEdit{pos, world::kAir, contentBlock("stone")}));

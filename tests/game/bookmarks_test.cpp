@@ -22,14 +22,14 @@ class Bookmarks : public testing::Test {
 
 TEST_F(Bookmarks, ComeBackAsTheyWere) {
     const world::Pose pose{{-2147483000.25, 0.1, 77.62}, -179.5f, 89.9f};
-    EXPECT_EQ(poseFrom(textOf(pose)), pose);
+    EXPECT_EQ(parsePose(textOf(pose)), pose);
 }
 
 TEST_F(Bookmarks, WhatIsNoBookmarkIsNone) {
     for (const char* text :
          {"", "1 2 3 4", "1 2 3 4 5 6", "1 2 3 4 five", "nan 2 3 4 5", "1 2 inf 4 5", "1 2 3 nan 5",
           "1 2 3 4 nan", "1 2 3 4 91", "3000000000 2 3 4 5", "1 -3000000000 3 4 5", "1 2 3 4 5;"}) {
-        EXPECT_FALSE(poseFrom(text)) << text;
+        EXPECT_FALSE(parsePose(text)) << text;
     }
 }
 
@@ -59,7 +59,7 @@ TEST_F(Bookmarks, TheFileOfTheFormerNameIsRead) {
 
 TEST_F(Bookmarks, OneFileIsReadOnce) {
     ASSERT_TRUE(appendBookmark(file_, {{1, 2, 3}, 4, 5}));
-    files_.former = {file_.parent_path() / "." / file_.filename()};
+    files_.legacy = {file_.parent_path() / "." / file_.filename()};
     EXPECT_EQ(readBookmarks(files_).value().size(), 1u);
 }
 

@@ -17,11 +17,11 @@ TEST(DayClock, ADayEndsWhereTheNextBegins) {
 }
 
 TEST(DayClock, OnlyNumbersOfADayAreTimes) {
-    EXPECT_EQ(timeDayFrom("0.25"), 0.25);
-    EXPECT_EQ(timeDayFrom("0"), 0.0);
-    EXPECT_EQ(timeDayFrom("1"), 1.0);
+    EXPECT_EQ(parseTimeDay("0.25"), 0.25);
+    EXPECT_EQ(parseTimeDay("0"), 0.0);
+    EXPECT_EQ(parseTimeDay("1"), 1.0);
     for (const char* text : {"", "nan", "inf", "-inf", "1.5", "-0.1", "0.5x", "noon", " 0.5", "1e400"}) {
-        EXPECT_FALSE(timeDayFrom(text)) << text;
+        EXPECT_FALSE(parseTimeDay(text)) << text;
     }
 }
 

@@ -20,8 +20,8 @@ class UndoTest : public SessionTest {
     EditResult put(world::BlockPos pos, std::string_view name, PlayerId player = kAnna) {
         return session_.edit({player, pos, world::SetBlock{contentBlock(name)}, std::nullopt});
     }
-    TakenBack undo(PlayerId player = kAnna) { return session_.takeBack(player, HistoryWay::Undo); }
-    TakenBack redo(PlayerId player = kAnna) { return session_.takeBack(player, HistoryWay::Redo); }
+    UndoResult undo(PlayerId player = kAnna) { return session_.undoOrRedo(player, HistoryWay::Undo); }
+    UndoResult redo(PlayerId player = kAnna) { return session_.undoOrRedo(player, HistoryWay::Redo); }
     std::string_view at(world::BlockPos pos) const {
         return session_.blocks().type(session_.world().block(pos)).name;
     }
@@ -35,7 +35,7 @@ class UndoTest : public SessionTest {
     }
 };
 
-using Outcome = TakenBack::Outcome;
+using Outcome = UndoResult::Outcome;
 
 TEST_F(UndoTest, AnEditIsUndoneAndDoneAgain) {
     EXPECT_EQ(undo().outcome, Outcome::NoStep);
@@ -86,15 +86,15 @@ TEST_F(UndoTest, EachPlayerUndoesItsOwnEdits) {
     undo(kAnna);
     EXPECT_EQ(at(kPlace), "air");
     EXPECT_EQ(at({6, 5, kGroundHeight}), "sand");
-    EXPECT_EQ(session_.takeBack(9, HistoryWay::Undo).outcome, Outcome::NoStep) << "nobody knows player 9";
+    EXPECT_EQ(session_.undoOrRedo(9, HistoryWay::Undo).outcome, Outcome::NoStep) << "nobody knows player 9";
 }
 
 TEST_F(UndoTest, WhatOthersChangedSinceStays) {
     put(kPlace, "stone", kAnna);
     put(kPlace, "sand", kBert);
-    const TakenBack result = undo(kAnna);
+    const UndoResult result = undo(kAnna);
     EXPECT_EQ(result.blocks, 0u);
-    EXPECT_EQ(result.kept, 1u);
+    EXPECT_EQ(result.skipped, 1u);
     EXPECT_EQ(at(kPlace), "sand");
     EXPECT_EQ(redo(kAnna).outcome, Outcome::NoStep) << "nothing was undone";
 }
@@ -103,7 +103,7 @@ TEST_F(UndoTest, AChestThatGotThingsSinceStays) {
     put(kPlace, "chest");
     const auto things = world::encodeInventory(world::Inventory(27));
     session_.edit({kBert, kPlace, world::SetEntityData{things}, std::nullopt});
-    EXPECT_EQ(undo().kept, 1u);
+    EXPECT_EQ(undo().skipped, 1u);
     EXPECT_EQ(at(kPlace), "chest");
 }
 
@@ -189,7 +189,7 @@ TEST(EditHistory, ForgetsTheOldestBeyondItsMemory) {
     history.add(stepOf(EditHistory::kMaxBlocks));
     EXPECT_EQ(history.stepCount(HistoryWay::Undo), 1u);
     EXPECT_EQ(history.next(HistoryWay::Undo)->size(), EditHistory::kMaxBlocks);
-    history.takenBack(HistoryWay::Undo, stepOf(2));
+    history.finishStep(HistoryWay::Undo, stepOf(2));
     EXPECT_EQ(history.stepCount(HistoryWay::Undo), 0u);
     EXPECT_EQ(history.next(HistoryWay::Redo)->size(), 2u);
 }

@@ -46,7 +46,7 @@ std::vector<Figure> framesOf(FigureMotion& motion, const std::vector<Told>& pose
     std::size_t next = 0;
     for (double now = 0; now < end; now += kFigureFrame) {
         for (; next < poses.size() && poses[next].seconds <= now; ++next)
-            motion.told(poses[next].pose, timeAt(poses[next].seconds));
+            motion.addPose(poses[next].pose, timeAt(poses[next].seconds));
         frames.push_back(motion.at(timeAt(now)));
     }
     return frames;
@@ -117,15 +117,15 @@ TEST(FigureMotion, StartsAtOnceAfterStanding) {
     FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
     framesOf(motion, walkAlongX(0.1, 0, world::kWalkSpeed, 3), 30);
     const double from = motion.at(timeAt(30)).eyes.x;
-    motion.told({{from + 0.45, 0, 80}, 0, 0}, timeAt(30));
+    motion.addPose({{from + 0.45, 0, 80}, 0, 0}, timeAt(30));
     EXPECT_NEAR(motion.at(timeAt(30.15)).eyes.x, from + 0.45, 0.01);
 }
 
 TEST(FigureMotion, JumpsWhereTheStepIsLong) {
     FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
-    motion.told({{0, 31, 80}, 0, 0}, timeAt(1));
+    motion.addPose({{0, 31, 80}, 0, 0}, timeAt(1));
     EXPECT_NEAR(motion.at(timeAt(1.01)).eyes.y, 0, 5) << "on its way";
-    motion.told({{500, 0, 90}, 100, 5}, timeAt(3));
+    motion.addPose({{500, 0, 90}, 100, 5}, timeAt(3));
     const Figure there = motion.at(timeAt(3.001));
     EXPECT_EQ(there.eyes, glm::dvec3(500, 0, 90));
     EXPECT_EQ(there.yaw, 100);
@@ -135,7 +135,7 @@ TEST(FigureMotion, JumpsWhereTheStepIsLong) {
 
 TEST(FigureMotion, TurnsTheShortWay) {
     FigureMotion motion({{0, 0, 80}, 170, 0}, timeAt(0), 0);
-    motion.told({{0, 0, 80}, -170, 0}, timeAt(0.1));
+    motion.addPose({{0, 0, 80}, -170, 0}, timeAt(0.1));
     float before = motion.at(timeAt(0.1)).yaw;
     double turned = 0;
     for (double now = 0.1; now < 0.5; now += kFigureFrame) {
@@ -153,7 +153,7 @@ TEST(FigureMotion, TheBodyFollowsTheHead) {
     std::vector<Told> poses;
     for (int k = 1; k <= 60; ++k) poses.push_back({0.1 * k, {{0, 0, 80}, 12.0f * static_cast<float>(k), 0}});
     for (const Figure& figure : framesOf(motion, poses, 7))
-        EXPECT_LE(turnBetween(figure.bodyYaw, figure.yaw), double{FigureMotion::kMostBodyLag} + 0.01);
+        EXPECT_LE(turnBetween(figure.bodyYaw, figure.yaw), double{FigureMotion::kMaxBodyLag} + 0.01);
     EXPECT_NEAR(turnBetween(motion.at(timeAt(7.1)).bodyYaw, 0), 50, 0.1) << "720° is 0, and the lag stays";
 }
 
@@ -214,8 +214,8 @@ TEST(FigureMotion, TheArmSwingsOnce) {
 // Two poses that a slow network delivers at once, and a frame of no length.
 TEST(FigureMotion, NothingIsDividedByZero) {
     FigureMotion motion({{0, 0, 80}, 0, 0}, timeAt(0), 0);
-    motion.told({{1, 0, 80}, 0, 0}, timeAt(1));
-    motion.told({{2, 0, 80}, 0, 0}, timeAt(1));
+    motion.addPose({{1, 0, 80}, 0, 0}, timeAt(1));
+    motion.addPose({{2, 0, 80}, 0, 0}, timeAt(1));
     for (const double now : {1.0, 1.0, 1.01, 3.0}) {
         const Figure figure = motion.at(timeAt(now));
         for (const double value : {figure.eyes.x, double{figure.stride}, double{figure.strideSize},

@@ -34,7 +34,7 @@ class FootstepsTest : public testing::Test {
     std::vector<FootEvent> run(double seconds, const world::CharacterInput& input) {
         std::vector<FootEvent> events;
         for (double t = 0; t < seconds; t += kFrame) {
-            for (int k = 0; k < 2; ++k) c_ = world::stepped(world_, contentBlocks(), c_, input);
+            for (int k = 0; k < 2; ++k) c_ = world::advanceCharacter(world_, contentBlocks(), c_, input);
             if (const auto event = steps_.advance(c_)) events.push_back(*event);
         }
         return events;

@@ -36,7 +36,7 @@ class FormerSave : public testing::Test {
 TEST_F(FormerSave, KeepsItsIdentityAndPlayer) {
     EXPECT_EQ(store_->identity(),
               (store::WorldIdentity{.seed = 7, .generator = "overworld", .generatorVersion = 2}));
-    const SavedPlayer player = savedPlayer(*store_);
+    const SavedPlayer player = loadPlayer(*store_);
     ASSERT_TRUE(player.pose && player.timeDay);
     EXPECT_NEAR(player.pose->position.x, 14.275, 0.001);
     EXPECT_NEAR(player.pose->position.y, -96.625, 0.001);

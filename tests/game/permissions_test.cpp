@@ -57,10 +57,10 @@ TEST_F(PermissionsTest, ABoxThatReachesIntoAClaimIsNotFilled) {
 TEST_F(PermissionsTest, NobodyUndoesWhatBecameAClaimOfOthers) {
     ASSERT_EQ(put(kOutside, kNeighbor), EditResult::Applied);
     ASSERT_TRUE(session_.permissions.claims.add({"later", {6, 0, 9, 9}, kOwner, {}}));
-    EXPECT_EQ(session_.takeBack(kNeighbor, HistoryWay::Undo).outcome, TakenBack::Outcome::NotAllowed);
+    EXPECT_EQ(session_.undoOrRedo(kNeighbor, HistoryWay::Undo).outcome, UndoResult::Outcome::NotAllowed);
     EXPECT_EQ(at(kOutside), contentBlock("glass"));
     session_.permissions.claims.remove("later");
-    EXPECT_EQ(session_.takeBack(kNeighbor, HistoryWay::Undo).outcome, TakenBack::Outcome::Done);
+    EXPECT_EQ(session_.undoOrRedo(kNeighbor, HistoryWay::Undo).outcome, UndoResult::Outcome::Done);
 }
 
 // Water beside a claim would wash away what its owner planted.

@@ -11,10 +11,10 @@ const PlayerState kState{{{1.5, -2, 80.25}, 30, -5}, 0.625, "0 lamp"};
 
 TEST(PlayerState, ComesBack) {
     store::MemoryStore store({1, "flat", 1});
-    EXPECT_FALSE(savedPlayer(store).pose || savedPlayer(store).timeDay || savedPlayer(store).hotbar);
+    EXPECT_FALSE(loadPlayer(store).pose || loadPlayer(store).timeDay || loadPlayer(store).hotbar);
     std::optional<PlayerState> saved;
     savePlayer(store, kState, saved);
-    const SavedPlayer again = savedPlayer(store);
+    const SavedPlayer again = loadPlayer(store);
     EXPECT_EQ(again.pose, kState.pose);
     EXPECT_EQ(again.timeDay, kState.timeDay);
     EXPECT_EQ(again.hotbar, kState.hotbar);
@@ -32,15 +32,15 @@ TEST(PlayerState, OnlyWhatChangedIsSaved) {
     other.hotbar = "0 sand";
     savePlayer(store, other, saved);
     EXPECT_EQ(store.status().queued, all + 1);
-    EXPECT_EQ(savedPlayer(store).hotbar, "0 sand");
+    EXPECT_EQ(loadPlayer(store).hotbar, "0 sand");
 }
 
 TEST(PlayerState, TheHandOfFormerSavesIsTheFirstSlot) {
     store::MemoryStore store({1, "flat", 1});
     store.setMetadata("hand", "chest");
-    EXPECT_EQ(savedPlayer(store).hotbar, "0 chest");
+    EXPECT_EQ(loadPlayer(store).hotbar, "0 chest");
     store.setMetadata("hotbar", "1 sand");
-    EXPECT_EQ(savedPlayer(store).hotbar, "1 sand");
+    EXPECT_EQ(loadPlayer(store).hotbar, "1 sand");
 }
 
 // They belong to the world, not to the player.
@@ -48,26 +48,26 @@ TEST(PlayerState, MovementAndTexturesComeBack) {
     store::MemoryStore store({1, "flat", 1});
     std::optional<PlayerState> saved;
     savePlayer(store, kState, saved);
-    EXPECT_FALSE(savedPlayer(store).movement);
-    EXPECT_FALSE(savedPlayer(store).resourcePack);
+    EXPECT_FALSE(loadPlayer(store).movement);
+    EXPECT_FALSE(loadPlayer(store).resourcePack);
     PlayerState other = kState;
     other.movement = "fast";
     other.resourcePack = "/packs/wood";
     savePlayer(store, other, saved);
-    EXPECT_EQ(savedPlayer(store).movement, "fast");
-    EXPECT_EQ(savedPlayer(store).resourcePack, "/packs/wood");
+    EXPECT_EQ(loadPlayer(store).movement, "fast");
+    EXPECT_EQ(loadPlayer(store).resourcePack, "/packs/wood");
     // A reset value is saved as empty, even if another program had set it.
     std::optional<PlayerState> unknown;
     savePlayer(store, kState, unknown);
-    EXPECT_EQ(savedPlayer(store).resourcePack, "");
+    EXPECT_EQ(loadPlayer(store).resourcePack, "");
 }
 
 TEST(PlayerState, WhatIsNoneIsLeftOut) {
     store::MemoryStore store({1, "flat", 1});
     store.setMetadata("camera", "3000000000 0 0 0 0");
     store.setMetadata("time", "nan");
-    EXPECT_FALSE(savedPlayer(store).pose);
-    EXPECT_FALSE(savedPlayer(store).timeDay);
+    EXPECT_FALSE(loadPlayer(store).pose);
+    EXPECT_FALSE(loadPlayer(store).timeDay);
 }
 
 }  // namespace

@@ -116,10 +116,10 @@ TEST_F(SessionTest, UndoOfASourceLetsTheGroundRunDry) {
     ASSERT_EQ(session_.edit({kLocalPlayer, {0, 0, kGroundHeight}, source, {}}), EditResult::Applied);
     flow(session_, 20);
     EXPECT_GT(waterBlocks(session_), 100);
-    EXPECT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
+    EXPECT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Undo).blocks, 1u);
     flow(session_, 40);
     EXPECT_EQ(waterBlocks(session_), 0);
-    EXPECT_EQ(session_.takeBack(kLocalPlayer, HistoryWay::Redo).blocks, 1u);
+    EXPECT_EQ(session_.undoOrRedo(kLocalPlayer, HistoryWay::Redo).blocks, 1u);
     flow(session_, 40);
     EXPECT_GT(waterBlocks(session_), 100);
 }

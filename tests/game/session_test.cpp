@@ -109,7 +109,7 @@ TEST_F(SessionTest, ListenersHearWhatPlayersChanged) {
     items[3] = {"stone", 2};
     putItems(session_, 7, {6, 5, kGroundHeight}, items);
     session_.build({7, FillBox{{{3, 3, 70}, {4, 4, 71}}, contentBlock("glass"), 0, {}}});
-    session_.takeBack(7, HistoryWay::Undo);
+    session_.undoOrRedo(7, HistoryWay::Undo);
     ASSERT_EQ(heard.size(), 6u);
     for (const auto& [player, changes] : heard) EXPECT_EQ(player, 7u);
     ASSERT_EQ(heard[0].second.size(), 1u);

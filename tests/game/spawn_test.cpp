@@ -10,7 +10,7 @@ namespace {
 class BackOnSurface : public SessionTest {
   protected:
     std::optional<world::Pose> from(glm::dvec3 position) const {
-        return backOnSurface(session_.world(), session_.blocks(), {.position = position, .yaw = 30});
+        return poseOnSurface(session_.world(), session_.blocks(), {.position = position, .yaw = 30});
     }
 };
 

@@ -59,7 +59,7 @@ TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
 
     const auto structure =
         std::make_shared<const world::Structure>(world::copyBlocks(session_.world(), session_.blocks(), box));
-    EXPECT_EQ(session_.takeBack(kVisitor, HistoryWay::Undo).blocks, 32u);
+    EXPECT_EQ(session_.undoOrRedo(kVisitor, HistoryWay::Undo).blocks, 32u);
     EXPECT_EQ(session_.world().block(a), world::kAir);
     EXPECT_EQ(session_.build({kVisitor, PlaceStructure{structure, box.low}}).changed, 32u);
 
@@ -88,7 +88,7 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
     for (float yaw = 0; yaw < 360; yaw += 45) {
         Player player({.position = eyes(), .yaw = yaw, .pitch = -30}, Movement::Gravity);
         BlockInteraction interaction{contentBlocks()};
-        takeInHand(interaction.hotbar, contentBlock("sand"));
+        selectBlock(interaction.hotbar, contentBlock("sand"));
         for (int k = 0; k < 200; ++k) {
             player.move(session_.world(), session_.blocks(), {.forward = true, .jump = k % 3 == 0}, 0.05);
             session_.setPlayer(kVisitor, player.pose());

@@ -258,11 +258,11 @@ TEST(DrainageMaps, NothingBreaksAtTheWorldsEdge) {
 TEST(DrainageMaps, KeepsABoundedNumberOfRegions) {
     DrainageMaps maps(DrainageRunner(kTestSeed).graph.drainages, kTestSeed);
     DrainageTile tile;
-    for (std::size_t k = 0; k < kKeptRegions + 3; ++k) {
+    for (std::size_t k = 0; k < kMaxCachedRegions + 3; ++k) {
         const auto x = static_cast<std::int32_t>(k) * kRegionBlocks + kRegionBlocks / 2;
         maps.prepare(tile, 0, {x, kRegionBlocks / 2, 1});
         EXPECT_LT(maps.bytes(), std::size_t{16} << 20);
-        EXPECT_EQ(maps.keptRegions(), std::min(k + 1, kKeptRegions));
+        EXPECT_EQ(maps.cachedRegions(), std::min(k + 1, kMaxCachedRegions));
     }
 }
 
@@ -272,12 +272,12 @@ TEST(DrainageMaps, KeepsABoundedNumberOfBytes) {
     graphs.front().spec.minFlow = 1;
     DrainageMaps maps(graphs, kTestSeed);
     DrainageTile tile;
-    for (std::int32_t k = 0; k < static_cast<std::int32_t>(kKeptRegions); ++k) {
+    for (std::int32_t k = 0; k < static_cast<std::int32_t>(kMaxCachedRegions); ++k) {
         maps.prepare(tile, 0, {k * kRegionBlocks + kRegionBlocks / 2, kRegionBlocks / 2, 1});
-        EXPECT_LE(maps.bytes(), kKeptRegionBytes);
+        EXPECT_LE(maps.bytes(), kMaxCachedRegionBytes);
     }
-    EXPECT_LT(maps.keptRegions(), kKeptRegions);
-    EXPECT_GT(maps.keptRegions(), 0u);
+    EXPECT_LT(maps.cachedRegions(), kMaxCachedRegions);
+    EXPECT_GT(maps.cachedRegions(), 0u);
 }
 
 // Every river reaches the sea or a lake, whatever the seed.

@@ -79,7 +79,7 @@ TEST_F(PipelineStateTest, SetsOnlyWhatDiffersUntilItForgets) {
     pipeline.set(other);
     EXPECT_FALSE(isOn(GL_BLEND)) << "it was on before";
     EXPECT_FALSE(isOn(GL_DEPTH_CLAMP));
-    pipeline.forget();
+    pipeline.invalidate();
     pipeline.set(kAllOn);
     expectAllOn();
 }

@@ -117,13 +117,13 @@ TEST(ShaderSourceTest, headerHoldsVersionAndDefines) {
 
 TEST(ShaderSourceTest, logsNameTheFiles) {
     const std::vector<std::string> files = {"sky.frag.glsl", "quad.h"};
-    EXPECT_EQ(nameSources("0(12) : error C1008: undefined\n", files),
+    EXPECT_EQ(replaceSourceNumbers("0(12) : error C1008: undefined\n", files),
               "sky.frag.glsl(12) : error C1008: undefined\n");
-    EXPECT_EQ(nameSources("1:12(5): error: `x'\n0:3(1): warning", files),
+    EXPECT_EQ(replaceSourceNumbers("1:12(5): error: `x'\n0:3(1): warning", files),
               "quad.h:12(5): error: `x'\nsky.frag.glsl:3(1): warning");
-    EXPECT_EQ(nameSources("ERROR: 1:7: '' : syntax", files), "ERROR: quad.h:7: '' : syntax");
-    EXPECT_EQ(nameSources("2:1: not ours\n3 errors\n\n10", files), "2:1: not ours\n3 errors\n\n10");
-    EXPECT_EQ(nameSources("", files), "");
+    EXPECT_EQ(replaceSourceNumbers("ERROR: 1:7: '' : syntax", files), "ERROR: quad.h:7: '' : syntax");
+    EXPECT_EQ(replaceSourceNumbers("2:1: not ours\n3 errors\n\n10", files), "2:1: not ours\n3 errors\n\n10");
+    EXPECT_EQ(replaceSourceNumbers("", files), "");
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ using Rows = std::set<std::pair<int, int>>;  // brick, row
 
 Rows takeAll(LightField& field) {
     Rows rows;
-    for (int index = field.takeDirty(); index >= 0; index = field.takeDirty()) {
+    for (int index = field.popDirty(); index >= 0; index = field.popDirty()) {
         for (int row = 0; row < kRowsPerBrick; ++row) {
             if (field.brick(index).dirty[static_cast<std::size_t>(row / 64)] >> (row % 64) & 1)
                 rows.emplace(index, row);
@@ -78,7 +78,7 @@ TEST(LightField, MarksNothingOutside) {
     for (const auto& [index, row] : rows) EXPECT_EQ(index, LightField::indexOf(0, 0)) << row;
     field.markAll(LightField::indexOf(1, 0));
     field.markLayer(LightField::indexOf(1, 0), 3);
-    EXPECT_EQ(field.takeDirty(), -1);
+    EXPECT_EQ(field.popDirty(), -1);
 }
 
 TEST(LightField, MarksLayers) {

@@ -1,5 +1,5 @@
 // The names given to editors (assets/lua/terrane.lua) and in docs/lua.md are those that scripts can use.
-#include "terrane/lua/state.h"
+#include "terrane/lua/state_internal.h"
 
 #include <regex>
 #include <set>

@@ -68,9 +68,9 @@ TEST(Isometric, TilesSeeingAChunkAreThoseInWhichItIsSeen) {
     for (int round = 0; round < 400; ++round) {
         const int zoom = static_cast<int>(random() % 13) + kMinZoom;
         const ChunkPos chunk = randomChunk(random, zoom);
-        const std::vector<IsometricTile> tiles = tilesSeeing(chunk, zoom);
+        const std::vector<IsometricTile> tiles = isometricTilesShowing(chunk, zoom);
         for (const IsometricTile& tile : tiles)
-            ASSERT_TRUE(contains(chunksSeen(tile), chunk))
+            ASSERT_TRUE(contains(visibleChunks(tile), chunk))
                 << testing::PrintToString(chunk) << " in tile " << tile.x << ", " << tile.y;
         // Around each of them, too: all that the chunk's box reaches into.
         const PixelBox box = boxOf(chunk, zoom);
@@ -87,13 +87,14 @@ TEST(Isometric, ChunksSeenAreAllThatReachIntoATile) {
     std::mt19937 random(2);
     for (int round = 0; round < 100; ++round) {
         const int zoom = static_cast<int>(random() % 13) + kMinZoom;
-        const std::vector<IsometricTile> seeing = tilesSeeing(randomChunk(random, zoom), zoom);
+        const std::vector<IsometricTile> seeing = isometricTilesShowing(randomChunk(random, zoom), zoom);
         const IsometricTile tile = seeing[random() % seeing.size()];
-        const std::vector<ChunkPos> chunks = chunksSeen(tile);
+        const std::vector<ChunkPos> chunks = visibleChunks(tile);
         for (const ChunkPos chunk : chunks) {
             ASSERT_TRUE(world::isInWorld(chunk));
             ASSERT_EQ(chunk.level, levelOf(zoom));
-            ASSERT_TRUE(!boxOf(chunk, zoom).touches(tile) || contains(tilesSeeing(chunk, zoom), tile));
+            ASSERT_TRUE(!boxOf(chunk, zoom).touches(tile) ||
+                        contains(isometricTilesShowing(chunk, zoom), tile));
             // The chunks around those that are in the list have to be in it as well, where they are seen.
             for (const ChunkPos near : world::chunksWithin(chunk, 1))
                 ASSERT_TRUE(!world::isInWorld(near) || !boxOf(near, zoom).touches(tile) ||
@@ -108,9 +109,9 @@ TEST(Isometric, ChunksSeenAreAllThatReachIntoATile) {
 TEST(Isometric, NoChunkIsSeenBeyondTheWorld) {
     for (const std::int32_t far :
          {std::numeric_limits<std::int32_t>::min(), 1 << 30, std::numeric_limits<std::int32_t>::max()}) {
-        EXPECT_TRUE(chunksSeen({0, far, 0}).empty());
-        EXPECT_TRUE(chunksSeen({2, 0, far}).empty());
-        EXPECT_TRUE(chunksSeen({-10, far, far}).empty());
+        EXPECT_TRUE(visibleChunks({0, far, 0}).empty());
+        EXPECT_TRUE(visibleChunks({2, 0, far}).empty());
+        EXPECT_TRUE(visibleChunks({-10, far, far}).empty());
     }
 }
 
@@ -160,7 +161,7 @@ TEST(Isometric, WhatIsNearerHidesWhatIsFarther) {
     const std::array<SurfacePtr, 1> surfaces{std::make_shared<const Surface>(surface)};
     const world::PackedColor tint = world::kNeutralTint;
     int red = 0, green = 0;
-    for (const IsometricTile& tile : tilesSeeing(chunk, 0)) {
+    for (const IsometricTile& tile : isometricTilesShowing(chunk, 0)) {
         const base::Image image =
             paintIsometric(tile, {std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, redAndGreen());
         for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
@@ -173,7 +174,7 @@ TEST(Isometric, WhatIsNearerHidesWhatIsFarther) {
     EXPECT_NEAR(red, 2, 2) << "all of it but one row of pixels is hidden";
 }
 
-// Chunks that chunksSeen() leaves out would change nothing.
+// Chunks that visibleChunks() leaves out would change nothing.
 TEST(Isometric, TilesShowAllThatReachesIntoThem) {
     std::mt19937 random(4);
     const auto randomSurface = [&] {
@@ -198,7 +199,7 @@ TEST(Isometric, TilesShowAllThatReachesIntoThem) {
             const std::vector<world::PackedColor> tints(chunks.size(), world::kNeutralTint);
             return paintIsometric(tile, {chunks, surfaces, tints}, colors);
         };
-        const std::vector<ChunkPos> seen = chunksSeen(tile);
+        const std::vector<ChunkPos> seen = visibleChunks(tile);
         std::vector<ChunkPos> more;
         for (const ChunkPos chunk : seen)
             for (const ChunkPos near : world::chunksWithin(chunk, 2)) more.push_back(near);

@@ -210,15 +210,15 @@ TEST(MapPainter, FactsOfAColumn) {
     int liquids = 0;
     for (const auto& [x, y] : {std::pair(5, -3), std::pair(-1, 2000), std::pair(-30000, 4),
                                std::pair(7777, 7777), std::pair(-60000, 90000), std::pair(200000, -150000)}) {
-        const auto facts = painter.facts(x, y, {}).value();
+        const auto info = painter.columnInfo(x, y, {}).value();
         const ChunkPos chunk = world::chunkOf(world::BlockPos{x, y, 0});
         const auto index = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
         const SurfaceColumn column = generatedSurface(generators, chunk)[index];
-        EXPECT_EQ(facts.top, column.top);
-        EXPECT_EQ(facts.topZ, column.topZ);
-        EXPECT_EQ(facts.biome, gen::Biomes::names()[biomes.of(chunk)[index]]);
+        EXPECT_EQ(info.top, column.top);
+        EXPECT_EQ(info.topZ, column.topZ);
+        EXPECT_EQ(info.biome, gen::Biomes::names()[biomes.of(chunk)[index]]);
         const bool isLiquid = contentKinds()[column.top] == SurfaceKind::Liquid;
-        EXPECT_EQ(facts.depth, isLiquid ? column.topZ - column.underZ : 0);
+        EXPECT_EQ(info.depth, isLiquid ? column.topZ - column.underZ : 0);
         liquids += isLiquid;
     }
     EXPECT_GT(liquids, 0) << "one of the places is a sea";
@@ -226,19 +226,19 @@ TEST(MapPainter, FactsOfAColumn) {
 
 TEST(MapPainter, FactsOfAnEditedColumn) {
     MapPainter painter = painterOf("flat");
-    EXPECT_EQ(painter.facts(-1, -1, {}).value().topZ, 80);
-    EXPECT_EQ(painter.facts(-1, -1, {}).value().top, contentBlock("grass"));
-    EXPECT_EQ(painter.facts(-1, -1, {}).value().biome, "");
+    EXPECT_EQ(painter.columnInfo(-1, -1, {}).value().topZ, 80);
+    EXPECT_EQ(painter.columnInfo(-1, -1, {}).value().top, contentBlock("grass"));
+    EXPECT_EQ(painter.columnInfo(-1, -1, {}).value().biome, "");
     const EditedChunk edited[] = {
         {{-1, -1}, chunkWithPillar(generatorsOf("flat"), {-1, -1}, 15, 15, "lamp_red")}};
-    const auto facts = painter.facts(-1, -1, edited).value();
-    EXPECT_EQ(facts.top, contentBlock("lamp_red"));
-    EXPECT_EQ(facts.topZ, 200);
-    EXPECT_EQ(facts.depth, 0);
-    EXPECT_EQ(painter.facts(-2, -1, edited).value().topZ, 80);
+    const auto info = painter.columnInfo(-1, -1, edited).value();
+    EXPECT_EQ(info.top, contentBlock("lamp_red"));
+    EXPECT_EQ(info.topZ, 200);
+    EXPECT_EQ(info.depth, 0);
+    EXPECT_EQ(painter.columnInfo(-2, -1, edited).value().topZ, 80);
     constexpr std::int32_t kLow = std::numeric_limits<std::int32_t>::min(),
                            kHigh = std::numeric_limits<std::int32_t>::max();
-    EXPECT_EQ(painter.facts(kLow, kHigh, {}).value().topZ, 80);
+    EXPECT_EQ(painter.columnInfo(kLow, kHigh, {}).value().topZ, 80);
 }
 
 TEST(MapPainter, ATextureThatCannotBeReadIsNamed) {

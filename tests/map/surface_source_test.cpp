@@ -271,7 +271,7 @@ TEST_F(SurfaceSourceTest, AChunkThatCouldNotBeReadIsAnError) {
     store::LoadedChunk& unread = store.chunks[{5, -6}];
     unread.state = store::LoadedChunk::State::Damaged;
     unread.problem = "the network broke";
-    unread.isUnread = true;
+    unread.isUnreadable = true;
     SurfaceSource source({overworld(), contentKinds(), &store});
     const Chunks chunks = {{4, -6}, {5, -6}};
     const EditedChunk edited[] = {{{5, -6}, nullptr}};
@@ -286,7 +286,7 @@ TEST_F(SurfaceSourceTest, AChunkThatCouldNotBeReadIsAnError) {
         return surfaces && *(*surfaces)[1] == generatedSurface(overworld(), {5, -6});
     };
     EXPECT_TRUE(asGenerated());
-    unread.isUnread = unread.isOverBudget = false;
+    unread.isUnreadable = unread.isOverBudget = false;
     EXPECT_TRUE(asGenerated());
 }
 

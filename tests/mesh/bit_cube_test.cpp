@@ -16,7 +16,7 @@ BitCube randomCube(unsigned seed) {
 }
 
 bool bitAt(const BitCube& cube, int layer, int row, int bit) {
-    return (cubeRow(cube, static_cast<std::size_t>(layer), static_cast<std::size_t>(row)) >> bit) & 1;
+    return cube[static_cast<std::size_t>(4 * layer + row / 4)] >> (16 * (row % 4) + bit) & 1;
 }
 
 template <class F>

@@ -183,7 +183,7 @@ class RandomPlayer {
         acts_ += session_->edit({game::kLocalPlayer, pos, change, expected}) == game::EditResult::Applied;
     }
     void takeBack(game::HistoryWay way) {
-        EXPECT_EQ(session_->takeBack(game::kLocalPlayer, way).outcome, game::TakenBack::Outcome::Sent);
+        EXPECT_EQ(session_->undoOrRedo(game::kLocalPlayer, way).outcome, game::UndoResult::Outcome::Sent);
     }
     void fill() {
         const world::BlockPos low = nearby(8);

@@ -19,7 +19,7 @@ class DistantStore : public store::MemoryStore {
     store::LoadedChunk load(world::ChunkPos pos) override {
         store::LoadedChunk loaded = isAway ? store::LoadedChunk() : MemoryStore::load(pos);
         if (isAway) loaded.state = store::LoadedChunk::State::Damaged;
-        loaded.isUnread = isAway;
+        loaded.isUnreadable = isAway;
         return loaded;
     }
     std::atomic<bool> isAway = true;

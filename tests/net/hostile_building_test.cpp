@@ -14,7 +14,7 @@ namespace {
 
 using game::EditResult;
 using BuildResult = game::BuildOutcome::Result;
-using TakenResult = game::TakenBack::Outcome;
+using TakenResult = game::UndoResult::Outcome;
 
 constexpr std::int32_t kLowest = std::numeric_limits<std::int32_t>::min(),
                        kHighest = std::numeric_limits<std::int32_t>::max();

@@ -72,8 +72,8 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     auto decided = ann.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);
     EXPECT_EQ(std::get<game::BuildOutcome>(decided[0]).changed, 64u);
-    EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Undo).outcome,
-              game::TakenBack::Outcome::Sent);
+    EXPECT_EQ(ann.session->undoOrRedo(game::kLocalPlayer, game::HistoryWay::Undo).outcome,
+              game::UndoResult::Outcome::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     EXPECT_EQ(ann.block(high), world::kAir);
     decided = ann.world->popDecided();
@@ -81,8 +81,8 @@ TEST_F(ServerTest, FillsAndUndoAreDecidedByTheServer) {
     const auto& undone = std::get<DecidedTakeBack>(decided[0]);
     EXPECT_EQ(undone.way, game::HistoryWay::Undo);
     EXPECT_EQ(undone.result.blocks, 64u);
-    EXPECT_EQ(ann.session->takeBack(game::kLocalPlayer, game::HistoryWay::Redo).outcome,
-              game::TakenBack::Outcome::Sent);
+    EXPECT_EQ(ann.session->undoOrRedo(game::kLocalPlayer, game::HistoryWay::Redo).outcome,
+              game::UndoResult::Outcome::Sent);
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
     decided = ann.world->popDecided();
     ASSERT_EQ(decided.size(), 1u);

@@ -117,10 +117,10 @@ TEST(LandMap, LevelsAreThereWhenTheirTilesAre) {
     EXPECT_EQ(map.update({}, lightAt(0.01, 0.3), 2), (std::vector<LandChange>{{5, false}, {4, false}}));
     EXPECT_EQ(map.update({}, lightAt(0.01, 0.3), kAll).size(), 4u);
     map.setReach(1000);
-    EXPECT_FALSE(map.level(5).isThere());
+    EXPECT_FALSE(map.level(5).exists());
     map.setReach(kReach);
     map.update({}, lightAt(0.01, 0.3), kAll);
-    EXPECT_TRUE(map.level(5).isThere()) << "its tiles are kept";
+    EXPECT_TRUE(map.level(5).exists()) << "its tiles are kept";
 }
 
 // A wall that the sun stands behind: dark before it, up to as far as its shadow is long.
@@ -251,7 +251,7 @@ TEST(LandMap, AFlightLeavesNothingBehind) {
     fresh.update(camera, lightAt(2, 0.2), kAll);
     for (int number = 0; number < 4; ++number) {
         const LandLevel &flown = map.level(number), &made = fresh.level(number);
-        ASSERT_TRUE(made.isThere() && flown.isThere());
+        ASSERT_TRUE(made.exists() && flown.exists());
         ASSERT_EQ(flown.corner, made.corner);
         ASSERT_EQ(flown.heights, made.heights);
         for (std::size_t k = 0; k < made.edges.size(); ++k) {

@@ -113,7 +113,7 @@ TEST_F(SwollenSaveTest, WhatGoesBeyondTheBudgetStaysInTheSave) {
         const auto held = (*store)->loadMany(positions());
         EXPECT_EQ(presentIn(held), 3);
         EXPECT_EQ(held[3].state, State::Damaged);
-        EXPECT_TRUE(held[3].isUnread);
+        EXPECT_TRUE(held[3].isUnreadable);
         EXPECT_THAT(held[3].problem,
                     HasSubstr("chunk 3,0: its block entity data are more than may be in memory"));
         // A generated chunk is not saved there, an edited one is, and the row is quarantined.

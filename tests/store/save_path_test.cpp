@@ -26,7 +26,7 @@ TEST(SavePath, InTheFormerFolderWhereOnlyThatHasIt) {
     const std::filesystem::path former = folder / "save", data = folder / "data";
     std::filesystem::create_directories(former);
     std::filesystem::create_directories(data / "terrane");
-    const SavePlaces places{data.string(), "", former};
+    const SaveEnvironment places{data.string(), "", former};
     EXPECT_EQ(*savePath("home", places), data / "terrane/home.sqlite");
     writeAll(former / "home.sqlite", "");
     EXPECT_EQ(*savePath("home", places), former / "home.sqlite");
@@ -35,7 +35,7 @@ TEST(SavePath, InTheFormerFolderWhereOnlyThatHasIt) {
 }
 
 TEST(SavePath, NamesThatAreFiles) {
-    const SavePlaces places{"/data", ""};
+    const SaveEnvironment places{"/data", ""};
     for (const std::string& name :
          std::vector<std::string>{"a", "My world 2", "svět", "a.b", "-x", std::string(100, 'n')})
         EXPECT_TRUE(savePath(name, places)) << name;
@@ -50,7 +50,7 @@ TEST(SavePath, NamesThatAreFiles) {
 
 TEST(SavePath, NewNamesFollowTheRule) {
     const base::TempFolder folder;
-    const SavePlaces places{folder.path().string(), ""};
+    const SaveEnvironment places{folder.path().string(), ""};
     const std::filesystem::path worlds = folder / "terrane";
     for (const char* bad : {"w\u200b", "\u3164", "\u0391nn", "\xff", "a  b", "a "})
         EXPECT_FALSE(savePath(bad, places)) << bad;
@@ -65,7 +65,7 @@ TEST(SavePath, NewNamesFollowTheRule) {
 // Saves that have such a name from before the rule still open.
 TEST(SavePath, OldNamesStay) {
     const base::TempFolder folder;
-    const SavePlaces places{folder.path().string(), ""};
+    const SaveEnvironment places{folder.path().string(), ""};
     const std::filesystem::path worlds = folder / "terrane";
     std::filesystem::create_directories(worlds);
     for (const char* old : {"w\u200b", "\u3164", "w", "W", "cafe\u0301", "a "}) {

@@ -90,9 +90,9 @@ TEST(CompareWorld, FollowsTheGeneratorWhereAsked) {
     ASSERT_TRUE(other) << other.error().message;
     EXPECT_EQ(other->chunks, Regenerate::AllButEdited);
     EXPECT_EQ(other->generatorVersion, 5);
-    EXPECT_FALSE(other->keepsCopy);
+    EXPECT_FALSE(other->keepsBackup);
     EXPECT_FALSE(compare({.seed = 8, .generator = {}, .followsGenerator = true}, 5));
-    EXPECT_TRUE(compare({.seed = {}, .generator = {}, .regenerate = Regenerate::All}, 5)->keepsCopy);
+    EXPECT_TRUE(compare({.seed = {}, .generator = {}, .regenerate = Regenerate::All}, 5)->keepsBackup);
 }
 
 }  // namespace

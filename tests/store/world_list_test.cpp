@@ -272,7 +272,7 @@ TEST_F(WorldList, WhatAServerKeepsIsNoWorldAndGoesWithTheWorld) {
     write("town");
     EXPECT_EQ(codeOf(renameWorld(folder_, "other", "town")), ErrorCode::BadInput) << "of another world";
     EXPECT_EQ(codeOf(checkNewWorld(folder_, "town")), ErrorCode::BadInput);
-    EXPECT_EQ(freeWorldName(folder_, "town"), "town 2");
+    EXPECT_EQ(unusedWorldName(folder_, "town"), "town 2");
     EXPECT_EQ(codeOf(copy("other", "third.server")), ErrorCode::BadInput);
     // Without their world they are listed, and can be deleted.
     EXPECT_THAT(names(), ElementsAre("other", "town.map", "town.server"));
@@ -303,19 +303,19 @@ TEST_F(WorldList, NamesThatLookAlikeAreRefused) {
     EXPECT_EQ(checkNewWorld(folder_, "lan").error().message,
               "\"lan\" looks like the name of the world \"Ian\"");
     EXPECT_TRUE(renameWorld(folder_, "Ian", "IAN")) << "like its own name";
-    EXPECT_EQ(freeWorldName(folder_, "ian"), "ian 2");
+    EXPECT_EQ(unusedWorldName(folder_, "ian"), "ian 2");
     EXPECT_TRUE(checkWorldName("\u0421\u0432\u0456\u0442 2"));
 }
 
 TEST_F(WorldList, ProposesAFreeName) {
-    EXPECT_EQ(freeWorldName(folder_, "World"), "World");
+    EXPECT_EQ(unusedWorldName(folder_, "World"), "World");
     make("World");
-    EXPECT_EQ(freeWorldName(folder_, "World"), "World 2");
+    EXPECT_EQ(unusedWorldName(folder_, "World"), "World 2");
     make("World 2");
-    EXPECT_EQ(freeWorldName(folder_, "World"), "World 3");
+    EXPECT_EQ(unusedWorldName(folder_, "World"), "World 3");
     std::string longName;
     while (longName.size() < 100) longName += "ř";
-    const std::string free = freeWorldName(folder_, longName);
+    const std::string free = unusedWorldName(folder_, longName);
     EXPECT_EQ(free, longName.substr(0, 88));
     EXPECT_TRUE(checkWorldName(free));
 }

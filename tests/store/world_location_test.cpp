@@ -56,12 +56,12 @@ TEST(MissingOf, WhatCannotBeReadIsNotMissing) {
     std::vector<LoadedChunk> stored(3);
     stored[0].chunk = std::make_shared<world::Chunk>();
     const std::vector<world::ChunkPos> positions{{0, 0}, {1, 0}, {2, 0}};
-    EXPECT_EQ(*missingOf(positions, stored), (std::vector<world::ChunkPos>{{1, 0}, {2, 0}}));
-    stored[2].isUnread = true;
+    EXPECT_EQ(*missingChunks(positions, stored), (std::vector<world::ChunkPos>{{1, 0}, {2, 0}}));
+    stored[2].isUnreadable = true;
     stored[2].problem = "the network broke";
-    EXPECT_EQ(missingOf(positions, stored).error().message, "the network broke");
+    EXPECT_EQ(missingChunks(positions, stored).error().message, "the network broke");
     stored[2].isOverBudget = true;
-    EXPECT_EQ(missingOf(positions, stored)->size(), 2u);
+    EXPECT_EQ(missingChunks(positions, stored)->size(), 2u);
 }
 
 class OpenWorldTest : public testing::Test {

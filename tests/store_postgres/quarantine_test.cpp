@@ -23,7 +23,7 @@ class QuarantineTest : public PostgresWorldTest {
     }
     void expectDamaged(const LoadedChunk& loaded, world::ChunkPos pos, const std::string& problem) {
         EXPECT_EQ(loaded.state, State::Damaged) << problem;
-        EXPECT_FALSE(loaded.isUnread);
+        EXPECT_FALSE(loaded.isUnreadable);
         EXPECT_EQ(loaded.chunk, nullptr);
         EXPECT_THAT(loaded.problem, HasSubstr(address_.shown + ": " + store::nameOf(pos) + ": " + problem));
         EXPECT_EQ(loaded.problem.find('\n'), std::string::npos);

@@ -109,7 +109,7 @@ TEST_F(RestartTest, AServerThatStaysAwayLosesNothing) {
     server_->stop();
     for (const auto& loaded : {store->load({0, 0}), store->loadMany(std::array{world::ChunkPos{0, 0}})[0]}) {
         EXPECT_EQ(loaded.state, State::Damaged);
-        EXPECT_TRUE(loaded.isUnread);
+        EXPECT_TRUE(loaded.isUnreadable);
         EXPECT_THAT(loaded.problem, HasSubstr(address_.shown + ": chunk 0,0: "));
         EXPECT_EQ(loaded.problem.find('\n'), std::string::npos);
     }
@@ -145,7 +145,7 @@ TEST_F(RestartTest, WhatCouldNotBeReadIsQuarantinedBeforeItIsReplaced) {
     const std::string world = "SET search_path = " + schema_ + ";";
     const std::string before = server_->query(world + "SELECT md5(data) FROM chunks");
     server_->stop();
-    EXPECT_TRUE(store->load({0, 0}).isUnread);
+    EXPECT_TRUE(store->load({0, 0}).isUnreadable);
     server_->start();
     for (const int number : {2, 3}) {
         store->save({0, 0}, store::numberedChunk(number), Provenance::Edited);

@@ -25,7 +25,7 @@ class PickyStore : public store::MemoryStore {
             if (positions[k] != kUnread) continue;
             loaded[k].state = store::LoadedChunk::State::Damaged;
             loaded[k].problem = "the disk is gone";
-            loaded[k].isUnread = true;
+            loaded[k].isUnreadable = true;
             loaded[k].isOverBudget = isOverBudget;
         }
         return loaded;

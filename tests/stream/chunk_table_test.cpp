@@ -91,7 +91,7 @@ TEST_F(ChunkTableTest, ChangesMakeResultsOnTheWayOld) {
     setView(table_, {0, 0}, 1);
     for (const ChunkPos pos : popLoadRequests(table_, kAll)) finishLoad(table_, pos, now_);
     ASSERT_EQ(popLightingRequests(table_, kAll).size(), 9u);
-    outdateLighting(table_, {2, 0});
+    invalidateLighting(table_, {2, 0});
     EXPECT_FALSE(finishLighting(table_, {1, 0}));
     EXPECT_TRUE(finishLighting(table_, {0, 0})) << "two chunks away";
     EXPECT_EQ(popLightingRequests(table_, kAll), (std::vector<ChunkPos>{{1, 0}})) << "it is made again";
@@ -101,7 +101,7 @@ TEST_F(ChunkTableTest, ChangesMakeResultsOnTheWayOld) {
 TEST_F(ChunkTableTest, AChangeBeforeAChunkIsTakenDoesNotMatter) {
     setView(table_, {0, 0}, 0);
     for (const ChunkPos pos : popLoadRequests(table_, kAll)) finishLoad(table_, pos, now_);
-    outdateLighting(table_, {0, 0});
+    invalidateLighting(table_, {0, 0});
     ASSERT_EQ(popLightingRequests(table_, kAll).size(), 1u);
     EXPECT_TRUE(finishLighting(table_, {0, 0}));
 }
@@ -251,7 +251,7 @@ TEST_F(ChunkTableTest, RandomWalksEndWellFromAnyState) {
             if (below(100) == 0) center.x += 500;
             if (below(60) == 0) distance = below(4);
             setView(table, center, distance, below(2) == 0 ? glm::vec2{0, 1} : glm::vec2{});
-            if (below(4) == 0) outdateLighting(table, {center.x + below(7) - 3, center.y + below(7) - 3});
+            if (below(4) == 0) invalidateLighting(table, {center.x + below(7) - 3, center.y + below(7) - 3});
             if (below(20) == 0) requestChunk(table, {center.x + below(40) - 20, center.y}, now);
             ASSERT_NO_FATAL_FAILURE(step(true));
         }

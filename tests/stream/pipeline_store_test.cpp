@@ -52,7 +52,7 @@ TEST_F(PipelineStoreTest, OnlyEditedChunksAreStored) {
     placeBlock({3, 3, 90}, "sand");
     update();
     EXPECT_FALSE(store_.contains({0, 0})) << "not yet";
-    now_ += ChunkPipeline::kSaveAfter;
+    now_ += ChunkPipeline::kSaveDelay;
     update();
     EXPECT_TRUE(store_.contains({0, 0}));
     EXPECT_FALSE(store_.contains({1, 0}));

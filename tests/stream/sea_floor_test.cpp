@@ -46,7 +46,7 @@ TEST_F(SeaFloorTest, WhatCanBeSeenStaysAsItIs) {
         const int was = ground[static_cast<std::size_t>(k)];
         for (int z = 0; z < world::kChunkHeight; ++z) {
             const auto at = blockIndex(k % 16, k / 16, z);
-            const bool isRaised = was < kSea - kDeepestSeen && z >= was && z <= kSea - kDeepestSeen;
+            const bool isRaised = was < kSea - kMaxVisibleDepth && z >= was && z <= kSea - kMaxVisibleDepth;
             if (isRaised) {
                 ASSERT_TRUE(blocks_.type(chunk.block(at)).opaqueCube) << k << " " << z;
             } else {

@@ -20,7 +20,7 @@ constexpr ChunkPos kEdited{-30, 21};  // beyond the chunks of the view below
 class TileRowsTest : public testing::Test {
   protected:
     void keepRows(TileListener listener) {
-        keepTileRows(store_, generators_, contentBlocks(), std::move(listener));
+        maintainTileRows(store_, generators_, contentBlocks(), std::move(listener));
         ASSERT_TRUE(buildTileRows(store_));
     }
 
@@ -133,7 +133,7 @@ TEST_F(TileRowsTest, AGeneratorWithoutLevelsHasNone) {
             return gen::makeGenerator("flat", contentBlocks());
         },
         5);
-    keepTileRows(store_, flat, contentBlocks(), {});
+    maintainTileRows(store_, flat, contentBlocks(), {});
     saveChunk(true);
     EXPECT_TRUE(store_.contains(kEdited));
     EXPECT_FALSE(store_.contains(parentOf(kEdited)));

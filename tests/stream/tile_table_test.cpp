@@ -44,7 +44,7 @@ class Model {
         for (int k = 0; k < tiles && !loading_.empty(); ++k) {
             const ChunkPos tile = loading_.back();
             loading_.pop_back();
-            if (!isAwaited(table_, tile)) continue;
+            if (!isTileLoading(table_, tile)) continue;
             finishTile(table_, tile);
             ++made_;
             ready_.insert(tile);
@@ -65,7 +65,7 @@ class Model {
     // Makes some of the shown tiles stale.
     void outdate(int count) {
         for (const ChunkPos pos : shown_) {
-            if (pos.level > 0 && pick(0, 9) == 0 && count-- > 0) outdateTile(table_, pos);
+            if (pos.level > 0 && pick(0, 9) == 0 && count-- > 0) invalidateTile(table_, pos);
         }
         apply();
     }
@@ -249,7 +249,7 @@ TEST(TileTable, ATileThatBecomesStaleWhileItIsMadeIsMadeTwice) {
     setTileView(table, {{0, 0}, 4, 64, 8});
     updateTiles(table);
     const ChunkPos tile = popTileRequests(table, 1).front();
-    outdateTile(table, tile);
+    invalidateTile(table, tile);
     finishTile(table, tile);
     EXPECT_EQ(updateTiles(table).shown, std::vector{tile});
     const std::vector<ChunkPos> again = popTileRequests(table, 1000);

@@ -21,7 +21,7 @@ class BlockParticlesTest : public testing::Test {
 
 TEST_F(BlockParticlesTest, FallToTheGroundAndEnd) {
     particles_.burst({8, 8, 50}, contentBlock("dirt"));
-    EXPECT_EQ(particles_.particles().size(), BlockParticles::kOfABlock);
+    EXPECT_EQ(particles_.particles().size(), BlockParticles::kParticlesPerBlock);
     bool fell = false;
     for (int frame = 0; frame < 60 && !particles_.particles().empty(); ++frame) {
         particles_.advance(1.0 / 60, world_, contentBlocks());
@@ -37,7 +37,7 @@ TEST_F(BlockParticlesTest, FallToTheGroundAndEnd) {
 
 TEST_F(BlockParticlesTest, ThereIsAMaximum) {
     for (int k = 0; k < 100; ++k) particles_.burst({8, 8, 50}, contentBlock("dirt"));
-    EXPECT_EQ(particles_.particles().size(), BlockParticles::kMost);
+    EXPECT_EQ(particles_.particles().size(), BlockParticles::kMaxParticles);
 }
 
 }  // namespace

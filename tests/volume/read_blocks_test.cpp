@@ -124,11 +124,11 @@ class UnreadableStore : public store::MemoryStore {
             if (positions[k] == world::ChunkPos{1, 1}) {
                 loaded[k].state = store::LoadedChunk::State::Damaged;
                 loaded[k].problem = "the disk is gone";
-                loaded[k].isUnread = isUnread;
+                loaded[k].isUnreadable = isUnreadable;
             }
         return loaded;
     }
-    bool isUnread = true;
+    bool isUnreadable = true;
 };
 
 TEST(ReadChunks, AChunkThatCannotBeReadIsAnError) {
@@ -141,7 +141,7 @@ TEST(ReadChunks, AChunkThatCannotBeReadIsAnError) {
     EXPECT_EQ(read.error().code, base::ErrorCode::Io);
     EXPECT_EQ(read.error().message, "chunk 1,1: the disk is gone");
     // One that is damaged is generated, as in a game.
-    disk.isUnread = false;
+    disk.isUnreadable = false;
     EXPECT_THAT(blocksOf(*world, {0, 0, 80, 32, 32, 81}), testing::Each(contentBlock("grass")));
 }
 

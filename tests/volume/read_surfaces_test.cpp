@@ -15,8 +15,8 @@ struct Read {
 };
 
 Read surfacesOf(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer = SurfaceLayer::Top) {
-    Read read{std::vector<std::int16_t>(static_cast<std::size_t>(area.columnCount()), -99),
-              std::vector<world::BlockId>(static_cast<std::size_t>(area.columnCount()), 99)};
+    const auto count = static_cast<std::size_t>((area.x1 - area.x0) * (area.y1 - area.y0));
+    Read read{std::vector<std::int16_t>(count, -99), std::vector<world::BlockId>(count, 99)};
     const auto done = readSurfaces(world, area, layer, {read.heights, read.blocks}, {});
     EXPECT_TRUE(done) << done.error().message;
     return read;

@@ -1,4 +1,4 @@
-#include "terrane/web/seen_changes.h"
+#include "terrane/web/visible_changes.h"
 
 #include <gtest/gtest.h>
 

@@ -23,10 +23,10 @@ struct Heard {
 TEST(EventHub, TellsAllListeners) {
     EventHub hub;
     Heard one, two;
-    hub.tell("edits", "[0]", false);
+    hub.publish("edits", "[0]", false);
     hub.add(one.listener());
     hub.add(two.listener());
-    hub.tell("edits", "[1]", false);
+    hub.publish("edits", "[1]", false);
     hub.sendKeepAlive();
     EXPECT_THAT(one.texts, ElementsAre("event: edits\ndata: [1]\n\n", ":\n\n"));
     EXPECT_EQ(two.texts, one.texts);
@@ -35,15 +35,15 @@ TEST(EventHub, TellsAllListeners) {
 
 TEST(EventHub, NewcomersAreToldWhatIsRemembered) {
     EventHub hub;
-    hub.tell("players", "[1]", true);
-    hub.tell("edits", "[2]", false);
-    hub.tell("players", "[3]", true);
-    hub.tell("places", "[4]", true);
+    hub.publish("players", "[1]", true);
+    hub.publish("edits", "[2]", false);
+    hub.publish("players", "[3]", true);
+    hub.publish("places", "[4]", true);
     Heard late;
     hub.add(late.listener());
     EXPECT_THAT(late.texts, ElementsAre("event: places\ndata: [4]\n\n", "event: players\ndata: [3]\n\n"));
-    hub.forget("players");
-    hub.forget("nothing");
+    hub.removeRemembered("players");
+    hub.removeRemembered("nothing");
     Heard later;
     hub.add(later.listener());
     EXPECT_THAT(later.texts, ElementsAre("event: places\ndata: [4]\n\n"));
@@ -55,13 +55,13 @@ TEST(EventHub, WhoIsGoneIsDropped) {
     hub.add(one.listener());
     hub.add(two.listener());
     one.isThere = false;
-    hub.tell("edits", "[1]", false);
-    hub.tell("edits", "[2]", false);
+    hub.publish("edits", "[1]", false);
+    hub.publish("edits", "[2]", false);
     EXPECT_EQ(one.texts.size(), 1u);
     EXPECT_EQ(two.texts.size(), 2u);
     EXPECT_EQ(hub.count(), 1u);
     // Also at once, if a remembered event cannot be sent.
-    hub.tell("players", "[3]", true);
+    hub.publish("players", "[3]", true);
     Heard gone;
     gone.isThere = false;
     hub.add(gone.listener());

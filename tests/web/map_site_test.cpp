@@ -33,7 +33,7 @@ class MapSiteTest : public testing::Test {
             return found == live_.end() ? nullptr : found->second;
         };
         parts.players = [this] { return players_; };
-        parts.places = [] { return std::vector<NamedPlace>{{"mill", 1, 2, 3}}; };
+        parts.places = [] { return std::vector<MapMarker>{{"mill", 1, 2, 3}}; };
         parts.metrics = [](MetricsText& text) { text.gauge("test_figure", "Of the test.", 42); };
         return parts;
     }
@@ -68,7 +68,7 @@ class MapSiteTest : public testing::Test {
     world::TextureSource textures_ = content::builtInTextures();
     std::unique_ptr<store::MemoryStore> store_;
     std::map<ChunkPos, world::ChunkPtr> live_;
-    std::vector<NamedPlace> players_;
+    std::vector<MapMarker> players_;
     std::unique_ptr<MapSite> site_;
 };
 

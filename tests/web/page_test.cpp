@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -16,10 +17,14 @@ namespace {
 using testing::HasSubstr;
 using testing::StartsWith;
 
+bool hasFile(std::string_view name) {
+    return std::ranges::find(pageFiles(), name, &base::EmbeddedFile::path) != pageFiles().end();
+}
+
 std::string textOfFile(std::string_view name) {
-    const base::EmbeddedFile* file = pageFile(name);
-    EXPECT_TRUE(file) << name;
-    return file ? std::string(file->data) : std::string();
+    EXPECT_TRUE(hasFile(name)) << name;
+    return hasFile(name) ? std::string(std::ranges::find(pageFiles(), name, &base::EmbeddedFile::path)->data)
+                         : std::string();
 }
 
 std::vector<std::string> allMatches(const std::string& text, const std::regex& pattern) {
@@ -35,8 +40,7 @@ TEST(Page, EachFileThatItNamesIsThere) {
     EXPECT_GE(names.size(), 5u);
     for (const std::string& name : names) {
         if (name == "world.js") continue;  // generated for each world
-        ASSERT_TRUE(pageFile(name)) << name;
-        EXPECT_FALSE(pageFile(name)->data.empty()) << name;
+        EXPECT_FALSE(textOfFile(name).empty()) << name;
         EXPECT_NE(typeOf(name), "application/octet-stream") << name;
     }
     EXPECT_THAT(names, testing::Contains("world.js"));
@@ -46,7 +50,7 @@ TEST(Page, EachFileThatItNamesIsThere) {
 
 TEST(Page, OtherFilesAreNot) {
     for (const char* name : {"", "world.js", "package.json", "../index.html", "/index.html", "INDEX.HTML"})
-        EXPECT_FALSE(pageFile(name)) << name;
+        EXPECT_FALSE(hasFile(name)) << name;
 }
 
 TEST(Page, FilesHaveTypes) {
@@ -102,7 +106,7 @@ TEST(Page, TextsThatItAsksForAreThere) {
         EXPECT_TRUE(english.contains(std::string(map::nameOf(static_cast<map::Layer>(k)))));
 }
 
-PageFacts someFacts() {
+PageInfo someFacts() {
     return {.identity = {~std::uint64_t{0}, "overworld", 3},
             .name = "Ada's \"world\" </script>",
             .spawn = {"spawn", 1.26, -2.0, 80.5},
@@ -133,10 +137,10 @@ TEST(Page, FactsAreJson) {
 }
 
 TEST(Page, FactsWithoutPlacesAreLists) {
-    const auto json = nlohmann::json::parse(textOf(PageFacts{}));
+    const auto json = nlohmann::json::parse(textOf(PageInfo{}));
     EXPECT_TRUE(json["places"].is_array());
     EXPECT_TRUE(json["layers"].is_array());
-    EXPECT_EQ(textOf(std::vector<NamedPlace>()), "[]");
+    EXPECT_EQ(textOf(std::vector<MapMarker>()), "[]");
 }
 
 TEST(Page, TheScriptSetsTheFacts) {
@@ -148,7 +152,7 @@ TEST(Page, TheScriptSetsTheFacts) {
 }
 
 TEST(Page, PlacesWithNamesOfPlayersAreOneLine) {
-    const std::vector<NamedPlace> places = {
+    const std::vector<MapMarker> places = {
         {"line\nend\r\n\nevent: evil", 1, 2, std::numeric_limits<double>::quiet_NaN()}};
     const std::string text = textOf(places);
     EXPECT_EQ(text.find_first_of("\r\n"), std::string::npos);

@@ -30,7 +30,7 @@ TEST(Route, EachHasATarget) {
     EXPECT_EQ(std::get<PageFile>(routeTo("/")).name, "index.html");
     EXPECT_EQ(std::get<PageFile>(routeTo("/map.css")).name, "map.css");
     EXPECT_TRUE(is<WorldScript>("/world.js"));
-    EXPECT_TRUE(is<WorldFacts>("/api/world"));
+    EXPECT_TRUE(is<WorldInfo>("/api/world"));
     EXPECT_TRUE(is<PlayerList>("/api/players"));
     EXPECT_TRUE(is<EventStream>("/api/edits"));
     EXPECT_TRUE(is<Metrics>("/metrics"));

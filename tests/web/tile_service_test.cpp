@@ -36,7 +36,7 @@ struct Waiter {
 // Reports a visible edit.
 void change(TileService& tiles, ChunkPos chunk) {
     tiles.addEdited(std::span(&chunk, 1));
-    tiles.forget(std::span(&chunk, 1));
+    tiles.invalidate(std::span(&chunk, 1));
 }
 
 // Tests decide when workers and the functions that they post run.

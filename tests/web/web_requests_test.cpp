@@ -178,7 +178,7 @@ TEST_F(WebRequestsTest, RequestsInARowAreAnsweredInTheirOrder) {
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 1; }));
     runShortly();
     EXPECT_EQ(one.text(), "");
-    replies_[0](textAnswer(200, "late"));
+    replies_[0](textResponse(200, "late"));
     EXPECT_EQ(next(one).body, "late");
     EXPECT_EQ(next(one).body, "after");
     for (const char c : std::string("GET /bytes HTTP/1.1\r\nA: b\r\n\r\n")) {
@@ -208,7 +208,7 @@ TEST_F(WebRequestsTest, ACloseCancelsTheAnswer) {
     one.close();
     EXPECT_TRUE(runUntil([&] { return cancelled_ == 1; }));
     EXPECT_EQ(connectionCount(), 0u);
-    replies_[0](textAnswer(200, "nobody is there"));
+    replies_[0](textResponse(200, "nobody is there"));
     runShortly();
     EXPECT_EQ(cancelled_, 1);
 }
@@ -218,13 +218,13 @@ TEST_F(WebRequestsTest, AnAnswerCountsOnce) {
     Browser one = browser();
     one.get("/api/block?x=1&y=2");
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 1; }));
-    replies_[0](textAnswer(200, "first"));
-    replies_[0](textAnswer(200, "second"));
+    replies_[0](textResponse(200, "first"));
+    replies_[0](textResponse(200, "second"));
     EXPECT_EQ(next(one).body, "first");
     one.get("/api/block?x=3&y=4");
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 2; }));
-    replies_[0](textAnswer(200, "of the former request"));
-    replies_[1](textAnswer(200, "third"));
+    replies_[0](textResponse(200, "of the former request"));
+    replies_[1](textResponse(200, "third"));
     EXPECT_EQ(next(one).body, "third");
     one.close();
     EXPECT_TRUE(runUntil([&] { return connectionCount() == 0; }));
@@ -233,12 +233,12 @@ TEST_F(WebRequestsTest, AnAnswerCountsOnce) {
 
 TEST_F(WebRequestsTest, EventsReachAllListeners) {
     start();
-    hub_.tell("players", "[1]", true);
+    hub_.publish("players", "[1]", true);
     Browser one = browser(), two = browser();
     for (Browser* each : {&one, &two}) each->get("/api/edits");
     ASSERT_TRUE(runUntil([&] { return hub_.count() == 2; }));
     EXPECT_EQ(server_->statistics().listeners, 2u);
-    hub_.tell("edits", "[2]", false);
+    hub_.publish("edits", "[2]", false);
     hub_.sendKeepAlive();
     for (Browser* each : {&one, &two}) {
         const Received header = next(*each);
@@ -249,7 +249,7 @@ TEST_F(WebRequestsTest, EventsReachAllListeners) {
     }
     one.close();
     EXPECT_TRUE(runUntil([&] { return server_->statistics().listeners == 1; }));
-    hub_.tell("edits", "[3]", false);
+    hub_.publish("edits", "[3]", false);
     EXPECT_EQ(hub_.count(), 1u);
     EXPECT_TRUE(runUntil([&] { return two.text().ends_with("event: edits\ndata: [3]\n\n"); }));
 }
@@ -275,7 +275,7 @@ TEST_F(WebRequestsTest, AListenerWhoDoesNotReadIsDropped) {
         // The other one hears each event before the next, so that it never falls behind.
         heard = good.text().size();
         if (heard >= told) {
-            hub_.tell("edits", data, false);
+            hub_.publish("edits", data, false);
             told += data.size();
         }
         return hub_.count() == 1 || told > (64u << 20);
@@ -284,7 +284,7 @@ TEST_F(WebRequestsTest, AListenerWhoDoesNotReadIsDropped) {
     EXPECT_EQ(server_->statistics().listeners, 1u);
     EXPECT_EQ(server_->statistics().refused, 1u);
     EXPECT_EQ(connectionCount(), 1u);
-    hub_.tell("edits", "last", false);
+    hub_.publish("edits", "last", false);
     EXPECT_TRUE(runUntil([&] { return good.text().ends_with("data: last\n\n"); })) << "the others go on";
     EXPECT_GT(heard, 0u);
 }

@@ -25,13 +25,13 @@ class WebServerTest : public testing::Test {
         }
         const auto* page = std::get_if<PageFile>(&route);
         if (page && page->name == "index.html") {
-            Answer found = textAnswer(200, "the page");
+            Response found = textResponse(200, "the page");
             found.tag = "t1";
             reply(found);
         } else if (page && page->name == "large.bin") {
             reply({.body = large_});
         } else {
-            reply(textAnswer(page ? 200 : 404, page ? page->name : "none"));
+            reply(textResponse(page ? 200 : 404, page ? page->name : "none"));
         }
         return nullptr;
     }

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 // With limits of 0 s, a tick closes connections that would otherwise be closed seconds later.
 TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
     WebLimits limits;
-    limits.headerWithin = std::chrono::seconds(0);
+    limits.headerTimeout = std::chrono::seconds(0);
     WebServer& server = start(limits);
     Browser silent = browser(), patient = browser();
     patient.get("/a");
@@ -40,7 +40,7 @@ TEST_F(WebServerTest, ClosesWhoAsksTooSlowly) {
 
 TEST_F(WebServerTest, ClosesWhoIsIdle) {
     WebLimits limits;
-    limits.idleFor = std::chrono::seconds(0);
+    limits.idleTimeout = std::chrono::seconds(0);
     start(limits);
     Browser fresh = browser(), idle = browser();
     idle.get("/a");
@@ -52,7 +52,7 @@ TEST_F(WebServerTest, ClosesWhoIsIdle) {
 
 TEST_F(WebServerTest, ClosesWhoDoesNotRead) {
     WebLimits limits;
-    limits.sentWithin = limits.idleFor = std::chrono::seconds(0);
+    limits.sendTimeout = limits.idleTimeout = std::chrono::seconds(0);
     WebServer& server = start(limits);
     Browser lazy = browser("127.0.0.1", 4096);
     lazy.get("/large.bin");
@@ -65,13 +65,13 @@ TEST_F(WebServerTest, ClosesWhoDoesNotRead) {
 
 TEST_F(WebServerTest, AnswersThatAreLookedForMayTakeLong) {
     WebLimits limits;
-    limits.headerWithin = limits.sentWithin = limits.idleFor = std::chrono::seconds(0);
+    limits.headerTimeout = limits.sendTimeout = limits.idleTimeout = std::chrono::seconds(0);
     WebServer& server = start(limits);
     Browser one = browser();
     one.get("/api/block?x=1&y=2");
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 1; }));
     for (int k = 0; k < 3; ++k) server.tick();
-    replies_[0](textAnswer(200, "late"));
+    replies_[0](textResponse(200, "late"));
     EXPECT_EQ(next(one).body, "late");
     EXPECT_EQ(cancelled_, 0);
 }
@@ -100,7 +100,7 @@ TEST_F(WebServerTest, NewcomersGetTheRoomOfIdleOnes) {
     EXPECT_FALSE(busy.isClosed());
     EXPECT_EQ(connectionCount(), 4u);
     EXPECT_EQ(server_->statistics().refused, 1u);
-    replies_[0](textAnswer(200, "late"));
+    replies_[0](textResponse(200, "late"));
     EXPECT_EQ(next(busy).body, "late");
 }
 
@@ -117,7 +117,7 @@ TEST_F(WebServerTest, WhereAllAreBusyTheFirstOneGoes) {
     EXPECT_EQ(next(fresh).body, "b");
     EXPECT_EQ(connectionCount(), 2u);
     EXPECT_EQ(cancelled_, 1);
-    for (const Reply& reply : replies_) reply(textAnswer(200, "late"));
+    for (const Reply& reply : replies_) reply(textResponse(200, "late"));
     EXPECT_TRUE(runUntil([&] { return one.take().has_value() != two.take().has_value(); }));
 }
 
@@ -142,7 +142,7 @@ TEST_F(WebServerTest, AnAddressHasSoManyRequests) {
     if (!address) GTEST_SKIP() << "this machine has no address but the loopback";
     WebLimits limits;
     limits.requestsPerSecond = 0.001;
-    limits.requestsAtOnce = 5;
+    limits.requestBurst = 5;
     start(limits, {"0.0.0.0", 0});
     Browser stranger = browser(*address), again = browser(*address), local = browser();
     for (int k = 0; k < 5; ++k) {
@@ -166,7 +166,7 @@ TEST_F(WebServerTest, AnAddressHasSoManyConnections) {
     const auto address = otherAddress();
     if (!address) GTEST_SKIP() << "this machine has no address but the loopback";
     WebLimits limits;
-    limits.connectionsOfAddress = 2;
+    limits.connectionsPerAddress = 2;
     start(limits, {"0.0.0.0", 0});
     Browser one = browser(*address), two = browser(*address);
     for (Browser* each : {&one, &two}) {
@@ -194,8 +194,8 @@ TEST_F(WebServerTest, ItsEndClosesAll) {
     ASSERT_TRUE(runUntil([&] { return replies_.size() == 1 && hub_.count() == 1; }));
     server_.reset();
     EXPECT_EQ(cancelled_, 1);
-    replies_[0](textAnswer(200, "too late"));
-    hub_.tell("edits", "[1]", false);
+    replies_[0](textResponse(200, "too late"));
+    hub_.publish("edits", "[1]", false);
     EXPECT_EQ(hub_.count(), 0u);
     for (Browser* each : {&idle, &busy, &listener}) EXPECT_TRUE(isClosedSoon(*each));
     EXPECT_EQ(busy.text(), "");

@@ -75,7 +75,7 @@ TEST_F(PlayTest, TheGamepadPlays) {
     program.setPad(Gamepad{.rightX = 1});
     EXPECT_NE(program.game().player.pose().yaw, start.yaw);
     program.setPad(Gamepad{.rightBumper = true});
-    EXPECT_EQ(program.game().interaction.hotbar.chosen, 1u);
+    EXPECT_EQ(program.game().interaction.hotbar.selected, 1u);
     program.setPad(Gamepad{.rightTrigger = true});
     const world::BlockPos under = world::blockOf({now.x, now.y, 80.5});
     program.until("a block is broken", [&] { return program.blockAt(under) == "air"; });
@@ -214,7 +214,7 @@ TEST_F(PlayTest, WithoutOptionsEverythingIsSaved) {
     Program program = start({"--generator", "flat"});
     program.untilDrawn();
     EXPECT_EQ(program.blockAt(kGround), "air");
-    EXPECT_EQ(program.game().interaction.hotbar.chosen, 1u);
+    EXPECT_EQ(program.game().interaction.hotbar.selected, 1u);
     expectGood(program.quit());
     EXPECT_TRUE(is_empty(folder() / "elsewhere"));
 }

@@ -64,22 +64,5 @@ TEST(Air, ScatteringLosesNoLight) {
     EXPECT_FLOAT_EQ(rayleighPhase(0.5f), rayleighPhase(-0.5f));
 }
 
-TEST(Air, ClosedFormOfHazeIsItsIntegral) {
-    for (const float altitude : {0.0f, 50.0f, 300.0f}) {
-        for (const float rise : {-40.0f, -3.0f, -0.01f, 0.0f, 0.02f, 0.5f, 20.0f, 400.0f}) {
-            constexpr int kSteps = 4000;
-            constexpr float kDistance = 5000;
-            double sum = 0;
-            for (int k = 0; k < kSteps; ++k) {
-                const float share = (static_cast<float>(k) + 0.5f) / kSteps;
-                sum += static_cast<double>(airDensity(altitude + share * rise).haze * kDistance / kSteps);
-            }
-            const double closed = static_cast<double>(hazeLength(altitude, rise, kDistance));
-            EXPECT_NEAR(closed, sum, 1e-3 * sum) << altitude << " " << rise;
-        }
-    }
-    EXPECT_GT(hazeLength(0, 0, 1000), hazeLength(200, 0, 1000)) << "valleys are hazier than peaks";
-}
-
 }  // namespace
 }  // namespace terrane::world

@@ -160,14 +160,14 @@ TEST_F(FallingSand, RandomEditsAreThoseOfSlowRules) {
 BehaviorTable ownBehaviors() {
     BehaviorTable behaviors = builtInBehaviors();
     behaviors.add({.name = "rusts", .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face side) {
-                       const BlockId next = update.world().block(beside(pos, side));
+                       const BlockId next = update.world().block(adjacent(pos, side));
                        if (update.blocks().type(next).shape == Shape::Liquid)
                            update.change(pos, SetBlock{update.blocks().find("rust")->id});
                    }});
     behaviors.add(
         {.name = "bursts", .removed = [](BlockUpdate& update, BlockPos pos, const RemovedBlock& bomb) {
              for (int face = 0; face < kFaceCount && bomb.state > 0; ++face)
-                 update.change(beside(pos, static_cast<Face>(face)), SetBlock{kAir});
+                 update.change(adjacent(pos, static_cast<Face>(face)), SetBlock{kAir});
          }});
     behaviors.add({.name = "counts", .tick = [](BlockUpdate& update, BlockPos pos) {
                        const int state = update.world().blockState(pos);

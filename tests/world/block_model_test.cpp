@@ -154,7 +154,7 @@ TEST_F(ModelWorld, ARayHitsTheNearestBox) {
 }
 
 TEST(BlockModel, FromAfarItIsACubeOrNotThere) {
-    const BlockRegistry far = blocks().seenFromAfar();
+    const BlockRegistry far = blocks().forFarTiles();
     EXPECT_EQ(far.find("oak_stairs")->shape, Shape::Cube);
     EXPECT_TRUE(far.find("oak_stairs")->opaqueCube);
     EXPECT_EQ(far.find("fence")->shape, Shape::None);

@@ -57,7 +57,8 @@ TEST(BlockParser, ABlockIsLikeAnother) {
     EXPECT_EQ(dim.faces[kFacePosZ].texture, "a");
     EXPECT_EQ(dim.faces[kFaceNegX].alpha, AlphaMode::Glow);
     EXPECT_EQ(dark.type.emission[0], 3) << "like a block that is like another";
-    for (const FaceLook& face : dark.faces) EXPECT_EQ(face.texture, "d") << "texture replaces textures";
+    for (const FaceDescription& face : dark.faces)
+        EXPECT_EQ(face.texture, "d") << "texture replaces textures";
 }
 
 TEST(BlockParser, ABlockIsLikeNoneButThoseAbove) {
@@ -183,7 +184,7 @@ TEST(BlockParser, SamplingOfFaces) {
     EXPECT_EQ(block.faces[kFacePosZ].wrap, Wrap::Repeat);
     EXPECT_EQ(block.faces[kFaceNegZ].wrap, Wrap::Quad);
     EXPECT_EQ(block.faces[kFacePosX].wrap, Wrap::Clamp);
-    for (const FaceLook& face : block.faces) EXPECT_EQ(face.filtering, Filtering::Nearest);
+    for (const FaceDescription& face : block.faces) EXPECT_EQ(face.filtering, Filtering::Nearest);
     const BlockDescription some = only(cubeWith("sharp = { bottom = true }"));
     EXPECT_EQ(some.faces[kFaceNegZ].filtering, Filtering::Sharp);
     EXPECT_EQ(some.faces[kFacePosZ].filtering, Filtering::Option);
@@ -310,7 +311,7 @@ TEST(BlockParser, Defaults) {
     EXPECT_EQ(block.animation, Animation::None);
     EXPECT_TRUE(isOpaqueCube(block));
     EXPECT_EQ(block.line, 1);
-    for (const FaceLook& face : block.faces) {
+    for (const FaceDescription& face : block.faces) {
         EXPECT_EQ(face.texture, "rock");
         EXPECT_EQ(face.alpha, AlphaMode::Unused);
         EXPECT_FALSE(face.twoSided);

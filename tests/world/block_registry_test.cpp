@@ -299,7 +299,7 @@ TEST(Content, SeenFromAfar) {
     const auto isHoled = [](std::uint16_t material) {
         return contentBlocks().materials()[material].alpha == AlphaMode::Test;
     };
-    const BlockRegistry far = contentBlocks().seenFromAfar();
+    const BlockRegistry far = contentBlocks().forFarTiles();
     ASSERT_EQ(far.types().size(), contentBlocks().types().size());
     EXPECT_EQ(far.materials().size(), contentBlocks().materials().size()) << "those of both are in one table";
     for (const BlockType& near : contentBlocks().types()) {

@@ -31,7 +31,7 @@ class CharacterTest : public testing::Test {
     }
     void run(double seconds, const CharacterInput& input) {
         for (int n = 0; n < static_cast<int>(std::lround(seconds / kStepSeconds)); ++n) {
-            c_ = stepped(world_, contentBlocks(), c_, input);
+            c_ = advanceCharacter(world_, contentBlocks(), c_, input);
             highest_ = std::max(highest_, c_.feet.z);
         }
     }
@@ -144,7 +144,7 @@ TEST_F(CharacterTest, NeverEndsInsideABlock) {
                                    .runs = random() % 2 == 0,
                                    .jumps = random() % 3 == 0};
         for (int n = 0; n < 60; ++n) {
-            c_ = stepped(world_, contentBlocks(), c_, input);
+            c_ = advanceCharacter(world_, contentBlocks(), c_, input);
             ASSERT_FALSE(collides(world_, contentBlocks(), characterBox(c_.feet))) << "leg " << leg;
             ASSERT_GE(c_.feet.z, 10);
         }
@@ -155,13 +155,13 @@ TEST_F(CharacterTest, JumpsOntoABlockByItselfWhereItIsToldTo) {
     fill({4, -3, 10}, {8, 3, 10}, "stone");
     run(3, {.direction = {1, 0}});
     EXPECT_NEAR(c_.feet.z, 10, 0.01);
-    run(3, {.direction = {1, 0}, .jumpsByItself = true});
+    run(3, {.direction = {1, 0}, .autoJump = true});
     EXPECT_GT(c_.feet.x, 6);
 }
 
 TEST_F(CharacterTest, DoesNotJumpAtAWall) {
     fill({4, -3, 10}, {8, 3, 11}, "stone");
-    run(3, {.direction = {1, 0}, .jumpsByItself = true});
+    run(3, {.direction = {1, 0}, .autoJump = true});
     EXPECT_NEAR(highest_, 10, 0.02);
 }
 

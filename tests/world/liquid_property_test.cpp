@@ -23,15 +23,15 @@ struct SlowAutomaton {
         if (now < 0 || now == 1) return now;
         int sources = 0, level = 8;
         for (const Face side : {kFaceNegX, kFacePosX, kFaceNegY, kFacePosY}) {
-            const BlockPos next = beside(pos, side);
+            const BlockPos next = adjacent(pos, side);
             const int there = at(next);
             if (there <= 0) continue;
             sources += there == 1;
-            if (there == 1 || at(beside(next, kFaceNegZ)) < 0) level = std::min(level, (there - 1) % 8 + 1);
+            if (there == 1 || at(adjacent(next, kFaceNegZ)) < 0) level = std::min(level, (there - 1) % 8 + 1);
         }
-        const int below = at(beside(pos, kFaceNegZ));
+        const int below = at(adjacent(pos, kFaceNegZ));
         if (sources >= 2 && (below < 0 || below == 1)) return 1;
-        if (at(beside(pos, kFacePosZ)) > 0) return 1 + 8;
+        if (at(adjacent(pos, kFacePosZ)) > 0) return 1 + 8;
         return level < 8 ? 1 + level : 0;
     }
     bool tick() {

@@ -24,8 +24,8 @@ class RandomTicksTest : public testing::Test {
         applyChange(world_, contentBlocks(), above, SetBlock{contentBlock(name)}, edits);
     }
     // Runs ticks until `stages` are grown; returns how many were needed.
-    std::uint64_t grow(std::uint64_t stages, std::uint64_t atMost) {
-        for (std::uint64_t tick = 0; tick < atMost; ++tick) {
+    std::uint64_t grow(std::uint64_t stages, std::uint64_t timeout) {
+        for (std::uint64_t tick = 0; tick < timeout; ++tick) {
             if (stages == 0) return tick;
             for (const BlockPos pos : blocksToTick(world_, contentBlocks(), tick, chunksWithin({0, 0}, 1))) {
                 std::vector<BlockEdit> edits;
@@ -34,7 +34,7 @@ class RandomTicksTest : public testing::Test {
                 --stages;
             }
         }
-        return atMost;
+        return timeout;
     }
     World world_;
 };

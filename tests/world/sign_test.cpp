@@ -50,8 +50,8 @@ TEST(Sign, AnyBytesAreATextOrAnError) {
 }
 
 TEST(Sign, OnlySignsHoldText) {
-    EXPECT_TRUE(holdsText(contentBlocks().type(contentBlock("sign"))));
-    EXPECT_FALSE(holdsText(contentBlocks().type(contentBlock("chest"))));
+    EXPECT_TRUE(isSign(contentBlocks().type(contentBlock("sign"))));
+    EXPECT_FALSE(isSign(contentBlocks().type(contentBlock("chest"))));
     EXPECT_FALSE(signPlane(contentBlocks().type(contentBlock("stone")), 0));
 }
 

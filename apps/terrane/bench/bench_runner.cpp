@@ -160,14 +160,14 @@ base::Result<json> BenchRunner::runOnce(const Arguments& arguments) const {
     if (arguments[0] != "bench") command.push_back("--json");
     const base::ChildOptions options{.folder = work_,
                                      .errorOutput = work_ / "messages.txt",
-                                     .atMost = kLongestRun,
+                                     .timeout = kLongestRun,
                                      // An installed program keeps its saves in the data folder.
                                      .environment = {{"XDG_DATA_HOME", work_.string()}},
-                                     .mostRuns = kMostRuns};
+                                     .maxRuns = kMostRuns};
     const double load = base::loadAverage();
     const auto end = TERRANE_TRY(base::runChild(command, options));
     if (end.crashes > 0) base::logWarning("{}: crashed {} times", keyOf({arguments}), end.crashes);
-    if (end.tookTooLong) return base::fail("took longer than {} s", kLongestRun.count());
+    if (end.timedOut) return base::fail("took longer than {} s", kLongestRun.count());
     if (end.exitCode != 0) return base::fail("exit code {}: {}", end.exitCode, lastLine(options.errorOutput));
     json result = json::parse(end.output, nullptr, false);
     if (!result.is_object()) return base::fail("printed no JSON object");

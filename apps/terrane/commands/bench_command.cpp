@@ -211,7 +211,7 @@ CommandEntry addBench(CLI::App& app) {
         command->add_option("-o,--output", options->output, "Folder for results.jsonl; created if needed"));
     const auto isTable = [](const std::string& text) -> std::string {
         const std::vector<std::string> names = tableNames();
-        return std::ranges::find(names, text) != names.end() ? "" : base::notOneOf(names, text);
+        return std::ranges::find(names, text) != names.end() ? "" : base::expectedOneOf(names, text);
     };
     command
         ->add_option("--only,TABLE", options->only,

@@ -118,7 +118,7 @@ base::Result<void> runBots(BotsOptions& options) {
     const base::StopSignals signals;
     const BotTime start = std::chrono::steady_clock::now();
     std::optional<Since> since;
-    while (!signals.stopAsked()) {
+    while (!signals.stopRequested()) {
         const BotTime now = std::chrono::steady_clock::now();
         const std::chrono::duration<double> passed = now - start;
         const int due =

@@ -75,7 +75,7 @@ base::Result<void> copy(CopyOptions& options) {
     base::ProgressBar bar("copying", static_cast<std::size_t>(2 * total));
     const auto report = TERRANE_TRY(store::copyWorld(*from, *to, lastKey, [&](std::uint64_t rows) {
         bar.set(static_cast<std::size_t>(std::min(rows, 2 * total)));
-        return !signals.stopAsked();
+        return !signals.stopRequested();
     }));
     options.foundDamage = report.damaged > 0;
     print(options, report);

@@ -54,7 +54,7 @@ base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sour
         TERRANE_TRY(take(square));
         done += square.area().chunkCount();
         bar.set(static_cast<std::size_t>(done));
-        if (sources.signals.stopAsked())
+        if (sources.signals.stopRequested())
             return base::fail("stopped after {} of {} chunks", done, area.chunkCount());
     }
     return {};

@@ -36,7 +36,7 @@ base::Result<void> runExport(const std::string& name, ExportOptions& options, co
     const auto& formats = exportFormats();
     const auto format = std::ranges::find(formats, name, &ExportFormat::name);
     if (format == formats.end())
-        return base::fail(base::ErrorCode::BadInput, "export: {}", base::notOneOf(exportNames(), name));
+        return base::fail(base::ErrorCode::BadInput, "export: {}", base::expectedOneOf(exportNames(), name));
     TERRANE_TRY(checkFormatOptions(command, formats, *format));
     if (!CLI::detail::to_lower(options.output).ends_with(format->ending))
         return base::fail(base::ErrorCode::BadInput, "-o: \"{}\" does not end in {}", options.output,

@@ -95,7 +95,7 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
                                                 .access = store::WorldAccess::ReadWrite,
                                                 .meshMilliseconds = view::WorldView::kFrameMilliseconds}));
     flight.viewDistance = world->graphics.viewDistance;
-    const view::FlightLog log = view::fly(*world->session, *world->view, world->renderer, flight);
+    const view::FlightLog log = view::runFlight(*world->session, *world->view, world->renderer, flight);
     if (!options.output.empty()) {
         TERRANE_TRY(view::writeFrames(options.output, view::framesInFlight(log)));
     }

@@ -75,7 +75,7 @@ class AreaGenerator {
         // A damaged chunk is not stored; loading reports it and sets it aside.
         std::vector<store::LoadedChunk> stored(positions.size());
         if (save_) stored = save_->loadMany(positions);
-        const auto found = TERRANE_TRY(store::missingOf(positions, stored));
+        const auto found = TERRANE_TRY(store::missingChunks(positions, stored));
         const std::vector<world::ChunkPos>& missing = found;
         auto chunks = TERRANE_TRY(gen::generateAll(generator_, missing));
         chunks_ = std::move(chunks);

@@ -26,7 +26,7 @@ CommandEntry addCompletion(CLI::App& app) {
                 }
                 std::vector<std::string> names;
                 for (const Shell& known : kShells) names.emplace_back(known.name);
-                return base::fail("completion: {}", base::notOneOf(names, *shell));
+                return base::fail("completion: {}", base::expectedOneOf(names, *shell));
             }};
 }
 

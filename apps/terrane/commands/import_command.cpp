@@ -35,7 +35,7 @@ base::Result<void> runImport(const std::string& name, ImportOptions& options, co
     const auto& formats = importFormats();
     const auto format = std::ranges::find(formats, name, &ImportFormat::name);
     if (format == formats.end())
-        return base::fail(base::ErrorCode::BadInput, "import: {}", base::notOneOf(formatNames(), name));
+        return base::fail(base::ErrorCode::BadInput, "import: {}", base::expectedOneOf(formatNames(), name));
     TERRANE_TRY(checkFormatOptions(command, formats, *format));
     return format->run(options);
 }

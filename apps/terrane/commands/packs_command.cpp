@@ -35,7 +35,7 @@ std::vector<std::string> generatorsOf(const pack::Pack& pack) {
     std::vector<std::string> names;
     for (const auto& [path, data] : pack.files)
         if (path.starts_with("generators/"))
-            names.push_back(pack::qualified(pack, std::filesystem::path(path).stem().string()));
+            names.push_back(pack::qualifiedName(pack, std::filesystem::path(path).stem().string()));
     return names;
 }
 
@@ -88,16 +88,16 @@ std::string counted(std::size_t count, std::string_view what) {
 // Warns about likely mistakes: textures that no block uses, and names of missing blocks.
 void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
     for (const auto& [path, data] : pack.files) {
-        const std::string name = pack::qualified(pack, std::filesystem::path(path).stem().string());
+        const std::string name = pack::qualifiedName(pack, std::filesystem::path(path).stem().string());
         if (path.starts_with("textures/") &&
             std::ranges::find(blocks.textures(), name) == blocks.textures().end())
-            base::logWarning("{}: no block uses this texture", pack::placeOf(pack, path));
+            base::logWarning("{}: no block uses this texture", pack::displayPath(pack, path));
         if (!path.starts_with("languages/")) continue;
-        const auto language = content::parseLanguage(data, pack::placeOf(pack, path));
+        const auto language = content::parseLanguage(data, pack::displayPath(pack, path));
         if (!language) continue;
         for (const auto& [block, shown] : language->blocks)
-            if (!blocks.find(pack::qualified(pack, block)))
-                base::logWarning("{}: blocks.{}: the pack has no such block", pack::placeOf(pack, path),
+            if (!blocks.find(pack::qualifiedName(pack, block)))
+                base::logWarning("{}: blocks.{}: the pack has no such block", pack::displayPath(pack, path),
                                  block);
     }
 }

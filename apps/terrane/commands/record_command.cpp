@@ -63,7 +63,7 @@ base::Result<void> drawFrames(Recorder& recorder, video::FrameSink& sink, const 
         auto image = TERRANE_TRY(recorder.frame(static_cast<double>(k) / framesPerSecond));
         TERRANE_TRY(sink.add(image));
         bar.set(static_cast<std::size_t>(k + 1 - range.first));
-        if (signals.stopAsked())
+        if (signals.stopRequested())
             return base::fail("stopped after {} of {} frames", k + 1 - range.first, range.end - range.first);
     }
     return {};

@@ -148,7 +148,7 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto drawStart = Clock::now();
     const render::FrameInput input{camera,
                                    world::environmentAt(place.timeDay),
-                                   view::fogDistance((*world)->view->sightDistance()),
+                                   view::fogDistance((*world)->view->visibleDistance()),
                                    options.seconds,
                                    options.graphics.view,
                                    game::waterAbove(session, camera.position)};

@@ -96,7 +96,7 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
     const base::StopSignals signals;
     const auto start = std::chrono::steady_clock::now();
     const auto result = TERRANE_TRY(work({*generator.worker, store, pool, base::processName(), options.waits,
-                                          [&] { return signals.stopAsked(); }}));
+                                          [&] { return signals.stopRequested(); }}));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double rate = static_cast<double>(result.chunks) / std::max(seconds, 1e-3);
     if (options.json) {

@@ -77,7 +77,7 @@ base::Result<void> exportGlb(ExportOptions& options) {
     {
         base::ProgressBar bar("exporting", static_cast<std::size_t>(squareCount(area)));
         for (std::int64_t k = 0; k < squareCount(area); ++k) {
-            if (signals.stopAsked())
+            if (signals.stopRequested())
                 return base::fail("stopped after {} of {} squares", k, squareCount(area));
             LoadedSquare square(squareOf(area, k));
             TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));

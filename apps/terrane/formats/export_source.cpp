@@ -111,7 +111,7 @@ base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource
     base::ProgressBar bar("exporting", static_cast<std::size_t>(count));
     std::vector<world::ChunkPos> positions;
     for (std::int64_t next = 0; next < count;) {
-        if (signals.stopAsked()) return base::fail("stopped after {} of {} chunks", next, count);
+        if (signals.stopRequested()) return base::fail("stopped after {} of {} chunks", next, count);
         positions.clear();
         for (; next < count && positions.size() < kExportBatch; ++next)
             positions.push_back({static_cast<std::int32_t>(area.x0 + next % width),

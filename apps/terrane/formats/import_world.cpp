@@ -99,7 +99,7 @@ base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content 
                                              options.world.effectiveSeed(), world.content.generators));
     world.generators = std::make_unique<gen::LevelGenerators>(std::move(generators));
     world.store = std::move(store);
-    stream::keepTileRows(*world.store, *world.generators, *world.content.blocks, {});
+    stream::maintainTileRows(*world.store, *world.generators, *world.content.blocks, {});
     return world;
 }
 

@@ -152,7 +152,7 @@ class MinecraftImporter {
         }
         std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
         for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
-            if (signals.stopAsked())
+            if (signals.stopRequested())
                 return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
             const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
             TERRANE_TRY(importBatch(region, *bytes, part));

@@ -100,7 +100,8 @@ base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
     const base::StopSignals signals;
     base::ProgressBar bar("importing", positions.size());
     for (std::size_t first = 0; first < positions.size(); first += kPlacedBatch) {
-        if (signals.stopAsked()) return base::fail("stopped after {} of {} chunks", first, positions.size());
+        if (signals.stopRequested())
+            return base::fail("stopped after {} of {} chunks", first, positions.size());
         const auto part =
             std::span(positions).subspan(first, std::min(kPlacedBatch, positions.size() - first));
         auto chunks = TERRANE_TRY(stream::chunksAt(part, world.store.get(), *generator, jobs));

@@ -24,7 +24,7 @@ std::filesystem::path cacheFile(const SaveOptions& save, const std::string& orig
     const store::WorldLocation location = store::worldLocation(save.world);
     if (!save.world.empty() && location.kind != store::WorldLocation::Kind::Url)
         if (auto file = store::fileOf(location)) return file->replace_extension(kMapCacheEnding);
-    const auto folder = store::dataFolder(store::savePlaces());
+    const auto folder = store::dataFolder(store::saveEnvironment());
     if (!folder) return {};
     std::filesystem::create_directories(*folder, error);
     return *folder / fmt::format("generated-{:016x}{}", base::hash64(origin), kMapCacheEnding);
@@ -55,7 +55,7 @@ base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
     auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
     base::logInfo("the map is at {}", urlOf(address, site->port()));
     const base::StopSignals signals;
-    while (!signals.stopAsked()) {
+    while (!signals.stopRequested()) {
         context.restart();
         context.run_for(kTick);
         site->tick();

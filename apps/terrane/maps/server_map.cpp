@@ -22,8 +22,8 @@ constexpr int kRoof = 3;  // blocks
 
 }  // namespace
 
-std::vector<web::NamedPlace> PlayerList::now() {
-    std::vector<web::NamedPlace> players;
+std::vector<web::MapMarker> PlayerList::now() {
+    std::vector<web::MapMarker> players;
     if (shown_ == ShownPlayers::None) return players;
     const std::unordered_map<game::PlayerId, Known> before = std::exchange(known_, {});
     const auto add = [&](game::PlayerId id, const std::string& name, const world::Pose& pose) {

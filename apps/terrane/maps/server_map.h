@@ -26,7 +26,7 @@ class PlayerList {
 
     // Requests the chunks that players are in. Until a chunk is loaded, a player from a neighboring chunk
     // keeps its state, and others are omitted.
-    std::vector<web::NamedPlace> now();
+    std::vector<web::MapMarker> now();
 
   private:
     // None if the chunk is not loaded.

@@ -77,23 +77,23 @@ std::string titleOf(const std::string& world) {
     return hasName ? std::string(path.substr(slash + 1)) : "Terrane";
 }
 
-web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
+web::MapMarker namedPlace(const std::string& name, const world::Pose& pose) {
     return {name, pose.position.x, pose.position.y, pose.position.z};
 }
 
-std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places) {
-    std::vector<web::NamedPlace> named;
+std::vector<web::MapMarker> namedPlaces(const std::vector<game::Place>& places) {
+    std::vector<web::MapMarker> named;
     for (const game::Place& place : places) named.push_back(namedPlace(place.name, place.pose));
     return named;
 }
 
-std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
+std::vector<web::MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
     std::vector<game::Place> places = game::savedPlaces(store);
     places.insert(places.end(), ofFile.begin(), ofFile.end());
     return namedPlaces(places);
 }
 
-base::Result<web::NamedPlace> spawnOf(const MapWorld& world) {
+base::Result<web::MapMarker> spawnOf(const MapWorld& world) {
     const auto generator = TERRANE_TRY(world.parts.generators.at(0));
     return namedPlace("", game::findSpawn(*generator, *world.parts.blocks));
 }

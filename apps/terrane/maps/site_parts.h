@@ -32,11 +32,11 @@ std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& fil
 // The name of a world's file or database; "Terrane" without a world.
 std::string titleOf(const std::string& world);
 
-web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose);
-std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places);
+web::MapMarker namedPlace(const std::string& name, const world::Pose& pose);
+std::vector<web::MapMarker> namedPlaces(const std::vector<game::Place>& places);
 // The places saved in the world, then those of a file (map_world.h).
-std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
+std::vector<web::MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
 // The spawn point, with an empty name. Takes a tenth of a second.
-[[nodiscard]] base::Result<web::NamedPlace> spawnOf(const MapWorld& world);
+[[nodiscard]] base::Result<web::MapMarker> spawnOf(const MapWorld& world);
 
 }  // namespace terrane::app

@@ -48,10 +48,10 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
     return base::writeFile(file, origin + "\n");
 }
 
-base::Result<void> writePage(const fs::path& folder, const web::PageFacts& facts) {
+base::Result<void> writePage(const fs::path& folder, const web::PageInfo& info) {
     for (const base::EmbeddedFile& file : web::pageFiles())
         TERRANE_TRY(base::writeFile(folder / file.path, file.data));
-    return base::writeFile(folder / "world.js", web::scriptOf(facts));
+    return base::writeFile(folder / "world.js", web::scriptOf(info));
 }
 
 // The finest zoom, from 0 down, at which the area is no wider than a tile.
@@ -128,7 +128,7 @@ base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer
     const base::StopSignals signals;
     base::ProgressBar bar("mapping", tiles.size());
     for (std::size_t done = 0; done < tiles.size(); done += kAtATime) {
-        if (signals.stopAsked()) return false;
+        if (signals.stopRequested()) return false;
         const auto some = tiles.subspan(done, std::min(kAtATime, tiles.size() - done));
         TERRANE_TRY(base::parallelFor(jobs, some.size(), [&](std::size_t k) { writer.write(some[k]); }));
         TERRANE_TRY(writer.result());
@@ -159,14 +159,14 @@ base::Result<void> writeStaticMap(WorldOptions& worldOptions, const SaveOptions&
         fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter.colorDigest());
     TERRANE_TRY(prepareFolder(options.folder, origin));
 
-    web::PageFacts facts{.identity = identity, .name = titleOf(save.world), .spawn = spawn};
-    facts.places = allPlaces(*opened.store, places);
-    for (const Layer layer : layers) facts.layers.emplace_back(map::nameOf(layer));
-    facts.minZoom = minZoom;
-    facts.maxZoom = options.maxZoom;
-    facts.isLive = false;
-    facts.area = area;
-    TERRANE_TRY(writePage(options.folder, facts));
+    web::PageInfo info{.identity = identity, .name = titleOf(save.world), .spawn = spawn};
+    info.places = allPlaces(*opened.store, places);
+    for (const Layer layer : layers) info.layers.emplace_back(map::nameOf(layer));
+    info.minZoom = minZoom;
+    info.maxZoom = options.maxZoom;
+    info.isLive = false;
+    info.area = area;
+    TERRANE_TRY(writePage(options.folder, info));
 
     map::EditedPositions edited;
     for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);

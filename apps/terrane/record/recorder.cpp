@@ -65,8 +65,8 @@ world::Figure figureAt(const Shot& shot, const PlayerCue& player, double seconds
         const double seconds = static_cast<double>(step) / kStepsPerSecond;
         // The motion reaches this pose when the next one arrives.
         if (step % kStepsPerPose == 0)
-            motion.told(poseAt(player, seconds + static_cast<double>(kStepsPerPose) / kStepsPerSecond),
-                        momentOf(seconds));
+            motion.addPose(poseAt(player, seconds + static_cast<double>(kStepsPerPose) / kStepsPerSecond),
+                           momentOf(seconds));
         if (seconds >= swingEnd && isBuilding(shot, player, seconds)) {
             motion.swing(momentOf(seconds));
             swingEnd = seconds + Motion::kSwingSeconds;
@@ -149,7 +149,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.figures = figures;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = view::fogDistance(parts_.world.view->sightDistance());
+    input.fogDistance = view::fogDistance(parts_.world.view->visibleDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.waterAbove = game::waterAbove(session, point.camera.position);

@@ -53,7 +53,7 @@ bool hasRecords(const store::WorldLocation& world) {
 base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world, std::uint16_t port) {
     if (!isInDatabase(world)) return filesBeside(world);
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    const auto folder = store::dataFolder(store::savePlaces());
+    const auto folder = store::dataFolder(store::saveEnvironment());
     if (!folder)
         return base::fail(base::ErrorCode::NotFound,
                           "there is no folder for the server's key: set XDG_DATA_HOME or HOME");

@@ -45,8 +45,8 @@ std::string refusalText(game::EditResult result, const Texts& tr) {
     return {};
 }
 
-std::string takenBackText(const game::TakenBack& done, game::HistoryWay way, const Texts& tr) {
-    using Outcome = game::TakenBack::Outcome;
+std::string takenBackText(const game::UndoResult& done, game::HistoryWay way, const Texts& tr) {
+    using Outcome = game::UndoResult::Outcome;
     const bool isUndo = way == game::HistoryWay::Undo;
     if (done.outcome == Outcome::Sent) return {};
     if (done.outcome == Outcome::NoStep) return isUndo ? tr("nothing to undo") : tr("nothing to redo");
@@ -54,7 +54,8 @@ std::string takenBackText(const game::TakenBack& done, game::HistoryWay way, con
     if (done.outcome == Outcome::NotAllowed) return tr("you may not change a part of it");
     const char* what = isUndo ? tr("undone: {} blocks") : tr("redone: {} blocks");
     std::string text = fmt::format(fmt::runtime(what), done.blocks);
-    if (done.kept > 0) text += fmt::format(fmt::runtime(tr(", {} changed since then and stay")), done.kept);
+    if (done.skipped > 0)
+        text += fmt::format(fmt::runtime(tr(", {} changed since then and stay")), done.skipped);
     return text;
 }
 

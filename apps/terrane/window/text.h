@@ -38,6 +38,6 @@ Texts textsOf(const std::string& choice, const pack::Content& content);
 // Why an edit was refused; empty if it was not, or needs no message.
 std::string refusalText(game::EditResult result, const Texts& tr);
 // The result of an undo or a redo; empty while a server decides.
-std::string takenBackText(const game::TakenBack& done, game::HistoryWay way, const Texts& tr);
+std::string takenBackText(const game::UndoResult& done, game::HistoryWay way, const Texts& tr);
 
 }  // namespace terrane::app

@@ -45,7 +45,7 @@ class Worker {
 
   private:
     base::Result<void> workUntilNoneIsLeft() {
-        while (!parts_.stopAsked()) {
+        while (!parts_.stopRequested()) {
             const auto job = TERRANE_TRY(parts_.pool.run<std::optional<Job>>(
                 [&](Connection& connection) { return takeJob(connection, number_); }));
             if (job) {
@@ -77,7 +77,7 @@ class Worker {
     base::Result<void> make(const Job& job) {
         const std::vector<world::ChunkPos> positions = positionsOf(job.area);
         for (std::size_t first = 0; first < positions.size(); first += kBatch) {
-            if (parts_.stopAsked()) return parts_.store.flush();
+            if (parts_.stopRequested()) return parts_.store.flush();
             const auto isOurs = TERRANE_TRY(renewIfDue(job));
             if (!isOurs) return {};
             const std::size_t count = std::min(kBatch, positions.size() - first);
@@ -91,7 +91,7 @@ class Worker {
     // Chunks are written while the next ones are generated.
     base::Result<void> makeBatch(std::span<const world::ChunkPos> positions) {
         const std::vector<store::LoadedChunk> stored = parts_.store.loadMany(positions);
-        const auto missing = TERRANE_TRY(store::missingOf(positions, stored));
+        const auto missing = TERRANE_TRY(store::missingChunks(positions, stored));
         auto chunks = TERRANE_TRY(gen::generateAll(parts_.generator, missing));
         for (std::size_t k = 0; k < missing.size(); ++k)
             parts_.store.save(missing[k], std::move(chunks[k]), store::Provenance::Generated);
@@ -106,7 +106,7 @@ class Worker {
     base::Result<void> flush(const Job& job) {
         while (true) {
             auto done = parts_.store.flush();
-            if (done || parts_.stopAsked()) return done;
+            if (done || parts_.stopRequested()) return done;
             base::logError("{}; the square at {},{} waits", done.error().message, job.area.x0, job.area.y0);
             std::this_thread::sleep_for(kRenewEvery);
         }

@@ -18,7 +18,7 @@ struct WorkerParts {
     store_postgres::ConnectionPool& pool;
     std::string name;
     bool waits = false;  // for more jobs when the queue is empty
-    std::function<bool()> stopAsked;
+    std::function<bool()> stopRequested;
 };
 
 struct WorkerResult {
@@ -27,7 +27,7 @@ struct WorkerResult {
     std::int64_t skipped = 0;  // already stored
 };
 
-// Returns when no job is left or stopAsked(). An unfinished job goes back to the queue.
+// Returns when no job is left or stopRequested(). An unfinished job goes back to the queue.
 [[nodiscard]] base::Result<WorkerResult> work(const WorkerParts& parts);
 
 }  // namespace terrane::app

@@ -1,5 +1,5 @@
-// A generator as data: the graphs of its passes and what they exchange. Written by the builder, read by both
-// back ends. A plain value; any thread.
+// A generator as data: the graphs of its passes and the fields that they exchange. The builder writes it, and
+// both back ends read it. A plain value; any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +38,7 @@ struct StampCall {
     bool operator==(const StampCall&) const = default;
 };
 
-// A finished pass: its graph and what it writes.
+// A finished pass: its graph and its outputs.
 struct PassGraph {
     std::string name;
     bool is3D = false;
@@ -76,29 +76,29 @@ struct GeneratorGraph {
     std::shared_ptr<const TintGraph> tint;     // null: the generator has none
 };
 
-// The last 3D pass before `pass`, whose blocks it reads; -1 if there is none.
+// Returns the last 3D pass before `pass`, whose blocks it reads; -1 if there is none.
 int last3DPassBefore(const GeneratorGraph& generator, int pass);
-// Number of passes that the chunks around a chunk must have done before it runs `pass`; 0 if it reads nothing
-// of them.
+// Returns the number of passes that the chunks around a chunk must have done before it runs `pass`; 0 if it
+// reads nothing of them.
 int passesNeededAround(const GeneratorGraph& generator, int pass);
-// Number of the first passes whose results neighbors may need.
+// Returns the number of the first passes whose results neighbors may need.
 int sharedPasses(const GeneratorGraph& generator);
 
-// A hash of a recorded generator: two programs with equal hashes generate the same blocks. Any thread.
-// Hashes everything that blocks depend on: outputs of passes and the nodes that compute them, noises and
-// names of hashes, drainage maps, shapes, fields. Ignores names of passes, unused nodes and the tint. The
-// order in which a pass is recorded does not count: compilers choose different ones.
+// Returns a hash of a recorded generator: generators with equal hashes make the same blocks. It covers
+// everything that blocks depend on: outputs of passes and the nodes that compute them, noises and names of
+// hashes, drainage maps, shapes, fields. It ignores names of passes, unused nodes and the tint. The order in
+// which a pass is recorded does not count: compilers choose different ones.
 [[nodiscard]] std::uint64_t graphHash(const GeneratorGraph& generator);
 
-// Seeds of a generator's noise calls and hashes for one world seed. Both back ends take them from here.
-// Any thread.
+// The seeds of a generator's noise calls and hashes for one world seed. Both back ends use them.
 struct Seeds {
     std::vector<std::uint32_t> noises, hashes;  // by noise call, by slot of hashNames
 };
 
 std::uint32_t seedOf(const std::string& name, std::uint64_t worldSeed);
 
-// A seed depends on the world's seed and on the name of its call, not on its place in the generator.
+// Returns the seeds of a generator. A seed depends on the world's seed and on the name of its call, not on
+// its position in the generator.
 Seeds makeSeeds(const GeneratorGraph& generator, std::uint64_t worldSeed);
 Seeds makeSeeds(const std::vector<NoiseCall>& noises, const std::vector<std::string>& hashNames,
                 std::uint64_t worldSeed);

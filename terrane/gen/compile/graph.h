@@ -1,5 +1,5 @@
-// The expression graph of one pass: pure nodes, arguments before their users, equal nodes stored once.
-// Built through builder.h, scheduled by program.h. Used on one thread while a generator is built.
+// The expression graph of one pass: pure nodes, arguments before their users, equal nodes stored once. Built
+// through builder.h, scheduled by program.h. It is used on one thread while a generator is built.
 #pragma once
 
 #include <cstdint>
@@ -60,17 +60,18 @@ class Graph {
 
     // Nodes added between beginLoop and endLoop are the loop's as far as they depend on its variables.
     std::int32_t beginLoop();
-    // The number of a new variable of the innermost open loop. Its `in` is its value in the round.
+    // Returns the number of a new variable of the innermost open loop. Its `in` is its value in the round.
     // `dependence`: of the values that it will have.
     std::uint32_t addLoopVariable(Type type, NodeId initial, std::uint8_t dependence);
     // Sets `next` of each variable, in order. From here on the variables' `out` are their last values.
     void endLoop(NodeId condition, std::span<const NodeId> next);
     const std::vector<Loop>& loops() const { return loops_; }
     const LoopVariable& loopVariable(std::uint32_t number) const { return loopVariables_[number]; }
-    // Whether some node outside of a loop depends on a node inside otherwise than through a variable's `out`.
+    // Returns whether some node outside of a loop depends on a node inside otherwise than through a
+    // variable's `out`.
     bool leaksOutOfLoop() const { return leaksOutOfLoop_; }
 
-    // Stands for a value of another graph, which has no node in this one.
+    // Returns a node that stands for a value of another graph, which has no node in this one.
     NodeId foreignValue(Type type);
     bool usesForeignValue() const { return usesForeignValue_; }
 

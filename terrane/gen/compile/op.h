@@ -37,8 +37,8 @@ constexpr bool asBool(Bits b) {
     return b != 0;
 }
 
-// The seed of a hash as an operation's number: slot of GeneratorGraph::hashNames, and an octave that counts
-// as in octaveSeedStep of noise.h.
+// Returns the seed of a hash as an operation's number: slot of GeneratorGraph::hashNames, and an octave that
+// counts as in octaveSeedStep of noise.h.
 constexpr std::uint32_t packHashSeed(std::uint32_t slot, std::uint32_t octave) {
     return octave << 24 | slot;
 }
@@ -124,15 +124,15 @@ struct OpRecord {
     Type result;
     // The value for constant arguments; null if it is not a function of its arguments alone.
     Bits (*evaluate)(std::span<const Bits> args);
-    // The same in GLSL, {0} {1} {2} standing for the arguments; empty for what glsl_emitter.cpp writes
-    // itself.
+    // The same in GLSL, {0} {1} {2} standing for the arguments; empty for operations that glsl_emitter.cpp
+    // writes itself.
     std::string_view glsl;
 };
 
 const OpRecord& record(Op op);
 bool isCommutative(Op op);  // whether its two arguments can be swapped
 
-// Whether the operation's imm is a noise call, and its results are taken with Component.
+// Returns whether the operation's imm is a noise call, and its results are taken with Component.
 constexpr bool makesNoise(Op op) {
     return op == Op::Noise || op == Op::Stripes;
 }

@@ -1,8 +1,8 @@
 // A pass's graph put in order for the CPU: instructions over tiles of 16×16 columns with registers allocated.
 //
 // `column` computes values that do not depend on z, once per chunk; `layer` then runs for each z. Only rows
-// (16 columns of equal y) in which some lane takes a branch run it. Made once per generator; read by all
-// threads.
+// (16 columns of equal y) in which some lane takes a branch run it. It is made once per generator; read by
+// all threads.
 #pragma once
 
 #include <cstdint>
@@ -93,7 +93,8 @@ struct Program {
     std::vector<StampCall> stamps;       // by imm of Op::Stamp
 };
 
-// A program that needs more than kMaxArenaRows cannot run: GeneratorBuilder::finish() refuses it.
+// Compiles a pass. A program that needs more than kMaxArenaRows cannot run: GeneratorBuilder::finish()
+// refuses it.
 Program compile(const PassGraph& pass, const std::vector<NoiseCall>& noises);
 
 // A constant's row in the arena, all 16 lanes of it.

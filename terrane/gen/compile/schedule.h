@@ -37,7 +37,7 @@ struct Schedule {
     std::vector<If> ifs;
     std::vector<Loop> loops;  // by number; without outs where it is not needed
 
-    // The if or loop that stands at the place of this node, or null.
+    // Returns the if or loop that stands at the place of this node, or null.
     const If* ifAt(const Graph& graph, NodeId id) const;
     const Loop* loopAt(const Graph& graph, NodeId id) const;
 
@@ -48,8 +48,8 @@ struct Schedule {
 Schedule schedule(const Graph& graph, const std::vector<NodeId>& roots,
                   const std::function<bool(NodeId)>& isInput);
 
-// The outermost nodes that `outputs` need and that do not depend on z: a 3D pass computes them once per
-// column.
+// Returns the outermost nodes that `outputs` need and that do not depend on z: a 3D pass computes them once
+// per column.
 std::vector<NodeId> columnBoundary(const Graph& graph, const std::vector<NodeId>& outputs);
 
 }  // namespace terrane::gen

@@ -1,5 +1,5 @@
 // Interval arithmetic for expressions: the results that an operation can have for arguments in known ranges.
-// Used by slab_ranges.cpp to find computations that can be skipped.
+// slab_ranges.cpp uses it to find computations that can be skipped.
 //
 // Every range holds all values the operation gives, to the bit: integers that may wrap are unknown, and the
 // bounds of float operations are rounded as the operation itself is (rounding to nearest is monotone).
@@ -47,23 +47,23 @@ constexpr ValueRange unknownRange(Type type) {
     if (type == Type::Float) return kAnyFloat;
     return type == Type::Int ? kAnyInt : kAnyBool;
 }
-// The range of one value, which may be NaN.
+// Returns the range of one value, which may be NaN.
 ValueRange rangeOf(Type type, Bits value);
 
 inline bool isCertain(const ValueRange& intOrBool) {
     return intOrBool.low == intOrBool.high;
 }
 
-// The smallest range that includes both.
+// Returns the smallest range that includes both.
 ValueRange unite(Type type, const ValueRange& a, const ValueRange& b);
 
-// The result of an operation that is a function of its arguments (record(op).evaluate). `type` is its
+// Returns the result of an operation that is a function of its arguments (record(op).evaluate). `type` is its
 // result's. Select and Phi: the condition, then both sides.
 ValueRange resultRange(Op op, Type type, std::span<const ValueRange> args);
 
-// Range of Perlin noise in 3D: ±1.5 Σ|weight|. Along an axis the distances of the nodes, weighted as the
-// blend weights them, add up to f + t − 2ft = ½ − 2(½ − f)(½ − t), at most ½, as the fade t is on the same
-// side of ½ as f. A gradient has components of 0 and ±1, so three axes give 1.5 at most. A small margin
+// Returns the range of Perlin noise in 3D: ±1.5 Σ|weight|. Along an axis the distances of the nodes, weighted
+// as the blend weights them, add up to f + t − 2ft = ½ − 2(½ − f)(½ − t), at most ½, as the fade t is on the
+// same side of ½ as f. A gradient has components of 0 and ±1, so three axes give 1.5 at most. A small margin
 // covers rounding.
 ValueRange perlin3DRange(const NoiseCall& call);
 

@@ -1,5 +1,5 @@
 // A 3D pass ready to run: its whole program, and short programs for slabs of layers, which are compiled when
-// a slab first needs one. One per 3D pass of a generator; any thread.
+// a slab first needs one. One per 3D pass of a generator; any thread may use it.
 #pragma once
 
 #include <atomic>
@@ -11,7 +11,7 @@
 namespace terrane::gen {
 
 // A 3D pass reduced for a slab, without choices that are equal in all voxels and without the values that only
-// their other sides need. Used by voxel_pass.cpp.
+// their other sides need. voxel_pass.cpp uses it.
 struct ShortPass {
     enum class Kind : std::uint8_t {
         CopyBlocks,  // leaves the blocks of the 3D pass before as they are
@@ -24,7 +24,7 @@ struct ShortPass {
     std::size_t layerInstructions = 0;
 };
 
-// The whole pass's graph, program and noises are the plan's.
+// Returns the short pass for the decisions. The whole pass's graph, program and noises are those of the plan.
 ShortPass shortenPass(const SlabPlan& plan, const Decisions& decisions);
 
 // Instructions in `list` and in its branches and loops.
@@ -39,7 +39,8 @@ class VoxelPass {
     const SlabPlan& plan() const { return plan_; }
     std::size_t layerInstructions() const { return layerInstructions_; }  // of the whole program
 
-    // The short pass for these decisions, or null if the whole program must run because the table is full.
+    // Returns the short pass for these decisions, or null if the whole program must run because the table is
+    // full.
     const ShortPass* find(const Decisions& decisions) const;
 
   private:

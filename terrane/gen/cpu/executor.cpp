@@ -60,7 +60,7 @@ void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArr
     ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
     slabs_.clear();
     run_ = {&pass, &result, {}};
-    lowestMade_ = slabBottom_ = world::kChunkHeight;
+    lowestComputed_ = slabBottom_ = world::kChunkHeight;
     nextLayers_ = kFirstSlab;
 }
 
@@ -91,19 +91,20 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
 // A slab that must be computed layer by layer is made a few layers at a time, as the caller may need no more;
 // its analysis holds for the rest. Slabs are not split below kFirstSlab: rows without requested columns skip
 // branches anyway.
-void Executor::runDown(int lowest, const WantedColumns& wanted) {
-    context_.rows = wanted.rows();
-    context_.wanted = wanted.lanes();
-    assert(run_.pass && lowest >= 0 && lowest < lowestMade_ && "begin3D() comes first, and layers go down");
-    if (lowestMade_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
-    int height = std::min(nextLayers_, lowestMade_ - lowest);
-    ranges_.analyze(lowestMade_ - height, height);
+void Executor::runTopDown(int lowest, const RequestedColumns& requested) {
+    context_.rows = requested.rows();
+    context_.requested = requested.lanes();
+    assert(run_.pass && lowest >= 0 && lowest < lowestComputed_ &&
+           "begin3D() comes first, and layers go down");
+    if (lowestComputed_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
+    int height = std::min(nextLayers_, lowestComputed_ - lowest);
+    ranges_.analyze(lowestComputed_ - height, height);
     while (!ranges_.isSettled() && height > kFirstSlab) {
         height = std::max(height / 4, kFirstSlab);
-        ranges_.analyze(lowestMade_ - height, height);
+        ranges_.analyze(lowestComputed_ - height, height);
     }
     slabs_.clear();
-    slabBottom_ = lowestMade_ - height;
+    slabBottom_ = lowestComputed_ - height;
     slabProgram_ = nullptr;
     if (!ranges_.block()) {
         const ShortPass* pass = run_.pass->find(ranges_.decisions());
@@ -116,15 +117,15 @@ void Executor::runDown(int lowest, const WantedColumns& wanted) {
     nextLayers_ = ranges_.isSettled() && !slabProgram_ ? std::min(2 * height, kHighestSlab) : kFirstSlab;
     if (slabProgram_) return continueSlab(std::max(lowest, slabBottom_));
     runSlab(slabBottom_, height);
-    lowestMade_ = slabBottom_;
+    lowestComputed_ = slabBottom_;
 }
 
 void Executor::continueSlab(int lowest) {
-    const int count = std::min(lowestMade_ - lowest, kLowestSlab);
+    const int count = std::min(lowestComputed_ - lowest, kLowestSlab);
     context_.program = slabProgram_;
-    runLayers(*slabProgram_, lowestMade_ - count, count);
+    runLayers(*slabProgram_, lowestComputed_ - count, count);
     context_.program = &run_.pass->program();
-    lowestMade_ -= count;
+    lowestComputed_ -= count;
 }
 
 // Computes only what the analysis in ranges_ leaves open.
@@ -224,7 +225,7 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     if (arena_.size() < program.arenaRows) arena_.resize(program.arenaRows);
     context_.program = &program;
     context_.rows = kAllRows;
-    context_.wanted = nullptr;
+    context_.requested = nullptr;
     context_.arena = arena_.front().lanes.data();
     for (std::size_t n = 0; n < inputs.blocks.size(); ++n) {
         context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;

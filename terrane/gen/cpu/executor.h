@@ -1,4 +1,5 @@
-// Runs one pass of a generator on one chunk. One Executor a thread; it keeps scratch memory between calls.
+// Runs one pass of a generator on one chunk. Each thread has an Executor of its own, which reuses scratch
+// memory between calls.
 #pragma once
 
 #include <array>
@@ -15,11 +16,11 @@
 
 namespace terrane::gen {
 
-// The columns of a tile whose lower layers are requested, while 3D passes run from the top down. All at
-// first; callers drop columns.
-class WantedColumns {
+// The columns of a tile whose lower layers are requested, while 3D passes run from the top down. At first it
+// has all columns; callers drop columns.
+class RequestedColumns {
   public:
-    WantedColumns() {
+    RequestedColumns() {
         lanes_.fill(~Bits{0});
         left_.fill(kRowLanes);
     }
@@ -32,12 +33,12 @@ class WantedColumns {
         if (--left_[row] == 0) rows_ = static_cast<RowMask>(rows_ & ~(1u << row));
     }
 
-    RowMask rows() const { return rows_; }               // those with wanted columns
+    RowMask rows() const { return rows_; }               // those with requested columns
     const Bits* lanes() const { return lanes_.data(); }  // all bits of a column, or none; aligned for SIMD
 
   private:
     alignas(64) std::array<Bits, kTileLanes> lanes_;
-    std::array<std::uint8_t, kTileSize> left_;  // wanted columns, by row
+    std::array<std::uint8_t, kTileSize> left_;  // requested columns, by row
     RowMask rows_ = kAllRows;
 };
 
@@ -83,24 +84,25 @@ class Executor {
     // Refers to its arguments.
     Executor(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts = {});
 
-    // Results of a 2D pass, in the order of program.fields.
+    // Runs a 2D pass. The results are in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
-    // `fieldResults`: of the fields that the pass writes, in the order of program.fields.
+    // Runs a 3D pass. `fieldResults` are those of the fields that the pass writes, in the order of
+    // program.fields.
     void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
                std::span<ColumnValues* const> fieldResults = {});
-    // Runs the pass from the top down as far as requested: begin3D(), then runDown() until there are enough
-    // layers. Writes no fields. Refers to its arguments until then; no other pass runs in between.
+    // Runs the pass from the top down as far as requested: begin3D(), then runTopDown() until there are
+    // enough layers. Writes no fields. It refers to its arguments until then; no other pass runs in between.
     void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result);
-    // Makes at least one of the missing layers down to `lowest`, the highest first. Columns that are dropped
-    // from `wanted` get any blocks.
-    void runDown(int lowest, const WantedColumns& wanted);
-    // The lowest layer that is made; world::kChunkHeight before the first.
-    int lowestMade() const { return lowestMade_; }
-    // Whether run3D skips work that cannot change the result. Tests compare both.
+    // Computes at least one of the missing layers down to `lowest`, the highest first. Columns that are
+    // dropped from `requested` get any blocks.
+    void runTopDown(int lowest, const RequestedColumns& requested);
+    // Returns the lowest computed layer; world::kChunkHeight before the first.
+    int lowestComputed() const { return lowestComputed_; }
+    // Sets whether run3D skips work that cannot change the result. Tests compare both.
     void setShortens(bool shortens) { shortens_ = shortens; }
-    // Slabs of the last run3D, from the bottom.
+    // Returns the slabs of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
-    // Ranges of the layers of the last run3D, or of those that runDown made.
+    // Returns the ranges of the layers that the last run3D or runTopDown computed.
     const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
@@ -141,8 +143,8 @@ class Executor {
         std::span<ColumnValues* const> fieldResults;
     };
     TileRun run_;
-    // State of runDown.
-    int lowestMade_ = 0;                    // z of the lowest layer that is made
+    // State of runTopDown.
+    int lowestComputed_ = 0;                // z of the lowest layer that is made
     int nextLayers_ = 0;                    // how many layers the next slab should have
     int slabBottom_ = 0;                    // z of the lowest layer of the slab that is being made
     const Program* slabProgram_ = nullptr;  // makes its layers

@@ -143,9 +143,9 @@ void branch(const Instruction& i, TileContext& c, const RowList& rows) {
         bool all = true, none = true;
         for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) {
             const VI holds = loadI(condition.at(row, lane));
-            const VI wanted = c.wanted ? loadI(c.wanted + row * kRowLanes + lane) : hn::Set(di, -1);
-            all = all && hn::AllFalse(di, hn::MaskFromVec(hn::AndNot(holds, wanted)));
-            none = none && hn::AllFalse(di, hn::MaskFromVec(hn::And(holds, wanted)));
+            const VI requested = c.requested ? loadI(c.requested + row * kRowLanes + lane) : hn::Set(di, -1);
+            all = all && hn::AllFalse(di, hn::MaskFromVec(hn::AndNot(holds, requested)));
+            none = none && hn::AllFalse(di, hn::MaskFromVec(hn::And(holds, requested)));
         }
         // Without branches, which would be mispredicted.
         taken.rows[taken.count] = row;

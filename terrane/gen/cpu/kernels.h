@@ -45,15 +45,15 @@ struct TileContext {
     std::vector<StampTile> stamps;  // by the pass's stamps, painted
     std::int32_t z = 0;             // of the layer
     RowMask rows = kAllRows;        // for which instructions run
-    // By column: all bits set if its values are requested, else 0. Null: all are requested.
-    const Bits* wanted = nullptr;
+    // By column: all bits set if its values are requested, else 0. Null means that all are requested.
+    const Bits* requested = nullptr;
 };
 
 // Runs a list for the rows in context.rows. Values that are equal in all columns are computed whatever the
 // rows.
 void runInstructions(const InstructionList& list, TileContext& context);
 
-// Names of the instruction sets this machine can run, best first, as Highway calls them.
+// Returns the names of the instruction sets this machine can run, best first, as Highway calls them.
 std::vector<std::string> simdTargets();
 // Restricts to one of simdTargets() until called again; empty: the best. For tests and `--simd`; not while
 // running.

@@ -1,4 +1,4 @@
-// Smallest and largest values of a tile or a layer, with SIMD instructions. Used by slab_ranges.cpp.
+// Smallest and largest values of a tile or a layer, with SIMD instructions. slab_ranges.cpp uses it.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 
 namespace terrane::gen {
 
-// Range of a value's kTileLanes lanes in the arena (program.h), 64-byte aligned.
+// Returns the range of a value's kTileLanes lanes in the arena (program.h), 64-byte aligned.
 ValueRange rangeOfTile(Type type, const Bits* values);
 
 struct BlockRange {
@@ -20,7 +20,7 @@ struct BlockRange {
 // By layer of a chunk.
 using LayerRanges = std::array<BlockRange, world::kChunkHeight>;
 
-// Range of the kTileLanes blocks of a layer.
+// Returns the range of the kTileLanes blocks of a layer.
 BlockRange rangeOfLayer(const std::uint16_t* blocks);
 // Writes the lower halves of kTileLanes values, 64-byte aligned, as a layer's blocks. Returns their range.
 BlockRange packLayer(const Bits* values, std::uint16_t* blocks);

@@ -1,4 +1,4 @@
-// Fields and blocks of earlier passes over rows of a tile. Included once for each instruction set by
+// Fields and blocks of earlier passes over rows of a tile. It is included once for each instruction set by
 // kernels.cpp.
 #if defined(TERRANE_GEN_READ_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_READ_KERNELS_INL_H

@@ -1,4 +1,4 @@
-// The shapes of a generator as both back ends read them, in the columns of its level. Made once by
+// The shapes of a generator as both back ends read them, in the columns of its level. It is made once by
 // GeneratorBuilder::finish(); read by all threads.
 #pragma once
 
@@ -36,14 +36,14 @@ struct ShapeTable {
 // Adds a shape in the columns of a level. Its blocks must be in the registry.
 void addShape(ShapeTable& table, const VoxelShape& shape, int level, const world::BlockRegistry& blocks);
 
-// The reason why a shape is invalid, in one line; empty if it is valid.
+// Returns the reason why a shape is invalid, in one line; empty if it is valid.
 std::string shapeMistake(const VoxelShape& shape, const world::BlockRegistry& blocks);
 
-// The table for shaders, as gen_gpu/stamps.glsl reads it.
+// Returns the table for shaders, as gen_gpu/stamps.glsl reads it.
 std::vector<std::uint32_t> shapeWords(const ShapeTable& table);
-// Bytes of the cells in that table.
+// Returns the bytes of the cells in that table.
 std::size_t shapeCellBytes(const ShapeTable& table);
-// Number of different pairs of block and rank in the shapes; cells store it in 8 bits.
+// Returns the number of different pairs of block and rank in the shapes; cells store it in 8 bits.
 std::size_t shapePaletteSize(const ShapeTable& table);
 
 }  // namespace terrane::gen

@@ -1,6 +1,6 @@
 // Finds values that are certain in a slab (successive layers of a tile) before its voxels are computed:
-// interval arithmetic over the expressions of a 3D pass, starting from the ranges of its column values. Used
-// by executor.cpp.
+// interval arithmetic over the expressions of a 3D pass, starting from the ranges of its column values.
+// executor.cpp uses it.
 #pragma once
 
 #include <array>
@@ -20,7 +20,8 @@ namespace terrane::gen {
 
 enum class Decision : std::uint8_t { Open, True, False };
 
-// Constant data of a pass for the analysis. Made once per generator; any thread. Refers to its arguments.
+// Constant data of a pass for the analysis. It is made once per generator; any thread may use it. It refers
+// to its arguments.
 struct SlabPlan {
     SlabPlan(const PassGraph& pass, const Program& program, const std::vector<NoiseCall>& noises);
 
@@ -40,10 +41,9 @@ using Decisions = std::vector<Decision>;
 
 class SlabRanges {
   public:
-    // Begins a tile whose `column` instructions have run. Refers to its arguments until the next call.
-    // `blocks`: of the 3D pass before, by world::BlockIndex, or null.
-    // `layers`: their ranges by layer, or null to compute them.
-    // `stamps`: painted stamps of the pass.
+    // Begins a tile whose `column` instructions have run. It refers to its arguments until the next call.
+    // `blocks`: of the 3D pass before, by world::BlockIndex, or null. `layers`: their ranges by layer, or
+    // null to compute them. `stamps`: painted stamps of the pass.
     void begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
                std::span<const StampTile> stamps = {}, const LayerRanges* layers = nullptr);
 
@@ -53,18 +53,18 @@ class SlabRanges {
     // Analyzes `count` layers, the lowest at height z.
     void analyze(std::int32_t z, std::int32_t count);
 
-    // Results of the last analyzed slab.
+    // The functions below return results of the last analyzed slab.
 
-    // The choices that are equal in all voxels.
+    // Returns the choices that are equal in all voxels.
     const Decisions& decisions() const { return decisions_; }
-    // The block of all voxels, if it is certain.
+    // Returns the block of all voxels, if it is certain.
     std::optional<std::uint16_t> block() const;
-    // Whether no voxel writes this field of the pass.
+    // Returns whether no voxel writes this field of the pass.
     bool writesNothing(std::size_t fieldOutput) const;
-    // Whether slabs of fewer layers would decide no more choices.
+    // Returns whether slabs of fewer layers would decide no more choices.
     bool isSettled() const { return isSettled_; }
 
-    // Range of the blocks of the 3D pass before in layer z.
+    // Returns the range of the blocks of the 3D pass before in layer z.
     BlockRange layerBefore(int z);
 
   private:

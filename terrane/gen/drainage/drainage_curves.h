@@ -4,7 +4,8 @@
 // curve for each river that comes to it: from the middle of the way to it, with the node as control point, to
 // the middle of the way on. All curves of a node end in one point with one direction, so that confluences are
 // smooth. Levels follow the same curve of the nodes' levels, half widths and flows change evenly. Then every
-// point is moved by a noise of two octaves, which makes bends. Pure functions; any thread.
+// point is moved by a noise of two octaves, which makes bends. All functions are pure; any thread may call
+// them.
 #pragma once
 
 #include <cstdint>
@@ -14,8 +15,8 @@
 
 namespace terrane::gen {
 
-// Along x and along y. A region looks at kNetworkMargin cells around it, so small ones are most margin: of 64
-// cells they cost four times as much a cell.
+// Along x and along y. A region reads kNetworkMargin cells around it, so small regions consist mostly of
+// margin: of 64 cells they cost four times as much a cell.
 constexpr int kRegionCells = 128;
 
 // A point of a river's course.
@@ -51,7 +52,7 @@ struct DrainageRegion {
     std::size_t bytes() const;
 };
 
-// The region whose first cell is `corner`, a multiple of 8. Takes milliseconds.
+// Returns the region whose first cell is `corner`, a multiple of 8. Takes milliseconds.
 DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner);
 
 }  // namespace terrane::gen

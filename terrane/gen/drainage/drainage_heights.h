@@ -1,5 +1,5 @@
 // Places and heights of a map's nodes: the author's expression run on the samples of each cell, of which the
-// lowest becomes the cell's node. One DrainageHeights a map and seed; any thread.
+// lowest becomes the cell's node. One DrainageHeights a map and seed; any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -37,9 +37,9 @@ class DrainageHeights {
   public:
     DrainageHeights(const DrainageGraph& graph, std::uint64_t worldSeed);
 
-    // The nodes of side² cells from `corner` on. Corner and side are multiples of 16 / kCellSamples.
+    // Returns the nodes of side² cells from `corner` on. Corner and side are multiples of 16 / kCellSamples.
     DrainageNodes nodes(DrainageCell corner, int side) const;
-    // A hash of the cell for what is decided at random.
+    // Returns a hash of the cell, for random decisions.
     std::uint32_t hash(DrainageCell cell) const;
     const DrainageSpec& spec() const { return graph_.spec; }
 
@@ -50,7 +50,7 @@ class DrainageHeights {
     Program program_;
 };
 
-// The same cell on the other side of the world's edge.
+// Returns the same cell on the other side of the world's edge.
 DrainageCell wrapped(DrainageCell cell, int spacing);
 
 }  // namespace terrane::gen

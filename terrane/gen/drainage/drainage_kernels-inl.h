@@ -1,5 +1,5 @@
-// Distance to rivers and lakes over rows of a tile, with the steps of gen_gpu/drainage.glsl. Included once
-// for each instruction set by kernels.cpp.
+// Distance to rivers and lakes over rows of a tile, with the steps of gen_gpu/drainage.glsl. It is included
+// once for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_DRAINAGE_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_DRAINAGE_KERNELS_INL_H
 #undef TERRANE_GEN_DRAINAGE_KERNELS_INL_H

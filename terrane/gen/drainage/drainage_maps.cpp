@@ -50,7 +50,7 @@ std::shared_ptr<KeptRegion> DrainageMaps::Map::find(DrainageCell corner) {
 void DrainageMaps::Map::forgetOldest() {
     std::size_t bytes = 0;
     for (const auto& r : kept) bytes += r->bytes;
-    while (kept.size() > 1 && (kept.size() > kKeptRegions || bytes > kKeptRegionBytes)) {
+    while (kept.size() > 1 && (kept.size() > kMaxCachedRegions || bytes > kMaxCachedRegionBytes)) {
         bytes -= kept.back()->bytes;
         kept.pop_back();
     }
@@ -151,7 +151,7 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
     }
 }
 
-std::size_t DrainageMaps::keptRegions() const {
+std::size_t DrainageMaps::cachedRegions() const {
     std::size_t sum = 0;
     for (const auto& map : maps_) {
         const std::lock_guard lock(map->mutex);

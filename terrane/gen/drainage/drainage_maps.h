@@ -1,6 +1,6 @@
 // The drainage maps of a generator for one world seed: rivers and lakes near tiles, from regions that are
-// made when first needed and kept in a cache of bounded size. Both back ends take them from here.
-// Any thread; a region is made by the first one that needs it while others wait.
+// made when first needed and stored in a cache of bounded size. Both back ends use it. Any thread; a region
+// is made by the first one that needs it while others wait.
 #pragma once
 
 #include <cstdint>
@@ -25,22 +25,22 @@ struct DrainageTile {
     std::int32_t step = 1;  // blocks from column to column
 };
 
-// Regions kept per map. One is 128² cells, 32,768² blocks with the default spacing, and takes up to 3 MB
-// where few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of half that
-// spacing.
-constexpr std::size_t kKeptRegions = 8;
-constexpr std::size_t kKeptRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
+// The number of cached regions per map. One is 128² cells, 32,768² blocks with the default spacing, and takes
+// up to 3 MB where few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of
+// half that spacing.
+constexpr std::size_t kMaxCachedRegions = 8;
+constexpr std::size_t kMaxCachedRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
 
 class DrainageMaps {
   public:
     DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64_t worldSeed);
     ~DrainageMaps();
 
-    // The tile whose first column is at the grid's place.
+    // Prepares the tile whose first column is at the grid's position.
     void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid);
 
-    std::size_t keptRegions() const;  // of all maps
-    std::size_t bytes() const;        // that they take
+    std::size_t cachedRegions() const;  // of all maps
+    std::size_t bytes() const;          // that they take
 
   private:
     struct Map;

@@ -1,5 +1,5 @@
 // Computes the drainage of a window of nodes: cuts pits open, drains every node to its lowest neighbor and
-// counts flow. Pure functions of heights; any thread.
+// counts flow. Pure functions of heights; any thread may use it.
 //
 // Every step reads a bounded neighborhood, so a node has the same result in every window that includes
 // kNetworkMargin cells around it:
@@ -22,14 +22,14 @@ namespace terrane::gen {
 
 constexpr int kFloodReach = 10;   // cells
 constexpr int kMaxUpstream = 64;  // steps
-// Flow looks at drains kMaxUpstream cells away, drains at their neighbors, cuts at pits and pits at nodes
+// Flow reads drains kMaxUpstream cells away, drains at their neighbors, cuts at pits and pits at nodes
 // kFloodReach away, each flood at one more neighbor. Curves need flow two cells farther.
 constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 2;
 
-// A node's height with what breaks ties, so that no two neighbors are equal: 2^40 a block. Differences of
-// neighbors are 40 bits or so; 2^63 holds ±2^23 blocks.
+// A node's height with a hash that breaks ties, so that no two neighbors are equal: 2^40 a block. Differences
+// of neighbors are 40 bits or so; 2^63 holds ±2^23 blocks.
 using HeightKey = std::int64_t;
-// NaN becomes the lowest height. Within ±8192 blocks.
+// Returns the key of a height within ±8192 blocks; NaN becomes the lowest height.
 HeightKey heightKey(float height, std::uint32_t hash);
 float heightOf(HeightKey key);  // blocks, to within 1/65536
 

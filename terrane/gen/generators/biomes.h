@@ -1,4 +1,5 @@
-// The biomes of chunks of any level, for generators that have them: from the 2D passes alone. Any thread.
+// Computes the biomes of chunks of any level, for generators that have biomes, from the 2D passes alone. Any
+// thread may use it.
 #pragma once
 
 #include <array>
@@ -15,15 +16,16 @@ namespace terrane::gen {
 
 class Biomes {
   public:
-    // None if the built-in generator of this name has no biomes. `blocks` outlives it.
+    // Creates the biomes of a built-in generator. Returns nothing if the generator of this name has no
+    // biomes. `blocks` outlives it.
     static std::optional<Biomes> create(std::string_view generator, const world::BlockRegistry& blocks,
                                         std::uint64_t seed);
 
-    // Names of biomes by number: "birch forest".
+    // Returns the names of biomes by number: "birch forest".
     static std::span<const std::string_view> names();
 
-    // The numbers of the biomes of a chunk's columns, x + 16 y. Takes about 0.1 ms, and the first time of a
-    // level some milliseconds. Throws std::invalid_argument for a position outside the world.
+    // Returns the numbers of the biomes of a chunk's columns, x + 16 y. Takes about 0.1 ms, and the first
+    // time of a level some milliseconds. Throws std::invalid_argument for a position outside the world.
     std::array<std::uint8_t, 256> of(world::ChunkPos chunk) const;
 
   private:
@@ -34,15 +36,15 @@ class Biomes {
     std::uint32_t field_;         // of their graphs
 };
 
-// The biome of a place, for generators that have them. Used on one thread.
+// Returns the biome of a column, for generators that have biomes. It is used on one thread.
 class BiomeMap {
   public:
-    // As Biomes::create().
+    // Creates a map as Biomes::create() does.
     static std::optional<BiomeMap> create(std::string_view generator, const world::BlockRegistry& blocks,
                                           std::uint64_t seed);
 
-    // The name of a column's biome: "birch forest". Keeps the biomes of the last chunk; for another chunk it
-    // calls Biomes::of().
+    // Returns the name of a column's biome: "birch forest". Caches the biomes of the last chunk; for another
+    // chunk it calls Biomes::of().
     std::string_view at(std::int32_t x, std::int32_t y);
 
   private:

@@ -18,28 +18,28 @@ constexpr int kSeaLevel = 80;  // z of the highest water
 
 struct CatalogueEntry {
     std::string name;
-    // The same name and version make the same blocks: saves hold both. At least 1.
+    // At least 1. The same name and version make the same blocks; saves store both.
     int version = 1;
     // Records the graph of one level.
     std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, int level)> record;
 };
 
-// Names are unique. A plain value.
+// Names are unique. It is a plain value.
 using GeneratorCatalogue = std::vector<CatalogueEntry>;
 
 const GeneratorCatalogue& builtInGenerators();
 
 std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue);
 
-// 0 for an unknown name.
+// Returns the version of a generator; 0 for an unknown name.
 int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 
-// The graph of one level. An unknown name is an error that lists the known ones.
+// Returns the graph of one level. An unknown name is an error that lists the known ones.
 [[nodiscard]] base::Result<GeneratorGraph> makeGenerator(
     std::string_view name, const world::BlockRegistry& blocks, int level = 0,
     const GeneratorCatalogue& catalogue = builtInGenerators());
 
-// The same for all levels of a world. The block types outlive it.
+// Makes the generators of all levels of a world. The block types outlive the result.
 [[nodiscard]] base::Result<LevelGenerators> makeLevelGenerators(
     std::string_view name, const world::BlockRegistry& blocks, std::uint64_t seed,
     const GeneratorCatalogue& catalogue = builtInGenerators());

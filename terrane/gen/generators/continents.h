@@ -37,14 +37,14 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
-// The map that rivers and lakes follow: continents_relief.cpp.
+// Returns the map that rivers and lakes follow (continents_relief.cpp).
 Drainage rivers(GeneratorBuilder& g);
 
 // Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
 constexpr int kMaxShapeStep = 4;
-// Smaller things than trees vanish beyond this step.
+// Shapes smaller than trees are omitted beyond this step.
 constexpr int kMaxSmallStep = 2;
-// Whether columns hold a plant, or a crown, of their own.
+// Returns whether columns hold a plant, or a crown, of their own.
 constexpr bool hasPlants(int step) {
     return step == 1 || step > kMaxShapeStep;
 }
@@ -116,35 +116,35 @@ struct Shape {
     Float base;
 };
 Shape shape(Pass& p);
-// The part of the base height that rivers follow: land, ranges and volcanoes.
+// Returns the part of the base height that rivers follow: land, ranges and volcanoes.
 Float coarseHeight(Pass& p);
 
-// 0…1: weight of the landforms of a climate.
+// These return the weight of the landforms of a climate, 0…1.
 Float canyonLand(Float temperature, Float moisture);
 Float desert(Float temperature, Float moisture);
 Float karst(Float temperature, Float moisture);
 
-// 2D, in this order.
+// The 2D passes run in this order.
 void shapePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
-// 2D, for the tint alone.
+// A 2D pass for the tint alone.
 void colorPass(Pass& p, const Fields& f);
-// 3D: earth, caves and water at this voxel.
+// Returns the block of earth, caves and water at this voxel of a 3D pass.
 Block ground(Pass& p, const Fields& f);
 
-// Vegetation: continents_plants.cpp.
+// The passes of vegetation (continents_plants.cpp).
 void plantsPass(Pass& p, const Fields& f);    // 2D: where
 void landPass(Pass& p, const Fields& f);      // 3D: on the ground
 void caveLifePass(Pass& p, const Fields& f);  // 3D: in caves
 
-// Rivers and lakes: continents_relief.cpp.
-struct Watered {
+// The result of cutting rivers and lakes (continents_relief.cpp).
+struct RiverCut {
     Float height;   // of the ground
     Int water;      // z of the highest water where the ground is lower
     Float isWater;  // 0…1: river, lake or their bank
 };
 // Cuts valleys, beds and basins into ground of the given height.
-Watered cutRivers(Pass& p, const Fields& f, Float height);
+RiverCut cutRivers(Pass& p, const Fields& f, Float height);
 
 }  // namespace terrane::gen::continents

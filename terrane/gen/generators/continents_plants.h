@@ -1,4 +1,4 @@
-// Which trees and plants grow in which biome of continents, as tables. Used by continents_plants.cpp.
+// Tables of the trees and plants that grow in each biome of continents. continents_plants.cpp uses it.
 #pragma once
 
 #include <span>

@@ -92,7 +92,7 @@ Relief relief(Pass& p, const Fields& f) {
 
 void reliefPass(Pass& p, const Fields& f) {
     const Relief r = relief(p, f);
-    const Watered w = cutRivers(p, f, belowTheTop(r.height));
+    const RiverCut w = cutRivers(p, f, belowTheTop(r.height));
     const Float height = max(w.height, Float(6.0f));
     p.set(f.height, height);
     p.set(f.rocky, r.rocky);
@@ -122,8 +122,8 @@ Drainage rivers(GeneratorBuilder& g) {
                       coarseHeight);
 }
 
-Watered cutRivers(Pass& p, const Fields& f, Float height) {
-    Watered result{height, kSeaLevel, 0.0f};
+RiverCut cutRivers(Pass& p, const Fields& f, Float height) {
+    RiverCut result{height, kSeaLevel, 0.0f};
     if (p.step() > kMaxDrainageStep) return result;
     const DrainageSample r = p.drainage(f.rivers);
     // Toward the coast the water comes down to the sea before the land ends.

@@ -50,15 +50,16 @@ struct Fields {
     Field<Float> lostSlope;  // deviation along an axis of slopes that columns are too wide to show
 };
 
-// 2D, in this order: fields that depend only on the position; the height; the blocks of the ground.
+// The 2D passes run in this order: fields that depend only on the position; the height; the blocks of the
+// ground.
 void climatePass(Pass& p, const Fields& f);
 void reliefPass(Pass& p, const Fields& f);
 void surfacePass(Pass& p, const Fields& f);
-// At level 0.
+// The passes at level 0.
 void groundPass(Pass& p, const Fields& f);      // 3D: earth, water, caves, ore
 void plantsPass(Pass& p, const Fields& f);      // 2D: where trees and plants stand
 void vegetationPass(Pass& p, const Fields& f);  // 3D: their blocks
-// At other levels.
+// The pass at other levels.
 void farPass(Pass& p, const Fields& f);  // 3D: earth, water, crowns
 
 // Trees stand at the points of a Voronoi diagram, so that they keep their distance and a crown meets its
@@ -71,7 +72,7 @@ struct Tree {
 };
 Voronoi2D trees(Pass& p);
 Int randomTreeHeight(Pass& p, IVec2 at);  // of the trunk, blocks
-// Whether this voxel is leaf of the crown around (0, 0, top), whose size follows the tree's height.
+// Returns whether this voxel is leaf of the crown around (0, 0, top), whose size follows the tree's height.
 Bool isLeaf(Pass& p, IVec2 offset, Int aboveTop, Int treeHeight);
 
 // A plant other than a tree in a column; `block` is air if there is none.

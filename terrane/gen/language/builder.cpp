@@ -112,7 +112,7 @@ void dropUnreadOutput(GeneratorGraph& generator, std::uint32_t field) {
 
 }  // namespace
 
-std::string cutTint(GeneratorGraph& generator, std::uint32_t field) {
+std::string extractTint(GeneratorGraph& generator, std::uint32_t field) {
     const FieldInfo& info = generator.fields[field];
     if (info.writtenBy < 0) return fmt::format("tint: no pass writes field \"{}\"", info.name);
     PassSet forTint(generator.passes.size());
@@ -292,7 +292,7 @@ base::Result<GeneratorGraph> GeneratorBuilder::finish() {
     if (errors_.empty()) checkBranches(generator_);
     if (errors_.empty()) checkRegisters();
     if (errors_.empty() && tint_) {
-        if (const std::string mistake = cutTint(generator_, *tint_); !mistake.empty())
+        if (const std::string mistake = extractTint(generator_, *tint_); !mistake.empty())
             errors_.push_back(mistake);
         // Without the outputs that it cuts out, nodes stand deeper.
         if (errors_.empty()) checkBranches(generator_);

@@ -35,53 +35,53 @@
 namespace terrane::gen {
 
 // Nesting depth of the branches and loops of a scheduled pass. The compiler, the executor and GLSL compilers
-// recurse once per level, so GeneratorBuilder::finish() refuses passes that nest too deeply. Any thread.
-// Levels of the schedule of a whole pass. Sequential ifs nest where one uses the result of another on one
-// side alone.
+// recurse once per level, so GeneratorBuilder::finish() refuses passes that nest too deeply. Any thread may
+// use it. Levels of the schedule of a whole pass. Sequential ifs nest where one uses the result of another on
+// one side alone.
 constexpr int kMaxBranchDepth = 64;
 // Ifs and loops along one path from a node to its arguments: no schedule of a part of the pass is deeper.
 // Parts with known conditions (voxel_pass.h) are compiled again, and their nodes may stand deeper than in the
 // whole pass. 1,024 levels of the compiler take about half a megabyte of stack.
 constexpr int kMaxBranchChain = 1024;
 
-// Levels below the root. Both functions work without recursion.
+// These return the levels below the root. Both functions work without recursion.
 int branchDepth(const PassGraph& pass);
 int branchChain(const PassGraph& pass);
 
-// The reason if a pass nests too deeply, else empty.
+// Returns the reason if a pass nests too deeply, else empty.
 std::string branchMistake(const PassGraph& pass);
 
 // The tint of a generator (GeneratorBuilder::tint) as a graph of its own: chunks do not compute it, and it
-// needs no chunks. Any thread.
+// needs no chunks. Any thread may use it.
 struct TintGraph {
     GeneratorGraph passes;    // 2D passes alone, of the same level
     std::uint32_t field = 0;  // what they make: packed colors (world/tint.h)
 };
 
-// Sets generator.tint for a field of type Int, and removes from the generator what only the tint needs.
-// Returns the reason if the field is no tint, else an empty string.
-std::string cutTint(GeneratorGraph& generator, std::uint32_t field);
+// Sets generator.tint for a field of type Int, and removes the parts of the generator that only the tint
+// needs. Returns the reason if the field is no tint, else an empty string.
+std::string extractTint(GeneratorGraph& generator, std::uint32_t field);
 
 class GeneratorBuilder {
   public:
     // Records the graph of one level, 0…world::kMaxLevel: a generator is written once and recorded for each.
     GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level = 0);
 
-    // Blocks from one column to the next: 2^level. A constant, so `if` on it leaves out what it does not
-    // record.
+    // Returns the number of blocks from one column to the next: 2^level. It is a constant while recording, so
+    // `if` on it omits the other branch.
     int step() const { return world::columnWidth(generator_.level); }
 
     template <class T>
     Field<T> field(std::string_view name) {
         return {newField(name, T::kType)};
     }
-    // A map of rivers and lakes for Pass::drainage over the heights, in blocks, that `height` records. It
-    // runs at every spacing / 2 blocks, for which p.step() stands, whatever the generator's level is:
+    // Adds a map of rivers and lakes for Pass::drainage over the heights, in blocks, that `height` records.
+    // It runs at every spacing / 2 blocks, for which p.step() stands, whatever the generator's level is:
     // positions, noise and random numbers, no fields.
     Drainage drainage(const std::string& name, const DrainageSpec& spec,
                       const std::function<Float(Pass&)>& height);
-    // The color of each column that tinted blocks take (docs/worldgen.md): a field of packColor(), once a
-    // generator. It is no part of chunks: nothing but LevelGenerators::tint() computes it.
+    // Sets the color of each column for tinted blocks (docs/worldgen.md): a field of packColor(), once a
+    // generator. Chunks do not contain it: only LevelGenerators::tint() computes it.
     template <class T>
     void tint(Field<T> colors) {
         setTint(colors.index, T::kType);
@@ -93,12 +93,14 @@ class GeneratorBuilder {
         addPass(std::move(name), true, body);
     }
 
-    // A shape that passes can stamp. Its number: 0, 1, 2 … in the order of the calls, at most kMaxShapes.
+    // Adds a shape that passes can stamp. Returns its number: 0, 1, 2 … in the order of the calls, at most
+    // kMaxShapes.
     int shape(const VoxelShape& shape);
 
-    // Mistakes so far, one line each. terrane/lua adds the line of the script whose call made one.
+    // Returns the mistakes so far, one line each. terrane/lua adds the line of the script whose call made
+    // one.
     const std::vector<std::string>& mistakes() const { return errors_; }
-    // The generator as far as it is recorded. Valid only without mistakes.
+    // Returns the generator as far as it is recorded. Valid only without mistakes.
     const GeneratorGraph& recorded() const { return generator_; }
 
     [[nodiscard]] base::Result<GeneratorGraph> finish();

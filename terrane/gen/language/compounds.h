@@ -1,4 +1,4 @@
-// Points scattered over the plane for things that stand apart from each other, like trees.
+// A point scattered over the plane, for objects that keep a distance from each other, like trees.
 #pragma once
 
 #include <array>
@@ -17,10 +17,10 @@ struct ScatterPoint {
 
 constexpr int kMaxScatterSpacing = 1024;
 
-// One point in each square of `spacing` blocks; rows of squares are shifted by chance, so that no columns of
-// points show. Any two are minDistance blocks or more apart along x or along y. A point depends on its own
-// square alone, so that neighbors and levels agree; of several points in a wide column the first one counts,
-// which never happens where minDistance is at least the step. 1 ≤ minDistance ≤ spacing ≤ 1024.
+// Returns one point in each square of `spacing` blocks; rows of squares are shifted by chance, so that no
+// columns of points show. Any two are minDistance blocks or more apart along x or along y. A point depends on
+// its own square alone, so that neighbors and levels agree; of several points in a wide column the first one
+// counts, which never happens where minDistance is at least the step. 1 ≤ minDistance ≤ spacing ≤ 1024.
 ScatterPoint scatter(Pass& p, std::string_view name, int spacing, int minDistance);
 
 // An erosion filter: gullies and ridges that branch downhill, found for each column by itself, without
@@ -41,9 +41,9 @@ struct Eroded {
     Float ridge;   // -1…1: in a gully … on a ridge, of the large octaves
 };
 
-// `slope`: of the ground before, blocks a block. `name` makes the seeds. `strength` 0…1, by column: 0 leaves
-// the ground as it is. Octaves that columns are too wide for fade; what they would take off on average is
-// taken off all the same, so that far land is as high as near land.
+// Returns the erosion of the ground. `slope` is the slope of the ground before, in blocks a block. `name`
+// makes the seeds. `strength` is 0…1, by column: 0 leaves the ground as it is. Octaves too fine for the
+// columns fade; their mean is still subtracted, so that far land is as high as near land.
 Eroded erode(Pass& p, std::string_view name, Vec2 slope, Float strength, const Erosion& erosion);
 
 // Means of Voronoi noise. They replace it where cells are smaller than a column (Pass::voronoi2D).
@@ -55,14 +55,14 @@ struct VoronoiMean {
     float ratio;     // nearest / second nearest
 };
 
-// maxPoints: 1…4.
+// Returns the means in 2D; `maxPoints` is 1…4.
 constexpr VoronoiMean voronoiMean2D(int maxPoints) {
     constexpr std::array<VoronoiMean, 4> kMeans = {
         {{0.430f, 0.626f}, {0.370f, 0.647f}, {0.331f, 0.655f}, {0.304f, 0.660f}}};
     return kMeans[static_cast<std::size_t>(maxPoints - 1)];
 }
 
-// exponent: 2…8.
+// Returns the means in 3D; `exponent` is 2…8.
 constexpr VoronoiMean voronoiMean3D(int maxPoints, int exponent) {
     constexpr std::array<float, 4> kRatio = {0.730f, 0.740f, 0.744f, 0.747f};
     constexpr std::array<std::array<float, 7>, 4> kDistance = {

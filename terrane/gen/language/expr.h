@@ -20,7 +20,7 @@ struct Value {
     }
 };
 
-// The result of an operation on values; literals alone give a literal.
+// Returns the result of an operation on values; literals alone give a literal.
 Value applyOp(Op op, Type result, std::initializer_list<Value> args, std::uint32_t imm = 0);
 
 struct Bool : Value {
@@ -102,10 +102,10 @@ inline Float floor(Float a) { return Float(applyOp(Op::FloorF, Type::Float, {a})
 inline Float ceil(Float a) { return -floor(-a); }
 inline Float round(Float a) { return floor(a + Float(0.5f)); }  // halves upward
 inline Float sqrt(Float a) { return Float(applyOp(Op::SqrtF, Type::Float, {a})); }
-// Toward minus infinity; b is 1 or more.
+// These divide toward minus infinity; b is 1 or more.
 inline Int floorDivide(Int a, Int b) { return Int(applyOp(Op::FloorDivideI, Type::Int, {a, b})); }
 inline Int floorModulo(Int a, Int b) { return a - floorDivide(a, b) * b; }
-// A float's bits as a number and back; every NaN has the same ones.
+// Returns a float's bits as a number and back; every NaN has the same ones.
 inline Int floatBits(Float a) { return Int(applyOp(Op::FloatBits, Type::Int, {a})); }
 inline Float bitsFloat(Int a) { return Float(applyOp(Op::BitsFloat, Type::Float, {a})); }
 // clang-format on
@@ -114,13 +114,14 @@ inline Float lerp(Float a, Float b, Float t) {
     return a + t * (b - a);
 }
 
-// 0 below `low`, 1 above `high`, a smooth cubic between.
+// Returns 0 below `low`, 1 above `high`, a smooth cubic between.
 inline Float smoothstep(Float low, Float high, Float v) {
     const Float t = clamp((v - low) / (high - low), 0.0f, 1.0f);
     return t * t * (Float(3.0f) - Float(2.0f) * t);
 }
 
-// Both sides are computed; use Pass::if_ where a side is costly.
+// Returns `a` where the condition holds, else `b`. Both sides are computed; use Pass::if_ where a side is
+// costly.
 template <class T>
 T select(Bool condition, T a, T b) {
     return T(applyOp(Op::Select, T::kType, {condition, a, b}));
@@ -132,7 +133,7 @@ struct Case {
     T value;
 };
 
-// The value of the first case whose condition holds. All values are computed.
+// Returns the value of the first case whose condition holds. All values are computed.
 template <class T>
 T multiSelect(std::initializer_list<Case<T>> cases, T otherwise) {
     T result = otherwise;
@@ -143,7 +144,7 @@ T multiSelect(std::initializer_list<Case<T>> cases, T otherwise) {
     return result;
 }
 
-// Expressions of two and three numbers, component by component. See expr.h.
+// Expressions of two and three numbers; operators work component by component.
 struct Vec2 {
     Float x, y;
 };
@@ -178,25 +179,27 @@ inline IVec2 operator-(IVec2 a, IVec2 b) { return {a.x - b.x, a.y - b.y}; }
 inline Bool operator==(IVec2 a, IVec2 b) { return a.x == b.x && a.y == b.y; }
 // clang-format on
 
-// Powers, logarithms and angles of expressions, made of their additions, multiplications and bits, so that
-// both back ends and constant folding give the same value to the bit without knowing of them.
+// The functions below compute powers, logarithms and angles of expressions by additions, multiplications and
+// operations on bits, so that both back ends and constant folding give the same value to the bit without code
+// of their own.
 //
 // The polynomials are least-maximum fits on the intervals named in expr.cpp; the errors stated here are
-// measured against the C library in double precision (tests/gen/expr_math_test.cpp).
-// 2^x within 1.5 units in the last place for x in -126…128; 0 below, 2^128 less a little above.
+// measured against the C library in double precision (tests/gen/expr_math_test.cpp). Returns 2^x within 1.5
+// units in the last place for x in -126…128; 0 below, 2^128 less a little above.
 Float exp2(Float x);
-// Within 2.5 units in the last place of the larger of the result and 1/8, for x ≥ 2^-126; -10^9 for smaller
-// ones, 0 and negative numbers: exp2 makes 0 of it again.
+// Returns the binary logarithm within 2.5 units in the last place of the larger of the result and 1/8, for x
+// ≥ 2^-126; -10^9 for smaller ones, 0 and negative numbers: exp2 returns 0 for it again.
 Float log2(Float x);
-// x^y = exp2(y · log2(x)) for x ≥ 0, within a relative error of (2 + |y log2 x|) · 2^-23; 0 for negative x
-// and y > 0, 1 for y = 0.
+// Returns x^y = exp2(y · log2(x)) for x ≥ 0, within a relative error of (2 + |y log2 x|) · 2^-23; 0 for
+// negative x and y > 0, 1 for y = 0.
 Float pow(Float x, Float y);
-// Radians. Within 2^-23 for |x| ≤ 10,000; beyond, less and less of it is left, the same everywhere.
+// These take radians. They are within 2^-23 for |x| ≤ 10,000; beyond, the precision decreases, equally on
+// every machine.
 Float sin(Float x);
 Float cos(Float x);
 
-// A color as an integer: red · 2^16 + green · 2^8 + blue (world/tint.h). Each is 0…1, sRGB; others are
-// clamped.
+// Returns a color as an integer: red · 2^16 + green · 2^8 + blue (world/tint.h). Each is 0…1, sRGB; others
+// are clamped.
 Int packColor(Float red, Float green, Float blue);
 
 }  // namespace terrane::gen

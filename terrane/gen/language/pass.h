@@ -19,9 +19,7 @@
 
 namespace terrane::gen {
 
-// Outputs and variables of a pass: fields, which later passes read, and variables of the pass itself. See
-// pass.h.
-// A number a column that a pass writes and later ones read.
+// A number per column that a pass writes and later passes read.
 template <class T>
 struct Field {
     std::uint32_t index;
@@ -29,7 +27,7 @@ struct Field {
 
 class Pass;
 
-// A value that changes while the pass is written: assignments inside if_ hold where its condition does.
+// A value that changes while the pass is recorded: assignments inside if_ hold where its condition does.
 template <class T>
 class Var {
   public:
@@ -70,8 +68,8 @@ class Pass {
     Int x();  // block coordinates; beyond level 0 those of the block behind the middle of the column
     Int y();
     Int z();  // 3D passes
-    // Blocks from one column to the next: 1, 2, 4, … A constant while recording, so that `if` on it leaves
-    // out what it does not record.
+    // Returns the number of blocks from one column to the next: 1, 2, 4, … It is a constant while recording,
+    // so `if` on it omits the other branch.
     int step() const;
     Block block(std::string_view name);  // "air" or a name of the registry
 
@@ -85,39 +83,39 @@ class Pass {
     // recorded.
     void while_(const std::function<Bool()>& condition, const std::function<void()>& body);
 
-    // Noise at this column or voxel (3D: in 3D passes). `name` makes the seed. Sizes in blocks; see noise.h
-    // and pass_noise.h.
+    // The functions below return noise at this column or voxel (3D: in 3D passes). `name` makes the seed.
+    // Sizes are in blocks; see noise.h and pass_noise.h.
     Float perlin2D(std::string_view name, int size, std::vector<float> weights);
     Float perlin3D(std::string_view name, int size, std::vector<float> weights);
-    // The noise plus grain: a random number per column with the deviation of the part that faded at this
-    // level. A threshold then separates the same shares of columns; faded noise alone would favor the larger
-    // share.
+    // Returns the noise plus grain: a random number per column with the deviation of the part that faded at
+    // this level. A threshold then separates the same shares of columns; faded noise alone would favor the
+    // larger share.
     Float perlin2DWithGrain(std::string_view name, int size, std::vector<float> weights);
-    // A random number and pair for each column with mean 0 and deviation 1.
+    // Returns a random number and pair for each column with mean 0 and deviation 1.
     Float grain(std::string_view name);
     Vec2 grain2D(std::string_view name);
-    // Gradient per block of the noise of the same name and parameters.
+    // Returns the gradient per block of the noise of the same name and parameters.
     Vec2 perlin2DGradient(std::string_view name, int size, std::vector<float> weights);
     Vec3 perlin3DGradient(std::string_view name, int size, std::vector<float> weights);
-    // Without the artifacts along the axes that Perlin noise has.
+    // These return simplex noise, without the artifacts of Perlin noise along the axes.
     Float simplex2D(std::string_view name, int size, std::vector<float> weights);
     Float simplex3D(std::string_view name, int size, std::vector<float> weights);
-    // Waves of about `size` blocks that run across: their phase grows along `direction`, of length 1. 0 where
-    // `size` is less than a column.
+    // Returns waves of about `size` blocks whose phase grows along `direction`, of length 1. The result is 0
+    // where `size` is less than a column.
     Stripes2D stripes2D(std::string_view name, int size, Vec2 direction);
     Voronoi2D voronoi2D(std::string_view name, int size, int maxPoints);
-    // The metric's exponent: 2…8.
+    // Returns Voronoi noise in 3D; the exponent of the metric is 2…8.
     Voronoi3D voronoi3D(std::string_view name, int size, int maxPoints, int exponent = 2);
 
     DrainageSample drainage(Drainage map);  // 2D passes; see drainage.h
 
-    // In [0, 1), by position.
+    // These return a random number in [0, 1), by position.
     Float random2D(std::string_view name, Int x, Int y);
     Float random3D(std::string_view name, Int x, Int y, Int z);
     Bool randomBool2D(std::string_view name, Float probability, Int x, Int y);
     Bool randomBool3D(std::string_view name, Float probability, Int x, Int y, Int z);
 
-    // A field of an earlier pass, here or at an offset within ±kMaxReadOffset blocks (larger ones are
+    // Returns a field of an earlier pass, here or at an offset within ±kMaxReadOffset blocks (larger ones are
     // clamped). Beyond level 0 the nearest column stands for the block.
     template <class T>
     T read(Field<T> field) {
@@ -127,34 +125,35 @@ class Pass {
     T readAt(Field<T> field, IVec2 offset) {
         return T(readFieldAt(field.index, T::kType, offset));
     }
-    // Slope of a field per block, measured over 4 blocks at level 0 and over two columns at other levels.
+    // Returns the slope of a field per block, measured over 4 blocks at level 0 and over two columns at other
+    // levels.
     Vec2 slope(Field<Float> field);
-    // A field at an offset of any fraction of a block, blended from the four columns around it. Offset and
-    // the block beyond it within ±kMaxReadOffset.
+    // Returns a field at an offset of any fraction of a block, blended from the four columns around it.
+    // Offset and the block beyond it within ±kMaxReadOffset.
     Float readBetween(Field<Float> field, Vec2 offset);
     template <class T>
     void set(Field<T> field, T value) {  // 2D passes
         setField(field.index, T::kType, value);
     }
-    // In a 3D pass: sets the field to `value` at height z of the column, where z is clamped into the world.
-    // Not inside if_ or while_.
+    // Sets the field to `value` at height z of the column in a 3D pass, where z is clamped into the world. It
+    // must not be called inside if_ or while_.
     template <class T>
     void setAt(Field<T> field, Int z, T value) {
         setFieldAt(field.index, T::kType, z, value);
     }
 
-    // The block of the last earlier 3D pass: here (3D passes), in this column at z, which is clamped into the
-    // world, or in another column within ±kMaxReadOffset.
+    // Returns the block of the last earlier 3D pass: here (3D passes), in this column at z, which is clamped
+    // into the world, or in another column within ±kMaxReadOffset.
     Block blockHere();
     Block blockInColumn(Int z);
     Block blockAt(IVec2 offset, Int z);
     void setBlock(Block block);  // 3D passes; without it the block stays
-    // The block of stamped shapes here, air if there is none (3D passes). In every column where `shape` is
-    // the number of a shape, its foot stands at height `base`. stamp_tile.h says which block stays where
-    // shapes overlap.
+    // Returns the block of stamped shapes here, air if there is none (3D passes). In every column where
+    // `shape` is the number of a shape, its foot stands at height `base`. stamp_tile.h says which block stays
+    // where shapes overlap.
     Block stamp(Field<Int> shape, Field<Int> base);
 
-    // Mistakes of the builder that the pass belongs to, so far.
+    // Returns the mistakes of the builder so far.
     const std::vector<std::string>& mistakes() const;
     std::size_t nodeCount() const { return graph_.graph.size(); }
 
@@ -176,7 +175,7 @@ class Pass {
     Value noise(const NoiseCall& call, std::uint32_t result, Type type);
     NoiseCall checkedNoise(std::string_view kind, NoiseCall call);
     Float sumOfOctaves(const NoiseCall& call);
-    // A hash of two or three coordinates; `seedName`: see randomSeedName and noiseSeedName.
+    // Returns a hash of two or three coordinates; `seedName`: see randomSeedName and noiseSeedName.
     Int hash(const std::string& seedName, std::uint32_t octave, std::span<const Int> position);
     std::function<Int(std::span<const Int>)> latticeHash(const NoiseCall& call, std::size_t octave);
     std::array<Float, 3> gradient(const NoiseCall& call, std::span<const Int> position);

@@ -102,7 +102,7 @@ class Coarsener {
             if (found == columns.end()) continue;
             at == ColumnAt{0, 0} ? addFoot(found->second) : addColumn(at, found->second);
         }
-        dropLoose();
+        removeDisconnected();
         return std::move(result_);
     }
 
@@ -151,7 +151,7 @@ class Coarsener {
     bool isWood(int block) const { return shape_.blocks[static_cast<std::size_t>(block)].rank > 0; }
 
     // Removes voxels that are not connected to the foot's column by faces, edges or corners.
-    void dropLoose() {
+    void removeDisconnected() {
         enum State : std::uint8_t { kEmpty, kLoose, kJoined };
         std::vector<State> states(std::size_t{kGridSide} * kGridSide * kGridLayers, kEmpty);
         const auto stateAt = [&](int x, int y, int z) -> State& {

@@ -1,5 +1,5 @@
-// Precomputed voxels that a generator puts into the land as a whole: a tree, a boulder. Plain values; any
-// thread. GeneratorBuilder::shape takes them, Pass::stamp says where they stand.
+// Precomputed voxels that a generator puts into the land as a whole: a tree, a boulder. All are plain values;
+// any thread may use them. GeneratorBuilder::shape adds them, Pass::stamp places them.
 #pragma once
 
 #include <cstdint>
@@ -32,10 +32,10 @@ struct VoxelShape {
     std::vector<ShapeVoxel> voxels;  // each place once
 };
 
-// The shape in columns that are 2^level blocks wide; z stays in blocks. Keeps the columns that are filled
-// most, as many as have the shape's area. The foot's column is filled from bottom to top, so that nothing
-// floats: with wood where columns are at most 2 blocks wide or the trunk has half their area, else with
-// leaves.
+// Returns the shape in columns that are 2^level blocks wide; z stays in blocks. The result has the columns
+// that are filled most, as many as have the shape's area. The foot's column is filled from bottom to top, so
+// that nothing floats: with wood where columns are at most 2 blocks wide or the trunk has half their area,
+// else with leaves.
 VoxelShape coarsened(const VoxelShape& shape, int level);
 
 // Blocks (not columns) seen from above, and the highest voxel's z.

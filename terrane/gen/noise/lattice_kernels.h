@@ -17,15 +17,15 @@ struct AxisCells {
     TileRow fadeOf;
 };
 
-// Cells of 16 columns `step` blocks apart, the first at block `first`. `size`: width of a cell, at least
-// `step`.
+// Returns the cells of 16 columns `step` blocks apart, the first at block `first`. `size`: width of a cell,
+// at least `step`.
 AxisCells axisCells(std::int32_t first, std::int32_t step, std::int32_t size);
 
-// The coefficients of 1 and of the y offset along the node row `y`, blended along x. Rows of results are
-// 64-byte aligned.
+// Computes the coefficients of 1 and of the y offset along the node row `y`, blended along x. Rows of results
+// are 64-byte aligned.
 void fillNodeRow2D(const AxisCells& x, std::uint32_t y, std::uint32_t seed, TileRow& one, TileRow& yFactor);
 
-// The same of 1, y and z along the node row `y` of the level `z`.
+// The output of the same in 3D: coefficients of 1, y and z along the node row `y` of the level `z`.
 struct NodeRow3D {
     TileRow &one, &y, &z;
 };

@@ -62,20 +62,20 @@ struct NoiseCall {
     bool operator==(const NoiseCall&) const = default;
 };
 
-// The share of its amplitude that noise with cells of `size` blocks keeps at `step` blocks between samples.
-// Cells smaller than two steps would only flicker, so they fade: 1 for cells of two steps or more, 0 for one
-// step or less. Always 1 at step 1.
+// Returns the share of its amplitude that noise with cells of `size` blocks has at `step` blocks between
+// samples. Cells smaller than two steps would only flicker, so they fade: 1 for cells of two steps or more, 0
+// for one step or less. Always 1 at step 1.
 float shareLeft(std::int32_t size, std::int32_t step);
-// Octave weights, each multiplied by its shareLeft().
+// Returns the octave weights, each multiplied by its shareLeft().
 std::vector<float> fadedWeights(std::vector<float> weights, std::int32_t size, std::int32_t step);
 
-// Standard deviation of the part of 2D Perlin noise that fades between step 1 and `step`: of its value, and
-// of its slope per block along an axis as Pass::slope measures it at both steps. 0 at step 1.
+// Returns the standard deviation of the part of 2D Perlin noise that fades between step 1 and `step`: of its
+// value, and of its slope per block along an axis as Pass::slope measures it at both steps. 0 at step 1.
 float lostDeviation(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 float lostSlope(const std::vector<float>& weights, std::int32_t size, std::int32_t step);
 
-// Half the distance over which Pass::slope measures, in blocks. At step 1 a distance of two blocks would
-// count each single step of the ground in full.
+// Returns half the distance over which Pass::slope measures, in blocks. At step 1 a distance of two blocks
+// would count each single step of the ground in full.
 constexpr std::int32_t slopeReach(std::int32_t step) {
     return step == 1 ? 2 : step;
 }
@@ -107,7 +107,8 @@ constexpr std::uint32_t kDrainageResultCount = 6;
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
 
-// Names that seeds are derived from, with the world's seed: noise and random numbers of one name differ.
+// These return the names that seeds are derived from, with the world's seed: noise and random numbers of one
+// name differ.
 inline std::string noiseSeedName(std::string_view name) {
     return "noise " + std::string(name);
 }
@@ -115,7 +116,8 @@ inline std::string randomSeedName(std::string_view name) {
     return "random " + std::string(name);
 }
 
-// Added to a call's seed for octave `octave`: that number times 2^32 / golden ratio, which is rounded to odd.
+// Returns the number that is added to a call's seed for octave `octave`: that number times 2^32 / golden
+// ratio, which is rounded to odd.
 constexpr std::uint32_t octaveSeedStep(std::size_t octave) {
     return static_cast<std::uint32_t>(octave) * 0x9E3779B9u;
 }

@@ -1,4 +1,4 @@
-// Noise and random numbers over rows of a tile. Included once for each instruction set by kernels.cpp.
+// Noise and random numbers over rows of a tile. It is included once for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_NOISE_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_NOISE_KERNELS_INL_H
 #undef TERRANE_GEN_NOISE_KERNELS_INL_H
@@ -15,7 +15,7 @@ HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
 
-// shared::hash2 or hash3 of the arguments.
+// Computes shared::hash2 or hash3 of the arguments.
 void hash(const Instruction& i, TileContext& c, const RowList& rows) {
     constexpr std::uint32_t kFactors[] = {shared::kHashX, shared::kHashY, shared::kHashZ};
     const std::size_t argCount = i.op == Op::Hash2 ? 2 : 3;
@@ -73,7 +73,7 @@ void blendLevels(Perlin3DTile::Octave& o) {
     }
 }
 
-// Rows between the same two node rows share their coefficients.
+// Adds an octave. Rows between the same two node rows share their coefficients.
 template <bool kIsFirst>
 void addOctave(const PerlinOctave& o, Operand dst, TileContext& c, const RowList& rows) {
     const VF weight = hn::Set(df, o.weight), one = hn::Set(df, 1.0f);

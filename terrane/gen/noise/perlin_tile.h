@@ -1,7 +1,7 @@
 // Perlin noise over a tile of 16×16 columns: everything that samples share is computed once.
 //
 // Between two lattice nodes along x the noise is a blend of two linear functions of the other offsets, so a
-// node row (all nodes of equal y, or equal y and z) is kept as the coefficients of the blended function for
+// node row (all nodes of equal y, or equal y and z) is stored as the coefficients of the blended function for
 // each of the 16 x of the tile. A sample then costs one multiply-add at each of two node rows and one blend.
 // noise.h states the order of operations; perlin_tile.cpp and noise_kernels-inl.h follow it.
 #pragma once
@@ -40,7 +40,7 @@ struct Perlin2DTile {
     std::vector<PerlinOctave> octaves;
 };
 
-// No octave of the call is smaller than the grid's step.
+// Prepares a tile. No octave of the call is smaller than the grid's step.
 void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 // One level of lattice nodes of equal z: coefficients of 1, of the y offset and of the z offset.

@@ -12,7 +12,8 @@ struct SampleGrid {
     std::int32_t step = 1;      // blocks from one column to the next
 };
 
-// A column is sampled at the block behind its middle; at level 0 that is its only block.
+// Returns the grid of a chunk. A column is sampled at the block behind its middle; at level 0 that is its
+// only block.
 constexpr SampleGrid sampleGrid(world::ChunkPos pos) {
     const std::int32_t step = world::columnWidth(pos.level), width = world::kChunkSize * step;
     return {pos.x * width + step / 2, pos.y * width + step / 2, step};

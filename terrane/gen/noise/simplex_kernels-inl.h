@@ -1,4 +1,4 @@
-// Simplex noise over rows of a tile. Included once for each instruction set by kernels.cpp.
+// Simplex noise over rows of a tile. It is included once for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_SIMPLEX_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_SIMPLEX_KERNELS_INL_H
 #undef TERRANE_GEN_SIMPLEX_KERNELS_INL_H
@@ -23,7 +23,8 @@ struct Gradients {
     VF x, y;
 };
 
-// k, the direction, are the upper four bits: two of the gradient in the first quadrant, two of the quadrant.
+// Returns the gradients of hashes. Their upper four bits are the direction k: two of the gradient in the
+// first quadrant, two of the quadrant.
 HWY_INLINE Gradients gradients(VU hash) {
     const auto bit = [&](int n) {
         return hn::RebindMask(df, hn::TestBit(hash, hn::Set(du, 1u << (28 + n))));

@@ -27,9 +27,9 @@ class StampTile {
     void paint(const ShapeTable& shapes, std::span<const Bits> numbers, std::span<const Bits> bases);
 
     bool isPainted(int z) const { return painted_[static_cast<std::size_t>(z)]; }
-    // Whether any layer from low to high, both in the world, has blocks.
+    // Returns whether any layer from low to high, both in the world, has blocks.
     bool isPainted(int low, int high) const;
-    // 256 blocks, air where no shape is. Where isPainted(z).
+    // Returns 256 blocks, air where there is no shape. The layer must be painted.
     const std::uint16_t* layer(int z) const;
 
   private:

@@ -1,4 +1,4 @@
-// Stripes over rows of a tile. Included once for each instruction set by kernels.cpp.
+// Stripes over rows of a tile. It is included once for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_STRIPE_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_STRIPE_KERNELS_INL_H
 #undef TERRANE_GEN_STRIPE_KERNELS_INL_H
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace terrane::gen {
 namespace HWY_NAMESPACE {
 
-// sin of so many turns.
+// Returns the sine of `turns` turns.
 HWY_INLINE VF stripeWave(VF turns) {
     const VF q = hn::Sub(turns, hn::Floor(hn::Add(turns, hn::Set(df, 0.5f))));
     return hn::Mul(q, hn::Sub(hn::Set(df, 8.0f), hn::Mul(hn::Set(df, 16.0f), hn::Abs(q))));
@@ -48,7 +48,7 @@ HWY_INLINE void addStripes(const Stripes2DTile& t, int cellRow, int first, int l
     }
 }
 
-// Points beyond the 3×3 cells around a column add exactly 0, so that one loop over cells does for all columns
+// Points beyond the 3×3 cells around a column add exactly 0, so that one loop over cells handles all columns
 // of a vector.
 void stripes2D(const Instruction& i, TileContext& c, const RowList& rows) {
     const Stripes2DTile& t = c.stripes2D[i.imm];

@@ -41,7 +41,7 @@ struct Stripes2DTile {
     std::vector<StripePoint> points;                       // x + width · y, from (firstX, firstY)
 };
 
-// `call.size` is at least the grid's step.
+// Prepares a tile. `call.size` is at least the grid's step.
 void prepare(Stripes2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 }  // namespace terrane::gen

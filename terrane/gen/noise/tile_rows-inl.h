@@ -1,5 +1,5 @@
-// Rows of a tile as vectors: what all kernels are written with. Included once for each instruction set by
-// kernels.cpp.
+// Rows of a tile as vectors; all kernels are written with them. It is included once for each instruction set
+// by kernels.cpp.
 #if defined(TERRANE_GEN_TILE_ROWS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_TILE_ROWS_INL_H
 #undef TERRANE_GEN_TILE_ROWS_INL_H
@@ -67,7 +67,7 @@ HWY_INLINE void forEachVector(const RowList& rows, Operand dst, Function f) {
     }
 }
 
-// The same for costly functions, which become part of this loop only where it is the only one.
+// Does the same for expensive functions, which are inlined only once.
 template <class Function>
 HWY_INLINE void forEachCostlyVector(const RowList& rows, Operand dst, Function f) {
     const int count = dst.rowStep ? rows.count : 1;
@@ -88,13 +88,13 @@ HWY_INLINE void storeBits(V v, Bits* p) {
     hn::Store(hn::BitCast(du, v), du, p);
 }
 
-// A comparison's mask as lanes of 0 or ~0.
+// Returns a comparison's mask as lanes of 0 or ~0.
 template <class D, class M>
 HWY_INLINE auto maskBits(D d, M mask) {
     return hn::VecFromMask(d, mask);
 }
 
-// The same steps as in hash.h.
+// Takes the same steps as hash.h.
 HWY_INLINE VU mixBits(VU h) {
     h = hn::Xor(h, hn::ShiftRight<16>(h));
     h = hn::Mul(h, hn::Set(du, 0x7FEB352Du));
@@ -107,7 +107,7 @@ HWY_INLINE VU mixHalf(VU h) {
     return hn::Mul(hn::Xor(h, hn::ShiftRight<15>(h)), hn::Set(du, 0x846CA68Bu));
 }
 
-// The same steps as detDivide in det_math.h.
+// Takes the same steps as detDivide in det_math.h.
 HWY_INLINE VF divide(VF a, VF b) {
     const VF two = hn::Set(df, 2.0f);
     const VU sign = hn::And(hn::BitCast(du, b), hn::Set(du, 0x80000000u));
@@ -120,7 +120,7 @@ HWY_INLINE VF divide(VF a, VF b) {
     return hn::Add(q, hn::Mul(r, hn::Sub(signedA, hn::Mul(magnitude, q))));
 }
 
-// The same steps as detSqrt in det_math.h.
+// Takes the same steps as detSqrt in det_math.h.
 HWY_INLINE VF squareRoot(VF x) {
     const VF half = hn::Mul(hn::Set(df, 0.5f), x);
     const VF threeHalves = hn::Set(df, 1.5f);

@@ -1,4 +1,4 @@
-// Cells of random points over rows of a tile. Included once for each instruction set by kernels.cpp.
+// Cells of random points over rows of a tile. It is included once for each instruction set by kernels.cpp.
 #if defined(TERRANE_GEN_VORONOI_KERNELS_INL_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef TERRANE_GEN_VORONOI_KERNELS_INL_H
 #undef TERRANE_GEN_VORONOI_KERNELS_INL_H

@@ -21,7 +21,8 @@ struct Voronoi2DTile {
     std::int32_t size = 1, step = 1;
 };
 
-// The call's cells are at least as wide as the grid's step: at most (16 + 5)² of them are searched.
+// Prepares a tile. The call's cells are at least as wide as the grid's step: at most (16 + 5)² of them are
+// searched.
 void prepare(Voronoi2DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
 
 struct Voronoi3DPoint {
@@ -41,7 +42,7 @@ struct Voronoi3DTile {
 };
 
 void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
-// Cheapest when called for each z in order.
+// Finds the points of a layer. It is cheapest when called for each z in order.
 void moveToLayer(Voronoi3DTile& tile, std::int32_t z);
 
 }  // namespace terrane::gen

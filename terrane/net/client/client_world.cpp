@@ -254,7 +254,7 @@ void ClientWorld::sendBuild(const game::BuildChange& change) {
 
 void ClientWorld::sendTakeBack(game::HistoryWay way) {
     if (!isConnected_)
-        return decided_.push_back(DecidedTakeBack{way, {game::TakenBack::Outcome::NotLoaded, 0, 0}});
+        return decided_.push_back(DecidedTakeBack{way, {game::UndoResult::Outcome::NotLoaded, 0, 0}});
     const CommandNumber number = ++lastCommand_;
     const bool isRedo = way == game::HistoryWay::Redo;
     waiting_.push_back({number, isRedo ? WaitingDecision::Kind::Redo : WaitingDecision::Kind::Undo});
@@ -273,7 +273,7 @@ void ClientWorld::onDone(const Done& done) {
     const Kind kind = waiting_.front().kind;
     waiting_.pop_front();
     using Build = game::BuildOutcome::Result;
-    using Taken = game::TakenBack::Outcome;
+    using Taken = game::UndoResult::Outcome;
     if (kind == Kind::Build && done.result <= static_cast<std::uint8_t>(Build::NotAllowed))
         decided_.push_back(game::BuildOutcome{static_cast<Build>(done.result), done.changed, done.kept});
     if ((kind == Kind::Undo || kind == Kind::Redo) &&

@@ -68,7 +68,7 @@ struct ChatLine {
 
 struct DecidedTakeBack {
     game::HistoryWay way = game::HistoryWay::Undo;
-    game::TakenBack result;
+    game::UndoResult result;
 };
 
 // The server's decision on a command that was not predicted, or that it refused.

@@ -21,7 +21,7 @@ constexpr std::uint64_t kRetryAfter = 40;  // calls of update(): two seconds
 // chunk counts as unedited.
 std::optional<ChunkDifference> savedDifference(const EditedChunks::Parts& parts, ChunkPos pos) {
     const store::LoadedChunk loaded = parts.store.load(pos);
-    if (loaded.isUnread && !loaded.isOverBudget) return std::nullopt;
+    if (loaded.isUnreadable && !loaded.isOverBudget) return std::nullopt;
     if (loaded.state != store::LoadedChunk::State::Present) return ChunkDifference();
     return chunkDifference(parts.generators.generate(pos), *loaded.chunk);
 }

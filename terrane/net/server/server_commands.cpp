@@ -81,7 +81,8 @@ bool isKnown(const game::Session& session, world::BlockId id) {
 bool hasKnownItems(const world::BlockRegistry& blocks, const world::Inventory& items,
                    const world::Inventory& former) {
     return std::ranges::all_of(items, [&](const world::ItemStack& stack) {
-        return stack.count == 0 || blocks.find(stack.item) || world::countItems(former, stack.item) > 0;
+        return stack.count == 0 || blocks.find(stack.item) ||
+               std::ranges::count(former, stack.item, &world::ItemStack::item) > 0;
     });
 }
 
@@ -89,7 +90,7 @@ bool hasKnownItems(const world::BlockRegistry& blocks, const world::Inventory& i
 // `former`: the data that it replaces, or null.
 bool keepsData(const world::BlockRegistry& blocks, const world::BlockType& type,
                const world::BlockEntityData& data, const world::BlockEntityData* former = nullptr) {
-    if (world::holdsText(type)) return world::decodeSign(data).has_value();
+    if (world::isSign(type)) return world::decodeSign(data).has_value();
     if (type.slots == 0 || data.size() > kMaxBlockData) return false;
     const auto items = world::decodeSlots(data);
     const auto before = former ? world::decodeSlots(*former) : world::Inventory();
@@ -150,7 +151,7 @@ Done run(game::Session& session, const ServerClients& clients, ServerClient& cli
              client.buckets.blocks.take(blocks, clients.now))
         outcome = session.build({client.player, build.change});
     return {build.number, static_cast<std::uint8_t>(outcome.result),
-            static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.kept)};
+            static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.skipped)};
 }
 
 game::HistoryWay wayOf(const TakeBack& takeBack) {
@@ -158,10 +159,10 @@ game::HistoryWay wayOf(const TakeBack& takeBack) {
 }
 
 Done run(game::Session& session, ServerClient& client, const TakeBack& takeBack) {
-    const game::TakenBack taken = session.takeBack(client.player, wayOf(takeBack));
-    client.buckets.blocks.spend(static_cast<double>(taken.blocks + taken.kept));
+    const game::UndoResult taken = session.undoOrRedo(client.player, wayOf(takeBack));
+    client.buckets.blocks.spend(static_cast<double>(taken.blocks + taken.skipped));
     return {takeBack.number, static_cast<std::uint8_t>(taken.outcome),
-            static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.kept)};
+            static_cast<std::uint32_t>(taken.blocks), static_cast<std::uint32_t>(taken.skipped)};
 }
 
 // Requests the chunks of a command. Returns whether all are loaded, or the session will refuse it anyway.
@@ -183,7 +184,7 @@ bool isReady(game::Session& session, const ServerClient& client, const WaitingCo
             },
             [&](const TakeBack& takeBack) {
                 bool all = true;
-                for (const world::ChunkPos pos : session.chunksToTakeBack(client.player, wayOf(takeBack)))
+                for (const world::ChunkPos pos : session.chunksOfNextStep(client.player, wayOf(takeBack)))
                     all &= session.pipeline().maybeLoadChunkAt(pos) != nullptr;
                 return all;
             },
@@ -197,7 +198,7 @@ std::uint8_t refusedResult(const WaitingCommand& command) {
         return static_cast<std::uint8_t>(game::EditResult::Conflict);
     if (std::holds_alternative<Build>(command.command))
         return static_cast<std::uint8_t>(game::BuildOutcome::Result::NotLoaded);
-    return static_cast<std::uint8_t>(game::TakenBack::Outcome::NotLoaded);
+    return static_cast<std::uint8_t>(game::UndoResult::Outcome::NotLoaded);
 }
 
 Done decide(game::Session& session, const ServerClients& clients, ServerClient& client,

@@ -42,7 +42,7 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
     };
     ServerHost host;
     host.session = std::make_unique<game::Session>(std::move(parts));
-    if (const auto time = game::savedPlayer(host.session->store()).timeDay)
+    if (const auto time = game::loadPlayer(host.session->store()).timeDay)
         host.session->clock.timeDay = *time;
     host.records = std::move(records);
     host.knownPlayers = std::make_unique<KnownPlayers>(std::move(knownPlayers));
@@ -137,7 +137,7 @@ base::Result<void> runServer(asio::io_context& context, ServerState& server, Ser
     const base::StopSignals signals;
     Console console(context, server);
     Time next = std::chrono::steady_clock::now();
-    while (!server.isStopping && !signals.stopAsked() && !(loop.stopAsked && loop.stopAsked())) {
+    while (!server.isStopping && !signals.stopRequested() && !(loop.stopRequested && loop.stopRequested())) {
         const Time start = std::chrono::steady_clock::now();
         tick(server, start);
         sockets.flush();

@@ -35,12 +35,12 @@ struct ServerContent {
                                                       const ServerContent& content = {});
 
 struct ServerLoop {
-    std::function<bool()> stopAsked = {};                  // called in each tick; may be empty
+    std::function<bool()> stopRequested = {};              // called in each tick; may be empty
     std::function<void(double milliseconds)> onTick = {};  // duration of each tick; may be empty
 };
 
-// Runs the server until the console, a signal or `stopAsked` stops it; then disconnects all players and saves
-// everything.
+// Runs the server until the console, a signal or `stopRequested` stops it; then disconnects all players and
+// saves everything.
 [[nodiscard]] base::Result<void> runServer(boost::asio::io_context& context, ServerState& server,
                                            ServerSockets& sockets, const ServerLoop& loop);
 

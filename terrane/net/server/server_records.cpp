@@ -42,7 +42,7 @@ std::optional<KnownPlayer> knownPlayer(const PlayerRow& row) {
     player.id = static_cast<game::PlayerId>(row.id);
     player.name = row.name;
     player.role = static_cast<game::Role>(row.role);
-    player.pose = game::poseFrom(std::string(row.pose));
+    player.pose = game::parsePose(std::string(row.pose));
     player.ban = row.ban;
     return player;
 }

@@ -68,7 +68,7 @@ struct ViewComplete {
 // The result of a command. Its edits are durable on the server.
 struct Done {
     CommandNumber number = 0;
-    std::uint8_t result = 0;  // game::EditResult, BuildOutcome::Result or TakenBack::Outcome, by the command
+    std::uint8_t result = 0;  // game::EditResult, BuildOutcome::Result or UndoResult::Outcome, by the command
     std::uint32_t changed = 0, kept = 0;  // blocks; 0 for Edit
 };
 // A player comes into sight. `slot` identifies it in Poses until Disappears.

@@ -267,7 +267,7 @@ std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list, std::
 MaybePass makeCull(FrameBuilder&) {
     return Pass{.record =
                     [](FrameContext& context) {
-                        const CullPhase phase = context.hidesHidden() ? CullPhase::Early : CullPhase::All;
+                        const CullPhase phase = context.cullsOccluded() ? CullPhase::Early : CullPhase::All;
                         context.cull.run(phase, context.culling, context.meshSections, context.ring);
                     },
                 .drawnIn = DrawnIn::EveryView};
@@ -281,7 +281,7 @@ MaybePass makeLateCull(FrameBuilder& build) {
                         context.cull.run(CullPhase::Late, context.culling, context.meshSections,
                                          context.ring);
                     },
-                .isNeeded = [](FrameContext& context) { return context.hidesHidden(); },
+                .isNeeded = [](FrameContext& context) { return context.cullsOccluded(); },
                 .drawnIn = DrawnIn::EveryView};
 }
 

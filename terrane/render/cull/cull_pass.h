@@ -1,6 +1,6 @@
-// Selects on the GPU what is drawn: mesh sections in view, without face directions that face away from the
+// Selects the draws on the GPU: mesh sections in view, without face directions that face away from the
 // camera, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
-// quads (quad_list.h). Used by the renderer on the context's thread.
+// quads (quad_list.h). The renderer uses it on the context's thread.
 #pragma once
 
 #include <array>
@@ -21,9 +21,9 @@ namespace terrane::render {
 // the early pass. Most quads of mesh sections in view are hidden: in a landscape four in five.
 //
 // Two bits of a quad (shared/quad.h) hold the result for quad_list.h: *seen* quads are drawn by the early
-// pass of the next frame, *new* ones are added by the late pass of this frame. A quad from the mesher has
+// pass of the next frame, *new* ones are added by the late pass of this frame. A new quad of the mesher has
 // neither, so it is tested before it is drawn. As with mesh sections, no visible quad is missing in any
-// frame. Used by the renderer on the context's thread.
+// frame. The renderer uses it on the context's thread.
 class QuadCull {
   public:
     static base::Result<QuadCull> create(const gpu::ShaderLoader& shaders);
@@ -55,16 +55,16 @@ struct CullInput {
     int samples = 1;          // a pixel
 };
 
-// All: everything in view. Early: what was visible in the frame before. Late: what the depth of the early
-// pass does not hide. Mesh sections first, then their quads: cull_pass.h.
+// All: everything in view. Early: everything that was visible in the frame before. Late: everything that the
+// depth of the early pass does not hide. Mesh sections first, then their quads: cull_pass.h.
 enum class CullPhase : std::uint8_t { All, Early, Late };
 
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
-    // All mesh sections were removed: those that come now were not visible in the last frame.
-    void forget() { visibleLastFrame_ = {}; }
+    // Call this after all mesh sections were removed: new ones count as not visible in the last frame.
+    void invalidate() { visibleLastFrame_ = {}; }
     // Runs a pass. `meshSections` is up to date. The early and the late pass of a frame follow each other,
     // with drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
@@ -79,11 +79,11 @@ class CullPass {
     // Counts of the newest finished frame, summed over its passes; does not wait.
     const shared::DrawCounts& counts();
 
-    // Commands of the last run, for tests: waits for the GPU.
+    // Returns the commands of the last run, for tests: waits for the GPU.
     std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
 
-    // GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList count with
-    // their present size.
+    // Returns the GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList
+    // count with their present size.
     std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
 
   private:
@@ -117,8 +117,8 @@ class CullPass {
     bool hasIndirectCount_ = false;
 };
 
-// Input of a pass that draws quads: the quads that culling selected, and the data that shaders read of them.
-// Used by the renderer on the context's thread.
+// The input of a pass that draws quads: the quads that culling selected, and the data that shaders read of
+// them. The renderer uses it on the context's thread.
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;

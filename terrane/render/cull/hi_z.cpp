@@ -71,7 +71,7 @@ MaybePass makeDepthPyramid(FrameBuilder& build) {
                 }
                 glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
             },
-        .isNeeded = [](FrameContext& context) { return context.hidesHidden(); },
+        .isNeeded = [](FrameContext& context) { return context.cullsOccluded(); },
         .drawnIn = DrawnIn::EveryView};
 }
 

@@ -1,6 +1,6 @@
 // Lists the quads that a pass draws, on the GPU: for each draw command the quads with a bit that cull_pass.h
 // sets. The command then draws the list, in the order of the quads, so the vertex shader runs for these only:
-// a third of the quads of mesh sections in view. Used by the renderer on the context's thread.
+// a third of the quads of mesh sections in view. The renderer uses it on the context's thread.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,5 @@
-// Rectangles of pixels that boxes of the world cover in the image. Pure functions and plain values, any
-// thread.
+// Rectangles of pixels that boxes of the world cover in the image. All functions are pure and all types plain
+// values; any thread may use them.
 #pragma once
 
 #include <array>
@@ -21,11 +21,11 @@ struct ScreenRect {
     bool operator==(const ScreenRect&) const = default;
 };
 
-// Smallest rectangle that contains all of them; at least one.
+// Returns the smallest rectangle that contains all of them; at least one.
 ScreenRect boundsOf(std::span<const ScreenRect> rects);
 
-// Rectangle of all pixels of an image of `size` that a point of the box may cover, with one more pixel on
-// each side. `viewProjection`: of ViewMatrices; the box is in the space that it starts from.
+// Returns the rectangle of all pixels of an image of `size` that a point of the box may cover, with one more
+// pixel on each side. `viewProjection`: of ViewMatrices; the box is in the space that it starts from.
 ScreenRect screenRectOf(glm::vec3 min, glm::vec3 max, const glm::mat4& viewProjection, glm::ivec2 size);
 
 // Tracks the covered parts of an image: a grid of 32 × 18 cells, 40 pixels wide at 1280 × 720. Finer cells
@@ -37,7 +37,7 @@ class ScreenGrid {
     explicit ScreenGrid(glm::ivec2 size) : size_(size) {}
     void cover(const ScreenRect& rect);
     bool isFull() const;
-    // Rectangles of exactly the covered cells, without overlap.
+    // Returns the rectangles of exactly the covered cells, without overlap.
     std::vector<ScreenRect> rects() const;
 
   private:

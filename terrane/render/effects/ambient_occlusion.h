@@ -10,9 +10,10 @@ struct OcclusionPrograms {
     const gpu::Program *find, *alongX, *alongY;
     FrameBuilder::Drawn visibility, between;
 
-    // `isNearestLayer`: of blended faces, instead of the opaque surfaces. The targets are the same for both.
+    // Creates the programs for the nearest layer of blended faces if `isNearestLayer` is set, else for the
+    // opaque surfaces. The targets are the same for both.
     static base::Result<OcclusionPrograms> make(FrameBuilder& build, bool isNearestLayer);
-    // `textures`: the G-buffer, and layers where it is of these.
+    // Draws the occlusion. `textures` are the G-buffer, and the layers for their occlusion.
     void draw(FrameContext& context, const gpu::TextureSet& textures) const;
 };
 

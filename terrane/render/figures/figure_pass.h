@@ -1,4 +1,4 @@
-// Draws the figures of players into the G-buffer, all of them in one draw call. Used by the renderer on the
+// Draws the figures of players into the G-buffer, all of them in one draw call. The renderer uses it on the
 // context's thread.
 #pragma once
 
@@ -15,9 +15,8 @@
 
 namespace terrane::render {
 
-// Records of the figures of a frame for shaders. A pure function; any thread.
-// Box of a figure around its feet, in blocks: legs and arms swing out of the box of the player, hair is above
-// it.
+// Records of the figures of a frame for shaders. A pure function; any thread may use it. Box of a figure
+// around its feet, in blocks: legs and arms swing out of the box of the player, hair is above it.
 constexpr glm::vec3 kFigureLow{-1, -1, -0.2f}, kFigureHigh{1, 1, 2.2f};
 
 // Returns the figures inside the planes (in positions of the frame) that are nearer than `farBlocks` and not

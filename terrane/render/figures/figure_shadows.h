@@ -1,7 +1,7 @@
 // Tracks the tiles of the nearest shadow map that the shadows of figures fall on. Figures move in each frame,
-// the map's tiles are kept (shadow_clipmap.h). So figures are drawn into a copy of the map, of which only
-// tiles with figures, and tiles that the map drew again, are copied again. Plain bookkeeping without OpenGL;
-// one thread.
+// but the map's tiles are drawn rarely (shadow_clipmap.h). So figures are drawn into a copy of the map, of
+// which only tiles with figures, and tiles that the map drew again, are copied again. It uses no OpenGL; one
+// thread uses it.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace terrane::render {
 
-// Blocks from the camera. The nearest map reaches some 50 blocks; the difference is for arms and legs.
+// Blocks from the camera. The nearest map reaches about 50 blocks; the difference is for arms and legs.
 constexpr double kFigureShadowReach = 46;
 
 struct FigureShadowPlan {
@@ -27,7 +27,7 @@ class FigureShadows {
     // afterward.
     FigureShadowPlan plan(const NearestShadowMap& map, std::span<const glm::dvec3> feet);
     // Marks the copy as empty.
-    void forget() { copied_ = {}; }
+    void invalidate() { copied_ = {}; }
 
   private:
     struct Copied {

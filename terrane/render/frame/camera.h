@@ -1,4 +1,4 @@
-// A camera in the world and its matrices. Pure functions, any thread.
+// A camera in the world and its matrices. All functions are pure; any thread may call them.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ world::ChunkPos cameraChunk(const Camera& camera);
 glm::vec3 lookDirection(const Camera& camera);
 glm::vec3 rightDirection(const Camera& camera);
 
-// Lowest corner of a chunk of level 0, in blocks in the world.
+// Returns the lowest corner of a chunk of level 0, in blocks in the world.
 glm::dvec3 cornerOfChunk(world::ChunkPos chunk);
 
 constexpr float kNearPlane = 0.05f;  // blocks
@@ -41,7 +41,7 @@ ViewMatrices viewMatrices(const Camera& camera, float aspect);
 // Half spaces a·p + w ≥ 0 that contain the view: left, right, bottom, top, near.
 using Frustum = std::array<glm::vec4, 5>;
 Frustum frustumOf(const glm::mat4& viewProjection);
-// False only if no point of the box can be visible.
+// Returns false only if no point of the box can be visible.
 bool mayBeVisible(std::span<const glm::vec4> planes, glm::vec3 min, glm::vec3 max);
 
 }  // namespace terrane::render

@@ -66,8 +66,8 @@ std::string labelsOf(const std::vector<TargetRef>& targets) {
 
 }  // namespace
 
-bool FrameContext::hidesHidden() const {
-    return frame.targets.hiZ && !input.culledFor;
+bool FrameContext::cullsOccluded() const {
+    return frame.targets.hiZ && !input.cullingCamera;
 }
 
 gpu::TextureSet FrameContext::shadingTextures() const {

@@ -1,10 +1,10 @@
 // A frame as data: its targets, and the passes in their order. buildFrame() makes it as a whole for options
-// and a size, or fails and leaves everything as it was. Used on the thread of the OpenGL context.
+// and a size, or fails and leaves everything as it was. It is used on the thread of the OpenGL context.
 //
-// A pass is a function in a file of its own. It looks at the options, asks the builder for programs and
-// targets, and returns what it reads, what it writes and how it is recorded, or nothing where it is off.
-// frame.cpp lists the passes in the order of a frame; timer zones, memory and the list in docs/rendering.md
-// follow.
+// A pass is a function in a file of its own. It reads the options, requests programs and targets from the
+// builder, and returns the targets that it reads and writes and a function that records it, or nothing if it
+// is off. frame.cpp lists the passes in the order of a frame; timer zones, memory and the list in
+// docs/rendering.md follow.
 #pragma once
 
 #include <functional>
@@ -37,8 +37,8 @@ namespace terrane::render {
 struct Frame;
 struct LayerQueries;
 
-// What passes draw with: the world on the GPU, and this frame's camera. One object for each frame; passes
-// write its last members for those after them.
+// The context of a frame: the world on the GPU, and this frame's camera. There is one object for each frame;
+// passes write its last members for later passes.
 struct FrameContext {
     const Frame& frame;
     const FrameInput& input;
@@ -60,8 +60,8 @@ struct FrameContext {
     std::vector<shared::FigureRecord> figuresInView = {};
 
     bool isUnderWater() const { return input.waterAbove > 0; }
-    // Leaves out what the frame before hid, unless culling is shown from outside.
-    bool hidesHidden() const;
+    // Returns whether culling omits occluded mesh sections: not while culling is shown from outside.
+    bool cullsOccluded() const;
     gpu::TextureSet shadingTextures() const;  // of the world, and the shadow map
     QuadDraw quadDraw() const;
 };
@@ -72,7 +72,7 @@ struct Pass {
     std::string_view name = {};  // of its timer zone: from the list
     std::vector<TargetRef> reads = {}, writes = {};
     std::function<void(FrameContext&)> record = {};
-    // Whether it has something to do in this frame; empty: always.
+    // Returns whether it has something to do in this frame; empty: always.
     std::function<bool(FrameContext&)> isNeeded = {};
     DrawnIn drawnIn = DrawnIn::Image;
 };
@@ -115,8 +115,7 @@ struct Frame {
     std::size_t targetBytes() const;  // of all targets and the shadow map
 };
 
-// Makes the parts of a frame. Targets and shadow maps of the frame before are used again where they are the
-// same.
+// Creates the parts of a frame. Targets and shadow maps of the frame before are reused if they are the same.
 class FrameBuilder {
   public:
     FrameBuilder(const FrameSpec& spec, Programs& compiled, const Frame& before);
@@ -128,7 +127,8 @@ class FrameBuilder {
     const QuadFeatures& features() const { return frame.spec.features; }
     int samples() const { return frame.samples; }
 
-    // `samples`: 1, or those of a pixel.
+    // Returns a target, reused from the frame before if it is the same. Its `samples` are 1, or those of a
+    // pixel.
     TargetRef target(const TargetShape& shape);
     base::Result<std::shared_ptr<const gpu::Framebuffer>> framebuffer(std::string_view label,
                                                                       const std::vector<TargetRef>& colors,
@@ -152,10 +152,11 @@ base::Result<Frame> buildFrame(const FrameSpec& spec, Programs& programs, const 
 // Records the passes, each in a timer zone of its name.
 void recordPasses(FrameContext& context, gpu::GpuTimer& timer);
 
-// Names of all passes, in the order of a frame.
+// Returns the names of all passes, in the order of a frame.
 std::vector<std::string_view> passNames();
 
-// The passes with what they read and write, a line each: "shade: G-buffer, depth → scene".
+// Returns the passes with the targets that they read and write, a line each: "shade: G-buffer, depth →
+// scene".
 std::string textOf(const Frame& frame);
 
 // Draws over the bound framebuffer, at depth 0 (farthest): one triangle over all of it, or one for each of

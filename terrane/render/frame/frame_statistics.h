@@ -1,4 +1,4 @@
-// Statistics of a frame. A plain value.
+// Statistics of a frame. It is a plain value.
 #pragma once
 
 #include <cstddef>
@@ -9,7 +9,7 @@
 
 namespace terrane::render {
 
-// GPU memory of a renderer by use, in bytes. A plain value.
+// GPU memory of a renderer by use, in bytes. It is a plain value.
 struct GpuMemory {
     std::size_t quads = 0, light = 0;  // buffers and textures, including free room
     std::size_t meshSections = 0;      // records, their order, draw commands
@@ -22,8 +22,8 @@ struct GpuMemory {
     std::size_t total() const { return world() + fixed(); }
 };
 
-// Sums over the early and the late pass: mesh sections drawn by both count twice. Quads left out by
-// quad_list.h do not count. A draw command counts even if its list is empty.
+// Sums over the early and the late pass: mesh sections drawn by both count twice. Quads that quad_list.h
+// omits do not count. A draw command counts even if its list is empty.
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
@@ -32,8 +32,8 @@ struct FrameStatistics {
 
 FrameStatistics statisticsOf(const shared::DrawCounts& counts, std::size_t shadowTriangles);
 
-// Timer zone of a part of a frame. Used by the renderer on the context's thread.
-// Measures the GPU time of commands during its life.
+// Timer zone of a part of a frame. The renderer uses it on the context's thread. Measures the GPU time of
+// commands during its life.
 class TimerZone {
   public:
     TimerZone(gpu::GpuTimer& timer, std::string_view name) : timer_(timer) { timer_.begin(name); }

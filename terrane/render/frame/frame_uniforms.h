@@ -1,4 +1,4 @@
-// Uniforms of a frame from its input and options. Pure; any thread.
+// Uniforms of a frame from its input and options. It is pure; any thread may call it.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace terrane::render {
 
-// Input that changes from frame to frame. A plain value.
+// Input that changes from frame to frame. It is a plain value.
 enum class View : std::uint8_t { Color, Normal, Depth, Merging, Light };
 
 struct FrameInput {
@@ -25,9 +25,9 @@ struct FrameInput {
     int waterAbove = 0;  // blocks of water over the camera, its own included; 0 in air
     // Most shadow tiles to draw; others follow in later frames. Single images draw all.
     std::size_t maxShadowTiles = ShadowClipmap::kAllTiles;
-    // Draws only what this camera would see, even if it is hidden from it, to show culling from outside. It
-    // is in the same chunk as `camera`.
-    std::optional<Camera> culledFor = std::nullopt;
+    // The frame draws only the mesh sections in view of this camera, without occlusion culling, to show
+    // culling from outside. It is in the same chunk as `camera`.
+    std::optional<Camera> cullingCamera = std::nullopt;
     // Other players; may include figures out of view.
     std::span<const world::Figure> figures = {};
 };
@@ -38,7 +38,7 @@ struct FrameSetup {
     float edgeExpansion = 0;  // pixels
 };
 
-// Sets all members but the place in the light grid.
+// Sets all members except the position in the light grid.
 shared::Frame frameUniforms(const FrameInput& input, const RenderOptions& options, const FrameSetup& setup);
 
 }  // namespace terrane::render

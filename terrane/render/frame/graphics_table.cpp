@@ -202,7 +202,7 @@ std::string presetNames() {
 
 std::string presetNameError(const std::string& preset) {
     if (findPreset(preset, false)) return {};
-    return base::notOneOf(allPresetNames(), preset);
+    return base::expectedOneOf(allPresetNames(), preset);
 }
 
 GraphicsSettings settingsOf(const GraphicsChoices& choices, bool isSoftwareRenderer) {

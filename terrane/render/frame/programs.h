@@ -1,4 +1,4 @@
-// The shader programs of the passes, each compiled when it is first asked for and then kept. Used on the
+// The shader programs of the passes; each is compiled on the first request and then cached. It is used on the
 // context's thread.
 #pragma once
 
@@ -17,11 +17,11 @@ class Programs {
     // The loader outlives this.
     explicit Programs(const gpu::ShaderLoader& shaders) : shaders_(&shaders) {}
 
-    // Names are paths below terrane/render without ".frag.glsl": "effects/god_rays". The last part is the
-    // program's label. The program lives as long as this.
+    // Returns a program, compiled if needed. Names are paths below terrane/render without ".frag.glsl":
+    // "effects/god_rays". The last part is the program's label. The program lives as long as this.
     base::Result<const gpu::Program*> fullscreen(std::string_view name,
                                                  const gpu::ShaderDefines& defines = {});
-    // For quads, with quad.vert.glsl.
+    // Returns a program that draws quads, with quad.vert.glsl.
     base::Result<const gpu::Program*> quads(std::string_view name, const gpu::ShaderDefines& defines);
     base::Result<const gpu::Program*> graphics(std::string_view vertexName, std::string_view fragmentName,
                                                const gpu::ShaderDefines& defines);

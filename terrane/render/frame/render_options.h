@@ -1,4 +1,4 @@
-// Options of drawing: every user option as one plain value, and presets. Any thread.
+// Options of drawing: every user option as one plain value, and presets. Any thread may use it.
 #pragma once
 
 #include <array>
@@ -24,14 +24,14 @@ enum class Occlusion : std::uint8_t { Off, On, Raw };  // Raw shows it instead o
 // Full adds reflections of the shore, swell, foam and caustics.
 enum class Water : std::uint8_t { Plain, Full };
 
-// Treatment of the cracks between quads of different sizes.
+// The treatment of cracks between quads of different sizes.
 enum class TJunctions : std::uint8_t {
     Open,     // nothing
     Filled,   // holes of one sample take the value of a neighbor: hole_fill.cpp
     Covered,  // quads overlap by a little, so that there are no cracks: edge_expansion.glsl
 };
 
-// Distance from the camera up to which sun and moon cast shadows.
+// The distance from the camera up to which sun and moon cast shadows.
 enum class ShadowReach : std::uint8_t {
     Off,
     Near,     // 50 blocks
@@ -90,14 +90,14 @@ struct Preset {
     std::optional<double> relativeCost = {};
 };
 
-// low, medium, high, ultra, thesis.
+// Returns the presets low, medium, high, ultra and thesis.
 const std::array<Preset, 5>& presets();
-// Null if no preset has the name. "auto" is high on a graphics card and low without one.
+// Returns the preset of a name; null if there is none. "auto" is high on a graphics card and low without one.
 const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
-// A preset of the name must exist.
+// Returns the settings with those of a preset. A preset of the name must exist.
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer);
 
-// Selects the best preset for a machine from a measurement of the cheapest one. Any thread.
+// Selects the best preset for a machine from a measurement of the cheapest one. Any thread may use it.
 constexpr double kTargetFramesPerSecond = 60;
 // A fifth of the frame is left for the interface, the system and views that cost more.
 constexpr double kTargetMilliseconds = 0.8 * 1000 / kTargetFramesPerSecond;

@@ -157,8 +157,8 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
     cull.edgeExpansion = edgeExpansion(device_.subpixelBits, size());
     cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
     cull.samples = frame_.samples;
-    if (input.culledFor)
-        cull.camera = frustumOf(viewMatrices(*input.culledFor, aspectOf(size())).viewProjection);
+    if (input.cullingCamera)
+        cull.camera = frustumOf(viewMatrices(*input.cullingCamera, aspectOf(size())).viewProjection);
     else if (frame_.targets.hiZ)
         cull.hiZ = &frame_.targets.hiZ->plain();
     return cull;
@@ -202,7 +202,7 @@ void Renderer::draw(const FrameInput& input) {
     base::require(frame_.isBuilt(), "Renderer::draw: configure() comes before the first frame");
     timer_.nextFrame();
     ring_.beginFrame();
-    pipeline_.forget();
+    pipeline_.invalidate();
     FrameContext context = prepare(input);
     recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
@@ -337,7 +337,7 @@ void Renderer::clearChunks() {
     hidden_.clear();
     meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
     forgetShadows();
-    cull_.forget();
+    cull_.invalidate();
     setViewDistance(viewDistance_);
 }
 

@@ -1,5 +1,5 @@
 // Draws the view of the camera. Owns the world on the GPU (quads, light, textures) and the frame (frame.h)
-// that is built for the options. Used on the thread of the current OpenGL context.
+// that is built for the options. It is used on the thread of the current OpenGL context.
 #pragma once
 
 #include <algorithm>
@@ -22,8 +22,7 @@ namespace terrane::render {
 
 class Renderer {
   public:
-    // The loader outlives the renderer. `maxTextureSide`: of the textures that it keeps on the GPU, in
-    // pixels.
+    // Creates a renderer. The loader outlives it. `maxTextureSide` limits the textures on the GPU, in pixels.
     static base::Result<Renderer> create(const gpu::ShaderLoader& shaders, const world::BlockRegistry& blocks,
                                          const TextureSource& textures, const gpu::DeviceInfo& device,
                                          const QuadStoreSizes& quads = {},
@@ -40,20 +39,20 @@ class Renderer {
     base::Result<void> reloadShaders();
 
     // Sets the most bytes that the renderer may take on the GPU: quads and light do not grow beyond it. Comes
-    // before configure() and setViewDistance(), which take what they need; removes all chunks.
+    // before configure() and setViewDistance(), which allocate memory; removes all chunks.
     void setMemoryBudget(std::size_t bytes);
     std::size_t memoryBudget() const { return budgetBytes_; }
     GpuMemory memory() const;  // as of the next frame
-    // Largest memory since setMemoryBudget(), including copies during growth.
+    // Returns the largest memory since setMemoryBudget(), including copies during growth.
     std::size_t peakMemory() const { return peakBytes_; }
     // Sets memory used outside the renderer that the budget includes.
     void setStagingBytes(std::size_t bytes) { stagingBytes_ = bytes; }
 
-    // Sets the quads of these mesh sections for the next frame; `mesh` has none of others. False if there is
-    // no room within the budget: the mesh sections are not shown then.
+    // Sets the quads of these mesh sections for the next frame; `mesh` has none of others. Returns false if
+    // there is no room within the budget: the mesh sections are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                   mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
-    // The same for the whole chunk, without the quads: before the next frame a shader writes them into
+    // Does the same for the whole chunk without the quads: before the next frame a shader writes them into
     // quadBuffers(), to the ranges of meshSectionsOf().
     bool reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes);
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const {
@@ -75,9 +74,9 @@ class Renderer {
     // like useTint().
     base::Result<void> useLand(bool isUsed);
     bool hasLand() const { return land_.isUsed(); }
-    // Whether frames with the current options need the land's tiles.
+    // Returns whether frames with the current options need the land's tiles.
     bool readsLand() const { return land_.isUsed() && render::readsLand(options()); }
-    // After useLand(true): sets the surface of a tile of the clipmap, and the view distance in blocks.
+    // These set the surface of a tile of the clipmap, and the view distance in blocks, after useLand(true).
     void setLand(world::ChunkPos tile, const world::LandTile& land) { land_.map().set(tile, land); }
     void setLandReach(double blocks) { land_.map().setReach(blocks); }
     const Clipmap& landClipmap() const { return land_.map().clipmap(); }
@@ -98,12 +97,12 @@ class Renderer {
     base::Image readImage() const { return gpu::readPixels(*frame_.image); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
 
-    // Statistics of the newest frame that the GPU has finished.
+    // Returns the statistics of the newest frame that the GPU has finished.
     FrameStatistics statistics() {
         return statisticsOf(cull_.counts(), frame_.shadowMap ? frame_.shadowMap->drawnTriangles() : 0);
     }
     const std::vector<gpu::GpuTiming>& passTimes() const { return timer_.results(); }
-    // Triangles that one shadow map for this frame would draw.
+    // Returns the number of triangles that one shadow map for this frame would draw.
     std::size_t shadowTriangles(const FrameInput& input) const;
     std::size_t quadBytes() const { return quads_.usedBytes(); }
     std::uint64_t uploadedQuadBytes() const { return quads_.uploadedBytes(); }  // since the beginning
@@ -114,7 +113,7 @@ class Renderer {
     const Frame& frame() const { return frame_; }  // for tests and documents
 
   private:
-    // Builds the frame anew and swaps it in. If it fails, the old one stays.
+    // Rebuilds the frame and replaces the old one. If it fails, the old one stays.
     base::Result<void> rebuild(const FrameSpec& spec);
     QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed(), land_.isUsed()}; }
     FrameContext prepare(const FrameInput& input);
@@ -122,7 +121,7 @@ class Renderer {
     CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
     bool hasShadows(const FrameInput& input) const;
     void forgetShadows() {
-        if (frame_.shadowMap) frame_.shadowMap->forget();
+        if (frame_.shadowMap) frame_.shadowMap->invalidate();
     }
     void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
     void shareBudget();

@@ -1,4 +1,4 @@
-// A texture that passes draw into and read. Used on the thread of the OpenGL context.
+// A texture that passes draw into and read. It is used on the thread of the OpenGL context.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -44,10 +44,10 @@ using TargetRef = std::shared_ptr<const Target>;
 // Copies a rectangle; both have the same format and samples.
 void copyTarget(const Target& from, const Target& to, glm::ivec2 corner, glm::ivec2 size);
 
-// The short path of a frame: if no later pass reads the linear scene, sky, surfaces and layers are drawn
-// directly as the screen shows them, without the scene and the final pass. Pure; any thread. `samples`: of a
-// pixel, as the driver has them. With one sample and no clouds surfaces need no sky drawn behind them, and
-// layers are shaded together with the surface behind. Reflected shores read the scene.
+// Returns whether a frame takes the short path: if no later pass reads the linear scene, sky, surfaces and
+// layers are drawn directly as the screen shows them, without the scene and the final pass. `samples` are
+// those of a pixel, as the driver has them. With one sample and no clouds surfaces need no sky drawn behind
+// them, and layers are shaded together with the surface behind. Reflected shores read the scene.
 constexpr bool isDirectImage(const RenderOptions& o, int samples) {
     return samples == 1 && !o.clouds && !o.godRays && !o.depthOfField && o.occlusion == Occlusion::Off &&
            o.singleTransparencyLayer == 0 && (o.water == Water::Plain || o.transparencyLayers == 0);

@@ -1,5 +1,6 @@
-// The options of each shader that has variants, as types: what a pass asks for is what the shader's macros
-// say, and what tests compile. `samples`: of a pixel. Plain values; any thread.
+// The options of each shader that has variants, as types: a pass requests a variant, its defines are the
+// shader's macros, and tests compile all of them. `samples` are those of a pixel. All are plain values; any
+// thread may use them.
 #pragma once
 
 #include <vector>
@@ -10,8 +11,8 @@
 
 namespace terrane::render {
 
-// What the frame is built for, besides size and options: what the world's faces need in shaders. Without it
-// they are shorter.
+// The features of the world's faces that shaders need; without them shaders are shorter. Like size and
+// options, they select the frame.
 struct QuadFeatures {
     bool hasFaceSampling = false;  // see needsFaceSampling()
     bool hasTint = false;          // see TintTextures
@@ -24,14 +25,15 @@ enum class ShadowEdges : std::uint8_t { None, Hard, Soft };         // SHADOW
 enum class LightDetail : std::uint8_t { Classic, Smooth, Simple };  // LIGHT_SMOOTH; Simple: far away, in air
 enum class QuadPass : std::uint8_t { Surfaces, Layers, Shadows };   // PASS
 
-// Whether a shader reads the land up to the horizon (land_map.h) with these options, if there is land.
+// Returns whether a shader reads the land up to the horizon (land_map.h) with these options, if there is
+// land.
 bool readsLand(const RenderOptions& options);
 bool castsShadows(const RenderOptions& options);
 
 // Light of sun and moon in shading.
 struct SunVariant {
     ShadowEdges shadows = ShadowEdges::None;
-    bool knowsLand = false;
+    bool usesLand = false;
 
     static SunVariant of(const RenderOptions& options, const QuadFeatures& features);
 };
@@ -95,7 +97,7 @@ struct SkyVariant {
     static std::vector<SkyVariant> all();
 };
 
-// Pixels in which any sample has a surface; shows the sky or may fade into it; has a layer.
+// The pixels in which any sample has a surface; shows the sky or may fade into it; has a layer.
 enum class MaskOf : std::uint8_t { Surfaces, Sky, Layers };
 struct MaskVariant {
     int samples = 4;
@@ -168,8 +170,8 @@ struct FigureVariant {
     gpu::ShaderDefines defines() const;
 };
 
-// The defines of all variants of a shader, by its path without "terrane/render/" and ".glsl":
-// "effects/hole_fill.frag". Of a shader without variants: those of one empty variant.
+// Returns the defines of all variants of a shader, by its path without "terrane/render/" and ".glsl":
+// "effects/hole_fill.frag". A shader without variants has one empty variant.
 std::vector<gpu::ShaderDefines> allVariants(std::string_view shader);
 
 }  // namespace terrane::render

@@ -3,7 +3,7 @@
 // (tint_textures.h) and the land (land_map.h) have one clipmap each.
 //
 // A level wraps around: a tile is stored at its position modulo 16, so that a moving camera replaces only the
-// tiles that it leaves behind. Plain bookkeeping without OpenGL; one thread.
+// tiles that it leaves behind. It uses no OpenGL; one thread uses it.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -47,12 +47,13 @@ class Clipmap {
     explicit Clipmap(const ClipmapShape& shape);
     const ClipmapShape& shape() const { return shape_; }
 
-    // Whether it is a chunk of a generator level that the clipmap has.
+    // Returns whether it is a chunk of a generator level that the clipmap has.
     bool isTile(world::ChunkPos tile) const;
     ClipmapPlace placeOf(world::ChunkPos tile) const;
-    // Tile whose lower corner is the middle of the 16 × 16 tiles of a level around the camera's chunk.
+    // Returns the tile whose lower corner is the middle of the 16 × 16 tiles of a level around the camera's
+    // chunk.
     world::ChunkPos middleTile(int level, world::ChunkPos camera) const;
-    // Number of levels, from the finest on, needed to see so many blocks far.
+    // Returns the number of levels, from the finest on, that a view of `reach` blocks needs.
     int levelsFor(double reach) const;
 
     // Returns up to `limit` tiles that are missing around the camera's chunk for a view of `reach` blocks.
@@ -62,7 +63,7 @@ class Clipmap {
     // Stores the tile, which replaces the one at its place.
     void set(world::ChunkPos tile);
 
-    // Distance from the camera along each axis up to which a level is complete, blocks; at most
+    // Returns the distance from the camera along each axis up to which a level is complete, blocks; at most
     // kMaxReachTiles tiles.
     double completeReach(int level, const Camera& camera) const;
 
@@ -73,11 +74,11 @@ class Clipmap {
     std::vector<std::optional<world::ChunkPos>> tiles_;  // level after level
 };
 
-// Clipmap of the tint, and its uniforms.
+// The clipmap of the tint, and its uniforms.
 constexpr ClipmapShape kTintClipmap{static_cast<int>(shared::kTintLevels), shared::tintGeneratorLevel(0), 2};
 shared::TintFrame tintFrame(const Clipmap& clipmap, const Camera& camera);
 
-// Distance of a point from tile number `tile` along one axis; `blocks`: width of a tile.
+// Returns the distance of a point from tile number `tile` along one axis; `blocks`: width of a tile.
 double distanceToTile(double at, std::int32_t tile, double blocks);
 
 }  // namespace terrane::render

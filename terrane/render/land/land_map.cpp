@@ -359,7 +359,7 @@ std::vector<LandChange> LandMap::update(world::ChunkPos camera, const LandLight&
     std::vector<LandChange> changed;
     for (int number = used_ - 1; number >= 0 && static_cast<int>(changed.size()) < limit; --number) {
         const auto n = static_cast<std::size_t>(number);
-        if (number + 1 < used_ && !levels_[n + 1].isThere()) break;
+        if (number + 1 < used_ && !levels_[n + 1].exists()) break;
         const bool hasNewGround = canTakeColumns(number, camera);
         if (hasNewGround) {
             takeColumns(number, cornerAt(number, camera));

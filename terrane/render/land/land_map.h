@@ -1,10 +1,10 @@
-// The land around the camera on the CPU: a clipmap of heights and colors (world/land_tile.h), and the data
+// The land around the camera on the CPU: a clipmap of heights and colors (world/tint.h), and the data
 // computed from it for shaders: shadows to the horizon, sky visibility, the color of the ground. Without
 // OpenGL; used by LandTextures on one thread.
 //
 // A level is computed when all its tiles exist, the coarsest first, since finer ones need it at their border.
-// Until then the level keeps its place and covers a little less around a moved camera. 1 ms a level if the
-// light moved, 5 ms if the land is new.
+// Until then the level stays at its position and covers a little less around a moved camera. 1 ms a level if
+// the light moved, 5 ms if the land is new.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -21,10 +21,10 @@
 
 namespace terrane::render {
 
-// Shadows of land on land, for a distant light: one pass over a square of heights from the light's side on,
-// each texel from the two nearest of the previous line. Pure functions; any thread.
-// Shadow of a texel: points below `height` (blocks) are hidden from the light by land `distance` blocks away
-// toward it.
+// Shadows of land on land for a distant light are computed in one pass over a square of heights from the
+// light's side on, each texel from the two nearest of the previous line. All functions are pure; any thread
+// may call them. The shadow of a texel: points below `height` (blocks) are hidden from the light by land
+// `distance` blocks away toward it.
 struct LandShadow {
     float height, distance;
 };
@@ -36,10 +36,10 @@ struct LandHeights {
     std::span<const float> blocks;  // row after row
 };
 
-// `direction`: to the light, unit length. `outside`: the shadow at a place beside the square, in texels; 0, 0
-// is the middle of the first one. S(p) = max(H(q), S(q)) − |q − p| · tan(elevation), where q is the place on
-// the previous line toward the light: the horizon as in Max, "Horizon mapping: shadows for bump-mapped
-// surfaces", 1988, for one direction, in O(1) a texel.
+// Computes the shadows. `direction` points to the light and has unit length. `outside` returns the shadow at
+// a position outside the square, in texels; 0, 0 is the middle of the first texel. S(p) = max(H(q), S(q)) −
+// |q − p| · tan(elevation), where q is the place on the previous line toward the light: the horizon as in
+// Max, "Horizon mapping: shadows for bump-mapped surfaces", 1988, for one direction, in O(1) a texel.
 void sweepShadows(const LandHeights& land, glm::vec3 direction,
                   const std::function<LandShadow(glm::vec2)>& outside, std::span<LandShadow> shadows);
 
@@ -68,7 +68,7 @@ struct LandLevel {
     std::vector<glm::vec3> ground;    // linear
     std::vector<LandShadow> shadows;
     std::vector<LandEdge> edges;  // of shadows, at the border those of the next level
-    bool isThere() const { return !edges.empty(); }
+    bool exists() const { return !edges.empty(); }
 };
 
 struct LandChange {
@@ -83,7 +83,7 @@ class LandMap {
     const Clipmap& clipmap() const { return clipmap_; }
     const LandLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
-    // Sets the levels for a view of so many blocks; coarser ones are removed.
+    // Sets the levels for a view of so many blocks; coarser levels are removed.
     void setReach(double blocks);
     double reach() const { return reach_; }
     void set(world::ChunkPos tile, const world::LandTile& land);

@@ -83,7 +83,7 @@ shared::LandFrame landFrame(const LandMap& map, const Camera& camera) {
     const world::ChunkPos chunk = cameraChunk(camera);
     for (int number = 0; number < LandTextures::kAllLevels; ++number) {
         const LandLevel& level = map.level(number);
-        if (!level.isThere()) continue;
+        if (!level.exists()) continue;
         const double texel = kLandClipmap.texelBlocks(number), side = texel * Clipmap::kTexels;
         const auto along = [&](std::int32_t chunkAt, int corner) {
             return static_cast<float>((static_cast<double>(chunkAt) * world::kChunkSize - corner * texel) /

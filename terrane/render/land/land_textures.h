@@ -1,5 +1,5 @@
-// The land around the camera as textures (shared/land.h): one layer of 256² texels a level, 4.2 MB. Used by
-// the renderer on the context's thread.
+// The land around the camera as textures (shared/land.h): one layer of 256² texels a level, 4.2 MB. The
+// renderer uses it on the context's thread.
 #pragma once
 
 #include "terrane/gpu/mapped_ring.h"

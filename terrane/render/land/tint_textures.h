@@ -1,5 +1,5 @@
 // The tint around the camera as textures: one layer for each level of a clipmap (clipmap.h). Takes no memory
-// without a tint. Used by the renderer on the context's thread.
+// without a tint. The renderer uses it on the context's thread.
 #pragma once
 
 #include <optional>

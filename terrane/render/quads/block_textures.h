@@ -1,9 +1,9 @@
-// The textures of all block faces as one GPU texture array. Used by the renderer on the context's thread.
+// The textures of all block faces as one GPU texture array. The renderer uses it on the context's thread.
 //
 // Textures may have different sizes. All lie in one array as large as the largest, so every pass has one
 // sampler and one binding, and a draw may mix them. A smaller texture has its own mipmaps from the level of
 // its own size downward; the levels above repeat its pixels. The shader computes with the texture's own size
-// and reads no level above it, so a larger texture in the array does not change its look.
+// and reads no level above it, so a larger texture in the array does not change its appearance.
 //
 // Memory: side² × 4 bytes × 4/3 for mipmaps = side² × 16/3 bytes per texture. The 123 built-in textures take
 // 43 MB at side 256, 172 MB at 512, 688 MB at 1,024. One array per size would save memory, but needs one
@@ -25,7 +25,7 @@
 
 namespace terrane::render {
 
-// Conversion between sRGB and linear light (IEC 61966-2-1), 0…1. Pure functions; any thread.
+// These convert between sRGB and linear light (IEC 61966-2-1), 0…1.
 inline float decodeSrgb(float v) {
     return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f);
 }
@@ -33,9 +33,9 @@ inline float encodeSrgb(float v) {
     return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1.0f / 2.4f) - 0.055f;
 }
 
-// Mipmaps of block textures that keep the look of the full size. Pure functions, any thread.
-// Level 0 is the image, except that texels hidden by a tested alpha take the colors around them; each next
-// level is half as large, down to 1×1. The image is square, its side a power of two.
+// Returns mipmaps that preserve the appearance of the full size. Level 0 is the image, except that texels
+// hidden by a tested alpha take the colors around them; each next level is half as large, down to 1×1. The
+// image is square, its side a power of two.
 //
 // Colors are averaged as light (sRGB is decoded), weighted by alpha if alpha is coverage. If alpha decides
 // holes, each level is scaled so that the share of the surface that passes the test is that of level 0;
@@ -57,20 +57,21 @@ struct TextureLimits {
     int side = std::numeric_limits<int>::max();
 };
 
-// Colors stay sRGB bytes, as in the G-buffer: sampling does not decode them, and software renderers have a
-// fast path for such formats. All images must be square with a side that is a power of two; errors name the
-// texture.
+// Loads the textures. Colors stay sRGB bytes, as in the G-buffer: sampling does not decode them, and software
+// renderers have a fast path for such formats. All images must be square with a side that is a power of two;
+// errors name the texture.
 base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& registry,
                                               const TextureSource& source, const TextureLimits& limits);
 
-// The levels of a texture in an array with this side: its mipmaps behind enlarged copies of the largest.
+// Returns the levels of a texture in an array with this side: its mipmaps behind enlarged copies of the
+// largest.
 std::vector<base::Image> levelsInArray(std::vector<base::Image> mipmaps, int side);
 
-// The meaning of alpha for the mipmaps of a texture. If materials disagree, an alpha test wins, so mipmaps
-// keep the coverage; otherwise the last material wins.
+// Returns the meaning of alpha for the mipmaps of a texture. If materials disagree, an alpha test wins, so
+// mipmaps keep the coverage; otherwise the last material wins.
 world::AlphaMode textureAlpha(const world::BlockRegistry& registry, std::size_t texture);
 
-// The wrap mode for the mipmaps of a texture: Clamp if a face clamps it.
+// Returns the wrap mode for the mipmaps of a texture: Clamp if a face clamps it.
 world::Wrap textureWrap(const world::BlockRegistry& registry, std::size_t texture);
 
 }  // namespace terrane::render

@@ -48,7 +48,7 @@ MaybePass makeSurfaces(FrameBuilder& build) {
 MaybePass makeLateSurfaces(FrameBuilder& build) {
     if (!build.options().occlusionCulling) return std::nullopt;
     auto pass = TERRANE_TRY(makeQuads(build, false));
-    pass->isNeeded = [](FrameContext& context) { return context.hidesHidden(); };
+    pass->isNeeded = [](FrameContext& context) { return context.cullsOccluded(); };
     return pass;
 }
 

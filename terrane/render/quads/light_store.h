@@ -1,5 +1,5 @@
-// The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). Used on the thread
-// of the current OpenGL context.
+// The light of the visible chunks on the GPU, for shaders to sample (light_sample.glsl). It is used on the
+// thread of the current OpenGL context.
 //
 // Light is stored in light tiles of 8³ blocks; a light tile of one value takes only its entry in the grid.
 // Grid: a 3D texture of 32-bit entries, two by two light tiles a chunk, wrapping around the camera. Pool: a
@@ -26,23 +26,23 @@ namespace terrane::render {
 class LightStore {
   public:
     LightStore() = default;
-    // Has room for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles (4
-    // MiB) each; 0: as many as the driver allows.
+    // Creates a store for chunks up to `viewDistance` + 1 around the camera. `maxSlabs`: of 4,096 light tiles
+    // (4 MiB) each; 0: as many as the driver allows.
     explicit LightStore(int viewDistance, int maxSlabs = 0, std::size_t maxBytes = SIZE_MAX);
-    // Limits further growth; grid and pool keep their present size.
+    // Limits further growth; grid and pool stay as large as they are.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
     // Sets the light of a chunk. `bricks`: bits of the bricks that may differ from the last call; a new chunk
-    // sets all. False if some light tiles had no room: they get the light of their middle.
+    // sets all. Returns false if some light tiles had no room: they get the light of their middle.
     bool set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
     void remove(world::ChunkPos pos);
     void addTo(gpu::TextureSet& textures) const;
 
-    // Chunks along a side of the grid: a power of two.
+    // Returns the number of chunks along a side of the grid: a power of two.
     int gridChunks() const { return gridChunks_; }
     std::size_t usedBytes() const { return (tileCount_ - free_.size()) * kTileBytes + grid_.sizeBytes(); }
     std::size_t textureBytes() const { return grid_.sizeBytes() + pool_.sizeBytes(); }
-    // Most bytes that the textures took at once since the last call, including copies.
+    // Returns the most bytes that the textures took at once since the last call, including copies.
     std::size_t takePeakBytes() { return std::max(std::exchange(peakBytes_, 0), textureBytes()); }
     std::size_t chunkCount() const { return chunks_.size(); }
     std::size_t uploadedTiles() const { return uploadedTiles_; }  // so far

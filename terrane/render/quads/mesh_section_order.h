@@ -1,5 +1,5 @@
-// Order of the mesh sections that have quads, from the camera outward. Owned by MeshSectionTable; no OpenGL,
-// one thread.
+// Order of the mesh sections that have quads, from the camera outward. MeshSectionTable owns it; it uses no
+// OpenGL, one thread.
 #pragma once
 
 #include <compare>
@@ -19,7 +19,7 @@ class MeshSectionOrder {
 
     // Sorts slots by the distance of their mesh section from the chunk `center` of level 0, nearest first.
     // Equal distances are ordered by place in the world, since slots depend on the order in which chunks
-    // arrived. False if nothing changed.
+    // arrived. Returns false if nothing changed.
     bool update(world::ChunkPos center);
     const std::vector<std::uint32_t>& slots() const { return slots_; }  // as update() left them
 

@@ -1,5 +1,5 @@
 // Records of the chunks' mesh sections for culling and drawing on the GPU, and their order from the camera
-// outward. Used by the renderer on the context's thread, beside QuadStore.
+// outward. The renderer uses it on the context's thread, beside QuadStore.
 #pragma once
 
 #include <array>
@@ -39,25 +39,25 @@ class MeshSectionTable {
     const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
     void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
 
-    // Records by slot; heights are 0 if the slot is free.
+    // Returns the records by slot; heights are 0 if the slot is free.
     std::span<const shared::MeshSectionRecord> slotRecords() const { return cpuRecords_; }
     // Returns the boxes of mesh sections that were replaced, removed or added since the last call, before and
     // after the change.
     std::vector<CasterBox> takeChanges() { return std::exchange(changes_, {}); }
 
-    // Number of mesh sections that have quads, and of entries in the order.
+    // Returns the number of mesh sections that have quads, and of entries in the order.
     std::uint32_t count() const { return count_; }
-    // Number of slots, free ones included.
+    // Returns the number of slots, free ones included.
     std::uint32_t slots() const { return static_cast<std::uint32_t>(cpuRecords_.size()); }
     // Most commands that drawing all faces of a draw bucket can take, by arena. There is at least one arena.
     using BucketCommands = std::array<std::uint32_t, shared::kDrawBuckets>;
     const std::vector<BucketCommands>& maxCommands() const { return maxCommands_; }
     std::uint32_t arenaQuads() const { return arenaQuads_; }
-    // GPU memory as of the next update(), including buffers that it replaces.
+    // Returns the GPU memory as of the next update(), including buffers that it replaces.
     std::size_t gpuBytes() const;
-    // Rectangles without overlap that contain all pixels of an image of `size` that blended faces may cover,
-    // waves included; none if no mesh section in view has any. `viewProjection`: from blocks from the corner
-    // of the chunk `center`.
+    // Returns the rectangles without overlap that contain all pixels of an image of `size` that blended faces
+    // may cover, waves included; none if no mesh section in view has any. `viewProjection`: from blocks from
+    // the corner of the chunk `center`.
     std::vector<ScreenRect> blendedRects(world::ChunkPos center, const glm::mat4& viewProjection,
                                          glm::ivec2 size) const;
 

@@ -1,5 +1,5 @@
 // Resources that every pass over the chunks' quads binds besides the quads: index pattern, shapes, materials,
-// textures. Used by the renderer on the context's thread.
+// textures. The renderer uses it on the context's thread.
 #pragma once
 
 #include "terrane/base/result.h"
@@ -15,14 +15,14 @@ namespace terrane::render {
 class QuadResources {
   public:
     QuadResources() = default;
-    // `anisotropy`: samples along the long side of a slanted texel footprint; 1 is none.
+    // `anisotropy` is the number of samples along the long side of a slanted texel footprint; 1 is none.
     QuadResources(const world::BlockRegistry& blocks, BlockTextures textures, float anisotropy);
 
     // Replaces the textures, for the same blocks.
     void setTextures(const world::BlockRegistry& blocks, BlockTextures textures);
     bool hasFaceSampling() const { return hasFaceSampling_; }
 
-    // isSmooth: textures are filtered.
+    // Binds all resources. With `isSmooth` textures are filtered.
     void bind(const MeshSectionTable& meshSections, bool isSmooth);
     // Binds only shapes and materials.
     void bindTables() const;
@@ -37,8 +37,8 @@ class QuadResources {
     bool hasFaceSampling_ = false;
 };
 
-// Whether some face samples its texture in its own way, or a texture is smaller than the array. Then the
-// shaders of quads need FACE_SAMPLING (block_texture.glsl); without it they are shorter.
+// Returns whether some face samples its texture in its own way, or a texture is smaller than the array. Then
+// the shaders of quads need FACE_SAMPLING (block_texture.glsl); without it they are shorter.
 bool needsFaceSampling(const world::BlockRegistry& blocks, const BlockTextures& textures);
 
 }  // namespace terrane::render

@@ -1,12 +1,12 @@
 // The quads of all visible chunks in a few GPU buffers (arenas): one binding and one draw call for each arena
-// and draw bucket, whatever the number of chunks. Used by the renderer on the context's thread.
+// and draw bucket, whatever the number of chunks. The renderer uses it on the context's thread.
 //
 // The first arena begins with 8 MiB (less in a small budget) and doubles up to 256 MiB, or to the limit that
 // a shader can reach if that is less (128 MiB in Mesa's software renderer: a landscape at view distance 55).
 // Further arenas are added without a copy. The quads of a mesh section are in one arena. No growth takes the
 // buffers beyond setMaxBytes(), including the temporary copy of a doubling.
 //
-// All writes and copies are commands in the stream of the context, so a frame sees a mesh section's quads
+// All writes and copies are commands in the stream of the context, so a frame uses a mesh section's quads
 // before or after a change, never a mixture, and nothing waits for the GPU. A chunk's mesh sections are
 // contiguous until an edit moves one of them.
 #pragma once
@@ -28,14 +28,13 @@
 
 namespace terrane::render {
 
-// Buffers that are replaced by one of twice the needed size when they are too small, and the memory needed
-// for it.
-// Size of the buffer that replaces `buffer`; 0 if `buffer` is large enough.
+// A buffer that is too small is replaced by one of twice the needed size. Returns the size of the buffer that
+// replaces `buffer`; 0 if `buffer` is large enough.
 inline std::size_t grownBytes(const gpu::Buffer& buffer, std::size_t neededBytes) {
     return neededBytes > buffer.sizeBytes() ? 2 * neededBytes : 0;
 }
 
-// Bytes of the buffer and of its replacement: both exist until the GPU has used the old one.
+// Returns the bytes of the buffer and of its replacement: both exist until the GPU has used the old one.
 inline std::size_t bytesWhileGrowing(const gpu::Buffer& buffer, std::size_t neededBytes) {
     return buffer.sizeBytes() + grownBytes(buffer, neededBytes);
 }
@@ -54,24 +53,25 @@ class QuadStore {
   public:
     explicit QuadStore(const QuadStoreSizes& sizes = {});
 
-    // Limits the size of all buffers from now on; they keep their present size.
+    // Limits the size of all buffers from now on; they stay as large as they are.
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
     // Replaces the quads of these mesh sections; `mesh` has none of others. Grows when the arenas are full.
-    // False if they cannot grow further: the mesh sections then have no quads, since the old ones are wrong.
+    // Returns false if they cannot grow further: the mesh sections then have no quads, since the old ones are
+    // wrong.
     bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
              mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
-    // The same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
+    // Does the same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
     // frame.
     bool reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
                  mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
     void remove(world::ChunkPos pos);
 
-    // Chunks that have quads.
+    // Returns the chunks that have quads.
     const std::unordered_map<world::ChunkPos, ChunkMeshSections, world::ChunkPosHash>& chunks() const {
         return chunks_;
     }
-    // Empty if the chunk has no quads.
+    // Returns the mesh sections of a chunk; the result is empty if it has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
     gpu::ArenaBuffers buffers() const;  // until the next change
     const gpu::BufferTexture& texels(std::size_t arena) const {
@@ -79,7 +79,7 @@ class QuadStore {
     }  // a quad each
     std::size_t usedBytes() const;
     std::size_t bufferBytes() const;  // of all arenas
-    // Most bytes that the buffers took at once since the last call, including copies.
+    // Returns the most bytes that the buffers took at once since the last call, including copies.
     std::size_t takePeakBytes() { return std::max(std::exchange(peakBytes_, 0), bufferBytes()); }
     std::uint64_t uploadedBytes() const { return uploadedBytes_; }  // by set(), since the beginning
     const gpu::ArenaAllocator& ranges() const { return ranges_; }

@@ -14,9 +14,10 @@ vec3 throughAirToSky(vec3 color, vec3 toPoint, float daylight) {
 #else
 const float kLog2E = 1.442695;
 
-// Optical depth of the air for each color, in powers of ½ (world/air.h). Molecules have half as much for red as for
-// green and a fifth as much as for blue. Haze is equal for all colors: its mean density on the way is the closed form
-// of world::hazeLength. `share2`: square of the share of the view's distance.
+// Optical depth of the air for each color, in powers of ½ (world/sky/air.h). Molecules have half as much for red as for
+// green and a fifth as much as for blue. Haze is equal for all colors: its mean density on the way is the integral of
+// its exponential density in closed form (C. Wenzel, Real-time Atmospheric Effects in Games, 2006). `share2`: square of
+// the share of the view's distance.
 vec3 airDepth(vec3 toPoint, float blocks, float share2) {
     float rise = max(toPoint.z * air.depth.z, -80.0);
     rise = abs(rise) < 1e-3 ? 1e-3 : rise;

@@ -1,4 +1,5 @@
-// Draw commands of the casters of a rectangle of shadow tiles. Pure functions; any thread.
+// The draw commands of the casters of a rectangle of shadow tiles. All functions are pure; any thread may
+// call them.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ CasterBox casterBoxOf(const shared::MeshSectionRecord& record);
 // Opaque and tested quads, one-sided and two-sided.
 constexpr int kCasterBuckets = 4;
 
-// Whether faces of a direction may be lit. `direction`: see mesh::kAnyDirection.
+// Returns whether faces of a direction may be lit. `direction`: see mesh::kAnyDirection.
 bool facesLight(int direction, glm::vec3 light);
 
 // Commands of a draw bucket whose quads lie in one arena.
@@ -25,9 +26,9 @@ struct CasterList {
     std::size_t quads = 0;
 };
 
-// Lists by arena × kCasterBuckets + draw bucket, for all arenas with quads: everything in the column along
-// the light over the tiles, without face directions that face away from it. `records`: by slot, with heights
-// 0 for free slots; `arenaQuads`: addresses of an arena.
+// Returns lists by arena × kCasterBuckets + draw bucket, for all arenas with quads: everything in the column
+// along the light over the tiles, without face directions that face away from it. `records`: by slot, with
+// heights 0 for free slots; `arenaQuads`: addresses of an arena.
 std::vector<CasterList> castersOf(const ShadowTiles& tiles,
                                   std::span<const shared::MeshSectionRecord> records,
                                   std::uint32_t arenaQuads);

@@ -140,49 +140,49 @@ void ShadowClipmap::followLight(const Camera& camera, const ShadowPlane& plane, 
     }
 }
 
-void ShadowClipmap::addMissing(std::vector<Wanted>& wanted, int cascade, std::size_t layer,
+void ShadowClipmap::addMissing(std::vector<TileToDraw>& toDraw, int cascade, std::size_t layer,
                                const Camera& camera) const {
     const glm::ivec2 middle = middleOf(layers_[layer], cascade, camera);
-    const auto begin = static_cast<std::ptrdiff_t>(wanted.size());
+    const auto begin = static_cast<std::ptrdiff_t>(toDraw.size());
     forEachPlace(middle, [&](glm::ivec2 place) {
-        if (tileAt(layers_[layer], place).place != place) wanted.push_back({cascade, layer, place});
+        if (tileAt(layers_[layer], place).place != place) toDraw.push_back({cascade, layer, place});
     });
-    const auto ring = [&](const Wanted& tile) {
+    const auto ring = [&](const TileToDraw& tile) {
         const glm::ivec2 away = tile.place - middle;
         return std::max({away.x, -1 - away.x, away.y, -1 - away.y});
     };
-    std::ranges::stable_sort(wanted.begin() + begin, wanted.end(), {}, ring);
+    std::ranges::stable_sort(toDraw.begin() + begin, toDraw.end(), {}, ring);
 }
 
-void ShadowClipmap::addStale(std::vector<Wanted>& wanted, int cascade, const Camera& camera,
+void ShadowClipmap::addStale(std::vector<TileToDraw>& toDraw, int cascade, const Camera& camera,
                              bool isAtOnce) const {
     const std::size_t layer = inUse_[static_cast<std::size_t>(cascade)];
     const std::uint64_t patience = isAtOnce ? 0 : kPatience[static_cast<std::size_t>(cascade)];
     forEachPlace(middleOf(layers_[layer], cascade, camera), [&](glm::ivec2 place) {
         const Tile& tile = tileAt(layers_[layer], place);
         if (tile.place == place && tile.staleSince > 0 && frame_ >= tile.staleSince + patience)
-            wanted.push_back({cascade, layer, place});
+            toDraw.push_back({cascade, layer, place});
     });
 }
 
 // Every other frame a new map takes precedence over changes in the old ones, so that both progress.
-std::vector<ShadowClipmap::Wanted> ShadowClipmap::wantedTiles(const Camera& camera, bool isAtOnce) const {
-    std::vector<Wanted> wanted;
+std::vector<ShadowClipmap::TileToDraw> ShadowClipmap::tilesToDraw(const Camera& camera, bool isAtOnce) const {
+    std::vector<TileToDraw> toDraw;
     for (int cascade = 0; cascade < cascades_; ++cascade)
-        addMissing(wanted, cascade, inUse_[static_cast<std::size_t>(cascade)], camera);
+        addMissing(toDraw, cascade, inUse_[static_cast<std::size_t>(cascade)], camera);
     const auto addNext = [&] {
-        if (next_ >= 0) addMissing(wanted, next_, spare_, camera);
+        if (next_ >= 0) addMissing(toDraw, next_, spare_, camera);
     };
     if (frame_ % 2 == 0) addNext();
-    for (int cascade = 0; cascade < cascades_; ++cascade) addStale(wanted, cascade, camera, isAtOnce);
+    for (int cascade = 0; cascade < cascades_; ++cascade) addStale(toDraw, cascade, camera, isAtOnce);
     if (frame_ % 2 == 1) addNext();
-    return wanted;
+    return toDraw;
 }
 
 // Puts the finished new map into use. Tiles that changed since they were drawn stay marked as stale.
 void ShadowClipmap::finishNext(const Camera& camera) {
     if (next_ < 0) return;
-    std::vector<Wanted> missing;
+    std::vector<TileToDraw> missing;
     addMissing(missing, next_, spare_, camera);
     if (!missing.empty()) return;
     std::swap(inUse_[static_cast<std::size_t>(next_)], spare_);
@@ -227,10 +227,10 @@ std::vector<ShadowTiles> ShadowClipmap::update(const Camera& camera, glm::vec3 l
     ++frame_;
     const bool isAtOnce = limit == kAllTiles;
     followLight(camera, shadowPlane(cameraChunk(camera), lightDirection), isAtOnce);
-    std::vector<Wanted> wanted = wantedTiles(camera, isAtOnce);
-    wanted.resize(std::min(wanted.size(), limit));
+    std::vector<TileToDraw> toDraw = tilesToDraw(camera, isAtOnce);
+    toDraw.resize(std::min(toDraw.size(), limit));
     std::vector<ShadowTiles> tiles;
-    for (const Wanted& w : wanted) {
+    for (const TileToDraw& w : toDraw) {
         tileAt(layers_[w.layer], w.place) = {w.place, 0, frame_};
         tiles.push_back({*layers_[w.layer].plane, w.cascade, static_cast<int>(w.layer), w.place});
     }

@@ -6,7 +6,7 @@
 // seldom leaves, and the light's direction moves in steps. If either changes, a cascade's new map is drawn
 // into a spare layer while the old one stays in use, so that no map mixes two directions.
 //
-// Plain bookkeeping without OpenGL; one thread.
+// It uses no OpenGL; one thread uses it.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -26,9 +26,8 @@
 
 namespace terrane::render {
 
-// Axes across the direction of a light. A pure function; any thread.
-// Matrix whose rows are unit axes: x and y across the light, z toward it. `toward`: to the light, unit
-// length.
+// Returns the matrix whose rows are unit axes: x and y across the light, z toward it. `toward`: to the light,
+// unit length.
 template <class T>
 glm::mat<3, 3, T, glm::defaultp> lightAxes(const glm::vec<3, T, glm::defaultp>& toward) {
     using Vec3 = glm::vec<3, T, glm::defaultp>;
@@ -45,13 +44,13 @@ struct ShadowPlane {
     bool operator==(const ShadowPlane&) const = default;
 };
 
-// Plane of a light whose direction is rounded to steps of 1/128 rad: in one step a shadow moves by one texel
-// of its cascade if the caster is 7, 29 or 116 blocks away.
+// Returns the plane of a light whose direction is rounded to steps of 1/128 rad: in one step a shadow moves
+// by one texel of its cascade if the caster is 7, 29 or 116 blocks away.
 ShadowPlane shadowPlane(world::ChunkPos cameraChunk, glm::vec3 lightDirection);
-// Coordinates of a point (blocks) in the plane.
+// Returns the coordinates of a point (blocks) in the plane.
 glm::dvec3 onPlane(const ShadowPlane& plane, glm::dvec3 point);
 
-// Width of a tile in blocks. A cascade reaches at least 3.5 tiles from the camera.
+// Returns the width of a tile in blocks. A cascade reaches at least 3.5 tiles from the camera.
 double shadowTileBlocks(int cascade);
 
 // A mesh section that casts shadows or did.
@@ -91,14 +90,14 @@ struct NearestShadowMap {
 
 class ShadowClipmap {
   public:
-    // Most tiles of a frame in a window: a moving light requests 3 × 64 tiles about once a second, a walk
-    // few.
-    static constexpr std::size_t kTilesAFrame = 4, kAllTiles = SIZE_MAX;
+    // Most tiles of a frame in a window: a moving light requests 3 × 64 tiles about once a second, a walking
+    // camera few.
+    static constexpr std::size_t kTilesPerFrame = 4, kAllTiles = SIZE_MAX;
 
     explicit ShadowClipmap(int cascades = 0)
         : cascades_(cascades), spare_(static_cast<std::size_t>(cascades)) {}
     int cascades() const { return cascades_; }
-    // One more than there are cascades.
+    // Returns the number of layers: one more than there are cascades.
     int layers() const { return cascades_ + 1; }
 
     // Marks the tiles that the shadow of the box falls on as stale.
@@ -107,7 +106,7 @@ class ShadowClipmap {
     // now on. With kAllTiles nothing is missing or stale afterwards.
     std::vector<ShadowTiles> update(const Camera& camera, glm::vec3 lightDirection, std::size_t limit);
 
-    // Uniforms of the maps in their present state. `texels`: along a side of a map.
+    // Returns the uniforms of the maps in their present state. `texels`: along a side of a map.
     shared::ShadowFrame frame(const Camera& camera, int texels) const;
     NearestShadowMap nearest() const;  // after update()
 
@@ -125,7 +124,7 @@ class ShadowClipmap {
         std::array<Tile, kShadowSlots> tiles;
     };
     // A tile that is to be drawn.
-    struct Wanted {
+    struct TileToDraw {
         int cascade = 0;
         std::size_t layer = 0;
         glm::ivec2 place{0};
@@ -138,9 +137,10 @@ class ShadowClipmap {
     static glm::ivec2 middleOf(const Layer& layer, int cascade, const Camera& camera);
     static double drawnReach(const Layer& layer, int cascade, const Camera& camera);
     void followLight(const Camera& camera, const ShadowPlane& plane, bool isAtOnce);
-    void addMissing(std::vector<Wanted>& wanted, int cascade, std::size_t layer, const Camera& camera) const;
-    void addStale(std::vector<Wanted>& wanted, int cascade, const Camera& camera, bool isAtOnce) const;
-    std::vector<Wanted> wantedTiles(const Camera& camera, bool isAtOnce) const;
+    void addMissing(std::vector<TileToDraw>& toDraw, int cascade, std::size_t layer,
+                    const Camera& camera) const;
+    void addStale(std::vector<TileToDraw>& toDraw, int cascade, const Camera& camera, bool isAtOnce) const;
+    std::vector<TileToDraw> tilesToDraw(const Camera& camera, bool isAtOnce) const;
     void finishNext(const Camera& camera);
 
     int cascades_;

@@ -1,5 +1,5 @@
-// Shadow maps of the sun or moon around the camera, in cascades (shadow_clipmap.h) that are kept from frame
-// to frame: only tiles that came into reach, or whose casters changed, are drawn. Used by the renderer on the
+// Shadow maps of the sun or moon around the camera, in cascades (shadow_clipmap.h) that persist from frame to
+// frame: only tiles that came into reach, or whose casters changed, are drawn. The renderer uses it on the
 // context's thread.
 #pragma once
 
@@ -32,9 +32,9 @@ class ShadowMap {
     // Marks the tiles of changed casters.
     void markChanged(std::span<const CasterBox> boxes);
     // Marks all tiles to be drawn again, after casters have changed their look.
-    void forget() {
+    void invalidate() {
         clipmap_ = ShadowClipmap(shape_.cascades);
-        figureShadows_.forget();
+        figureShadows_.invalidate();
     }
 
     struct Casters {

@@ -1,6 +1,6 @@
 // Volume of possible shadow casters for the part of the world near the camera: everything toward the light
-// from there. For statistics and the debug top view; shadow_casters.h selects what is drawn. Pure functions;
-// any thread.
+// from there. For statistics and the debug top view; shadow_casters.h selects what is drawn. All functions
+// are pure; any thread may call them.
 #pragma once
 
 #include <array>
@@ -24,17 +24,18 @@ struct ShadowVolume {
     float farthest;
 };
 
-// Volume of the view within `reach` blocks. `lightDirection` points to the light.
+// Returns the volume of the view within `reach` blocks. `lightDirection` points to the light.
 ShadowVolume shadowVolume(const ViewMatrices& view, glm::vec3 lightDirection, float reach);
-// False only if no point of the box is in the volume. Coordinates as in ViewMatrices.
+// Returns false only if no point of the box is in the volume. Coordinates as in ViewMatrices.
 bool mayBeInVolume(const ShadowVolume& volume, glm::vec3 boxMin, glm::vec3 boxMax);
 
-// Corners of the space that the nearest cascade may cover, in the world, as far along the light as across.
-// Bits of a corner's number: 1 for the map's x, 2 for y, 4 for toward the light.
+// Returns the corners of the space that the nearest cascade may cover, in the world, as far along the light
+// as across. Bits of a corner's number: 1 for the map's x, 2 for y, 4 for toward the light.
 std::array<glm::dvec3, 8> nearShadowBox(const Camera& camera, glm::vec3 lightDirection);
 
-// Triangles that one shadow map of the nearest kShadowReach blocks would draw of these chunks: mesh sections
-// in the volume, without blended quads and without the face directions that look away from the light.
+// Returns the number of triangles that one shadow map of the nearest kShadowReach blocks would draw of these
+// chunks: mesh sections in the volume, without blended quads and without the face directions that face away
+// from the light.
 std::size_t countShadowTriangles(const QuadStore& quads, const Camera& camera, const ViewMatrices& view,
                                  glm::vec3 lightDirection);
 

@@ -1,5 +1,5 @@
 // Sky and air for shaders: a small texture of the sky, computed again when the sun or moon has moved by a
-// just visible step, the Milky Way, and the uniforms of a frame. Used by the renderer on the context's
+// just visible step, the Milky Way, and the uniforms of a frame. The renderer uses it on the context's
 // thread.
 #pragma once
 
@@ -13,9 +13,8 @@
 
 namespace terrane::render {
 
-// Smooth random numbers that repeat, for textures generated at the start. Pure functions, any thread.
-// Value noise: random numbers on a lattice of `cells` × `cells` (a power of two) in the unit square, smoothly
-// interpolated; 0…1. Repeats.
+// Returns value noise, 0…1: random numbers on a lattice of `cells` × `cells` (a power of two) in the unit
+// square, smoothly interpolated. The noise repeats.
 inline float valueNoise(float x, float y, int cells, std::uint32_t seed) {
     const auto at = [&](int cx, int cy) {
         const auto wrap = [&](int c) { return static_cast<std::uint32_t>(c & (cells - 1)); };
@@ -29,7 +28,7 @@ inline float valueNoise(float x, float y, int cells, std::uint32_t seed) {
                      std::lerp(at(ix, iy + 1), at(ix + 1, iy + 1), u), v);
 }
 
-// Sum of `count` octaves of value noise, each with half the weight and twice the frequency; 0…1.
+// Returns the sum of `count` octaves of value noise, each with half the weight and twice the frequency; 0…1.
 inline float octaves(float x, float y, int firstCells, int count, std::uint32_t seed) {
     float sum = 0, weight = 0.5f;
     for (int k = 0; k < count; ++k, weight *= 0.5f) {
@@ -38,11 +37,11 @@ inline float octaves(float x, float y, int firstCells, int count, std::uint32_t 
     return sum / (1 - 2 * weight);  // weights from 0.5 on sum up to 1 less twice the next one
 }
 
-// Tiling noise for the shaders of clouds and waves. Used by the renderer on the context's thread.
+// Tiling noise for the shaders of clouds and waves. The renderer uses it on the context's thread.
 class SkyNoise {
   public:
     SkyNoise() = default;
-    // 256 × 256 texels of four channels with all mipmaps, 350 KB, made by the CPU in 5 ms. Red: five
+    // Creates 256 × 256 texels of four channels with all mipmaps, 350 KB, on the CPU in 5 ms. Red: five
     // octaves; green: others; blue and alpha: slope of smooth bumps along x and y, 0.5 is level.
     static SkyNoise create();
 
@@ -54,13 +53,13 @@ class SkyNoise {
     gpu::Sampler sampler_;
 };
 
-// The band of the Milky Way as a texture, generated from noise at the start. Used by the renderer on the
+// The band of the Milky Way as a texture, generated from noise at the start. The renderer uses it on the
 // context's thread.
 class MilkyWay {
   public:
     MilkyWay() = default;
-    // 256 × 64 texels of four channels, 64 KiB, in some 5 ms. Columns: longitude along the band, around the
-    // sky; rows: latitude, sine -0.6 … 0.6. sRGB.
+    // Creates 256 × 64 texels of four channels, 64 KiB, in about 5 ms. Columns: longitude along the band,
+    // around the sky; rows: latitude, sine -0.6 … 0.6. sRGB.
     static MilkyWay create();
 
     void addTo(gpu::TextureSet& textures) const;
@@ -71,7 +70,7 @@ class MilkyWay {
     gpu::Sampler sampler_;
 };
 
-// `altitudeZ`: of the camera, blocks.
+// Returns the uniforms of the air. `altitudeZ` is that of the camera in blocks.
 shared::AirFrame airUniforms(const world::Environment& environment, float altitudeZ);
 
 class SkyTexture {

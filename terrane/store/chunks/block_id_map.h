@@ -22,10 +22,10 @@ class BlockIdMap {
   public:
     static constexpr std::uint32_t kNone = 0xFFFF'FFFF;
 
-    // `saved`: the names of the save, without duplicate ids or names. Types of the registry that the save
-    // lacks get unused ids. Names that the registry lacks get session ids after the registry's last one, for
-    // which BlockRegistry::type returns "missing": they are drawn, and saved with their own id. Fails if more
-    // than 65,536 types are needed.
+    // Creates the map. `saved` has the names of the save, without duplicate ids or names. Types of the
+    // registry that the save lacks get unused ids. Names that the registry lacks get session ids after the
+    // registry's last one, for which BlockRegistry::type returns "missing": they are drawn, and saved with
+    // their own id. Fails if more than 65,536 types are needed.
     [[nodiscard]] static base::Result<BlockIdMap> make(const world::BlockRegistry& registry,
                                                        const std::vector<SavedName>& saved);
 

@@ -46,7 +46,7 @@ class ByteReader {
         if (!part.empty()) std::memcpy(target.data(), part.data(), part.size());
     }
 
-    // The next `count` bytes, or none if fewer are left.
+    // Reads the next `count` bytes, or none if fewer are left.
     ByteView take(std::size_t count) {
         if (count > rest_.size()) {
             isPastEnd_ = true;
@@ -66,9 +66,8 @@ class ByteReader {
     bool isPastEnd_ = false;
 };
 
-// zstd with one context per thread: creating a context takes longer than compressing a chunk. Any thread may
-// call.
-// Appends one zstd frame to `out`. Deterministic for one version of zstd.
+// zstd has one context per thread, because creating a context takes longer than compressing a chunk. Any
+// thread may call the functions. Appends one zstd frame to `out`. Deterministic for one version of zstd.
 void appendCompressed(Bytes& out, ByteView bytes);
 
 // Decompresses one frame, which must fill `target` exactly.

@@ -261,10 +261,10 @@ base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, st
         return base::fail(base::ErrorCode::Damaged, "the chunk says it has {} bytes, expected at most {}",
                           plainBytes, kMaxChunkBytes);
     std::unique_lock<std::mutex> alone;
-    if (budget && plainBytes > kKeptBytes) {
+    if (budget && plainBytes > kMaxScratchBytes) {
         alone = budget->lockLargeChunks();
         // Everything except the sections will be held: check the budget before decompressing.
-        if (!budget->hasRoomFor(plainBytes - kKeptBytes)) return overBudget(*budget);
+        if (!budget->hasRoomFor(plainBytes - kMaxScratchBytes)) return overBudget(*budget);
     }
     Scratch scratch;
     Bytes& plain = scratch.bytes();

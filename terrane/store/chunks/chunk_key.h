@@ -21,7 +21,7 @@ constexpr std::int64_t keyOf(world::ChunkPos pos) {
            (std::int64_t{pos.y} - world::kMinChunk);
 }
 
-// An invalid key gives a position outside the world.
+// Returns the position of a key; an invalid key gives a position outside the world.
 constexpr world::ChunkPos posOf(std::int64_t key) {
     constexpr std::int64_t kEnd = std::int64_t{world::kMaxLevel + 1} << kLevelShift;
     if (key < 0 || key >= kEnd) return {world::kMaxChunk + 1, world::kMaxChunk + 1, 0};
@@ -31,11 +31,11 @@ constexpr world::ChunkPos posOf(std::int64_t key) {
             static_cast<std::uint8_t>(key >> kLevelShift)};
 }
 
-// Seed of a chunk's checksum, which therefore also covers the key and origin of its row. Saves of formats 1
-// and 2 use kFormerSeed.
+// Returns the seed of a chunk's checksum, which therefore also covers the key and origin of its row. Saves of
+// formats 1 and 2 use kLegacySeed.
 constexpr std::uint64_t checksumSeed(world::ChunkPos pos, bool isEdited) {
     return static_cast<std::uint64_t>(keyOf(pos)) * 2 + (isEdited ? 1 : 0);
 }
-constexpr std::uint64_t kFormerSeed = 0;
+constexpr std::uint64_t kLegacySeed = 0;
 
 }  // namespace terrane::store

@@ -1,5 +1,5 @@
-// Structures (world/structure.h) as files, NAME.structure. docs/structure-format.md describes the bytes.
-// Plain functions; any thread.
+// Structures (world/changes/structure.h) as files, NAME.structure. docs/structure-format.md describes the
+// bytes. The functions have no state; any thread may call them.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +23,7 @@ constexpr std::size_t kMaxStructureBytes = 32u << 20;
 // Fails if the structure is invalid or exceeds the limits. Equal structures have equal bytes (with one
 // version of zstd).
 [[nodiscard]] base::Result<Bytes> encodeStructure(const world::Structure& structure);
-// Accepts any bytes. The error for an invalid structure says why.
+// Decodes any bytes. The error for an invalid structure gives the reason.
 [[nodiscard]] base::Result<world::Structure> decodeStructure(ByteView bytes);
 
 // A name has 1 to 100 bytes, no slashes or control characters, and no leading dot or space. A name that no
@@ -34,7 +34,7 @@ constexpr std::size_t kMaxStructureBytes = 32u << 20;
 [[nodiscard]] base::Result<void> writeStructure(const std::filesystem::path& file,
                                                 const world::Structure& structure);
 [[nodiscard]] base::Result<world::Structure> readStructure(const std::filesystem::path& file);
-// Names of the structures in the folder, sorted; empty if there is no folder.
+// Returns the names of the structures in the folder, sorted; empty if there is no folder.
 std::vector<std::string> structureNames(const std::filesystem::path& folder);
 
 }  // namespace terrane::store

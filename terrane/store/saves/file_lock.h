@@ -1,7 +1,7 @@
 // Locks a save against other programs. The lock is a file beside it, removed at the end; a killed program
 // leaves the file but not the lock. The file holds the program's process id and, if the save's last
-// transactions may only be in the log, the word "log", which readers keep. The save itself is not locked:
-// closing any handle of a file would release SQLite's locks on it.
+// transactions may only be in the log, the word "log", which readers do not change. The save itself is not
+// locked: closing any handle of a file would release SQLite's locks on it.
 //
 // Any thread may acquire one; a lock is used by one thread at a time.
 #pragma once

@@ -28,7 +28,7 @@ StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, c
 // Up to version 0.1, named saves were in the working directory only.
 void reportFormerPlace(const WorldLocation& location, const fs::path& path) {
     if (location.kind != WorldLocation::Kind::Name || path.is_absolute()) return;
-    if (const auto folder = dataFolder(savePlaces()))
+    if (const auto folder = dataFolder(saveEnvironment()))
         base::logInfo("{}: opened from the working directory; move it into {} to find it from everywhere",
                       path.string(), folder->string());
 }
@@ -42,8 +42,8 @@ base::Result<void> requireWhole(ReadableStore& world, const std::string& where) 
                       where);
 }
 
-StoreResult openOver(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,
-                     const std::string& where) {
+StoreResult openOverlay(std::unique_ptr<ReadableStore> saved, const WorldRequest& request,
+                        const std::string& where) {
     TERRANE_TRY(requireWhole(*saved, where));
     WorldIdentity identity = saved->identity();
     const auto by = TERRANE_TRY(compareWorld(identity, request.world, request.versionOf, where));
@@ -65,7 +65,7 @@ StoreResult openWorld(const WorldLocation& location, const world::BlockRegistry&
     reportFormerPlace(location, path);
     if (request.access == WorldAccess::ReadOnly) {
         auto saved = TERRANE_TRY(SqliteReader::open(path, blocks, request.limits));
-        return openOver(std::move(saved), request, path.string());
+        return openOverlay(std::move(saved), request, path.string());
     }
     return openFile(path, blocks, request);
 }

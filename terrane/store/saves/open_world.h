@@ -14,7 +14,7 @@
 namespace terrane::store {
 
 enum class WorldAccess {
-    // The world must exist and is not changed: changes are kept in memory. Another program may use it.
+    // The world must exist and is not changed: changes are stored in memory. Another program may use it.
     ReadOnly,
     ReadWrite,  // fails if the world cannot be written
 };
@@ -28,7 +28,8 @@ enum class WorldSharing {
 
 struct WorldRequest {
     WorldAccess access = WorldAccess::ReadWrite;
-    // The identity of a new world, created with its folders if none exists. No value: the world must exist.
+    // The identity of a new world, created with its folders if none exists. Without a value the world must
+    // exist.
     std::optional<WorldIdentity> create;
     // Requirements for an existing world (compareWorld()). A world is copied before it is regenerated, except
     // for followsGenerator.
@@ -38,8 +39,8 @@ struct WorldRequest {
     SaveLimits limits;
 };
 
-// Errors: NotFound if there is no world, Busy if another program has it and it is to be written, Incompatible
-// if it is another world or not a world, Damaged, Unsupported for a URL.
+// Opens or creates the world. Errors are NotFound if there is no world, Busy if another program has it and it
+// is to be written, Incompatible if it is another world or not a world, Damaged, Unsupported for a URL.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openWorld(const WorldLocation& location,
                                                                   const world::BlockRegistry& blocks,
                                                                   const WorldRequest& request);
@@ -48,8 +49,8 @@ struct WorldRequest {
 [[nodiscard]] base::Result<void> requireWhole(ReadableStore& world, const std::string& where);
 
 // Opens the world of `saved` with changes in memory. `where`: for messages. Errors as above.
-[[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openOver(std::unique_ptr<ReadableStore> saved,
-                                                                 const WorldRequest& request,
-                                                                 const std::string& where);
+[[nodiscard]] base::Result<std::unique_ptr<ChunkStore>> openOverlay(std::unique_ptr<ReadableStore> saved,
+                                                                    const WorldRequest& request,
+                                                                    const std::string& where);
 
 }  // namespace terrane::store

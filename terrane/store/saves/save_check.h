@@ -1,5 +1,6 @@
-// Checks a whole save for damage without changing it; takes as long as reading all of it. Any thread. A save
-// that another program writes is checked as of one moment, without its log, which changes meanwhile.
+// Checks a whole save for damage without changing it; takes as long as reading all of it. Any thread may use
+// it. A save that another program writes is checked as of one moment, without its log, which changes
+// meanwhile.
 #pragma once
 
 #include <filesystem>
@@ -12,10 +13,9 @@
 namespace terrane::store {
 
 // Checks the log beside a save (SQLite's write-ahead log). SQLite reads a log up to its first broken frame
-// and ignores the rest silently: committed transactions would be lost. Called while the save is open for
-// reading and nobody writes; any thread.
-// Errors of the log, one line each; none if the log is intact, empty or missing. Reads it once, frame by
-// frame.
+// and ignores the rest silently: committed transactions would be lost. It is called while the save is open
+// for reading and no program writes it; any thread may call it. Errors of the log, one line each; none if the
+// log is intact, empty or missing. Reads it once, frame by frame.
 std::vector<std::string> logProblems(const std::filesystem::path& save);
 
 struct DamagedChunk {

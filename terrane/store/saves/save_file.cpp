@@ -55,13 +55,13 @@ bool isPresent(const fs::path& path) {
     return fs::exists(fs::symlink_status(path, ignored));
 }
 
-fs::path beside(const fs::path& save, const char* ending) {
+fs::path companionPath(const fs::path& save, const char* ending) {
     fs::path path = save;
     path += ending;
     return path;
 }
 
-base::Result<fs::path> ownPath(const fs::path& path) {
+base::Result<fs::path> resolvedPath(const fs::path& path) {
     std::error_code error;
     const fs::path own = fs::weakly_canonical(path, error);
     if (error) return base::fail(ErrorCode::Io, "{}: cannot be found: {}", path.string(), error.message());
@@ -74,18 +74,18 @@ base::Result<fs::path> ownPath(const fs::path& path) {
 }
 
 bool hasLog(const fs::path& path) {
-    return hasContent(beside(path, "-wal"));
+    return hasContent(companionPath(path, "-wal"));
 }
 
 bool hasJournal(const fs::path& path) {
     // SQLite ignores a journal that begins with 0 and leaves it there.
-    return std::ifstream(beside(path, "-journal"), std::ios::binary).get() > 0;
+    return std::ifstream(companionPath(path, "-journal"), std::ios::binary).get() > 0;
 }
 
 std::string lostLog(const fs::path& path) {
     std::error_code ignored;
-    if (fs::exists(beside(path, "-wal"), ignored)) return {};
-    std::ifstream lock(beside(path, "-lock"));
+    if (fs::exists(companionPath(path, "-wal"), ignored)) return {};
+    std::ifstream lock(companionPath(path, "-lock"));
     std::string number, word;
     lock >> std::setw(16) >> number >> std::setw(16) >> word;
     if (!lock || word != kLogWord) return {};
@@ -97,8 +97,8 @@ std::string lostLog(const fs::path& path) {
 
 base::Result<void> checkCompanions(const fs::path& path) {
     for (const char* ending : {"-wal", "-shm", "-journal", "-lock"})
-        TERRANE_TRY(checkOrdinary(beside(path, ending)));
-    const fs::path journal = beside(path, "-journal");
+        TERRANE_TRY(checkOrdinary(companionPath(path, ending)));
+    const fs::path journal = companionPath(path, "-journal");
     if (!namesAnother(journal)) return {};
     return base::fail(ErrorCode::Damaged, "{}: names another file, which would be deleted", journal.string());
 }
@@ -211,14 +211,14 @@ base::Result<void> deleteRegenerated(Database& database, const Regeneration& by)
 
 // Makes the backup copy, if requested, before deleting anything.
 base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regeneration& by) {
-    const fs::path backup = by.keepsCopy ? backupPath(path, "backup") : fs::path();
-    if (by.keepsCopy) TERRANE_TRY(file.database.backUpTo(backup));
+    const fs::path backup = by.keepsBackup ? backupPath(path, "backup") : fs::path();
+    if (by.keepsBackup) TERRANE_TRY(file.database.backUpTo(backup));
     auto transaction = TERRANE_TRY(Transaction::begin(file.database));
     TERRANE_TRY(deleteRegenerated(file.database, by));
     TERRANE_TRY(transaction.commit());
     base::logInfo("{}: regenerated{}{}{}", path.string(),
                   by.chunks == Regenerate::All ? "" : " except for chunks with edits",
-                  by.keepsCopy ? "; the old world is " : "", backup.string());
+                  by.keepsBackup ? "; the old world is " : "", backup.string());
     return {};
 }
 
@@ -307,7 +307,7 @@ base::Result<ReadLock> lockToRead(const fs::path& path) {
 
 // Opens a save of a supported format for reading.
 base::Result<SaveFile> openReadable(const fs::path& name) {
-    const auto own = TERRANE_TRY(ownPath(name));
+    const auto own = TERRANE_TRY(resolvedPath(name));
     const fs::path& path = own;
     auto isThere = TERRANE_TRY(checkFile(path));
     if (!isThere) return notASave(path);
@@ -329,7 +329,7 @@ base::Result<SaveFile> openReadable(const fs::path& name) {
 
 base::Result<SaveFile> openToWrite(const fs::path& name, const world::BlockRegistry& registry,
                                    const SaveAccess& access) {
-    const auto own = TERRANE_TRY(ownPath(name));
+    const auto own = TERRANE_TRY(resolvedPath(name));
     const fs::path& path = own;
     auto isThere = TERRANE_TRY(checkFile(path));
     if (!isThere && !access.create) {

@@ -1,4 +1,4 @@
-// Opens the file of a save: validates it, takes the lock, creates or migrates the tables. Called by the
+// Opens the file of a save: validates it, takes the lock, creates or migrates the tables. It is called by the
 // stores and by save_check.cpp, on the thread that opens the save; the result is used by one thread at a
 // time.
 #pragma once
@@ -16,29 +16,30 @@
 
 namespace terrane::store {
 
-// The files beside a save: SQLite's log, index and journal, and this program's lock. Like the save they are
-// untrusted, so they are checked before anything opens them. Called while a save is opened; any thread.
-// Also true for a broken link.
+// Returns whether a file or a link, also a broken one, exists. The files beside a save are SQLite's log,
+// index and journal, and this program's lock. Like the save they are untrusted, so they are checked before
+// anything opens them.
 bool isPresent(const std::filesystem::path& path);
-// NAME.sqlite-wal for NAME.sqlite and "-wal".
-std::filesystem::path beside(const std::filesystem::path& save, const char* ending);
+// Returns the path of a file beside a save: NAME.sqlite-wal for NAME.sqlite and "-wal".
+std::filesystem::path companionPath(const std::filesystem::path& save, const char* ending);
 
-// The save's path without symbolic links, so that all programs use the same lock and log; for a missing file,
-// its folder is resolved. Fails if hard links give the save several names.
-[[nodiscard]] base::Result<std::filesystem::path> ownPath(const std::filesystem::path& path);
+// Returns the save's path without symbolic links, so that all programs use the same lock and log; for a
+// missing file, its folder is resolved. Fails if hard links give the save several names.
+[[nodiscard]] base::Result<std::filesystem::path> resolvedPath(const std::filesystem::path& path);
 
-// Whether the log has committed transactions that are not in the file itself: a program was killed or is
-// writing.
+// Returns whether the log has committed transactions that are not in the file itself: a program was killed or
+// is writing.
 bool hasLog(const std::filesystem::path& path);
-// Whether a journal to undo an interrupted transaction exists. Only creating a save leaves one.
+// Returns whether a journal to undo an interrupted transaction exists. Only creating a save leaves one.
 bool hasJournal(const std::filesystem::path& path);
 
-// Why changes are lost if a writing program was killed, leaving its lock and log, and the log is now missing,
-// one line; empty: no log is lost. Taking the lock to write removes the note of it.
+// Returns the reason why changes are lost if a writing program was killed, leaving its lock and log, and the
+// log is now missing, in one line, or empty if no log is lost. Acquiring the lock to write removes the note
+// of it.
 std::string lostLog(const std::filesystem::path& path);
 
-// Fails if one of them is a link or not a regular file, or if the journal names another file, which SQLite
-// would delete.
+// Fails if a file beside the save is a link or not a regular file, or if the journal names another file,
+// which SQLite would delete.
 [[nodiscard]] base::Result<void> checkCompanions(const std::filesystem::path& path);
 
 struct SaveFile {
@@ -63,11 +64,11 @@ struct SaveFile {
 
 // Opens for reading; changes nothing. A save that another program writes is read as of one moment, including
 // its log; otherwise it stays locked against writers. A transaction of the connection has begun, for further
-// reads of that moment: COMMIT ends it. Busy if the other program is creating or migrating the save.
+// reads of that moment: COMMIT ends it. Returns Busy if the other program is creating or migrating the save.
 [[nodiscard]] base::Result<SaveFile> openToRead(const std::filesystem::path& path,
                                                 const world::BlockRegistry& registry);
 
-// Reads only the metadata. Errors as openToRead().
+// Reads only the metadata. Errors are those of openToRead().
 [[nodiscard]] base::Result<Metadata> readSavedMetadata(const std::filesystem::path& path);
 
 }  // namespace terrane::store

@@ -36,7 +36,7 @@ WorldLocation worldLocation(std::string text) {
 base::Result<std::filesystem::path> fileOf(const WorldLocation& location) {
     switch (location.kind) {
         case WorldLocation::Kind::Name:
-            return savePath(location.text, savePlaces());
+            return savePath(location.text, saveEnvironment());
         case WorldLocation::Kind::File:
             return std::filesystem::path(location.text);
         case WorldLocation::Kind::Url:
@@ -90,11 +90,11 @@ base::Result<void> checkSaveName(std::string_view name) {
     return {};
 }
 
-SavePlaces savePlaces() {
+SaveEnvironment saveEnvironment() {
     return {.xdgDataHome = environment("XDG_DATA_HOME"), .home = environment("HOME")};
 }
 
-base::Result<fs::path> dataFolder(const SavePlaces& places) {
+base::Result<fs::path> dataFolder(const SaveEnvironment& places) {
     // The XDG specification says to ignore relative paths.
     if (fs::path(places.xdgDataHome).is_absolute()) return fs::path(places.xdgDataHome) / "terrane";
     if (fs::path(places.home).is_absolute()) return fs::path(places.home) / ".local/share/terrane";
@@ -122,7 +122,7 @@ std::string saveLike(const fs::path& folder, std::string_view name, std::string_
     return base::nameLike(name, names);
 }
 
-base::Result<fs::path> savePath(std::string_view typed, const SavePlaces& places) {
+base::Result<fs::path> savePath(std::string_view typed, const SaveEnvironment& places) {
     TERRANE_TRY(checkSaveName(typed));
     const auto folder = dataFolder(places);
     if (!folder) return base::fail(folder.error().code, "{:?}: {}", typed, folder.error().message);
@@ -131,7 +131,7 @@ base::Result<fs::path> savePath(std::string_view typed, const SavePlaces& places
         const std::string file = one + ".sqlite";
         std::error_code ignored;
         if (fs::exists(*folder / file, ignored)) return *folder / file;
-        if (fs::exists(places.former / file, ignored)) return places.former / file;
+        if (fs::exists(places.legacyFolder / file, ignored)) return places.legacyFolder / file;
     }
     TERRANE_TRY(checkNewName(name));
     if (const std::string like = saveLike(*folder, name); !like.empty())

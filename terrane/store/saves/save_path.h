@@ -1,5 +1,5 @@
-// Paths of saves by name. Called by programs while they start; reads the environment, which no thread may
-// change meanwhile.
+// Paths of saves by name. It is called by programs while they start; reads the environment, which no thread
+// may change meanwhile.
 #pragma once
 
 #include <cstdint>
@@ -22,28 +22,31 @@ struct WorldLocation {
     std::string text;
 };
 
-// "a://b" is a URL, "a/b" and "b.sqlite" are files, everything else is a name.
+// Parses a location: "a://b" is a URL, "a/b" and "b.sqlite" are files, everything else is a name.
 WorldLocation worldLocation(std::string text);
 
-// The file of a name or path, whether it exists or not. Fails for an invalid save name, and for a URL.
+// Returns the file of a name or path, whether it exists or not. Fails for an invalid save name, and for a
+// URL.
 [[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
 
-// Bytes on disk of the file and its log; 0 if there is none.
+// Returns the bytes on disk of the file and its log; 0 if there is none.
 [[nodiscard]] std::uintmax_t bytesOnDisk(const WorldLocation& location);
 
-// The inputs of the paths. Strings are empty if the environment lacks them.
-struct SavePlaces {
-    std::string xdgDataHome;                // $XDG_DATA_HOME
-    std::string home;                       // $HOME
-    std::filesystem::path former = "save";  // folder of saves up to version 0.1, below the working directory
+// The environment from which paths are made. Strings are empty if the environment lacks them.
+struct SaveEnvironment {
+    std::string xdgDataHome;  // $XDG_DATA_HOME
+    std::string home;         // $HOME
+    std::filesystem::path legacyFolder =
+        "save";  // folder of saves up to version 0.1, below the working directory
 };
 
-// The values of this process.
-SavePlaces savePlaces();
+// Returns the values of this process.
+SaveEnvironment saveEnvironment();
 
-// The folder of players' worlds and other files: $XDG_DATA_HOME/terrane, or $HOME/.local/share/terrane if
-// that variable is not an absolute path. Absolute; may not exist. Fails if neither variable is set.
-[[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SavePlaces& places);
+// Returns the folder of players' worlds and other files: $XDG_DATA_HOME/terrane, or
+// $HOME/.local/share/terrane if that variable is not an absolute path. Absolute; may not exist. Fails if
+// neither variable is set.
+[[nodiscard]] base::Result<std::filesystem::path> dataFolder(const SaveEnvironment& places);
 
 constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, including extensions
 // Fails for a name that cannot be a file name: empty, longer than 100 bytes, with a slash or a control
@@ -60,6 +63,7 @@ constexpr std::size_t kMaxSaveName = 100;  // bytes; file systems allow 255, inc
 // NAME.sqlite in the data folder, or in the former folder if it exists only there; then the path is relative.
 // A name that no file has is found in its normal form; errors of checkSaveName(), and if there is no file, of
 // checkNewName() and for a name that looks like that of another save. Creates no folders.
-[[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name, const SavePlaces& places);
+[[nodiscard]] base::Result<std::filesystem::path> savePath(std::string_view name,
+                                                           const SaveEnvironment& places);
 
 }  // namespace terrane::store

@@ -1,5 +1,5 @@
 // Copies a world from one database into another: its chunks row by row, block names and settings, byte for
-// byte. An interrupted copy can be resumed. Quarantined rows are not copied. Any thread.
+// byte. An interrupted copy can be resumed. Quarantined rows are not copied. Any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -22,16 +22,16 @@ struct CopyReport {
 // Called from time to time; false stops the copy, which can be resumed later.
 using RowsProgress = std::function<bool(std::uint64_t rows)>;
 
-// The access that creates the target world.
+// Returns the access that creates the target world.
 SaveAccess accessOfCopy(const ReadableRows& from);
 
 // Marks `to`, which was opened with that access, as an unfinished copy of `from`, and returns the last key
-// that it has. Incompatible if it holds anything but an unfinished copy of this world.
+// that it has. Returns Incompatible if it holds anything but an unfinished copy of this world.
 [[nodiscard]] base::Result<std::int64_t> beginCopy(const ReadableRows& from, ChunkRows& to);
 
 // Copies the rows after the key. At the end all rows are compared, and copied again if they differ because
-// another program plays `from`; fails if they still differ after three comparisons. Busy if `progress`
-// stopped it.
+// another program plays `from`; fails if they still differ after three comparisons. Returns Busy if
+// `progress` stopped it.
 [[nodiscard]] base::Result<CopyReport> copyWorld(ReadableRows& from, ChunkRows& to, std::int64_t lastKey,
                                                  const RowsProgress& progress = {});
 

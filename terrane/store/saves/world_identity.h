@@ -1,5 +1,5 @@
-// Compares the world of a store with the world that a program requests. Plain values and functions, for any
-// thread.
+// Compares the world of a store with the world that a program requests. All are plain values and functions;
+// any thread may use them.
 #pragma once
 
 #include <cstddef>
@@ -50,7 +50,7 @@ struct RequestedWorld {
     std::optional<std::string> generator;
     Regenerate regenerate = Regenerate::None;
     // For the development of generators: if the generator's version differs, chunks without edits are
-    // regenerated, and no backup is kept.
+    // regenerated, and no backup is made.
     bool followsGenerator = false;
 };
 
@@ -58,7 +58,7 @@ struct RequestedWorld {
 struct Regeneration {
     Regenerate chunks = Regenerate::None;
     int generatorVersion = 0;
-    bool keepsCopy = true;
+    bool keepsBackup = true;
 };
 
 // The program's version of a generator; 0 if it lacks the generator.
@@ -70,7 +70,7 @@ struct SaveAccess {
     std::optional<WorldIdentity> create;
     // For a new world: ids and names of another world whose rows it will get.
     std::vector<SavedName> blockNames = {};
-    // Decides from the identity of an existing save what is regenerated, after a backup beside it. On an
+    // Selects the chunks to regenerate by the identity of an existing save, after a backup beside it. On an
     // error the world is not opened. Empty: nothing is regenerated.
     std::function<base::Result<Regeneration>(const WorldIdentity& saved)> decide;
 };
@@ -80,32 +80,31 @@ struct SaveAccess {
 [[nodiscard]] base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& requested,
                                              const std::string& where);
 
-// Checks a saved world against the requested one, and decides what to regenerate. Fails if it is another
-// world, if the program lacks its generator, or if the versions differ and the world is not to be
+// Checks a saved world against the requested one, and selects the chunks to regenerate. Fails if it is
+// another world, if the program lacks its generator, or if the versions differ and the world is not to be
 // regenerated.
 [[nodiscard]] base::Result<Regeneration> compareWorld(const WorldIdentity& saved,
                                                       const RequestedWorld& requested,
                                                       const GeneratorVersionOf& versionOf,
                                                       const std::string& where);
 
-// World metadata that stores write themselves, and the world's identity as text. Used by the stores.
 // Limits of a save: bytes of a name (settings and blocks), number of settings, bytes of all setting names and
 // values.
 constexpr std::size_t kMaxNameBytes = 1024, kMaxMetadata = 4096, kMaxMetadataBytes = std::size_t{16} << 20;
 
 using Metadata = std::map<std::string, std::string, std::less<>>;
 
-// Whether only stores write it: the world's identity, when a world is created or regenerated,
+// Returns whether only stores write it: the world's identity, when a world is created or regenerated,
 // kDerivedRowsMark and kChecksum.
 bool isReserved(std::string_view name);
 
-// Whether the metadata, with this value, fits the limits. The store's own rows count.
+// Returns whether the metadata, with this value, fits the limits. The store's own rows count.
 bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value);
 
-// The metadata of a new world.
+// Returns the metadata of a new world.
 Metadata metadataOf(const WorldIdentity& identity);
 
-// Fails, naming `where`, if an entry is missing or not a number.
+// Parses the identity. Fails, naming `where`, if an entry is missing or not a number.
 [[nodiscard]] base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where);
 
 }  // namespace terrane::store

@@ -52,7 +52,7 @@ bool belongsToAWorld(const fs::path& path) {
 base::Result<void> checkFree(const fs::path& path) {
     if (isPresent(path))
         return base::fail(ErrorCode::BadInput, "there is a world \"{}\" already", path.stem().string());
-    for (const char* ending : {"-wal", "-journal"}) TERRANE_TRY(checkAbsent(beside(path, ending)));
+    for (const char* ending : {"-wal", "-journal"}) TERRANE_TRY(checkAbsent(companionPath(path, ending)));
     for (const char* ending : kDatabasesBeside) TERRANE_TRY(checkAbsent(withEnding(path, ending)));
     return {};
 }
@@ -69,7 +69,7 @@ std::vector<fs::path> filesOf(const fs::path& world) {
     for (const char* ending : kDatabasesBeside) databases.push_back(withEnding(world, ending));
     for (const fs::path& database : databases)
         for (const char* ending : {"", "-wal", "-shm", "-journal", "-lock"})
-            files.push_back(beside(database, ending));
+            files.push_back(companionPath(database, ending));
     for (const char* ending : kFilesBeside) files.push_back(withEnding(world, ending));
     return files;
 }
@@ -83,7 +83,7 @@ base::Result<std::vector<FileLock>> lockAll(const std::vector<fs::path>& files) 
     return locks;
 }
 
-base::Result<void> endLog(const fs::path& path) {
+base::Result<void> checkpointLog(const fs::path& path) {
     TERRANE_TRY(checkCompanions(path));
     if (!hasLog(path) && !hasJournal(path)) return {};
     auto database = TERRANE_TRY(Database::open(path, OpenMode::ReadWrite));
@@ -125,7 +125,8 @@ base::Result<void> removeFile(const fs::path& file) {
 
 // Its file goes last: a log without its database would be applied to the next one of that name.
 base::Result<void> removeDatabase(const fs::path& file) {
-    for (const char* ending : {"-wal", "-shm", "-journal", ""}) TERRANE_TRY(removeFile(beside(file, ending)));
+    for (const char* ending : {"-wal", "-shm", "-journal", ""})
+        TERRANE_TRY(removeFile(companionPath(file, ending)));
     return {};
 }
 
@@ -137,7 +138,7 @@ fs::file_time_type lastWritten(const fs::path& save) {
     fs::file_time_type last = fs::file_time_type::min();
     for (const char* ending : {"", "-wal"}) {
         std::error_code error;
-        const auto time = fs::last_write_time(beside(save, ending), error);
+        const auto time = fs::last_write_time(companionPath(save, ending), error);
         if (!error) last = std::max(last, time);
     }
     return last;
@@ -220,7 +221,7 @@ fs::path thumbnailOf(const fs::path& save) {
     return fs::path(save).replace_extension(".png");
 }
 
-std::string freeWorldName(const fs::path& folder, std::string_view name) {
+std::string unusedWorldName(const fs::path& folder, std::string_view name) {
     constexpr std::size_t kRoom = 88;  // of 100 bytes, the rest for a number
     std::size_t bytes = std::min(name.size(), kRoom);
     if (bytes < name.size())  // at a UTF-8 character boundary
@@ -269,7 +270,7 @@ base::Result<void> renameWorld(const fs::path& folder, std::string_view name, st
     if (const std::string lost = lostLog(from); !lost.empty()) base::logWarning("{}", lost);
     const auto locks = TERRANE_TRY(lockAll(databasesOf(from)));
     const auto newLock = TERRANE_TRY(FileLock::acquire(to, FileLock::Kind::Exclusive));
-    for (const fs::path& database : databasesOf(from)) TERRANE_TRY(endLog(database));
+    for (const fs::path& database : databasesOf(from)) TERRANE_TRY(checkpointLog(database));
     TERRANE_TRY(moveAll(moves));
     moveThumbnail(from, to);
     return {};
@@ -293,7 +294,7 @@ base::Result<void> copySave(const fs::path& folder, const SaveCopy& copy, const 
     const auto lock = TERRANE_TRY(FileLock::acquire(to, FileLock::Kind::Exclusive));
     auto source = TERRANE_TRY(openToRead(from, blocks));
     // Under another name until it is complete, so that no list shows a partial copy.
-    const fs::path part = beside(to, ".part");
+    const fs::path part = companionPath(to, ".part");
     std::error_code ignored;
     fs::remove(part, ignored);
     TERRANE_TRY(source.database.backUpTo(part, progress));

@@ -1,5 +1,5 @@
 // Lists, renames, copies and deletes the worlds in the folder of saves. A world's name is its file name
-// without ".sqlite". Called by the title screen; any thread.
+// without ".sqlite". It is called by the title screen; any thread may use it.
 #pragma once
 
 #include <cstdint>
@@ -17,26 +17,27 @@
 
 namespace terrane::store {
 
-// The files of a world: its save, and beside it the databases and files of a server and of the map. Called by
-// world_list.h; any thread.
-// Whether it is a server's or the map's database beside a world that exists.
+// Returns whether the file is a server's or the map's database beside a world that exists. The files of a
+// world are its save, and beside it the databases and files of a server and of the map.
 bool belongsToAWorld(const std::filesystem::path& path);
-// Why a new world cannot have this file: it exists, or files that another world left would become part of it.
+// Returns the reason why a new world cannot have this file: it exists, or files of a deleted world would
+// become part of it.
 [[nodiscard]] base::Result<void> checkFree(const std::filesystem::path& save);
 
-// The world's databases: the save first, then those beside it.
+// Returns the world's databases: the save first, then those beside it.
 std::vector<std::filesystem::path> databasesOf(const std::filesystem::path& save);
 // All files that a world can have, whether they exist or not: its databases with their logs and locks, and a
 // server's key and settings. Pure.
 std::vector<std::filesystem::path> filesOf(const std::filesystem::path& save);
 [[nodiscard]] base::Result<std::vector<FileLock>> lockAll(const std::vector<std::filesystem::path>& files);
 // Checkpoints the log into the database, so that its file is complete.
-[[nodiscard]] base::Result<void> endLog(const std::filesystem::path& database);
+[[nodiscard]] base::Result<void> checkpointLog(const std::filesystem::path& database);
 
 using Moves = std::vector<std::pair<std::filesystem::path, std::filesystem::path>>;  // from, to
-// All files that follow a save to another name, itself included. Fails if one of them would replace another.
+// Returns all files that follow a save to another name, itself included. Fails if one of them would replace
+// another.
 [[nodiscard]] base::Result<Moves> movesOf(const std::filesystem::path& from, const std::filesystem::path& to);
-// All or nothing.
+// Moves all files, or none.
 [[nodiscard]] base::Result<void> moveAll(const Moves& moves);
 
 [[nodiscard]] base::Result<void> removeFile(const std::filesystem::path& file);  // also if it is missing
@@ -70,16 +71,16 @@ std::vector<WorldEntry> listWorlds(const std::filesystem::path& folder, const wo
                                                std::string_view former = {});
 
 std::filesystem::path worldFile(const std::filesystem::path& folder, std::string_view name);
-// The world's thumbnail beside the save; may not exist.
+// Returns the world's thumbnail beside the save; may not exist.
 std::filesystem::path thumbnailOf(const std::filesystem::path& save);
 
-// The first unused name of the form "World", "World 2", …; shortened if too long.
-std::string freeWorldName(const std::filesystem::path& folder, std::string_view name);
+// Returns the first unused name of the form "World", "World 2", …; shortened if too long.
+std::string unusedWorldName(const std::filesystem::path& folder, std::string_view name);
 
-// These also rename, delete or copy the thumbnail. A server's files and the map's cache are renamed with the
-// world, or nothing is; a server's key and settings stay when the world is deleted. Errors: BadInput for an
-// invalid or used name, NotFound, Busy if another program has the world, Incompatible for a link to rename or
-// delete.
+// The functions below also rename, delete or copy the thumbnail. A server's files and the map's cache are
+// renamed with the world, or nothing is; a server's key and settings stay when the world is deleted. Errors:
+// BadInput for an invalid or used name, NotFound, Busy if another program has the world, Incompatible for a
+// link to rename or delete.
 [[nodiscard]] base::Result<void> renameWorld(const std::filesystem::path& folder, std::string_view name,
                                              std::string_view newName);
 [[nodiscard]] base::Result<void> deleteWorld(const std::filesystem::path& folder, std::string_view name);

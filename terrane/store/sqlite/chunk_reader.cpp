@@ -32,7 +32,7 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget&
     damaged.state = LoadedChunk::State::Damaged;
     damaged.problem = chunk.error().message;
     damaged.isOverBudget = row && chunk.error().code == base::ErrorCode::OutOfResources;
-    damaged.isUnread = !row || damaged.isOverBudget;
+    damaged.isUnreadable = !row || damaged.isOverBudget;
     return damaged;
 }
 
@@ -44,7 +44,7 @@ std::string rowProblem(const Statement& row, int dataColumn, int originColumn) {
 }
 
 std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format) {
-    return format < kFirstWithChecksums ? kFormerSeed : checksumSeed(pos, origin != 0);
+    return format < kFirstWithChecksums ? kLegacySeed : checksumSeed(pos, origin != 0);
 }
 
 namespace {
@@ -60,7 +60,7 @@ StoredChunk storedChunk(const Statement& row, world::ChunkPos pos, std::int64_t 
 
 // `count`: SELECT count(*).
 base::Result<bool> hasRow(Statement& count, world::ChunkPos pos) {
-    const ResetAfter reset(count);
+    const ResetGuard reset(count);
     count.bind(1, keyOf(pos));
     const auto row = TERRANE_TRY(count.step());
     return row && count.number(0) > 0;
@@ -69,7 +69,7 @@ base::Result<bool> hasRow(Statement& count, world::ChunkPos pos) {
 }  // namespace
 
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format) {
-    const ResetAfter reset(select);
+    const ResetGuard reset(select);
     select.bind(1, keyOf(pos));
     const auto row = TERRANE_TRY(select.step());
     return row ? std::optional(storedChunk(select, pos, format)) : std::nullopt;
@@ -113,16 +113,16 @@ base::Result<std::vector<KeyedRow>> ChunkReader::readRowsAfter(Database& databas
 }
 
 base::Result<std::vector<KeyedRow>> ChunkReader::rowsAfter(std::int64_t key, std::size_t count) {
-    auto connection = TERRANE_TRY(takeConnection());
+    auto connection = TERRANE_TRY(acquireConnection());
     auto rows = readRowsAfter(connection->database, key, count);
-    giveBack(std::move(connection));
+    releaseConnection(std::move(connection));
     return rows;
 }
 
 base::Result<std::uint64_t> ChunkReader::rowCount() {
-    auto connection = TERRANE_TRY(takeConnection());
+    auto connection = TERRANE_TRY(acquireConnection());
     const auto count = connection->database.queryNumber("SELECT count(*) FROM chunks");
-    giveBack(std::move(connection));
+    releaseConnection(std::move(connection));
     if (!count) return tl::unexpected(count.error());
     return static_cast<std::uint64_t>(count->value_or(0));
 }
@@ -137,7 +137,7 @@ base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::open() const
                                                    std::move(begin), std::move(end)});
 }
 
-base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::takeConnection() {
+base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::acquireConnection() {
     {
         const std::lock_guard lock(mutex_);
         if (!idle_.empty()) {
@@ -149,21 +149,21 @@ base::Result<std::unique_ptr<ChunkReader::Connection>> ChunkReader::takeConnecti
     return open();
 }
 
-void ChunkReader::giveBack(std::unique_ptr<Connection> connection) {
+void ChunkReader::releaseConnection(std::unique_ptr<Connection> connection) {
     const std::lock_guard lock(mutex_);
     idle_.push_back(std::move(connection));
 }
 
 StoredRow ChunkReader::read(world::ChunkPos pos) {
-    auto connection = TERRANE_TRY(takeConnection());
+    auto connection = TERRANE_TRY(acquireConnection());
     StoredRow row = readRow(connection->select, pos, format_);
-    giveBack(std::move(connection));
+    releaseConnection(std::move(connection));
     return row;
 }
 
 void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
                            const std::function<void(std::size_t, StoredRow)>& take) {
-    auto connection = takeConnection();
+    auto connection = acquireConnection();
     if (!connection) {
         for (std::size_t k = 0; k < positions.size(); ++k) take(k, tl::unexpected(connection.error()));
         return;
@@ -174,20 +174,20 @@ void ChunkReader::readMany(std::span<const world::ChunkPos> positions,
         take(k, readRow((*connection)->select, positions[k], format_));
     const bool hasEnded = !hasBegun || (*connection)->end.run();
     // If the transaction cannot end, drop the connection.
-    if (hasEnded) giveBack(std::move(*connection));
+    if (hasEnded) releaseConnection(std::move(*connection));
 }
 
 base::Result<bool> ChunkReader::contains(world::ChunkPos pos) {
-    auto connection = TERRANE_TRY(takeConnection());
+    auto connection = TERRANE_TRY(acquireConnection());
     const auto found = hasRow(connection->count, pos);
-    giveBack(std::move(connection));
+    releaseConnection(std::move(connection));
     return found;
 }
 
 base::Result<std::vector<world::ChunkPos>> ChunkReader::editedChunks() {
-    auto connection = TERRANE_TRY(takeConnection());
+    auto connection = TERRANE_TRY(acquireConnection());
     auto edited = readEditedChunks(connection->database);
-    giveBack(std::move(connection));
+    releaseConnection(std::move(connection));
     return edited;
 }
 

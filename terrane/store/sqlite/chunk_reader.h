@@ -31,16 +31,16 @@ struct KeyedRow {
     StoredChunk row;
 };
 
-// No value if the save has no such chunk; an error if the file is damaged.
+// A row has no value if the save has no such chunk; it is an error if the file is damaged.
 using StoredRow = base::Result<std::optional<StoredChunk>>;
 
 // Reads one row with a statement that selects data and origin of the key ?1. `format`: of the save.
 StoredRow readRow(Statement& select, world::ChunkPos pos, std::int64_t format);
 
-// Seed of a row's checksum; `origin` has a valid type.
+// Returns the seed of a row's checksum; `origin` has a valid type.
 std::uint64_t seedOf(world::ChunkPos pos, std::int64_t origin, std::int64_t format);
 
-// Error in the types or the origin of a row; empty if none.
+// Returns the error in the types or the origin of a row; empty if there is none.
 std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
 
 // See ReadableStore::editedChunks().
@@ -51,11 +51,11 @@ LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget&
 
 class ChunkReader {
   public:
-    // `format`: the save's format.
+    // `format` is the save's format.
     ChunkReader(std::filesystem::path path, OpenMode mode, std::int64_t format)
         : path_(std::move(path)), mode_(mode), format_(format) {}
 
-    // Any thread.
+    // Reads a row. Any thread may call it.
     [[nodiscard]] StoredRow read(world::ChunkPos pos);
     // Reads all in one transaction, as of one moment. Passes each to `take` with its index in `positions`
     // before reading the next, since together they may be large.
@@ -75,8 +75,8 @@ class ChunkReader {
         Statement select, count, begin, end;
     };
     base::Result<std::unique_ptr<Connection>> open() const;
-    base::Result<std::unique_ptr<Connection>> takeConnection();
-    void giveBack(std::unique_ptr<Connection> connection);
+    base::Result<std::unique_ptr<Connection>> acquireConnection();
+    void releaseConnection(std::unique_ptr<Connection> connection);
 
     std::filesystem::path path_;
     OpenMode mode_;

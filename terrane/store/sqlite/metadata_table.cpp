@@ -69,7 +69,7 @@ base::Result<MetadataTable> MetadataTable::make(Database& database) {
 }
 
 base::Result<std::optional<std::string>> MetadataTable::valueOf(std::string_view name) {
-    const ResetAfter reset(select_);
+    const ResetGuard reset(select_);
     select_.bind(1, name);
     const auto row = TERRANE_TRY(select_.step());
     return row ? std::optional(std::string(select_.text(0))) : std::nullopt;

@@ -1,6 +1,6 @@
-// The tables `settings` and `blocks` of an open save, and their checksum: the XOR of a hash of each row, kept
-// in the setting `checksum`. Changing a row updates the checksum by the hashes of the old and the new row, so
-// damage in other rows is still detected. Used by one thread at a time.
+// The tables `settings` and `blocks` of an open save, and their checksum: the XOR of a hash of each row,
+// stored in the setting `checksum`. Changing a row updates the checksum by the hashes of the old and the new
+// row, so damage in other rows is still detected. It is used by one thread at a time.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace terrane::store {
 
 inline constexpr std::string_view kChecksum = "checksum";
 
-// Checksum of all rows except kChecksum.
+// Returns the checksum of all rows except kChecksum.
 std::uint64_t metadataChecksum(const Metadata& metadata, std::span<const SavedName> names);
 
 // Fails if the checksum in `metadata` is missing or wrong. An empty one is valid: another program changed
@@ -29,7 +29,7 @@ std::uint64_t metadataChecksum(const Metadata& metadata, std::span<const SavedNa
 // Changes rows together with the checksum, in the caller's transaction.
 class MetadataTable {
   public:
-    // Keeps a reference to `database`.
+    // Creates the table, which keeps a reference to `database`.
     [[nodiscard]] static base::Result<MetadataTable> make(Database& database);
 
     [[nodiscard]] base::Result<void> put(std::string_view name, std::string_view value);

@@ -300,7 +300,7 @@ struct Row {
 // The first row at or after a key, with its new checksum. A row with a wrong checksum keeps it, so it is
 // damaged in format 3, too.
 base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
-    const ResetAfter reset(select);
+    const ResetGuard reset(select);
     select.bind(1, from);
     const auto isThere = TERRANE_TRY(select.step());
     if (!isThere) return std::optional<Row>();
@@ -308,7 +308,7 @@ base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
     row.key = select.number(0);
     const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row.key));
     const ByteView data = select.blob(2);
-    if (isWhole && verifyChunk(data, kFormerSeed)) {
+    if (isWhole && verifyChunk(data, kLegacySeed)) {
         row.data.assign(data.begin(), data.end());
         sealChunk(row.data, checksumSeed(posOf(row.key), select.number(1) != 0));
     }

@@ -1,5 +1,5 @@
-// The tables of a save, and migrations from older formats. docs/file-format.md describes them. Called while a
-// save is opened, on the thread that opens it and uses its connection.
+// The tables of a save, and migrations from older formats. docs/file-format.md describes them. It is called
+// while a save is opened, on the thread that opens it and uses its connection.
 #pragma once
 
 #include <filesystem>
@@ -29,7 +29,7 @@ struct Migration {
     base::Result<void> (*run)(Database&) = nullptr;
 };
 
-// All migrations. Released ones are never changed.
+// Returns all migrations. Released ones are never changed.
 std::span<const Migration> migrations();
 
 enum class SaveKind {
@@ -53,16 +53,15 @@ enum class SaveKind {
 [[nodiscard]] base::Result<Metadata> readMetadata(Database& database);
 
 // Compares the tables of a save with those of its format. A save is untrusted, and SQLite runs code of a
-// schema: a view in place of a table, or a trigger. Called while a save is opened, before anything else is
-// read, on the thread that opens it.
-// The SQL of the four tables, for all formats so far.
+// schema: a view in place of a table, or a trigger. It is called while a save is opened, before anything else
+// is read, on the thread that opens it. The SQL of the four tables, for all formats so far.
 extern const char* const kTables;
 
 // Fails with one line that names the first table, index, view or trigger that is missing, different or
 // unexpected. Names, types, columns and constraints are compared; case, blanks and quotes are not.
 [[nodiscard]] base::Result<void> checkSchema(Database& database);
 
-// The tokens of SQL, lowercase, without quotes around plain names, separated by blanks. For tests.
+// Returns the tokens of SQL, lowercase, without quotes around plain names, separated by blanks. For tests.
 std::string normalizedSql(std::string_view sql);
 
 // Upgrades format 2 to format 3: checksums of chunks that cover key and origin, and a checksum over settings

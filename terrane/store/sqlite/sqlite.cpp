@@ -171,7 +171,7 @@ base::Result<bool> Statement::step() {
 }
 
 base::Result<void> Statement::run() {
-    const ResetAfter reset(*this);
+    const ResetGuard reset(*this);
     base::Result<bool> more = true;
     while (more && *more) more = step();
     if (!more) return tl::unexpected(more.error());

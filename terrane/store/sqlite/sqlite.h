@@ -21,12 +21,11 @@ struct sqlite3_stmt;
 namespace terrane::store {
 
 // Restricts a SQLite connection to an untrusted file: a save cannot contain code (triggers, views, functions
-// in its schema), or values and statements larger than saves have. Used by sqlite.cpp.
-// Longer texts and blobs are not read: kMaxChunkBytes (64 MiB) before compression, plus the overhead of a
-// zstd frame.
+// in its schema), or values and statements larger than saves have. sqlite.cpp uses it. Longer texts and blobs
+// are not read: kMaxChunkBytes (64 MiB) before compression, plus the overhead of a zstd frame.
 constexpr int kMaxValueBytes = (64 << 20) + (1 << 20);
 
-// Call before anything is read.
+// Restricts the connection; call it before anything is read.
 void guardConnection(sqlite3* database);
 
 // Stops statements that take too many steps while this exists: SQLite then returns SQLITE_INTERRUPT. For
@@ -53,13 +52,14 @@ class Statement {
     void bind(int parameter, std::string_view text);
     void bind(int parameter, ByteView blob);
 
-    // True if there is a row to read, false at the end.
+    // Steps to the next row. Returns true if there is a row to read, false at the end.
     [[nodiscard]] base::Result<bool> step();
     // Runs to the end, then resets.
     [[nodiscard]] base::Result<void> run();
     void reset();  // ready to be bound and stepped again; ends reading
 
-    // Values of the row; columns count from 0. Views are valid until the next step or reset.
+    // The functions below return values of the row; columns count from 0. Views are valid until the next step
+    // or reset.
     ColumnType type(int column) const;  // call first: the functions below change the type
     std::int64_t number(int column) const;
     std::string_view text(int column) const;
@@ -78,13 +78,14 @@ class Statement {
     const std::string* path_;  // the database's
 };
 
-// Resets a statement when it goes, also after an exception: one that is still reading cannot be bound again.
-class ResetAfter {
+// Resets a statement at the end of a scope, also after an exception: a statement that is still reading cannot
+// be bound again.
+class ResetGuard {
   public:
-    explicit ResetAfter(Statement& statement) : statement_(statement) {}
-    ~ResetAfter() { statement_.reset(); }
-    ResetAfter(const ResetAfter&) = delete;
-    ResetAfter& operator=(const ResetAfter&) = delete;
+    explicit ResetGuard(Statement& statement) : statement_(statement) {}
+    ~ResetGuard() { statement_.reset(); }
+    ResetGuard(const ResetGuard&) = delete;
+    ResetGuard& operator=(const ResetGuard&) = delete;
 
   private:
     Statement& statement_;
@@ -106,9 +107,9 @@ class Database {
 
     // Runs statements that return no rows; several are separated by semicolons.
     [[nodiscard]] base::Result<void> execute(const std::string& sql);
-    // The statement must not outlive the database.
+    // Compiles a statement, which must not outlive the database.
     [[nodiscard]] base::Result<Statement> prepare(std::string_view sql);
-    // The first column of the first row; no value if there is no row.
+    // Returns the first column of the first row; no value if there is no row.
     [[nodiscard]] base::Result<std::optional<std::int64_t>> queryNumber(std::string_view sql);
     // Copies everything into a new file, also while others read and write. A failed copy is removed.
     [[nodiscard]] base::Result<void> backUpTo(const std::filesystem::path& target,
@@ -141,7 +142,7 @@ template <class Visit>
     }
 }
 
-// Rolls back unless committed. One at a time on a connection.
+// A transaction that is rolled back unless committed. A connection has one at a time.
 class Transaction {
   public:
     [[nodiscard]] static base::Result<Transaction> begin(Database& database);

@@ -10,8 +10,8 @@
 
 namespace terrane::store {
 
-// The rows of an open save, shared by readers and writers of its file. Included by sqlite_*.cpp.
-// `Base` is ReadableRows or ChunkRows.
+// The rows of an open save, shared by readers and writers of its file. It is included by sqlite_*.cpp. `Base`
+// is ReadableRows or ChunkRows.
 template <class Base>
 class SqliteReadRows : public Base {
   public:
@@ -51,7 +51,7 @@ class SqliteReader : public RowsReader {
     using RowsReader::RowsReader;
 };
 
-// Only the rows, for a copy.
+// Opens only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<ReadableRows>> openSqliteToRead(
     const std::filesystem::path& path, const world::BlockRegistry& registry);
 
@@ -66,7 +66,7 @@ class SqliteStore : public QueuedStore {
     using QueuedStore::QueuedStore;
 };
 
-// Only the rows, for a copy.
+// Opens only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
                                                                       const world::BlockRegistry& registry,
                                                                       const SaveAccess& access);

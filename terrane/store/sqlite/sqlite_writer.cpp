@@ -138,7 +138,7 @@ base::Result<void> SqliteWriter::writeBatch(const SaveBatch& batch, const ChunkP
     return {};
 }
 
-base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const WaitingChunk& chunk) {
+base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const QueuedChunk& chunk) {
     TERRANE_TRY(quarantineIfDamaged(pos));
     const bool isEdited = chunk.provenance == Provenance::Edited;
     const auto bytes = encodeChunk(*chunk.chunk, file_.ids, checksumSeed(pos, isEdited));
@@ -185,7 +185,7 @@ base::Result<void> SqliteWriter::quarantineRow(world::ChunkPos pos, std::string_
 // The row of a chunk if it is damaged.
 base::Result<std::optional<DamagedRow>> SqliteWriter::readDamaged(world::ChunkPos pos) {
     Statement& select = use_.selectChunk;
-    const ResetAfter reset(select);
+    const ResetGuard reset(select);
     select.bind(1, keyOf(pos));
     const auto row = TERRANE_TRY(select.step());
     if (!row) return std::optional<DamagedRow>();
@@ -210,7 +210,7 @@ base::Result<void> SqliteWriter::quarantineIfDamaged(world::ChunkPos pos) {
 }
 
 base::Result<bool> SqliteWriter::isSaved(const DamagedRow& row) {
-    const ResetAfter reset(use_.selectChunk);
+    const ResetGuard reset(use_.selectChunk);
     use_.selectChunk.bind(1, keyOf(row.pos));
     const auto isThere = TERRANE_TRY(use_.selectChunk.step());
     return isThere && hashOfRow(use_.selectChunk.blob(0)) == row.hash;

@@ -1,5 +1,5 @@
-// Writes batches and derived rows into an open save, each call in one transaction. Used by one thread at a
-// time.
+// Writes batches and derived rows into an open save, each call in one transaction. It is used by one thread
+// at a time.
 #pragma once
 
 #include <sys/types.h>
@@ -17,8 +17,8 @@
 
 namespace terrane::store {
 
-// Checks that the files of an open save are still at their paths: data written into a deleted or replaced
-// file is lost. Used by the writing connection, on its thread.
+// The identity of a file. The writing connection checks with it that the files of an open save are still at
+// their paths: data written into a deleted or replaced file is lost.
 struct FileIdentity {
     dev_t device = 0;
     ino_t inode = 0;
@@ -26,7 +26,7 @@ struct FileIdentity {
     bool operator==(const FileIdentity&) const = default;
 };
 
-// No value if there is no such file.
+// Returns the identity of a file, or no value if it does not exist.
 std::optional<FileIdentity> identityOf(const std::filesystem::path& path);
 
 // The identities of the save and its log at construction.
@@ -35,7 +35,8 @@ class OpenFiles {
     // `path`: an open save whose log exists.
     explicit OpenFiles(const std::filesystem::path& path);
 
-    // NotFound, with advice, if a file was deleted, moved or replaced. Succeeds again once it is back.
+    // Checks the files. Returns NotFound, with advice, if a file was deleted, moved or replaced. Succeeds
+    // again once it is back.
     [[nodiscard]] base::Result<void> check() const;
 
   private:
@@ -45,7 +46,7 @@ class OpenFiles {
 
 class SqliteWriter {
   public:
-    // Keeps a reference to `file`.
+    // Creates a writer, which keeps a reference to `file`.
     [[nodiscard]] static base::Result<std::unique_ptr<SqliteWriter>> make(SaveFile& file);
 
     // See ChunkRows::write(). Fails and writes nothing if the save was deleted or replaced.
@@ -70,7 +71,7 @@ class SqliteWriter {
     base::Result<Transaction> begin();
     base::Result<void> commit(Transaction& transaction);
     base::Result<void> writeBatch(const SaveBatch& batch, const ChunkPosSet& unread);
-    base::Result<void> writeChunk(world::ChunkPos pos, const WaitingChunk& chunk);
+    base::Result<void> writeChunk(world::ChunkPos pos, const QueuedChunk& chunk);
     base::Result<void> writeDerived(std::span<const ChunkRow> rows);
     base::Result<void> quarantineRow(world::ChunkPos pos, std::string_view reason);
     base::Result<void> quarantineIfDamaged(world::ChunkPos pos);

@@ -20,7 +20,7 @@ BlockBehavior usedBecomes(const BehaviorArguments& arguments) {
 BlockBehavior touchedBecomes(const BehaviorArguments& arguments) {
     const std::string block = arguments.blocks.at("block"), by = arguments.blocks.at("by");
     return {.name = {}, .neighborChanged = [=](BlockUpdate& update, BlockPos pos, Face side) {
-                const BlockId next = update.world().block(beside(pos, side));
+                const BlockId next = update.world().block(adjacent(pos, side));
                 if (update.blocks().type(next).name == by) become(update, pos, block);
             }};
 }

@@ -1,6 +1,7 @@
-// Behaviors that a block names with parameters:
+// Templates of behaviors that a block names with parameters:
 //   behaviors = [{ name = "touched_becomes", by = "water", block = "rust" }]
-// A template makes a BlockBehavior from the arguments that a block gives. Plain values; any thread.
+// A template makes a BlockBehavior from the arguments of a block. All are plain values; any thread may use
+// them.
 #pragma once
 
 #include <functional>
@@ -40,8 +41,8 @@ struct BehaviorCall {
     int line = 0;  // in the file of the block
 };
 
-// The behavior of a call. Its name holds the arguments, so that two programs can compare what blocks do:
-// "touched_becomes(block=rust,by=water)".
+// Returns the behavior of a call. Its name holds the arguments, so that two programs can compare the behavior
+// of blocks: "touched_becomes(block=rust,by=water)".
 BlockBehavior behaviorOf(const BehaviorCall& call);
 
 // used_becomes     block: a player who uses the block turns it into that one

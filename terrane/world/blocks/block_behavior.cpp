@@ -160,7 +160,7 @@ constexpr std::array<Face, 4> kSides{kFaceNegX, kFacePosX, kFaceNegY, kFacePosY}
 constexpr std::array<Face, 4> kAhead{kFacePosY, kFaceNegX, kFaceNegY, kFacePosX};
 
 bool supports(const World& world, const BlockRegistry& blocks, BlockPos pos, Face side) {
-    return !blocks.type(world.block(beside(pos, side))).collision.empty();
+    return !blocks.type(world.block(adjacent(pos, side))).collision.empty();
 }
 
 Face standsAt(std::uint16_t state) {
@@ -193,7 +193,7 @@ void updateArms(BlockUpdate& update, BlockPos pos) {
     const std::uint16_t before = update.world().blockState(pos);
     std::uint16_t state = before & static_cast<std::uint16_t>(~kStateArms);
     for (const Face side : kSides) {
-        const BlockType& next = update.blocks().type(update.world().block(beside(pos, side)));
+        const BlockType& next = update.blocks().type(update.world().block(adjacent(pos, side)));
         if (next.opaqueCube || hasBehavior(next, "connects"))
             state |= static_cast<std::uint16_t>(1u << (kStateArmShift + side));
     }
@@ -216,7 +216,7 @@ BlockBehavior opens() {
 }
 
 BlockPos besideOfHalf(const BlockRegistry& blocks, BlockId id, BlockPos pos) {
-    return beside(pos, isUpperHalf(blocks.type(id)) ? kFaceNegZ : kFacePosZ);
+    return adjacent(pos, isUpperHalf(blocks.type(id)) ? kFaceNegZ : kFacePosZ);
 }
 
 BlockBehavior door() {
@@ -224,7 +224,7 @@ BlockBehavior door() {
             .canStand =
                 [](const World& world, const BlockRegistry& blocks, BlockPos pos, BlockId id) {
                     if (isUpperHalf(blocks.type(id))) return true;
-                    const BlockId above = world.block(beside(pos, kFacePosZ));
+                    const BlockId above = world.block(adjacent(pos, kFacePosZ));
                     return supports(world, blocks, pos, kFaceNegZ) && pos.z + 1 < kChunkHeight &&
                            (above == kAir || above == otherHalf(blocks, id));
                 },
@@ -232,7 +232,7 @@ BlockBehavior door() {
                 [](BlockUpdate& update, BlockPos pos) {
                     const BlockId id = update.world().block(pos);
                     if (isUpperHalf(update.blocks().type(id))) return;
-                    update.change(beside(pos, kFacePosZ),
+                    update.change(adjacent(pos, kFacePosZ),
                                   SetBlock{otherHalf(update.blocks(), id), update.world().blockState(pos)});
                 },
             .removed =

@@ -1,5 +1,5 @@
-// Behaviors of blocks beyond their look and light: a behavior is a table of functions, named by the block
-// types that have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a
+// Behaviors of blocks beyond their appearance and light: a behavior is a table of functions, named by the
+// block types that have it (`behaviors` in assets/blocks.toml). Users of the library add their own to a
 // BehaviorTable before they read the block types. See docs/blocks.md.
 #pragma once
 
@@ -21,23 +21,23 @@ class BlockRegistry;
 class BlockUpdate;  // block_edit.h
 class World;
 
-// A block as it was before it was replaced.
+// The values of a block before it was replaced.
 struct RemovedBlock {
     BlockId id = kAir;
     std::uint16_t state = 0;
     BlockEntityData data;
 };
 
-// Empty functions do nothing. All are called on the world's thread, while an edit is applied. Those with a
-// BlockUpdate change blocks only through it: light, meshes and saves see these changes as parts of the edit.
-// They depend only on blocks, so that equal edits give equal worlds.
+// Empty functions do nothing. All are called on the world's thread, while an edit is applied. Functions with
+// a BlockUpdate change blocks only through it: light, meshes and saves see these changes as parts of the
+// edit. They depend only on blocks, so that equal edits give equal worlds.
 struct BlockBehavior {
     std::string name;  // a-z, 0-9, _
-    // Whether the block can stand at `pos`. If not, it is not placed.
+    // Returns whether the block can stand at `pos`. If not, it is not placed.
     std::function<bool(const World&, const BlockRegistry&, BlockPos pos, BlockId id)> canStand = {};
     // Called when an edit or a behavior has placed the block; not for generated terrain and loaded chunks.
     std::function<void(BlockUpdate&, BlockPos pos)> placed = {};
-    // Called when another block, which is at `pos` now, has replaced it.
+    // Called when another block, which is now at `pos`, has replaced it.
     std::function<void(BlockUpdate&, BlockPos pos, const RemovedBlock&)> removed = {};
     // Called when the block beside it on `side` has changed.
     std::function<void(BlockUpdate&, BlockPos pos, Face side)> neighborChanged = {};
@@ -45,8 +45,8 @@ struct BlockBehavior {
     std::function<void(BlockUpdate&, BlockPos pos)> used = {};
     // Called at random, every 68 s on average, while the block's state is not 0 (random_ticks.h).
     std::function<void(BlockUpdate&, BlockPos pos)> tick = {};
-    // The items that the block holds; a block whose behavior has this can be opened. An error if its data is
-    // no inventory.
+    // Returns the items that the block holds; a block whose behavior has this can be opened. Returns an error
+    // if its data is no inventory.
     std::function<base::Result<Inventory>(const World&, const BlockRegistry&, BlockPos pos)> items = {};
 };
 
@@ -55,7 +55,7 @@ struct BehaviorTemplate;  // behavior_template.h
 
 class BehaviorTable {
   public:
-    // Both replace a behavior with the same name.
+    // Both functions replace a behavior with the same name.
     void add(BlockBehavior behavior);
     void addTemplate(BehaviorTemplate behavior);
     BehaviorPtr find(std::string_view name) const;  // null if there is none
@@ -77,7 +77,7 @@ const BehaviorTable& builtInBehaviors();
 
 bool hasBehavior(const BlockType& type, std::string_view name);
 
-// The first behavior of a type that has the function; null if none has.
+// Returns the first behavior of a type that has the function; null if none has.
 template <class Function>
 const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior::*function) {
     for (const BehaviorPtr& behavior : type.behaviors)
@@ -94,20 +94,20 @@ const BlockBehavior* behaviorWith(const BlockType& type, Function BlockBehavior:
 // door             opens; NAME and NAME_top are its halves, placed, removed and opened together
 std::vector<BlockBehavior> shapeBehaviors();
 
-// Whether the block is the upper half of a door. otherHalf() gives the other half of a door; air if it has
-// none.
+// isUpperHalf() returns whether the block is the upper half of a door. otherHalf() returns the other half of
+// a door; air if it has none.
 bool isUpperHalf(const BlockType& type);
 BlockId otherHalf(const BlockRegistry& blocks, BlockId id);
 
-// The place at which a player builds a block.
+// The position and direction at which a player builds a block.
 struct Placement {
     Face face = kFacePosZ;   // of the block that it builds against
     float heightInCell = 0;  // of the spot on that face, 0…1
     float yaw = 0;           // degrees, of the player's look
 };
 
-// The state of a block that is built: it faces where the player looks, or the wall at which it leans, and is
-// upside down if built under a block or against the upper half of a side.
+// Returns the state of a block that is built: it faces where the player looks, or the wall at which it leans,
+// and is upside down if built under a block or against the upper half of a side.
 std::uint16_t placedState(const BlockType& type, const Placement& placement);
 
 }  // namespace terrane::world

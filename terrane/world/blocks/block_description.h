@@ -1,5 +1,6 @@
-// Descriptions of block types, which refer to textures and blocks by name. Read from a file (block_parser.h),
-// or made by a program; BlockRegistry::fromDescriptions() makes types of them. Plain values.
+// Descriptions of block types, which refer to textures and blocks by name. They are read from a file
+// (block_parser.h) or made by a program; BlockRegistry::fromDescriptions() makes types of them. All are plain
+// values.
 #pragma once
 
 #include <array>
@@ -12,8 +13,8 @@
 
 namespace terrane::world {
 
-// The look of one face.
-struct FaceLook {
+// The appearance of one face.
+struct FaceDescription {
     std::string texture;
     AlphaMode alpha = AlphaMode::Unused;
     bool twoSided = false;
@@ -24,8 +25,8 @@ struct FaceLook {
 
 struct BlockDescription {
     BlockType type;  // all but id and materials
-    std::array<FaceLook, kFaceCount> faces;
-    std::vector<FaceLook> growth;  // of all faces, youngest stage first
+    std::array<FaceDescription, kFaceCount> faces;
+    std::vector<FaceDescription> growth;  // of all faces, youngest stage first
     Animation animation = Animation::None;
     ShapePtr shape;                   // of Shape::Model
     std::vector<BehaviorCall> calls;  // behaviors with arguments; block names as the file has them
@@ -33,10 +34,10 @@ struct BlockDescription {
     int line = 0;                     // of its table in the file
 };
 
-// Whether the block is a cube without transparent faces, which hides what touches it.
+// Returns whether the block is a cube without transparent faces, which hides adjacent faces.
 bool isOpaqueCube(const BlockDescription& block);
 
-// The default box of a shape.
+// Returns the default box of a shape.
 Box shapeBox(Shape shape);
 
 }  // namespace terrane::world

@@ -2,7 +2,7 @@
 // block_registry.h makes models of them, in which the surface of the boxes is quads too. Meshers read a
 // model's faces, collision and ray casts its boxes. Plain values; any thread.
 //
-// Bits of the block state that choose a form:
+// These bits of the block state select a form:
 //
 //   0–1  facing: quarter turns of the shape in the file, counterclockwise seen from above
 //   2    upside down
@@ -30,11 +30,11 @@
 
 namespace terrane::world {
 
-// A source of textures of blocks: content, resource packs, tests.
-// The image of a texture by its name in the block types. An error says what is missing.
+// A source of textures of blocks: content, resource packs, tests. It returns the image of a texture by its
+// name in the block types, or an error that names the missing file.
 using TextureSource = std::function<base::Result<base::Image>(std::string_view)>;
 
-// Faces of a block's cell, and boxes in it. Plain values; any thread.
+// A box in the cell of a block.
 struct Box {
     glm::vec3 min{0}, max{1};  // in block units inside the cell
 };
@@ -42,8 +42,8 @@ struct Box {
 // Order of faces everywhere: -x, +x, -y, +y, -z, +z.
 enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ, kFacePosZ, kFaceCount };
 
-// The cell beside a face of a block.
-constexpr BlockPos beside(BlockPos pos, Face face) {
+// Returns the cell adjacent to a face of a block.
+constexpr BlockPos adjacent(BlockPos pos, Face face) {
     // Wraps around at the ends of the numbers, where no chunk is.
     const auto step = [&](std::int32_t at, int axis) {
         const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
@@ -125,13 +125,13 @@ struct BlockModel {
 
 struct BlockType;
 
-// The boxes that stop bodies, and those that rays from the camera hit, in a state of the block.
+// Returns the boxes that stop bodies, and those that rays from the camera hit, in a state of the block.
 std::span<const Box> collisionBoxes(const BlockType& type, std::uint16_t state);
 std::span<const Box> selectionBoxes(const BlockType& type, std::uint16_t state);
-// The bounds of the selection boxes.
+// Returns the bounds of the selection boxes.
 Box selectionBounds(const BlockType& type, std::uint16_t state);
 
-// Bits of the state that choose a form.
+// Returns the bits of the state that select a form.
 std::uint16_t formMask(const ShapeDescription& shape);
 // The boxes and quads of a state, with facing, form, arms and half applied; collision is not empty.
 ShapePart shapeAt(const ShapeDescription& shape, std::uint16_t state);
@@ -139,7 +139,7 @@ ShapePart shapeAt(const ShapeDescription& shape, std::uint16_t state);
 constexpr std::size_t kCellParts = kSixteenths * kSixteenths * kSixteenths;
 std::size_t filledParts(std::span<const ShapeBox> boxes);  // of kCellParts
 
-// A rectangle of the surface, on the plane where min and max are equal.
+// A rectangle of a surface, on the plane where min and max are equal.
 struct ShapeRectangle {
     Face side = kFacePosZ;
     glm::ivec3 min{0}, max{0};
@@ -147,7 +147,7 @@ struct ShapeRectangle {
     bool operator==(const ShapeRectangle&) const = default;
 };
 
-// The outer surface of boxes that may touch and overlap, each part of it once.
+// Returns the outer surface of boxes that may touch and overlap, each part of it once.
 std::vector<ShapeRectangle> surfaceOf(std::span<const ShapeBox> boxes);
 
 // The face of a box as a quad that shows the part of its texture at its place in the cell.

@@ -581,7 +581,7 @@ base::Result<BlockFile> parseBlocks(std::string_view toml, std::string_view file
 }
 
 bool isOpaqueCube(const BlockDescription& block) {
-    const auto opaque = [](const FaceLook& face) {
+    const auto opaque = [](const FaceDescription& face) {
         return face.alpha == AlphaMode::Unused || face.alpha == AlphaMode::Glow ||
                face.alpha == AlphaMode::Tint;
     };

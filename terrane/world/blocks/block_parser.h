@@ -1,5 +1,5 @@
 // Reads a content file of block types (TOML, see assets/blocks.toml) into descriptions that name textures and
-// carry no ids yet. Called by block_registry.cpp on the thread that starts a session.
+// carry no ids yet. block_registry.cpp calls it on the thread that starts a session.
 #pragma once
 
 #include <memory>
@@ -29,24 +29,23 @@ struct BlockFile {
     std::vector<ShapePtr> shapes;
 };
 
-// Errors read "file:line: key: what is wrong", always one line. Blocks may name `behaviors` and, beside the
-// file's own, `shapes`.
+// Parses a file. Errors read "file:line: key: what is wrong", always in one line. Blocks may name `behaviors`
+// and, beside the file's own, `shapes`.
 [[nodiscard]] base::Result<BlockFile> parseBlocks(std::string_view toml, std::string_view file,
                                                   const BehaviorTable& behaviors = builtInBehaviors(),
                                                   std::span<const ShapePtr> shapes = {});
 
-// Reads the behaviors of a block of a content file. Called by block_parser.cpp.
-// Behaviors that other keys imply come first: the block's shape, growth and slots must be read before. Errors
-// go to the table.
+// Reads the behaviors of a block of a content file. block_parser.cpp calls it. Behaviors that other keys
+// imply come first: the block's shape, growth and slots must be read before. Errors go to the table.
 void readBehaviors(ContentTable& table, BlockDescription& block, const BehaviorTable& behaviors);
 
-// Reads the shapes of a content file ([[shape]] tables, see assets/blocks.toml). Called by block_parser.cpp.
+// Reads the shapes of a content file ([[shape]] tables, see assets/blocks.toml). block_parser.cpp calls it.
 // `tables` may be null. Names must not be among `taken`. Errors go to `error`.
 std::vector<ShapePtr> readShapes(const toml::array* tables, std::span<const std::string_view> taken,
                                  std::string_view file, std::optional<std::string>& error);
 
-// Reads the key `sound` of a block in a content file.
-// By default water for liquids, grass for plants, else stone.
+// Reads the key `sound` of a block in a content file. The default is water for liquids, grass for plants,
+// else stone.
 SoundMaterial readSound(ContentTable& table, Shape shape);
 
 }  // namespace terrane::world

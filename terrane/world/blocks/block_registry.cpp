@@ -107,7 +107,7 @@ class Materials {
     // Sets the type's materials. False if 16 bits do not suffice.
     bool numberFaces(BlockDescription& block) {
         bool fits = true;
-        const auto set = [&](std::uint16_t& material, const FaceLook& face) {
+        const auto set = [&](std::uint16_t& material, const FaceDescription& face) {
             const auto number = this->number(face, block);
             fits = fits && number;
             material = number.value_or(0);
@@ -126,7 +126,7 @@ class Materials {
 
   private:
     // None if 16 bits do not suffice.
-    std::optional<std::uint16_t> number(const FaceLook& face, const BlockDescription& block) {
+    std::optional<std::uint16_t> number(const FaceDescription& face, const BlockDescription& block) {
         const auto texture = static_cast<std::uint32_t>(
             textureNumbers_.try_emplace(face.texture, textureNumbers_.size()).first->second);
         if (texture == textures_.size()) textures_.push_back(face.texture);
@@ -154,7 +154,7 @@ class Materials {
 // Through the holes of leaves mostly more leaves are visible: from afar the holes are closed. The block then
 // hides blocks behind it, so it must not wave.
 void lookFromAfar(BlockDescription& block) {
-    for (FaceLook& face : block.faces) {
+    for (FaceDescription& face : block.faces) {
         if (face.alpha != AlphaMode::Test) continue;
         face.alpha = AlphaMode::Unused;
         face.twoSided = false;
@@ -248,7 +248,7 @@ base::Result<BlockRegistry> BlockRegistry::fromDescriptions(std::vector<BlockDes
     return registry;
 }
 
-BlockRegistry BlockRegistry::seenFromAfar() const {
+BlockRegistry BlockRegistry::forFarTiles() const {
     BlockRegistry far = *this;
     far.types_ = farTypes_;
     return far;

@@ -1,4 +1,4 @@
-// All block types of a session, read from content files. Immutable once made; shared by all threads.
+// All block types of a session, read from content files. It is immutable; shared by all threads.
 #pragma once
 
 #include <map>
@@ -17,13 +17,13 @@
 
 namespace terrane::world {
 
-// Makes models of shapes and numbers their faces. Called by block_registry.cpp.
+// Makes models of shapes and numbers their faces. block_registry.cpp calls it.
 class ModelTable {
   public:
     // A quad has 11 bits for its shape face.
     static constexpr std::size_t kMaxFaces = shared::kMaxShapeFaces - shared::kShapeFaceCount;
 
-    // One model for all blocks of a shape.
+    // Returns the model of a shape, one for all blocks with it.
     std::shared_ptr<const BlockModel> modelOf(const ShapePtr& shape);
 
     // Limits of the bits in mesh_gpu/block_table.h: faces of a form, and forms with their faces in all.
@@ -48,14 +48,14 @@ struct BlockDescription;  // block_description.h
 class BlockRegistry {
   public:
     // Reads the content file's text. Errors read "name:line: key: what is wrong". Ids follow the order of the
-    // file; air is 0 and is not in the file. The last type added is "missing". `behaviors`: those that blocks
-    // may name.
+    // file; air is 0 and is not in the file. The last type added is "missing". `behaviors` has the behaviors
+    // that blocks may name.
     [[nodiscard]] static base::Result<BlockRegistry> parse(
         std::string_view toml, std::string_view name, const BehaviorTable& behaviors = builtInBehaviors());
 
-    // The same from descriptions, of several files or made by a program. Names are unique and none of "air",
-    // "missing"; textures and blocks of behaviors have the registry's names. Errors that belong to no block
-    // begin with `name`.
+    // Creates a registry from descriptions, of several files or made by a program. Names are unique and none
+    // of "air", "missing"; textures and blocks of behaviors have the registry's names. Errors that belong to
+    // no block begin with `name`.
     [[nodiscard]] static base::Result<BlockRegistry> fromDescriptions(std::vector<BlockDescription> blocks,
                                                                       std::string_view name);
 
@@ -64,9 +64,9 @@ class BlockRegistry {
     const BlockType* find(std::string_view name) const;  // null if there is none
     BlockId missing() const { return missing_; }         // stands for unknown blocks
 
-    // The same blocks with fewer faces, for meshes of far tiles: cubes with holes are closed and not
+    // Returns the same blocks with fewer faces, for meshes of far tiles: cubes with holes are closed and not
     // animated. Ids and textures are the same.
-    BlockRegistry seenFromAfar() const;
+    BlockRegistry forFarTiles() const;
 
     std::span<const Material> materials() const { return materials_; }
     std::span<const std::string> textures() const { return textures_; }  // names without folder and ending

@@ -1,4 +1,5 @@
-// Block types: look, light, collision. Types are content (assets/blocks.toml), read by block_registry.h.
+// Block types: appearance, light, collision. Types are content (assets/blocks.toml), read by
+// block_registry.h.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -59,7 +60,7 @@ enum class AlphaMode : std::uint8_t {
 
 enum class Animation : std::uint8_t { None, TopWaves, WholeWaves, LiquidSurface };
 
-// The texels that filters of a face's texture may read, when a texel is smaller or larger than a pixel.
+// The texels that filters of a face's texture may read.
 enum class Wrap : std::uint8_t {
     Quad,    // the texture repeats over a merged quad; filters stop at the quad's edge
     Repeat,  // filters reach over every edge to the opposite side of the texture: it tiles without seams

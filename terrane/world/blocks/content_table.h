@@ -1,5 +1,5 @@
-// One table of a content file (TOML), read key by key, with errors that name line and key. Used by the
-// readers of content files. One thread.
+// One table of a content file (TOML), read key by key, with errors that name line and key. The readers of
+// content files use it. One thread uses it.
 #pragma once
 
 #include <fmt/ranges.h>
@@ -32,24 +32,24 @@ std::string listed(const Names& names) {
     return text;
 }
 
-// The message without line breaks, which texts of a file may have: an error is one line.
+// Returns the message without line breaks, which texts of a file may have: an error is one line.
 std::string inOneLine(std::string message);
 
 // Readers return the key's value, or `fallback` if it is absent; a wrong value gives an error and an
 // arbitrary result. All tables of a file share one error, the first.
 class ContentTable {
   public:
-    // `like`: tables whose keys this one has where it does not set them, the nearest first.
+    // `like` has tables whose keys this table inherits if it does not set them, the nearest first.
     ContentTable(const toml::table& table, std::string_view file, std::optional<std::string>& error,
                  std::span<const toml::table* const> like = {})
         : table_(table), like_(like), file_(file), error_(error) {}
 
     const toml::node* own(std::string_view key) const { return table_.get(key); }
     const toml::node* node(std::string_view key) const { return firstOf({key}); }
-    // The first of these keys, which exclude each other, in the nearest table that has one.
+    // Returns the first of these keys, which exclude each other, in the nearest table that has one.
     const toml::node* firstOf(std::initializer_list<std::string_view> keys) const;
     int line() const { return lineOf(table_); }
-    // A table inside this one, whose errors join those of this one.
+    // Returns a table inside this one, whose errors join those of this one.
     ContentTable inner(const toml::table& table) const { return ContentTable(table, file_, error_); }
 
     void wrong(int line, std::string_view key, std::string_view what);
@@ -71,7 +71,7 @@ class ContentTable {
 
     bool boolean(std::string_view key, bool fallback);
     bool booleanOf(const toml::node& value, std::string_view key);
-    // A number from `min` to `max`.
+    // These return a number from `min` to `max`.
     int numberOf(const toml::node& value, std::string_view key, int min, int max);
     double realOf(const toml::node& value, std::string_view key, double min, double max);
     std::string nameOf(const toml::node& value, std::string_view key);
@@ -85,7 +85,8 @@ class ContentTable {
         return names[0].value;
     }
 
-    // A value for all, or a table with one for each of `names`; absent ones get `fallback`.
+    // Returns one value for each of `names`, from a single value for all or from a table; absent names get
+    // `fallback`.
     template <class T, std::size_t N, class Read>
     std::array<T, N> valueEach(std::string_view key, const std::array<std::string_view, N>& names,
                                const T& fallback, Read read) {

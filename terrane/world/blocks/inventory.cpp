@@ -60,12 +60,6 @@ int takeItems(Inventory& inventory, std::string_view item, int count) {
     return taken;
 }
 
-int countItems(const Inventory& inventory, std::string_view item) {
-    int count = 0;
-    for (const ItemStack& stack : inventory) count += stack.item == item ? stack.count : 0;
-    return count;
-}
-
 BlockEntityData encodeInventory(const Inventory& inventory) {
     base::require(inventory.size() <= 0xFFFF, "encodeInventory: more than 65,535 slots");
     BlockEntityData out{kVersion};

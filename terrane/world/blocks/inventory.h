@@ -1,6 +1,6 @@
 // The items of a block with slots, such as a chest: stacks of items in the block's block entity data. An edit
-// by SetEntityData writes it back and saves it with the chunk. Plain values, any thread. Negative counts and
-// names that do not fit throw std::invalid_argument.
+// by SetEntityData writes it back and saves it with the chunk. All are plain values; any thread may use them.
+// Negative counts and names that do not fit throw std::invalid_argument.
 #pragma once
 
 #include <cstdint>
@@ -26,18 +26,18 @@ constexpr std::size_t kMaxItemName = 255;  // bytes
 
 using Inventory = std::vector<ItemStack>;  // a stack each slot
 
-// Puts `count` items into stacks of the same item that have room, then into empty slots, from the first on.
-// Returns the number that found no room.
+// Adds `count` items to stacks of the same item that have room, then into empty slots, from the first on.
+// Returns the number of items that did not fit.
 int addItems(Inventory& inventory, std::string_view item, int count);
-// Takes at most `count` items, from the last slot on. Returns the number taken.
+// Removes at most `count` items, from the last slot on. Returns the number of removed items.
 int takeItems(Inventory& inventory, std::string_view item, int count);
-// The same with one stack; nothing is added to a stack of another item. Counts are 0 or more in all four.
+// These do the same with one stack; nothing is added to a stack of another item. Counts are 0 or more in all
+// four functions.
 int addToStack(ItemStack& stack, std::string_view item, int count);
 int takeFromStack(ItemStack& stack, int count);
-int countItems(const Inventory& inventory, std::string_view item);
 
-// Bytes: version 1, number of slots (16 bits), then of each slot the count (16 bits; little-endian both), the
-// length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
+// Encodes an inventory: version 1, number of slots (16 bits), then of each slot the count (16 bits;
+// little-endian both), the length of the name (8 bits) and the name. Names are at most kMaxItemName bytes.
 BlockEntityData encodeInventory(const Inventory& inventory);
 // The slots as the bytes have them; an error if the bytes are no such inventory.
 [[nodiscard]] base::Result<Inventory> decodeSlots(const BlockEntityData& data);

@@ -23,7 +23,7 @@ bool isControl(char32_t c) {
 std::optional<std::u32string> charactersOf(std::string_view utf8) {
     std::u32string characters;
     while (!utf8.empty()) {
-        const base::Character next = base::firstCharacter(utf8);
+        const base::CodePoint next = base::firstCodePoint(utf8);
         if (next.bytes == 0) return std::nullopt;
         characters.push_back(next.code);
         utf8.remove_prefix(next.bytes);
@@ -87,7 +87,7 @@ BlockBehavior signBehavior() {
     return {.name = std::string(kSignBehavior)};
 }
 
-bool holdsText(const BlockType& type) {
+bool isSign(const BlockType& type) {
     return std::ranges::any_of(type.behaviors, [](const BehaviorPtr& b) { return b->name == kSignBehavior; });
 }
 

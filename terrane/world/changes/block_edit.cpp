@@ -50,7 +50,7 @@ void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scop
     for (const PlacedBlock& block : blocks) {
         bool isTold = false;
         for (const Face face : kAllFaces) {
-            const BlockPos next = beside(block.pos, face);
+            const BlockPos next = adjacent(block.pos, face);
             if (restored.contains(next)) continue;
             noteChangedSide(block.pos, face);
             noteChangedSide(next, static_cast<Face>(face ^ 1));
@@ -132,7 +132,7 @@ void BlockUpdate::record(BlockPos pos) {
 }
 
 void BlockUpdate::noteNeighbors(BlockPos pos) {
-    for (const Face face : kAllFaces) noteChangedSide(beside(pos, face), static_cast<Face>(face ^ 1));
+    for (const Face face : kAllFaces) noteChangedSide(adjacent(pos, face), static_cast<Face>(face ^ 1));
 }
 
 void BlockUpdate::noteChangedSide(BlockPos pos, Face side) {

@@ -17,10 +17,10 @@
 namespace terrane::world {
 
 // A set of blocks: a bit for each block, 8 KB for each chunk that has some. A hash set of a hundred thousand
-// blocks would not fit the caches. Plain value.
+// blocks would not fit the caches. It is a plain value.
 class BlockSet {
   public:
-    // Whether the block is new in the set. `pos` is in the world's height.
+    // Adds a block and returns whether it is new in the set. `pos` is in the world's height.
     bool insert(BlockPos pos) {
         std::vector<bool>& blocks = chunks_[chunkOf(pos)];
         if (blocks.empty()) blocks.resize(kBlocksPerChunk);
@@ -54,8 +54,8 @@ struct RunTick {};   // calls the `tick` of its behaviors
 struct UseBlock {};  // calls their `used`
 using BlockChange = std::variant<SetBlock, SetState, SetEntityData, RunTick, UseBlock>;
 
-// Event: a block changed. `before` equals `after` if only its state or data changed. A block that moves has
-// two.
+// Event: a block changed. `before` equals `after` if only its state or data changed. A moving block has two
+// events.
 struct BlockEdit {
     BlockPos pos;
     BlockId before = kAir, after = kAir;
@@ -63,20 +63,20 @@ struct BlockEdit {
     bool operator==(const BlockEdit&) const = default;
 };
 
-// The most functions of behaviors that run in one change; those after them are left out. A column of 255
+// The limit of functions of behaviors that run in one change; further calls are omitted. A column of 255
 // falling blocks needs 255 × 14.
 constexpr std::size_t kMaxBehaviorCalls = 16384;
 
-// The blocks set by restore() whose `neighborChanged` is called.
+// Selects the blocks set by restore() whose `neighborChanged` is called.
 enum class RestoreScope : std::uint8_t {
     None,    // none: the consequences are known already
     Border,  // those that touch a block which is not restored: nothing inside falls or is removed
     All,     // all: fences get their arms, plants without ground are removed
 };
 
-// A change of the world in progress: each change appends its event and notes the behaviors to call; run()
-// calls them in this order, those that are noted meanwhile last. Nothing happens where no chunk is loaded,
-// above and below the world. Used on the world's thread.
+// A change of the world in progress: each change appends its event and queues the behaviors to call; run()
+// calls them in this order until the queue is empty. Nothing happens where no chunk is loaded, above and
+// below the world. It is used on the world's thread.
 class BlockUpdate {
   public:
     // `recorder` may be null.
@@ -135,7 +135,7 @@ class BlockUpdate {
 // blocks.
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
                  std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
-// The same for BlockUpdate::restore(), for undo.
+// Does the same for BlockUpdate::restore(), for undo.
 void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
                    std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
 

@@ -108,17 +108,17 @@ FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
     if (now.isSourceOf(liquid) || (!now.is(liquid) && now.room != Room::Free)) return now;
     int sources = 0, level = kMaxLiquidLevel + 1;
     for (const Face side : kFlowSides) {
-        const BlockPos next = beside(pos, side);
+        const BlockPos next = adjacent(pos, side);
         const FlowCell cell = cells.at(next);
         if (!cell.is(liquid) || !cells.mayFlow(next, pos)) continue;
         sources += cell.form == 0;
-        if (cell.form == 0 || cells.at(beside(next, kFaceNegZ)).isGroundFor(liquid))
+        if (cell.form == 0 || cells.at(adjacent(next, kFaceNegZ)).isGroundFor(liquid))
             level = std::min(level, (cell.form & kLiquidLevel) + 1);
     }
-    const FlowCell below = cells.at(beside(pos, kFaceNegZ));
+    const FlowCell below = cells.at(adjacent(pos, kFaceNegZ));
     if (sources >= 2 && (below.isGroundFor(liquid) || below.isSourceOf(liquid)))
         return {liquid, 0, Room::Liquid};
-    if (cells.at(beside(pos, kFacePosZ)).is(liquid)) return {liquid, kLiquidFalling, Room::Liquid};
+    if (cells.at(adjacent(pos, kFacePosZ)).is(liquid)) return {liquid, kLiquidFalling, Room::Liquid};
     if (level <= kMaxLiquidLevel) return {liquid, static_cast<std::uint16_t>(level), Room::Liquid};
     return now.is(liquid) ? FlowCell{kAir, 0, Room::Free} : now;
 }
@@ -186,8 +186,8 @@ NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) 
             if (!cells.at(pos).is(liquid)) continue;
             next.settled.push_back(pos);
             look(pos, pos);
-            for (const Face side : kFlowSides) look(beside(pos, side), pos);
-            look(beside(pos, kFaceNegZ), pos);
+            for (const Face side : kFlowSides) look(adjacent(pos, side), pos);
+            look(adjacent(pos, kFaceNegZ), pos);
         }
     }
     return next;
@@ -210,7 +210,7 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
     const BlockType& type = blocks.type(id);
     if (type.shape != Shape::Liquid) return 0;
     const int form = world.blockState(pos) & kLiquidForm;
-    if ((form & kLiquidFalling) != 0 || world.block(beside(pos, kFacePosZ)) == id) return 1;
+    if ((form & kLiquidFalling) != 0 || world.block(adjacent(pos, kFacePosZ)) == id) return 1;
     const double surface = type.surface.heightUnits / double{shared::kSurfaceUnits};
     return surface * (kMaxLiquidLevel + 1 - form) / (kMaxLiquidLevel + 1);
 }

@@ -1,6 +1,6 @@
 // Flowing liquids (behavior `flows`): a tick computes the next value of all unsettled cells from their
-// neighbors, and sets all at once. Called at a fixed rate on the world's thread. A tick depends only on the
-// chunks, so flow goes on after a world is loaded.
+// neighbors, and sets all at once. It is called at a fixed rate on the world's thread. A tick depends only on
+// the chunks, so flow goes on after a world is loaded.
 //
 // Block state of a liquid that flows:
 //
@@ -35,11 +35,12 @@ constexpr bool isLiquidSource(std::uint16_t state) {
     return (state & kLiquidForm) == 0;
 }
 
-// Marks its cell as not settled when it is placed and when a block beside it changes.
+// Returns the behavior, which marks its cell as unsettled when it is placed and when an adjacent block
+// changes.
 BlockBehavior flows();
 bool isFlowing(const BlockType& type);
 
-// The height of the liquid in the cell at `pos`, 0…1; 0 if there is none.
+// Returns the height of the liquid in the cell at `pos`, 0…1; 0 if there is none.
 double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos pos);
 
 // Who made liquid flow, such as a player: whose edit let cells flow that were at rest. 0: nobody, as in a

@@ -1,5 +1,5 @@
-// The blocks that a tick of time reaches: those whose behavior has `tick`, such as growing plants. Called at
-// a fixed rate.
+// Selects the blocks of a random tick: blocks whose behavior has `tick`, such as growing plants. The session
+// calls it at a fixed rate.
 #pragma once
 
 #include <chrono>
@@ -12,7 +12,8 @@
 
 namespace terrane::world {
 
-// Ticks come every 50 ms; each takes kTickPicks blocks of each section at random. A block is taken every 4096
+// Ticks happen every 50 ms; each takes kTickPicks blocks of each section at random. A block is taken every
+// 4096
 // / 3 ticks, or 68 s, on average: wheat is grown after about three and a half minutes.
 constexpr std::chrono::milliseconds kTickLength{50};
 constexpr int kTickPicks = 3;
@@ -20,9 +21,10 @@ constexpr int kTickPicks = 3;
 // Ticks reach this far around a player: chunks, Chebyshev.
 constexpr int kTickRadius = 8;
 
-// The blocks of these chunks to be changed by RunTick (block_edit.h); chunks that are not loaded have none.
-// `tick`: the number of ticks before; the same world and number give the same blocks. Reads only sections
-// in which some block has block state: a block whose state is 0 is at rest. On the world's thread.
+// Returns the blocks of these chunks to be changed by RunTick (block_edit.h); chunks that are not loaded have
+// none. `tick`: the number of ticks before; the same world and number give the same blocks. Reads only
+// sections in which some block has block state: a block whose state is 0 is at rest. It is used on the
+// world's thread.
 std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& blocks, std::uint64_t tick,
                                    std::span<const ChunkPos> chunks);
 

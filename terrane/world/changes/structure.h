@@ -1,5 +1,5 @@
-// A box of blocks copied from a world: it can be turned, mirrored, saved (store/structure_file.h) and placed
-// in any world, also with other block ids. Plain values; any thread.
+// A box of blocks copied from a world: it can be turned, mirrored, saved (store/chunks/structure_file.h) and
+// placed in any world, also with other block ids. All are plain values; any thread may use them.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -15,18 +15,18 @@
 
 namespace terrane::world {
 
-// Block states of turned and mirrored blocks. Plain functions; any thread.
+// Block states of turned and mirrored blocks. The functions have no state; any thread may call them.
 enum class MirrorAxis : std::uint8_t { X, Y };  // the coordinate that changes its sign
 
-// Bits of the state that follow from the neighbors of a block (`connects`).
+// Returns the bits of the state that depend on the neighbors of a block (`connects`).
 std::uint16_t armBits(const BlockType& type);
 
-// The state of the block after `turns` quarter turns about z, counterclockwise seen from above: +x becomes
-// +y. Facing and arms turn, all else stays. Any number of turns, also below 0.
+// Returns the state of the block after `turns` quarter turns about z, counterclockwise seen from above: +x
+// becomes +y. Facing and arms turn, all else stays. Any number of turns, also below 0.
 std::uint16_t turnedState(const BlockType& type, std::uint16_t state, int turns);
 
-// The state of the block seen in a mirror. A shape that is not its own mirror image (an open door) faces the
-// mirrored way and keeps its hinge.
+// Returns the state of the block seen in a mirror. A shape that is not its own mirror image (an open door)
+// faces the mirrored way and keeps its hinge.
 std::uint16_t mirroredState(const BlockType& type, std::uint16_t state, MirrorAxis axis);
 
 // A copy has 500,000 × 4 bytes of cells = 2 MB. Placing takes 168 bytes a block with its step to undo (the
@@ -62,14 +62,14 @@ struct Structure {
 // Copies the blocks of a box, at most kMaxStructureBlocks; air where no chunk is loaded.
 Structure copyBlocks(const World& world, const BlockRegistry& blocks, const BlockBox& box);
 
-// Turned about z by quarters, counterclockwise seen from above: a wall along x becomes one along y. The
-// lowest corner stays the lowest corner.
+// Returns the structure turned about z by quarter turns, counterclockwise seen from above: a wall along x
+// becomes one along y. The lowest corner stays the lowest corner.
 Structure turnedStructure(const Structure& structure, const BlockRegistry& blocks, int turns);
 Structure mirroredStructure(const Structure& structure, const BlockRegistry& blocks, MirrorAxis axis);
 
-// The palette as values of a session; names that the registry lacks become "missing".
+// Returns the palette as values of a session; names that the registry lacks become "missing".
 std::vector<BlockValue> paletteValues(const Structure& structure, const BlockRegistry& blocks);
-// Names of the palette that the registry lacks, each once.
+// Returns the names of the palette that the registry lacks, each once.
 std::vector<std::string> unknownNames(const Structure& structure, const BlockRegistry& blocks);
 
 }  // namespace terrane::world

@@ -58,10 +58,4 @@ float hazePhase(float cosine) {
     return (1 - g * g) / (4 * std::numbers::pi_v<float> * base * std::sqrt(base));
 }
 
-float hazeLength(float altitude, float rise, float distance) {
-    const float k = rise / kHazeScale;
-    const float mean = std::abs(k) < 1e-3f ? 1 - 0.5f * k : (1 - std::exp(-k)) / k;
-    return distance * mean * std::exp(-altitude / kHazeScale);
-}
-
 }  // namespace terrane::world

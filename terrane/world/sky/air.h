@@ -1,5 +1,5 @@
 // A model of the air: how much light it scatters and absorbs at each height. The colors of sky, fog, sun and
-// moon follow from it. Pure functions, any thread.
+// moon follow from it. All functions are pure; any thread may call them.
 //
 // Molecules (Rayleigh) and haze (Mie) get thinner exponentially with height; ozone lies in a layer and makes
 // the blue hour blue. Light that was scattered more than once is taken as equal from all sides (S. Hillaire,
@@ -34,17 +34,13 @@ struct AirDensity {
 AirDensity airDensity(float altitude);
 glm::vec3 extinction(const AirDensity& density);  // per block
 
-// The share of light that is left from space to the altitude, for a light whose direction has this sine of
-// elevation. 0 if the ground hides it. Integrated along the path: slow, exact to 1 %.
+// Returns the share of light that is left from space to the altitude, for a light whose direction has this
+// sine of elevation. The result is 0 if the ground hides it. It is integrated along the path, which is slow
+// and exact to 1 %.
 glm::vec3 transmittanceToSpace(float altitude, float sine);
 
-// Phase functions: the share of light scattered by an angle, per steradian; 1/4π on average.
+// These phase functions return the share of light scattered by an angle, per steradian; 1/4π on average.
 float rayleighPhase(float cosine);
 float hazePhase(float cosine);  // L. G. Henyey, J. L. Greenstein, Diffuse Radiation in the Galaxy, 1941
-
-// The length in blocks of sea-level haze that equals the haze on a path from an altitude, `distance` long and
-// rising by `rise`. Closed form of the integral of an exponential density (C. Wenzel, Real-time Atmospheric
-// Effects in Games, 2006).
-float hazeLength(float altitude, float rise, float distance);
 
 }  // namespace terrane::world

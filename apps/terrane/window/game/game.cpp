@@ -38,7 +38,7 @@ base::Result<void> save(game::Session& session) {
 // Moves a player on foot below the world to the surface, since it would fall forever. Returns whether it did.
 bool liftFromBelow(game::Player& player, game::Movement movement, const game::Session& session) {
     if (movement == game::Movement::Fast || movement == game::Movement::Medium) return false;
-    const auto lifted = game::backOnSurface(session.world(), session.blocks(), player.pose());
+    const auto lifted = game::poseOnSurface(session.world(), session.blocks(), player.pose());
     if (lifted) player.placeAt(*lifted, movement);
     return lifted.has_value();
 }
@@ -128,7 +128,7 @@ base::Result<void> drawFrame(GameState& game, double seconds) {
 base::Result<void> drawFrames(GameState& game) {
     const GameParts& parts = game.parts;
     double last = parts.window.timeSeconds();
-    while (!game.leaving.isAsked && !parts.window.shouldClose() && !parts.signals.stopAsked()) {
+    while (!game.leaving.isAsked && !parts.window.shouldClose() && !parts.signals.stopRequested()) {
         parts.window.pollEvents();
         handleEvents(game);
         const double now = parts.window.timeSeconds(), seconds = now - last;

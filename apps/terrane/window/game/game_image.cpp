@@ -56,15 +56,15 @@ render::FrameInput frameInputOf(const GameState& game) {
     render::FrameInput input;
     input.camera = cameraOf(game.player, game.settings);
     input.environment = environmentOf(parts.session.clock);
-    input.fogDistance = view::fogDistance(parts.view.sightDistance());
+    input.fogDistance = view::fogDistance(parts.view.visibleDistance());
     input.timeSeconds = static_cast<float>(game.seconds);
     input.view = game.settings.view;
     input.waterAbove = game::waterAbove(parts.session, game.player.pose().position);
     input.figures = game.remote.others.figures;
-    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
+    input.maxShadowTiles = render::ShadowClipmap::kTilesPerFrame;
     if (game.debug.isAbove) {
         const int viewDistance = parts.view.viewDistance();
-        input.culledFor = input.camera;
+        input.cullingCamera = input.camera;
         input.camera = debugTopCamera(input.camera, viewDistance);
         input.fogDistance = 16 * view::fogDistance(viewDistance);
         input.waterAbove = 0;

@@ -221,11 +221,11 @@ void onKey(GameState& game, Key key) {
     if (game.input.withControl && (key == Key::Z || key == Key::Y)) {
         const bool isRedo = key == Key::Y || game.input.withShift;
         const auto way = isRedo ? game::HistoryWay::Redo : game::HistoryWay::Undo;
-        const game::TakenBack done = game.parts.session.takeBack(game::kLocalPlayer, way);
+        const game::UndoResult done = game.parts.session.undoOrRedo(game::kLocalPlayer, way);
         return game.notices.say(takenBackText(done, way, game.tr));
     }
     if (const auto slot = slotOf(key))
-        game.interaction.hotbar.chosen = *slot;
+        game.interaction.hotbar.selected = *slot;
     else if (action)
         act(game, *action);
 }
@@ -303,7 +303,7 @@ void handleEvents(GameState& game) {
                 break;
             case Type::Wheel:
                 if (input.isCaptured || game.container)
-                    game::stepSlot(game.interaction.hotbar, -input.wheel.turn(event.y));
+                    game::cycleSlot(game.interaction.hotbar, -input.wheel.turn(event.y));
                 break;
             case Type::CursorMove:
                 if (wasCaptured && input.isCaptured) turn(game.player, game.settings, event);
@@ -326,8 +326,8 @@ void handlePad(GameState& game, double seconds) {
                      (game.settings.invertY ? 1.0 : -1.0) * double{pad.now().rightY} * degrees);
     pad.drive(game.interaction.breaking, &Gamepad::rightTrigger);
     pad.drive(game.interaction.building, &Gamepad::leftTrigger);
-    if (pad.isPressed(&Gamepad::leftBumper)) game::stepSlot(game.interaction.hotbar, -1);
-    if (pad.isPressed(&Gamepad::rightBumper)) game::stepSlot(game.interaction.hotbar, 1);
+    if (pad.isPressed(&Gamepad::leftBumper)) game::cycleSlot(game.interaction.hotbar, -1);
+    if (pad.isPressed(&Gamepad::rightBumper)) game::cycleSlot(game.interaction.hotbar, 1);
     if (pad.isPressed(&Gamepad::north)) act(game, Action::Movement);
     if (pad.isPressed(&Gamepad::up)) act(game, Action::Later);
     if (pad.isPressed(&Gamepad::down)) act(game, Action::Earlier);
@@ -364,7 +364,7 @@ game::MoveKeys moveKeysOf(const GameState& game) {
             .down = isDown(Action::Down) || pad.east,
             .jump = isDown(Action::Jump) || pad.south,
             .run = (walks && isDown(Action::Run)) || pad.west,
-            .jumpsByItself = game.settings.autoJump,
+            .autoJump = game.settings.autoJump,
             .stick = {pad.leftX, pad.leftY}};
 }
 

@@ -56,7 +56,7 @@ void drawPaletteDialog(GameState& game, const Screen& screen) {
     const auto choice = drawPalette(screen, game.hud.palette, game.parts.session.blocks(),
                                     blockFaceOf(game.parts, game.tr), game.tr);
     if (!choice) return;
-    game::takeInHand(game.interaction.hotbar, *choice);
+    game::selectBlock(game.interaction.hotbar, *choice);
     captureMouse(game, true);
 }
 

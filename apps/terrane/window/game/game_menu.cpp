@@ -158,7 +158,7 @@ void answerPauseMenu(GameState& game, PauseChoice choice) {
 }
 
 bool askBeforeLoss(GameState& game) {
-    if (game.menu.quitsUnsaved || game.parts.signals.stopAsked()) return false;
+    if (game.menu.quitsUnsaved || game.parts.signals.stopRequested()) return false;
     game.parts.window.cancelClose();
     game.leaving.isAsked = false;
     game.menu.asksToQuit = true;

@@ -19,7 +19,7 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
       preset(given.window, chosen.deviceName, chosen.isSoftwareRenderer),
       shaders(given.shaders) {
     remote.play = given.remote;
-    interaction.hotbar = game::hotbarFrom(chosen.hotbar, given.session.blocks());
+    interaction.hotbar = game::parseHotbar(chosen.hotbar, given.session.blocks());
     hud.places = game::savedPlaces(given.session.store());
 }
 

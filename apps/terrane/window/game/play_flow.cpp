@@ -44,7 +44,7 @@ namespace {
 
 // Empty if no variable names a home: bookmarks and screenshots then go to the working directory.
 std::filesystem::path dataFolder() {
-    return store::dataFolder(store::savePlaces()).value_or(std::filesystem::path());
+    return store::dataFolder(store::saveEnvironment()).value_or(std::filesystem::path());
 }
 
 PlaySettings settingsOf(const PlayOptions& options, bool isSoftwareRenderer) {
@@ -203,7 +203,7 @@ base::Result<void> PlayFlow::playOnce(PlayOptions& options) {
     // The world's own, or those of the command line.
     settings.movement = options_.settings.movement;
     settings.resourcePack = options_.graphics.resourcePack;
-    takeFromWorld(settings, game::savedPlayer(*parts.store), given_);
+    takeFromWorld(settings, game::loadPlayer(*parts.store), given_);
     if (settings.resourcePack != options_.graphics.resourcePack) {
         const auto textures =
             content::loadTextures(settings.resourcePack, *parts.blocks, world.content.textures);
@@ -248,9 +248,9 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     const std::unique_ptr<RemotePlay> remote = std::move(given.play);
     GameOptions game;
     game.dataFolder = dataFolder();
-    const game::SavedPlayer saved = game::savedPlayer(session.store());
+    const game::SavedPlayer saved = game::loadPlayer(session.store());
     const game::BookmarkFiles bookmarks = game::bookmarkFiles(game.dataFolder);
-    game::reportFormerFiles(bookmarks);
+    game::reportLegacyFiles(bookmarks);
     auto start =
         remote ? base::Result<world::Pose>(remote->start()) : startOf(options, bookmarks, saved, session);
     if (!start) return tl::unexpected(start.error());
@@ -267,7 +267,7 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld op
     if (options.watches && !remote) {
         game.contentChanged = [&] { return watch.hasChanged(std::chrono::steady_clock::now()); };
         game.checkContent = [&]() -> base::Result<void> {
-            const auto content = TERRANE_TRY(pack::loadAgain(world.content()));
+            const auto content = TERRANE_TRY(pack::reloadPacks(world.content()));
             const auto graph = gen::makeGenerator(session.store().identity().generator, *content.blocks, 0,
                                                   content.generators);
             return graph ? base::Result<void>() : tl::unexpected(graph.error());

@@ -62,7 +62,7 @@ class PlayFlow {
                                 ServersWorld given = {});
     base::Result<std::optional<TitleChoice>> showTitle();
     base::Result<void> keepSettings();
-    bool isOver() const { return window_.shouldClose() || signals_.stopAsked(); }
+    bool isOver() const { return window_.shouldClose() || signals_.stopRequested(); }
 
     PlayOptions options_;
     GivenOptions given_;

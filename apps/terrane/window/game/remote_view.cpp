@@ -23,7 +23,7 @@ void updatePlayers(OtherPlayers& others, const net::ClientWorld& world,
                 .try_emplace(slot, OtherPlayers::Known{game::FigureMotion(player.pose, now, player.id),
                                                        player.id, player.moves, player.swings})
                 .first->second;
-        if (known.moves != player.moves) known.motion.told(player.pose, now);
+        if (known.moves != player.moves) known.motion.addPose(player.pose, now);
         if (known.swings != player.swings) known.motion.swing(now);
         known.moves = player.moves;
         known.swings = player.swings;

@@ -75,7 +75,7 @@ bool BuildingTools::onKey(Key key, const BuildView& view) {
 
 bool BuildingTools::openSign(world::BlockPos pos, const BuildView& view) {
     const world::World& world = view.session.world();
-    if (!world::holdsText(view.session.blocks().type(world.block(pos)))) return false;
+    if (!world::isSign(view.session.blocks().type(world.block(pos)))) return false;
     const world::BlockEntityData* data = world.blockEntityData(pos);
     const auto text = data ? world::decodeSign(*data) : base::Result<world::SignText>(world::SignText{});
     sign_.emplace(pos, text ? *text : world::SignText{});
@@ -101,7 +101,7 @@ void BuildingTools::drawSign(const Screen& screen, const BuildView& view) {
     const world::BlockPos pos = sign_->sign();
     const glm::dvec3 middle(pos.x + 0.5, pos.y + 0.5, pos.z + 0.5);
     const bool isNear = glm::distance(middle, view.pose.position) <= game::kReach + 1;
-    const bool isThere = world::holdsText(view.session.blocks().type(view.session.world().block(pos)));
+    const bool isThere = world::isSign(view.session.blocks().type(view.session.world().block(pos)));
     const auto choice = sign_->draw(screen, view.tr);
     if (choice == SignDialog::Choice::Done) {
         const auto good = world::checkSign(sign_->text());

@@ -70,9 +70,9 @@ base::Result<void> drawOpenContainer(const Screen& screen, game::Session& sessio
                                      game::Hotbar& hotbar, const ItemLooks& looks, const Texts& tr) {
     auto items = TERRANE_TRY(game::itemsOf(session.world(), session.blocks(), block));
     const auto click = drawContainer(screen, items, looks, tr);
-    world::BlockId inHand = hotbar.block();
-    if (!click || !game::clickSlot(items, session.blocks(), *click, inHand)) return {};
-    game::takeInHand(hotbar, inHand);
+    world::BlockId heldBlock = hotbar.block();
+    if (!click || !game::clickSlot(items, session.blocks(), *click, heldBlock)) return {};
+    game::selectBlock(hotbar, heldBlock);
     game::putItems(session, game::kLocalPlayer, block, items);
     return {};
 }

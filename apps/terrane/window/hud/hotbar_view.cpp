@@ -41,7 +41,7 @@ void drawBlockImage(ImDrawList& draw, glm::vec2 min, float side, unsigned image)
 
 void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const BlockFace& face,
                       double seconds) {
-    if (hotbar.block() != shown_.block() || hotbar.chosen != shown_.chosen) nameSeconds_ = kNameSeconds;
+    if (hotbar.block() != shown_.block() || hotbar.selected != shown_.selected) nameSeconds_ = kNameSeconds;
     shown_ = hotbar;
     nameSeconds_ = std::max(0.0, nameSeconds_ - seconds);
     constexpr float kWidth = game::Hotbar::kSlots * (kSlot + kGap) - kGap;
@@ -53,7 +53,7 @@ void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const Bl
     // Grouped by texture: each change of the texture is a draw call.
     for (std::size_t slot = 0; slot < game::Hotbar::kSlots; ++slot) {
         const ImVec2 min = corner(slot), max(min.x + side, min.y + side);
-        const bool isChosen = slot == hotbar.chosen;
+        const bool isChosen = slot == hotbar.selected;
         draw.AddRectFilled(min, max, IM_COL32(12, 14, 18, isChosen ? 170 : 120), 4 * scale);
         if (isChosen) draw.AddRect(min, max, IM_COL32(255, 255, 255, 235), 4 * scale, 0, 2 * scale);
         const char digit[] = {static_cast<char>('1' + slot), 0};

@@ -180,7 +180,7 @@ std::vector<BlockPos> signsNear(const game::Session& session, const glm::dvec3& 
             const world::ChunkPtr chunk = session.world().maybeChunkAt({x, y});
             if (!chunk) continue;
             for (const world::BlockIndex index : chunk->blocksWithBlockEntityData())
-                if (world::holdsText(session.blocks().type(chunk->block(index))))
+                if (world::isSign(session.blocks().type(chunk->block(index))))
                     signs.push_back(world::blockPos({x, y}, index));
         }
     const auto distance = [&](BlockPos pos) { return glm::distance(cornerOf(pos) + 0.5, point); };
@@ -197,7 +197,7 @@ void drawSigns(const Screen& screen, const render::Camera& camera, const game::S
         const world::BlockType& type = session.blocks().type(session.world().block(pos));
         const world::BlockEntityData* data = session.world().blockEntityData(pos);
         auto plane = world::signPlane(type, session.world().blockState(pos));
-        if (!data || !plane || !world::holdsText(type)) continue;
+        if (!data || !plane || !world::isSign(type)) continue;
         const auto text = world::decodeSign(*data);
         plane->topLeft += cornerOf(pos);
         const glm::dvec3 toEye = camera.position - plane->topLeft;

@@ -101,7 +101,7 @@ void drawTarget(const Screen& screen, const render::Camera& camera, const world:
         const int axis = face / 2;
         const bool isSeen =
             face % 2 == 1 ? camera.position[axis] > max[axis] : camera.position[axis] < min[axis];
-        const world::BlockPos next = world::beside(target.block, static_cast<world::Face>(face));
+        const world::BlockPos next = world::adjacent(target.block, static_cast<world::Face>(face));
         const bool isCovered = type.shape == world::Shape::Cube && blocks.type(world.block(next)).opaqueCube;
         const Corners c = faceCorners(screen, camera, min, max, face);
         if (!isSeen || isCovered || !c[0] || !c[1] || !c[2] || !c[3]) continue;

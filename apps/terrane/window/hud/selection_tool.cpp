@@ -74,9 +74,9 @@ std::string blocksText(std::int64_t count) {
 std::string outcomeText(std::string_view verb, const BuildOutcome& outcome) {
     if (outcome.result != BuildOutcome::Result::Done) return refusal(outcome.result);
     std::string text = fmt::format("{} {}", verb, blocksText(static_cast<std::int64_t>(outcome.changed)));
-    if (outcome.kept > 0)
-        text +=
-            fmt::format("; {} of the lowest layer kept", blocksText(static_cast<std::int64_t>(outcome.kept)));
+    if (outcome.skipped > 0)
+        text += fmt::format("; {} of the lowest layer kept",
+                            blocksText(static_cast<std::int64_t>(outcome.skipped)));
     return text;
 }
 
@@ -95,7 +95,7 @@ BlockPos pointedAt(const BuildView& view, bool beforeBlock) {
         return world::blockOf(feet + glm::dvec3(0, 0, 1e-3));
     }
     if (const auto hit = lookedAt(view))
-        return beforeBlock ? world::beside(hit->block, hit->face) : hit->block;
+        return beforeBlock ? world::adjacent(hit->block, hit->face) : hit->block;
     const world::Ray ray = lookRay(view);
     return world::blockOf(ray.origin + ray.direction * kAhead);
 }

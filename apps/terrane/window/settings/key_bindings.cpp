@@ -190,7 +190,7 @@ base::Result<KeyBindings> keyBindingsFrom(std::string_view text) {
         if (row == kActions.end()) {
             std::vector<std::string> names;
             for (const ActionRow& known : kActions) names.emplace_back(known.name);
-            return base::fail(base::ErrorCode::BadInput, "{}", base::notOneOf(names, std::string(name)));
+            return base::fail(base::ErrorCode::BadInput, "{}", base::expectedOneOf(names, std::string(name)));
         }
         const auto key = keyNamed(keyText);
         const bool isNone = isSame(keyText, kNone);

@@ -161,7 +161,8 @@ void addChoiceOption(CLI::App& command, const Setting& setting, const ChoiceSett
     const std::string flag = "--" + std::string(setting.name);
     const auto take = [flag, choice, &settings](const std::string& text) {
         const auto found = std::ranges::find(choice.names, currentValue(text));
-        if (found == choice.names.end()) throw CLI::ValidationError(flag, base::notOneOf(choice.names, text));
+        if (found == choice.names.end())
+            throw CLI::ValidationError(flag, base::expectedOneOf(choice.names, text));
         choice.set(settings, static_cast<int>(found - choice.names.begin()));
     };
     command

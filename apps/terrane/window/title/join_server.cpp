@@ -52,7 +52,7 @@ bool drawUntil(const JoinWindow& join, const std::function<bool(const Screen&)>&
         const auto isEscape = [](const InputEvent& event) {
             return event.type == InputEvent::Type::KeyPress && event.key == Key::Escape;
         };
-        const bool isOver = window.shouldClose() || join.signals.stopAsked();
+        const bool isOver = window.shouldClose() || join.signals.stopRequested();
         if (isOver || std::ranges::any_of(window.events(), isEscape)) return false;
         gpu::clearWindow(glm::vec3(0.2f, 0.3f, 0.4f));
         imgui.beginFrame(false, true);

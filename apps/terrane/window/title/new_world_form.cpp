@@ -138,7 +138,7 @@ std::string_view trimmed(std::string_view text) {
 
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed) {
     NewWorldForm form;
-    form.name = store::freeWorldName(folder, "World");
+    form.name = store::unusedWorldName(folder, "World");
     form.randomSeed = randomSeed;
     return form;
 }

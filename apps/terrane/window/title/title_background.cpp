@@ -83,7 +83,7 @@ base::Result<TitleBackground> TitleBackground::open(const PlayOptions& options, 
 
 void TitleBackground::begin(const PlayOptions& options, const ScreenOptions& screen) {
     game::Session& session = world_->session();
-    const game::SavedPlayer saved = game::savedPlayer(session.store());
+    const game::SavedPlayer saved = game::loadPlayer(session.store());
     const world::Pose start =
         saved.pose ? *saved.pose : game::findSpawn(session.generator(), session.blocks());
     center_ = start.position;
@@ -126,9 +126,9 @@ base::Result<void> TitleBackground::draw(glm::ivec2 windowSize, double seconds, 
     render::FrameInput input;
     input.camera = camera;
     input.environment = environment;
-    input.fogDistance = view::fogDistance(world_->view().sightDistance());
+    input.fogDistance = view::fogDistance(world_->view().visibleDistance());
     input.timeSeconds = static_cast<float>(isStill ? 0 : seconds_);
-    input.maxShadowTiles = render::ShadowClipmap::kTilesAFrame;
+    input.maxShadowTiles = render::ShadowClipmap::kTilesPerFrame;
     world_->renderer().draw(input);
     world_->renderer().presentToWindow(windowSize);
     return {};

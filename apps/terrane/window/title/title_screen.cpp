@@ -40,7 +40,7 @@ void TitleScreen::openBackground() {
 
 base::Result<std::optional<TitleChoice>> TitleScreen::run() {
     double last = parts_.window.timeSeconds();
-    while (!quits_ && !choice_ && !parts_.window.shouldClose() && !parts_.signals.stopAsked()) {
+    while (!quits_ && !choice_ && !parts_.window.shouldClose() && !parts_.signals.stopRequested()) {
         parts_.window.pollEvents();
         handleEvents();
         const double now = parts_.window.timeSeconds(), seconds = now - last;
@@ -267,7 +267,7 @@ void TitleScreen::drawWorldButtons() {
     }
     ImGui::SameLine();
     if (menuButton(tr_("Copy"), width, isGood)) {
-        nameText_ = store::freeWorldName(parts_.folder, chosen->name + " copy");
+        nameText_ = store::unusedWorldName(parts_.folder, chosen->name + " copy");
         open(Page::Copy);
     }
     ImGui::SameLine();

@@ -28,14 +28,14 @@ struct GrowthRules {
     float wobble = 0.2f;        // by chance, added to the direction
 };
 
-// A straight line of nodes, for trunks. `parent` as in BranchNode.
+// Adds a straight line of nodes, for trunks. `parent` is as in BranchNode.
 void addLine(Branches& branches, int parent, Point from, Point to);
 // Grows from all existing nodes.
 void colonize(Branches& branches, std::vector<Point> points, const GrowthRules& rules, Random& random);
 // Counts tips; the cross-section of a branch is that of all its tips together (Leonardo's rule), scaled so
 // that the root has rootRadius.
 void setRadii(Branches& branches, float rootRadius);
-// Branches with fewer tips than `minTips` are left out: twigs that leaves hide.
+// Draws the branches. Branches with fewer tips than `minTips` are omitted: they are twigs that leaves hide.
 void drawLimbs(Canvas& canvas, const Branches& branches, Canvas::Paint wood, int minTips = 1);
 
 // Points in an ellipsoid, at least `hollow` (0…1) of its radius from the middle, not below z = `floor`.

@@ -81,7 +81,7 @@ void Canvas::clump(Point middle, Point radii, float edge, Paint paint, Random& r
     }
 }
 
-void Canvas::dropLoose() {
+void Canvas::removeDisconnected() {
     std::vector<bool> isKept(cells_.size());
     std::vector<std::array<int, 3>> open;
     const auto keep = [&](int x, int y, int z) {

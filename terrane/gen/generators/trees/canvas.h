@@ -1,4 +1,4 @@
-// The voxels of a shape while it is drawn. One thread at a time.
+// The voxels of a shape while it is drawn. One thread at a time may use it.
 #pragma once
 
 #include <cstdint>
@@ -26,14 +26,14 @@ class Canvas {
     void set(int x, int y, int z, Paint paint);
     bool isWood(Paint paint) const { return paint != 0 && blocks_[paint - 1u].rank >= kWoodRank; }
 
-    // A limb whose radius changes from one end to the other; one voxel wide below a radius of 0.75.
+    // Draws a limb whose radius changes from one end to the other; one voxel wide below a radius of 0.75.
     void limb(Point from, Point to, float fromRadius, float toRadius, Paint paint);
-    // An ellipsoid with random gaps in its outer part: the share `edge` of its outermost voxels stays.
+    // Draws an ellipsoid with random gaps in its outer part: the share `edge` of its outermost voxels stays.
     void clump(Point middle, Point radii, float edge, Paint paint, Random& random);
 
     // Removes voxels that are not connected to (0, 0, 0): by faces, wood to wood also by edges and corners.
-    void dropLoose();
-    // The drawn voxels, by z, y, x.
+    void removeDisconnected();
+    // Returns the drawn voxels, by z, y, x.
     VoxelShape shape(std::string name) const;
 
   private:

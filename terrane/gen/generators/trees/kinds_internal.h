@@ -1,5 +1,5 @@
-// One function for each kind draws a shape of it. The seed of `random` selects the variant. Used by
-// trees.cpp.
+// One function for each kind draws a shape of it. The seed of `random` selects the variant. trees.cpp uses
+// it.
 #pragma once
 
 #include "terrane/gen/generators/trees/canvas.h"

@@ -1,4 +1,5 @@
-// Random numbers and directions that trees grow by: the same bits on every machine. One thread at a time.
+// Random numbers and directions that trees grow by: the same bits on every machine. One thread at a time may
+// use it.
 #pragma once
 
 #include <cstdint>
@@ -33,14 +34,14 @@ constexpr int roundToInt(float v) {
     return toZero - (v + 0.5f < static_cast<float>(toZero) ? 1 : 0);
 }
 
-// sin(2π turns) within 0.0011: a parabola and one of its squares.
+// Returns sin(2π turns) within 0.0011: a parabola and one of its squares.
 constexpr float sinTurns(float turns) {
     const float t = turns - static_cast<float>(roundToInt(turns));  // −½…½
     const float s = t * (8.0f - 16.0f * (t < 0 ? -t : t));
     return s * (0.775f + 0.225f * (s < 0 ? -s : s));
 }
 
-// A horizontal direction.
+// Returns a horizontal direction.
 constexpr Point heading(float turns) {
     return {sinTurns(turns + 0.25f), sinTurns(turns), 0};
 }
@@ -49,7 +50,7 @@ class Random {
   public:
     explicit Random(std::uint32_t seed) : seed_(seed) {}
 
-    // One call an expression: compilers evaluate operands in orders of their own.
+    // Call this once per expression: compilers may evaluate operands in any order.
     float unit() {  // [0, 1)
         return static_cast<float>(shared::hash2(count_++, 0, seed_) >> 8) * (1.0f / 16777216.0f);
     }

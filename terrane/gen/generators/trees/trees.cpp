@@ -68,7 +68,7 @@ std::vector<VoxelShape> growShapes(Kind kind) {
         Canvas canvas;
         Random random(static_cast<std::uint32_t>(1000 * static_cast<int>(kind) + variant));
         entry.draw(canvas, random);
-        canvas.dropLoose();
+        canvas.removeDisconnected();
         shapes.push_back(canvas.shape(std::string(entry.name) + " " + std::to_string(variant)));
     }
     return shapes;

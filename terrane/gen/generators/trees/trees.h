@@ -45,18 +45,18 @@ struct KindRecord {
 
 using TreeKinds = std::array<KindRecord, static_cast<std::size_t>(Kind::Count)>;
 
-// The shapes of a kind, grown from nothing. shapesOf keeps them.
+// Grows the shapes of a kind. shapesOf() caches them.
 std::vector<VoxelShape> growShapes(Kind kind);
 const std::vector<VoxelShape>& shapesOf(Kind kind);
 
-// Gives the generator the shapes of all kinds. The same numbers at every level.
+// Adds the shapes of all kinds to the generator. They have the same numbers at every level.
 TreeKinds record(GeneratorBuilder& g);
 
 inline const KindRecord& of(const TreeKinds& kinds, Kind kind) {
     return kinds[static_cast<std::size_t>(kind)];
 }
 
-// One of a kind's shapes by a hash in 0…2^24−1, as ScatterPoint has it.
+// Returns one of a kind's shapes by a hash in 0…2^24−1, as ScatterPoint has it.
 Int shapeOf(const KindRecord& kind, Int hash);
 
 }  // namespace terrane::gen::trees

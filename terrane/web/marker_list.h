@@ -1,4 +1,5 @@
-// A list of places that change, such as players' positions: looked up at most once per second. On one thread.
+// A list of markers that change, such as players' positions, refreshed at most once per second. It is used on
+// one thread.
 #pragma once
 
 #include <chrono>
@@ -11,12 +12,12 @@
 
 namespace terrane::web {
 
-class PlaceList {
+class MarkerList {
   public:
     // Without a function the list is empty.
-    explicit PlaceList(std::function<std::vector<NamedPlace>()> find) : find_(std::move(find)) {}
+    explicit MarkerList(std::function<std::vector<MapMarker>()> find) : find_(std::move(find)) {}
 
-    const std::vector<NamedPlace>& places() {
+    const std::vector<MapMarker>& places() {
         const auto now = std::chrono::steady_clock::now();
         if (!find_ || now < next_) return places_;
         next_ = now + std::chrono::seconds(1);
@@ -24,18 +25,18 @@ class PlaceList {
         text_ = textOf(places_);
         return places_;
     }
-    // JSON, valid until the next call.
+    // Returns the list as JSON; the reference is valid until the next call.
     const std::string& text() {
         (void)places();
         return text_;
     }
 
-    std::string told;  // last text sent to browsers
+    std::string sent;  // last text sent to browsers
 
   private:
-    std::function<std::vector<NamedPlace>()> find_;
+    std::function<std::vector<MapMarker>()> find_;
     std::chrono::steady_clock::time_point next_{};
-    std::vector<NamedPlace> places_;
+    std::vector<MapMarker> places_;
     std::string text_ = "[]";
 };
 

@@ -1,4 +1,4 @@
-#include "terrane/gen/compile/down_passes.h"
+#include "terrane/gen/compile/top_down_passes.h"
 
 #include <gtest/gtest.h>
 
@@ -26,7 +26,7 @@ std::vector<int> randomDepths(std::mt19937& random) {
     return depths;
 }
 
-// The chunk's blocks from generateDown(): each column down to its depth, others unknown.
+// The chunk's blocks from generateTopDown(): each column down to its depth, others unknown.
 std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, ChunkPos pos,
                                                   const std::vector<int>& depths) {
     std::vector<std::optional<BlockId>> seen(world::kBlocksPerChunk);
@@ -36,13 +36,13 @@ std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, Ch
     };
     int above = world::kChunkHeight;
     BlockId blockAbove = 0;  // of the layers that are left out
-    generator.generateDown(pos, [&](int z, Layer layer, WantedColumns& wanted) {
+    generator.generateTopDown(pos, [&](int z, Layer layer, RequestedColumns& requested) {
         EXPECT_LT(z, above);
         while (--above > z) note(above, [&](std::size_t) { return blockAbove; });
         note(z, [&](std::size_t k) { return layer[k]; });
         blockAbove = layer[0];
         for (std::size_t k = 0; k < kTileLanes; ++k)
-            if (z <= depths[k]) wanted.drop(k);
+            if (z <= depths[k]) requested.drop(k);
     });
     while (--above >= 0) note(above, [&](std::size_t) { return blockAbove; });
     return seen;
@@ -143,9 +143,9 @@ TEST(GenerateDown, NothingIsMadeOnceNoColumnIsWanted) {
     const Generator generator(build([](GeneratorBuilder& g) { g.pass3D("ground", hollowGround); }),
                               kTestSeed);
     int layers = 0;
-    generator.generateDown({0, 0}, [&](int, Layer, WantedColumns& wanted) {
+    generator.generateTopDown({0, 0}, [&](int, Layer, RequestedColumns& requested) {
         if (++layers < 3) return;
-        for (std::size_t k = 0; k < kTileLanes; ++k) wanted.drop(k);
+        for (std::size_t k = 0; k < kTileLanes; ++k) requested.drop(k);
     });
     EXPECT_EQ(layers, 3);
 }
@@ -153,7 +153,8 @@ TEST(GenerateDown, NothingIsMadeOnceNoColumnIsWanted) {
 TEST(GenerateDown, RefusesOtherLevels) {
     const Generator generator(build([](GeneratorBuilder& g) { g.pass3D("ground", hollowGround); }),
                               kTestSeed);
-    EXPECT_THROW(generator.generateDown({0, 0, 1}, [](int, Layer, WantedColumns&) {}), std::invalid_argument);
+    EXPECT_THROW(generator.generateTopDown({0, 0, 1}, [](int, Layer, RequestedColumns&) {}),
+                 std::invalid_argument);
 }
 
 std::optional<int> readBelow(const std::function<void(Pass&)>& pass) {
@@ -192,14 +193,15 @@ TEST(CanRunDown, NeedsAPassThatMakesBlocks) {
             p.setBlock(select(p.z() < p.read(height), p.block("stone"), p.block("air")));
         });
     });
-    EXPECT_TRUE(canRunDown(graph));
-    EXPECT_EQ(firstDownPass(graph), 1);
-    EXPECT_FALSE(canRunDown(GeneratorGraph()));
+    EXPECT_TRUE(canRunTopDown(graph));
+    EXPECT_EQ(firstTopDownPass(graph), 1);
+    EXPECT_FALSE(canRunTopDown(GeneratorGraph()));
     graph.passes.pop_back();
-    EXPECT_FALSE(canRunDown(graph));
-    EXPECT_THROW(firstDownPass(graph), std::invalid_argument);
+    EXPECT_FALSE(canRunTopDown(graph));
+    EXPECT_THROW(firstTopDownPass(graph), std::invalid_argument);
     const Generator columns(std::move(graph), kTestSeed);
-    EXPECT_THROW(columns.generateDown({0, 0}, [](int, Layer, WantedColumns&) {}), std::invalid_argument);
+    EXPECT_THROW(columns.generateTopDown({0, 0}, [](int, Layer, RequestedColumns&) {}),
+                 std::invalid_argument);
 }
 
 TEST(LayersReadBelow, IsUnknownWhereAHeightIsNoConstantFromZ) {
@@ -209,19 +211,19 @@ TEST(LayersReadBelow, IsUnknownWhereAHeightIsNoConstantFromZ) {
     EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockAt({1, 0}, p.z())); }), std::nullopt);
 }
 
-TEST(WantedColumns, AreDroppedOneByOne) {
-    WantedColumns wanted;
-    EXPECT_EQ(wanted.rows(), kAllRows);
-    for (std::size_t k = 32; k < 47; ++k) wanted.drop(k);
-    wanted.drop(32);
-    EXPECT_FALSE(wanted.has(32));
-    EXPECT_TRUE(wanted.has(47));
-    EXPECT_EQ(wanted.rows(), kAllRows);
-    wanted.drop(47);
-    EXPECT_EQ(wanted.rows(), kAllRows & ~(1 << 2));
-    for (std::size_t k = 0; k < kTileLanes; ++k) wanted.drop(k);
-    EXPECT_EQ(wanted.rows(), 0);
-    EXPECT_FALSE(wanted.has(255));
+TEST(RequestedColumns, AreDroppedOneByOne) {
+    RequestedColumns requested;
+    EXPECT_EQ(requested.rows(), kAllRows);
+    for (std::size_t k = 32; k < 47; ++k) requested.drop(k);
+    requested.drop(32);
+    EXPECT_FALSE(requested.has(32));
+    EXPECT_TRUE(requested.has(47));
+    EXPECT_EQ(requested.rows(), kAllRows);
+    requested.drop(47);
+    EXPECT_EQ(requested.rows(), kAllRows & ~(1 << 2));
+    for (std::size_t k = 0; k < kTileLanes; ++k) requested.drop(k);
+    EXPECT_EQ(requested.rows(), 0);
+    EXPECT_FALSE(requested.has(255));
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // Finds the edits that are visible on a map: an edit below ground changes no tile, and the map must not
-// reveal where somebody digs. On the web's thread; a worker computes surfaces.
+// reveal where players dig. It is used on the web's thread; a worker computes surfaces.
 #pragma once
 
 #include <cstdint>
@@ -19,32 +19,32 @@
 
 namespace terrane::web {
 
-// The event that tells browsers about edits. Plain values; any thread.
-// JSON: the event's number, and boxes of blocks with inclusive bounds, each with the level of the tiles that
-// show it. With many chunks, boxes are enlarged to limit their number.
+// Returns the event that reports edits to browsers. Any thread may call it. Its JSON has the event's number,
+// and boxes of blocks with inclusive bounds, each with the level of the tiles that show it. With many chunks,
+// boxes are enlarged to limit their number.
 std::string editEvent(std::uint64_t number, std::span<const world::ChunkPos> chunks);
 
-class SeenChanges {
+class VisibleChanges {
   public:
     struct Parts {
         map::MapPainter& painter;
         base::JobSystem& jobs;
-        // Runs a function on the web's thread soon. Any thread.
+        // Runs a function on the web's thread soon. Any thread may call it.
         std::function<void(std::function<void()>)> post;
-        // The current state of the edited ones among these chunks.
+        // Returns the current state of the edited chunks among these.
         std::function<std::vector<map::EditedChunk>(std::span<const world::ChunkPos>)> editedAmong;
-        // Called with the chunks and tiles whose appearance from above changed.
-        std::function<void(std::span<const world::ChunkPos>)> seen;
+        // Receives the chunks and tiles whose appearance from above changed.
+        std::function<void(std::span<const world::ChunkPos>)> onVisible;
     };
     // The painter and the jobs outlive this; later results of jobs are dropped.
-    explicit SeenChanges(Parts parts) : parts_(std::move(parts)) {}
-    ~SeenChanges() { *isAlive_ = false; }
+    explicit VisibleChanges(Parts parts) : parts_(std::move(parts)) {}
+    ~VisibleChanges() { *isAlive_ = false; }
 
-    // Edited chunks of level 0, and stored tiles that changed with them. `before`: the positions edited
-    // before.
+    // Adds edited chunks of level 0, and stored tiles that changed with them. `before` has the positions
+    // edited before.
     void add(std::span<const world::ChunkPos> chunks, const map::EditedPositions& before);
     // Examines the added positions. Call a few times per second.
-    void look();
+    void examine();
 
   private:
     struct Change {
@@ -52,8 +52,8 @@ class SeenChanges {
         bool wasGenerated = false;  // never examined, and generated before the edit
     };
     using Digests = std::unordered_map<world::ChunkPos, std::uint64_t, world::ChunkPosHash>;
-    static std::vector<world::ChunkPos> seenAmong(map::MapPainter& painter,
-                                                  const std::vector<Change>& changes, Digests& digests);
+    static std::vector<world::ChunkPos> visibleAmong(map::MapPainter& painter,
+                                                     const std::vector<Change>& changes, Digests& digests);
 
     Parts parts_;
     std::set<world::ChunkPos> added_;

@@ -1,4 +1,4 @@
-#include "terrane/web/seen_changes.h"
+#include "terrane/web/visible_changes.h"
 
 #include <nlohmann/json.hpp>
 
@@ -63,7 +63,7 @@ std::optional<std::uint64_t> digestOf(map::MapPainter& painter, ChunkPos pos,
 
 }  // namespace
 
-void SeenChanges::add(std::span<const ChunkPos> chunks, const map::EditedPositions& before) {
+void VisibleChanges::add(std::span<const ChunkPos> chunks, const map::EditedPositions& before) {
     for (const ChunkPos chunk : chunks) {
         added_.insert(chunk);
         // The tiles above a chunk are edited with it.
@@ -75,8 +75,8 @@ void SeenChanges::add(std::span<const ChunkPos> chunks, const map::EditedPositio
 
 // If unsure, counts as visible: chunks edited before the map started, unreadable ones, and all of a failed
 // job.
-std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std::vector<Change>& changes,
-                                             Digests& digests) {
+std::vector<ChunkPos> VisibleChanges::visibleAmong(map::MapPainter& painter,
+                                                   const std::vector<Change>& changes, Digests& digests) {
     std::vector<ChunkPos> seen;
     for (const Change& change : changes) {
         const ChunkPos pos = change.chunk.pos;
@@ -92,10 +92,10 @@ std::vector<ChunkPos> SeenChanges::seenAmong(map::MapPainter& painter, const std
     return seen;
 }
 
-void SeenChanges::look() {
+void VisibleChanges::examine() {
     if (isLooking_ && job_.state() == base::JobState::Failed) {  // out of memory
         isLooking_ = false;
-        parts_.seen(looking_);
+        parts_.onVisible(looking_);
     }
     if (isLooking_ || added_.empty()) return;
     isLooking_ = true;
@@ -109,11 +109,11 @@ void SeenChanges::look() {
     // Before tiles, which should show the result.
     job_ = parts_.jobs.submit(-1, [this, changes, digests = digests_, alive = isAlive_,
                                    &painter = parts_.painter, post = parts_.post] {
-        std::vector<ChunkPos> seen = seenAmong(painter, *changes, *digests);
+        std::vector<ChunkPos> seen = visibleAmong(painter, *changes, *digests);
         post([this, seen = std::move(seen), alive] {
             if (!*alive) return;
             isLooking_ = false;
-            if (!seen.empty()) parts_.seen(seen);
+            if (!seen.empty()) parts_.onVisible(seen);
         });
     });
 }

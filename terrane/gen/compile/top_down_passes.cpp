@@ -1,4 +1,4 @@
-#include "terrane/gen/compile/down_passes.h"
+#include "terrane/gen/compile/top_down_passes.h"
 
 #include <algorithm>
 #include <cassert>
@@ -38,12 +38,12 @@ std::optional<int> layersReadBelow(const PassGraph& pass) {
     return below;
 }
 
-bool canRunDown(const GeneratorGraph& generator) {
+bool canRunTopDown(const GeneratorGraph& generator) {
     return !generator.passes.empty() && generator.passes.back().is3D;
 }
 
-int firstDownPass(const GeneratorGraph& generator) {
-    base::require(canRunDown(generator), "firstDownPass: the last pass of the generator is not 3D");
+int firstTopDownPass(const GeneratorGraph& generator) {
+    base::require(canRunTopDown(generator), "firstTopDownPass: the last pass of the generator is not 3D");
     auto pass = generator.passes.size() - 1;
     // A pass before another one must write no field: that takes all of its layers.
     while (pass > 0 && layersReadBelow(generator.passes[pass]) && generator.passes[pass - 1].is3D &&
@@ -52,7 +52,7 @@ int firstDownPass(const GeneratorGraph& generator) {
     return std::max(static_cast<int>(pass), sharedPasses(generator));
 }
 
-void DownPasses::add(const VoxelPass& pass, PassInputs inputs) {
+void TopDownPasses::add(const VoxelPass& pass, PassInputs inputs) {
     if (passes_.size() == count_)
         passes_.push_back(std::make_unique<Running>(Executor(noises_, seeds_, parts_)));
     Running& running = *passes_[count_];
@@ -61,7 +61,7 @@ void DownPasses::add(const VoxelPass& pass, PassInputs inputs) {
         inputs.blocks[4] = before.blocks.get();
         inputs.layerRanges = &before.executor.layerRanges();
         const std::optional<int> below = layersReadBelow(pass.plan().pass);
-        assert(below && "firstDownPass() says which passes run together");
+        assert(below && "firstTopDownPass() says which passes run together");
         running.readsBelow = *below;
     }
     running.executor.begin3D(pass, inputs, *running.blocks);
@@ -69,19 +69,19 @@ void DownPasses::add(const VoxelPass& pass, PassInputs inputs) {
 }
 
 // The lowest layer that can be made from what the pass before has made.
-int DownPasses::reachOf(std::size_t pass) const {
+int TopDownPasses::reachOf(std::size_t pass) const {
     if (pass == 0) return 0;
-    const int made = passes_[pass - 1]->executor.lowestMade();
+    const int made = passes_[pass - 1]->executor.lowestComputed();
     return made == 0 ? 0 : std::min(made + passes_[pass]->readsBelow, world::kChunkHeight);
 }
 
-void DownPasses::makeMore(std::size_t pass) {
+void TopDownPasses::makeMore(std::size_t pass) {
     Executor& executor = passes_[pass]->executor;
-    while (reachOf(pass) >= executor.lowestMade()) makeMore(pass - 1);
-    executor.runDown(reachOf(pass), wanted_);
+    while (reachOf(pass) >= executor.lowestComputed()) makeMore(pass - 1);
+    executor.runTopDown(reachOf(pass), requested_);
 }
 
-void DownPasses::run(const LayerTaker& take) {
+void TopDownPasses::run(const LayerCallback& take) {
     const Running& last = *passes_[count_ - 1];
     const LayerRanges& ranges = last.executor.layerRanges();
     const auto isLikeAbove = [&](int z) {
@@ -89,12 +89,12 @@ void DownPasses::run(const LayerTaker& take) {
         return z + 1 < world::kChunkHeight && ranges[at].low == ranges[at].high &&
                ranges[at] == ranges[at + 1];
     };
-    wanted_ = WantedColumns();
-    for (int z = world::kChunkHeight; z-- > 0 && wanted_.rows() != 0;) {
-        if (z < last.executor.lowestMade()) makeMore(count_ - 1);
+    requested_ = RequestedColumns();
+    for (int z = world::kChunkHeight; z-- > 0 && requested_.rows() != 0;) {
+        if (z < last.executor.lowestComputed()) makeMore(count_ - 1);
         if (isLikeAbove(z)) continue;
         const auto first = last.blocks->begin() + std::ptrdiff_t{z} * kTileLanes;
-        take(z, std::span<const world::BlockId, kTileLanes>(first, kTileLanes), wanted_);
+        take(z, std::span<const world::BlockId, kTileLanes>(first, kTileLanes), requested_);
     }
 }
 

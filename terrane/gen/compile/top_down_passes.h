@@ -1,5 +1,6 @@
 // Runs the last 3D passes of a chunk from the top down, as far as the caller requests: each pass computes
-// only the layers that the next one reads. Used by generator.cpp; one per thread, as it keeps scratch memory.
+// only the layers that the next one reads. generator.cpp uses it; each thread has one, since it owns scratch
+// memory.
 #pragma once
 
 #include <functional>
@@ -17,32 +18,33 @@ namespace terrane::gen {
 
 // Receives the blocks of layer z, x + 16 y, and drops columns whose lower layers are not needed: these layers
 // may have any blocks there.
-using LayerTaker =
-    std::function<void(int z, std::span<const world::BlockId, kTileLanes> layer, WantedColumns& wanted)>;
+using LayerCallback = std::function<void(int z, std::span<const world::BlockId, kTileLanes> layer,
+                                         RequestedColumns& requested)>;
 
-// Number of layers below its own that a 3D pass reads from the 3D pass before it. None if that is not known
-// before the pass runs, or if it reads blocks of neighbors.
+// Returns the number of layers below its own that a 3D pass reads from the 3D pass before it. Returns nothing
+// if that is not known before the pass runs, or if it reads blocks of neighbors.
 std::optional<int> layersReadBelow(const PassGraph& pass);
 
-// Whether the last pass makes blocks. Generators of columns alone have none.
-bool canRunDown(const GeneratorGraph& generator);
-// Number of the first of the last passes that can run together from the top down. Requires canRunDown().
-int firstDownPass(const GeneratorGraph& generator);
+// Returns whether the last pass makes blocks. Generators of columns alone have none.
+bool canRunTopDown(const GeneratorGraph& generator);
+// Returns the number of the first of the last passes that can run together from the top down. Requires
+// canRunTopDown().
+int firstTopDownPass(const GeneratorGraph& generator);
 
-class DownPasses {
+class TopDownPasses {
   public:
     // Refers to its arguments.
-    DownPasses(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts)
+    TopDownPasses(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts)
         : noises_(noises), seeds_(seeds), parts_(parts) {}
 
-    // Forgets the passes.
+    // Removes the passes.
     void clear() { count_ = 0; }
-    // The next pass, which must be able to run down. Blocks of the pass before are among `inputs` for the
-    // first one only. Refers to the arguments until cleared.
+    // Adds the next pass, which must be able to run from the top down. Blocks of the pass before are among
+    // `inputs` for the first one only. Refers to the arguments until cleared.
     void add(const VoxelPass& pass, PassInputs inputs);
     // Passes the layers of the last pass to `take` from the top, until no column is requested. Leaves out
     // layers that are one block and equal the layer above.
-    void run(const LayerTaker& take);
+    void run(const LayerCallback& take);
 
   private:
     struct Running {
@@ -58,7 +60,7 @@ class DownPasses {
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;
     ExecutorParts parts_;
-    WantedColumns wanted_;
+    RequestedColumns requested_;
     std::size_t count_ = 0;
     std::vector<std::unique_ptr<Running>> passes_;  // count_ of them run
 };
