@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "terrane/base/output_file.h"
 
@@ -69,6 +70,23 @@ Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes
     OutputFile file = TERRANE_TRY(OutputFile::create(path));
     TERRANE_TRY(file.write(0, bytes));
     return file.finish();
+}
+
+Result<void> writeFiles(std::span<const FileToWrite> files) {
+    std::vector<OutputFile> outputs;
+    for (const FileToWrite& file : files) {
+        OutputFile output = TERRANE_TRY(OutputFile::create(file.path));
+        TERRANE_TRY(output.write(0, file.bytes));
+        outputs.push_back(std::move(output));
+    }
+    for (std::size_t k = 0; k < files.size(); ++k) {
+        auto finished = outputs[k].finish();
+        if (finished) continue;
+        std::error_code ignored;
+        for (std::size_t done = 0; done < k; ++done) std::filesystem::remove(files[done].path, ignored);
+        return finished;
+    }
+    return {};
 }
 
 Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes) {

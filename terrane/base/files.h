@@ -29,6 +29,14 @@ constexpr std::size_t kMaxFileBytes = std::size_t{64} << 20;
 // Writes a file in one piece, as OutputFile does (output_file.h).
 [[nodiscard]] Result<void> writeFile(const std::filesystem::path& path, std::string_view bytes);
 
+struct FileToWrite {
+    std::filesystem::path path;
+    std::string_view bytes;
+};
+// Writes several files: all or none. Files get their names after all bytes are on the disk; if that fails for
+// one of them, the ones before it are removed.
+[[nodiscard]] Result<void> writeFiles(std::span<const FileToWrite> files);
+
 // Creates a file that only its owner may read, for keys. Fails if it exists; leaves no partial file. The
 // bytes are on the disk when it returns.
 [[nodiscard]] Result<void> writePrivateFile(const std::filesystem::path& path, std::string_view bytes);

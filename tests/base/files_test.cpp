@@ -99,6 +99,28 @@ TEST(Files, AFailedWriteLeavesTheOldFileAndNoTemporaryOne) {
     EXPECT_EQ(folder.fileCount(), 1);
 }
 
+TEST(Files, SeveralFilesAreWrittenAllOrNone) {
+    const TempFolder folder;
+    const std::string large(100000, 'x');
+    const std::vector<FileToWrite> files{{folder / "small", "new"}, {folder / "large", large}};
+    ASSERT_TRUE(writeFile(folder / "small", "old"));
+    {
+        const FileSizeLimit limit(1000);
+        const Result<void> result = writeFiles(files);
+        ASSERT_FALSE(result);
+        EXPECT_EQ(result.error().message,
+                  (folder / "large").string() + ": cannot be written: File too large");
+    }
+    EXPECT_EQ(readFile(folder / "small").value(), "old");
+    EXPECT_EQ(folder.fileCount(), 1);
+    ASSERT_TRUE(writeFiles(files));
+    EXPECT_EQ(readFile(folder / "small").value(), "new");
+    EXPECT_EQ(readFile(folder / "large").value(), large);
+    EXPECT_EQ(folder.fileCount(), 2);
+    EXPECT_FALSE(writeFiles(std::vector<FileToWrite>{{folder / "third", "x"}, {folder / "no/folder", "x"}}));
+    EXPECT_EQ(folder.fileCount(), 2);
+}
+
 TEST(Files, LinksAreFollowed) {
     const TempFolder folder;
     std::filesystem::create_directory(folder / "inner");
