@@ -131,7 +131,7 @@ set(CPACK_COMPONENT_SERVER_DESCRIPTION "The program terrane without graphics: se
 It needs no OpenGL and no display.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libterrane-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.83-dev | libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, libicu-dev, liblua5.4-dev, \
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.83-dev | libboost1.81-dev, libepoxy-dev, libexpected-dev, libfmt-dev, libglm-dev, libhwy-dev, libicu-dev, liblua5.4-dev, liblz4-dev, \
 libopenal-dev, libpng-dev, libpq-dev, libsodium-dev, libspdlog-dev, libsqlite3-dev, libssl-dev, libtomlplusplus-dev, libxxhash-dev, libzip-dev, libzstd-dev, nlohmann-json3-dev, zlib1g-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "The library that Terrane is made of: generation, saves, light, meshes, drawing.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-terrane)

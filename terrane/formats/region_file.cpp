@@ -1,5 +1,8 @@
 #include "terrane/formats/region_file.h"
 
+#include <lz4.h>
+#include <xxhash.h>
+
 #include <charconv>
 
 #include "terrane/formats/nbt.h"
@@ -24,6 +27,79 @@ std::uint32_t entryOf(std::string_view region, int number) {
     return number >= 0 && number < kRegionChunks && region.size() >= at + 4 ? bigEndian(region, at, 4) : 0;
 }
 
+// Minecraft compresses with lz4-java's LZ4BlockOutputStream, whose stream is not LZ4's frame format: blocks
+// of a header and data, at the end a block of size 0. The header has, little-endian:
+//   0   8   "LZ4Block"
+//   8   1   0x10 as it is or 0x20 LZ4, plus log2 of the largest block's size less 10
+//   9   4   bytes of data in the stream
+//   13  4   decompressed
+//   17  4   the lower 28 bits of XXH32 of the decompressed bytes
+constexpr std::string_view kLz4Magic = "LZ4Block";
+constexpr std::size_t kLz4HeaderBytes = 21;
+constexpr std::uint8_t kLz4Raw = 0x10, kLz4Packed = 0x20;
+constexpr XXH32_hash_t kLz4Seed = 0x9747b28c, kLz4HashMask = 0x0fffffff;
+constexpr std::size_t kMaxLz4Ratio = 255;  // a byte of a length stands for at most as many bytes
+
+struct Lz4Header {
+    std::uint8_t method = 0;
+    std::size_t packedBytes = 0, bytes = 0;
+    std::uint32_t hash = 0;
+};
+
+std::uint32_t lz4Number(std::string_view bytes, std::size_t at) {
+    std::uint32_t value = 0;
+    for (std::size_t k = 4; k-- > 0;) value = value << 8 | static_cast<std::uint8_t>(bytes[at + k]);
+    return value;
+}
+
+base::Result<Lz4Header> lz4HeaderOf(std::string_view bytes) {
+    if (bytes.size() < kLz4HeaderBytes || !bytes.starts_with(kLz4Magic))
+        return base::fail(base::ErrorCode::Damaged, "the LZ4 data are cut off, or are none");
+    Lz4Header header{static_cast<std::uint8_t>(bytes[8] & 0xf0), lz4Number(bytes, 9), lz4Number(bytes, 13),
+                     lz4Number(bytes, 17)};
+    const bool isRaw = header.method == kLz4Raw;
+    const bool isValid =
+        (isRaw || header.method == kLz4Packed) && (header.packedBytes == 0) == (header.bytes == 0) &&
+        (!isRaw || header.packedBytes == header.bytes) && header.bytes / kMaxLz4Ratio <= header.packedBytes;
+    if (!isValid) return base::fail(base::ErrorCode::Damaged, "the LZ4 data are damaged");
+    if (header.packedBytes > bytes.size() - kLz4HeaderBytes)
+        return base::fail(base::ErrorCode::Damaged, "the LZ4 data are cut off");
+    return header;
+}
+
+// Appends the block's data, of which `out` may have at most `maxBytes`.
+base::Result<void> appendLz4Block(const Lz4Header& header, std::string_view data, std::size_t maxBytes,
+                                  std::string& out) {
+    if (header.bytes > maxBytes - out.size())
+        return base::fail(base::ErrorCode::OutOfResources, "more than {} bytes when decompressed", maxBytes);
+    const std::size_t done = out.size();
+    if (header.method == kLz4Raw) {
+        out += data;
+    } else {
+        out.resize(done + header.bytes);
+        const int count = LZ4_decompress_safe(data.data(), out.data() + done, static_cast<int>(data.size()),
+                                              static_cast<int>(header.bytes));
+        if (count < 0 || static_cast<std::size_t>(count) != header.bytes)
+            return base::fail(base::ErrorCode::Damaged, "the LZ4 data are damaged");
+    }
+    if ((XXH32(out.data() + done, header.bytes, kLz4Seed) & kLz4HashMask) != header.hash)
+        return base::fail(base::ErrorCode::Damaged, "the LZ4 data have another checksum");
+    return {};
+}
+
+// Minecraft stops reading at the end of the NBT, so a stream that ends without the empty block is whole, too.
+base::Result<std::string> lz4Decompressed(std::string_view bytes, std::size_t maxBytes) {
+    std::string out;
+    do {
+        const auto header = TERRANE_TRY(lz4HeaderOf(bytes));
+        if (header.bytes == 0) break;
+        bytes.remove_prefix(kLz4HeaderBytes);
+        TERRANE_TRY(appendLz4Block(header, bytes.substr(0, header.packedBytes), maxBytes, out));
+        bytes.remove_prefix(header.packedBytes);
+    } while (!bytes.empty());
+    return out;
+}
+
 base::Result<std::string> decompressed(std::string_view bytes, std::uint8_t compression) {
     switch (compression) {
         case kGzip:
@@ -34,10 +110,7 @@ base::Result<std::string> decompressed(std::string_view bytes, std::uint8_t comp
                 return base::fail(base::ErrorCode::OutOfResources, "more than {} bytes", kMaxChunkBytes);
             return std::string(bytes);
         case kLz4:
-            return base::fail(
-                base::ErrorCode::Unsupported,
-                "compressed by LZ4, which is not supported: set region-file-compression=deflate in "
-                "server.properties, and optimize the world");
+            return lz4Decompressed(bytes, kMaxChunkBytes);
         default:
             return base::fail(base::ErrorCode::Unsupported, "compression {} is not supported", compression);
     }

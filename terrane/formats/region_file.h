@@ -35,7 +35,7 @@ using ExternalChunk = std::function<base::Result<std::string>()>;
 // too short.
 [[nodiscard]] bool regionHasChunk(std::string_view region, int number);
 
-// Returns the chunk's NBT, decompressed. Returns NotFound if there is none, Unsupported for LZ4 and other
+// The chunk's NBT, decompressed from gzip, zlib or LZ4. NotFound if there is none, Unsupported for other
 // compressions, Damaged if it lies outside the file or is broken. Messages name no file.
 [[nodiscard]] base::Result<std::string> readRegionChunk(std::string_view region, int number,
                                                         const ExternalChunk& external);
