@@ -64,6 +64,23 @@ base::Result<std::string> inflate(std::string_view bytes, std::size_t maxBytes) 
     return out;
 }
 
+std::string inflateStart(std::string_view bytes, std::size_t maxBytes) {
+    Inflater inflater;
+    z_stream& stream = inflater.stream;
+    stream.next_in = inputOf(bytes);
+    stream.avail_in = static_cast<uInt>(std::min<std::size_t>(bytes.size(), UINT32_MAX));
+    std::string out;
+    for (int status = Z_OK; status == Z_OK && out.size() < maxBytes;) {
+        const std::size_t done = out.size(), piece = std::min(kPieceBytes, maxBytes - done);
+        out.resize(done + piece);
+        stream.next_out = reinterpret_cast<Bytef*>(out.data() + done);
+        stream.avail_out = static_cast<uInt>(piece);
+        status = ::inflate(&stream, Z_NO_FLUSH);
+        out.resize(out.size() - stream.avail_out);
+    }
+    return out;
+}
+
 std::string gzip(std::string_view bytes) {
     z_stream stream{};
     if (deflateInit2(&stream, Z_DEFAULT_COMPRESSION, Z_DEFLATED, kGzipWindow, kMemoryLevel,

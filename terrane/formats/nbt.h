@@ -20,6 +20,10 @@ namespace terrane::formats {
 // if it holds more than `maxBytes`. Messages name no file.
 [[nodiscard]] base::Result<std::string> inflate(std::string_view bytes, std::size_t maxBytes);
 
+// The beginning of the decompressed data, at most `maxBytes`: as far as the stream is whole. Empty if it is
+// none.
+[[nodiscard]] std::string inflateStart(std::string_view bytes, std::size_t maxBytes);
+
 // Compresses to one gzip member without name and time, so that equal bytes give equal files (with one version
 // of zlib).
 [[nodiscard]] std::string gzip(std::string_view bytes);
