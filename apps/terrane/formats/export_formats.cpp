@@ -156,10 +156,10 @@ base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
     return heights;
 }
 
-base::Result<void> writeNames(const ExportOptions& options, const world::BlockRegistry& blocks) {
+std::string namesOf(const world::BlockRegistry& blocks) {
     nlohmann::json names = nlohmann::json::array();
     for (const world::BlockType& type : blocks.types()) names.push_back(type.name);
-    return base::writeFile(options.output + ".names.json", names.dump(1) + "\n");
+    return names.dump(1) + "\n";
 }
 
 }  // namespace
@@ -185,9 +185,12 @@ base::Result<void> exportNpy(ExportOptions& options) {
     auto volume = TERRANE_TRY(readVolume(options, source));
     for (std::uint16_t& cell : volume.cells) cell = volume.palette[cell].id;
     const auto side = [&](int axis) { return static_cast<std::size_t>(volume.size[axis]); };
-    TERRANE_TRY(writeNames(options, *source.blocks));
-    return writeResult(options, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)}),
-                       describe(volume.size));
+    const std::string bytes = base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)});
+    const std::string names = namesOf(*source.blocks);
+    TERRANE_TRY(base::writeFiles(
+        std::vector<base::FileToWrite>{{options.output, bytes}, {options.output + ".names.json", names}}));
+    base::logInfo("{}: {}, {} bytes", options.output, describe(volume.size), bytes.size());
+    return {};
 }
 
 base::Result<void> exportNpyHeights(ExportOptions& options) {
