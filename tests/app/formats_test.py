@@ -8,16 +8,21 @@ skipped with the reason (exit code 77). TERRANE_ALL_CHUNKS=1 compares all chunks
 takes minutes; else a few chunks of six versions, which differ in the format or the names of blocks."""
 import collections
 import gzip
+import itertools
 import json
 import os
 import pathlib
 import re
+import resource
 import shutil
+import signal
 import struct
 import subprocess
 import sys
+import zlib
 
 import numpy
+import xxhash
 
 import support
 from support import ProgramTest, run
@@ -86,6 +91,247 @@ def triangles_of(path):
         first = head["bufferViews"][accessor["bufferView"]]["byteOffset"] + accessor["byteOffset"]
         corners.append(vertices[numpy.frombuffer(binary, "<u4", accessor["count"], first)])
     return numpy.concatenate(corners).reshape(-1, 3, 8)
+
+
+def nbt(value):
+    """The type and the bytes of a value as NBT: int is a 32-bit number, a list holds compounds."""
+    if isinstance(value, int):
+        return 3, struct.pack(">i", value)
+    if isinstance(value, bytes):
+        return 7, struct.pack(">i", len(value)) + value
+    if isinstance(value, str):
+        return 8, struct.pack(">H", len(value)) + value.encode()
+    if isinstance(value, list):
+        return 9, struct.pack(">Bi", 10 if value else 0, len(value)) + b"".join(nbt(part)[1] for part in value)
+    data = b""
+    for name, part in value.items():
+        kind, written = nbt(part)
+        data += struct.pack(">BH", kind, len(name)) + name.encode() + written
+    return 10, data + b"\0"
+
+
+def nbt_file(compound, name=""):
+    return b"\x0a" + struct.pack(">H", len(name)) + name.encode() + nbt(compound)[1]
+
+
+def stone_chunk(x, z):
+    """A chunk of 1.18 and newer with a section of stone."""
+    states = {"palette": [{"Name": "minecraft:stone"}]}
+    return nbt_file({"DataVersion": 3465, "xPos": x, "zPos": z, "Status": "minecraft:full",
+                     "sections": [{"Y": 0, "block_states": states}]})
+
+
+def lz4_stream(data):
+    """Of lz4-java, with blocks that are not compressed."""
+    stream = b""
+    for part in (data[:100], data[100:], b""):
+        checksum = xxhash.xxh32(part, seed=0x9747b28c).intdigest() & 0xfffffff if part else 0
+        stream += b"LZ4Block\x16" + struct.pack("<3I", len(part), len(part), checksum) + part
+    return stream
+
+
+def region_file(chunks, compression=2):
+    """The bytes of a region file of chunks by number, x + 32 z."""
+    table, sectors = bytearray(8192), b""
+    for number, data in chunks.items():
+        packed = {2: zlib.compress, 3: bytes, 4: lz4_stream}[compression](data)
+        packed = struct.pack(">IB", len(packed) + 1, compression) + packed
+        packed += bytes(-len(packed) % 4096)
+        struct.pack_into(">I", table, number * 4, (len(table) + len(sectors)) // 4096 << 8 | len(packed) // 4096)
+        sectors += packed
+    return bytes(table) + sectors
+
+
+def states_of(block):
+    """All states of a block of minecraft-data, as in schematics."""
+    values = []
+    for state in block.get("states", []):
+        there = state.get("values") or (["true", "false"] if state["type"] == "bool" else range(state["num_values"]))
+        values.append([f"{state['name']}={str(value).lower()}" for value in there])
+    for properties in itertools.product(*values):
+        yield f"minecraft:{block['name']}[{','.join(properties)}]"
+
+
+def sponge_schematic(names):
+    """A schematic of version 2 with a block of each name, and air."""
+    names = ["minecraft:air", *names]
+    length = -(-len(names) // 256)
+    data = bytearray()
+    for number in range(256 * length):
+        number = number if number < len(names) else 0
+        while number >= 128:
+            data.append(number & 127 | 128)
+            number >>= 7
+        data.append(number)
+    return gzip.compress(nbt_file({"Version": 2, "Width": 256, "Height": 1, "Length": length, "BlockData": bytes(data),
+                                   "Palette": {name: k for k, name in enumerate(names)}}, "Schematic"), 1)
+
+
+def block_lists():
+    """The blocks of all versions in minecraft-data: pairs of the version and its blocks."""
+    data = npm_folder / "node_modules" / "minecraft-data" / "minecraft-data" / "data" / "pc"
+    files = sorted(data.glob("*/blocks.json"))
+    return [(file.parent.name, json.loads(file.read_text())) for file in files]
+
+
+class Names(ProgramTest):
+    def unknown_of(self, schematic):
+        source, report = self.folder / "all.schem", self.folder / "r.json"
+        source.write_bytes(schematic)
+        self.succeed("import", "schem", source, "-o", self.folder / "all.structure", "--report", report)
+        return json.loads(report.read_text())["unknown"]
+
+    def test_every_state_of_every_version_has_a_block(self):
+        versions = collections.defaultdict(set)  # by state
+        for version, blocks in block_lists():
+            for block in blocks:
+                if "defaultState" in block:  # since 1.13
+                    for state in states_of(block):
+                        versions[state].add(version)
+        self.assertGreater(len(set.union(*versions.values())), 20)
+        self.assertGreater(len(versions), 20000)
+        states, unknown = sorted(versions), collections.defaultdict(set)
+        for first in range(0, len(states), 60000):
+            for state in self.unknown_of(sponge_schematic(states[first:first + 60000])):
+                for version in versions[state.replace("[]", "")] or versions[state + "[]"]:
+                    unknown[version].add(state.split("[")[0])
+        self.assertEqual({version: sorted(names) for version, names in unknown.items()}, {})
+        print(f"  {len(states)} states of {len(set.union(*versions.values()))} versions", file=sys.stderr)
+
+    def test_every_number_of_every_old_version_has_a_name(self):
+        numbers = set()
+        for version, blocks in block_lists():
+            if "defaultState" in blocks[0] or version == "0.30c":
+                continue
+            for block in blocks:
+                numbers.update((block["id"], variation["metadata"]) for variation in block.get("variations", []))
+                numbers.add((block["id"], 0))
+        self.assertGreater(len(numbers), 250)
+        ids, data = (bytes(number[k] for number in sorted(numbers)) for k in range(2))
+        self.assertEqual(self.unknown_of(gzip.compress(nbt_file(
+            {"Width": len(ids), "Height": 1, "Length": 1, "Blocks": ids, "Data": data, "Materials": "Alpha"},
+            "Schematic"))), {})
+
+
+class Layouts(ProgramTest):
+    """Folders of worlds of all versions."""
+
+    OLD = {"overworld": "region", "nether": "DIM-1/region", "end": "DIM1/region"}
+    NEW = {name: f"dimensions/minecraft/{folder}/region"
+           for name, folder in (("overworld", "overworld"), ("nether", "the_nether"), ("end", "the_end"))}
+
+    def put(self, folder, chunks, *more):
+        path = self.folder / "Home" / folder / "r.0.0.mca"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_bytes(region_file({x: stone_chunk(x, 0) for x in range(chunks)}, *more) if chunks >= 0 else b"")
+        return path
+
+    def import_home(self, *more, source=None):
+        world, report = self.folder / "w.sqlite", self.folder / "r.json"
+        for path in (world, report):
+            path.unlink(missing_ok=True)
+        done = run("import", "minecraft", source or self.folder / "Home", "--world", world, "--generator", "flat",
+                   "--report", report, *more)
+        return done, json.loads(report.read_text())["chunks"] if report.exists() else None
+
+    def assertImports(self, chunks, *more, source=None):
+        done, imported = self.import_home(*more, source=source)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(imported, chunks)
+        return done.stderr
+
+    def assertNothing(self, *more, source=None):
+        done, imported = self.import_home(*more, source=source)
+        self.assertRefused(done, more)
+        self.assertIsNone(imported)
+        self.assertFalse((self.folder / "w.sqlite").exists(), "no world is made")
+        return done.stderr
+
+    def test_each_dimension_of_each_layout(self):
+        for layout in (self.OLD, self.NEW):
+            for chunks, (dimension, folder) in enumerate(layout.items(), 1):
+                self.put(folder, chunks)
+            for chunks, dimension in enumerate(layout, 1):
+                self.assertImports(chunks, "--dimension", dimension)
+            for chunks, folder in enumerate(layout.values(), 1):
+                self.assertImports(chunks, source=self.folder / "Home" / folder)
+            shutil.rmtree(self.folder / "Home")
+
+    def test_the_layout_that_has_chunks_is_taken(self):
+        for dimension in self.OLD:
+            for stale, real in ((self.OLD, self.NEW), (self.NEW, self.OLD)):
+                for empty in (-1, 0):  # an empty file, or one with an empty table
+                    self.put(stale[dimension], empty)
+                    self.put(real[dimension], 3)
+                    self.assertNotIn("not imported", self.assertImports(3, "--dimension", dimension))
+                    shutil.rmtree(self.folder / "Home")
+
+    def test_of_two_layouts_the_newer_one_is_taken(self):
+        self.put(self.OLD["overworld"], 2)
+        self.put(self.NEW["overworld"], 4)
+        self.assertRegex(self.assertImports(4), r"Home/region: also has chunks, of an older version; not imported")
+
+    def test_importing_nothing_is_an_error(self):
+        (self.folder / "Home").mkdir()
+        self.assertRegex(self.assertNothing(), "no chunks of the overworld.*dimensions/minecraft/overworld/region, region, ")
+        file = self.put("region", 0)
+        self.assertIn("no chunks of the overworld", self.assertNothing())
+        self.assertIn("this region file has no chunks", self.assertNothing(source=file))
+        self.put("DIM1/region", 1)
+        self.assertIn("--dimension end", self.assertNothing())
+        self.put("region", 5)
+        self.assertIn("no chunks in --area", self.assertNothing("--area", "5,0,9,9"))
+        self.assertImports(2, "--area", "3,0,9,9")
+        # Chunks without blocks, and broken ones.
+        empty = nbt_file({"DataVersion": 3465, "xPos": 0, "zPos": 0, "sections": []})
+        for data, reason in ((empty, "0 chunks or files cannot be read, 1 chunks have no blocks"),
+                             (b"no NBT", "1 chunks or files cannot be read, 0 chunks have no blocks")):
+            file.write_bytes(region_file({0: data}))
+            done, imported = self.import_home()
+            self.assertEqual((done.returncode, imported), (2, 0), done.stderr)
+            self.assertRegex(done.stderr, f"error: .*Home: nothing is imported: {reason}\n$")
+
+    def test_each_compression(self):
+        for compression in (2, 3, 4):
+            self.put("region", 4, compression)
+            self.assertImports(4)
+
+
+class OtherFiles(ProgramTest):
+    """Files that no import reads, or another one."""
+
+    def assertNamed(self, kind, what, *hints):
+        done = run("import", kind, what, "--world", self.folder / "w.sqlite",
+                   *(() if kind == "minecraft" else ("--at", "0,0,0")))
+        self.assertRefused(done, what)
+        for hint in (str(what), *hints):
+            self.assertIn(hint, done.stderr)
+        self.assertFalse((self.folder / "w.sqlite").exists())
+
+    def test_they_are_named(self):
+        litematic = gzip.compress(nbt_file({"Metadata": {}, "Regions": {}}))
+        for name, data, hint in (("island.schem", b"MTSM\0\x04\0\x01", "a schematic of Luanti"),
+                                 ("Home.mcworld", b"PK\x03\x04", "Bedrock Edition"),
+                                 ("house.litematic", litematic, "Litematica"), ("a.glb", b"glTF\x02\0\0\0", "a mesh"),
+                                 ("a.png", b"\x89PNG\r\n\x1a\n", "an image"), ("a.schem", b"", "an empty file")):
+            path = self.folder / name
+            path.write_bytes(data)
+            for kind in ("schem", "vox", "minecraft"):
+                self.assertNamed(kind, path, hint, "cannot be imported")
+            self.assertRefused(run("import", "schem", path, "-o", self.folder / "a.structure"), name)
+        schematic = fixtures("prismarine-schematic") / "schematics" / "smallhouse1.schem"
+        self.assertNamed("vox", schematic, "`terrane import schem`")
+        self.assertNamed("minecraft", schematic, "`terrane import schem`")
+        self.assertNamed("schem", fixtures("vox-reader") / "deer.vox", "`terrane import vox`")
+
+    def test_folders_are_named(self):
+        for name, file, hint in (("bedrock", "db/CURRENT", "Bedrock Edition"), ("beta", "region/r.0.0.mcr", "Beta"),
+                                 ("luanti", "world.mt", "Luanti"), ("alpha", "0/1/c.0.1.dat", "Alpha")):
+            path = self.folder / name / file
+            path.parent.mkdir(parents=True)
+            path.write_bytes(b"x")
+            for kind in ("minecraft", "schem"):
+                self.assertNamed(kind, self.folder / name, hint)
 
 
 class Minecraft(ProgramTest):
@@ -191,7 +437,7 @@ class Damaged(ProgramTest):
         data = bytearray((fixtures("prismarine-provider-anvil") / "fixtures" / "1.16" / "r.0.-1.mca").read_bytes())
         first = next(k for k in range(1024) if data[4 * k:4 * k + 4] != bytes(4))
         start = int.from_bytes(data[4 * first:4 * first + 3], "big") * 4096
-        data[start + 4] = 4  # LZ4
+        data[start + 4] = 4  # LZ4, which it is not
         done, report = self.import_region(bytes(data), "--area", "0,-32,32,-9", name="r.0.-1.mca")
         self.assertEqual(done.returncode, 1, done.stderr)
         self.assertEqual(report["damage_count"], 1)
@@ -202,9 +448,11 @@ class Damaged(ProgramTest):
     def test_bytes_of_any_kind_end_with_a_line(self):
         for data in (b"", b"\0" * 5000, b"\xff" * 9000, bytes(range(256)) * 64):
             done, report = self.import_region(data)
-            self.assertIn(done.returncode, (0, 1), done.stderr)
-            self.assertEqual(report["chunks"], 0)
-            (self.folder / "r.json").unlink()
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertRegex(done.stderr, r"terrane: error: [^\n]+\n\Z")
+            if any(data[:4096]):
+                self.assertEqual(report["chunks"], 0)
+                (self.folder / "r.json").unlink()
 
     def test_what_is_wrong_is_told_before_a_world_is_made(self):
         nothing = self.folder / "nothing"
@@ -229,6 +477,59 @@ class Damaged(ProgramTest):
                      ("glb", "--box", "0,0,250,4,4,256", "--generator", "flat")):
             self.assertRefused(run("export", *case, "-o", self.folder / "a.glb"), case)
             self.assertFalse((self.folder / "a.glb").exists(), case)
+
+
+class Failures(ProgramTest):
+    """Of an export, or of an import to a file, nothing is left."""
+
+    def limited(self, limit_bytes, *arguments):
+        """Runs with a limit on file sizes, which acts like a full disk."""
+        def bound():
+            resource.setrlimit(resource.RLIMIT_FSIZE, (limit_bytes, limit_bytes))
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+        return subprocess.run([support.program(), *map(str, arguments)], capture_output=True, text=True,
+                              timeout=support.HANG_SECONDS, preexec_fn=bound, restore_signals=False,
+                              env=support.environment(), check=False)
+
+    def test_a_full_disk_leaves_nothing(self):
+        for kind, ending in (("npy", ".npy"), ("npy-heights", ".npy"), ("png-heights", ".png"), ("vox", ".vox"),
+                             ("schem", ".schem"), ("glb", ".glb")):
+            # The names of npy fit, its blocks do not.
+            limit = 200000 if kind == "npy" else 256
+            done = self.limited(limit, "export", kind, "--generator", "hills3d", "--area", "0,0,2,2", "-o",
+                                self.folder / f"a{ending}")
+            self.assertRefused(done, kind)
+            self.assertEqual(list(self.folder.iterdir()), [], kind)
+
+    def test_an_older_export_stays(self):
+        path = self.folder / "a.npy"
+        self.succeed("export", "npy", "--generator", "flat", "--area", "0,0,1,1", "-o", path)
+        files = {file.name: file.read_bytes() for file in self.folder.iterdir()}
+        self.assertEqual(len(files), 2)
+        self.assertRefused(self.limited(100000, "export", "npy", "--generator", "hills3d", "--area", "0,0,1,1", "-o", path),
+                           "full")
+        self.assertEqual({file.name: file.read_bytes() for file in self.folder.iterdir()}, files)
+
+    def test_what_cannot_be_written_leaves_nothing(self):
+        for name in ("a.npy", "a.npy.names.json"):
+            (self.folder / name).mkdir()
+            self.assertRefused(run("export", "npy", "--generator", "flat", "--area", "0,0,1,1", "-o", self.folder / "a.npy"),
+                               name)
+            self.assertEqual([path.name for path in self.folder.iterdir()], [name])
+            (self.folder / name).rmdir()
+        source = fixtures("prismarine-schematic") / "schematics" / "smallhouse1.schem"
+        (self.folder / "r.json").mkdir()
+        self.assertRefused(run("import", "schem", source, "-o", self.folder / "a.structure", "--report",
+                               self.folder / "r.json"), "report")
+        self.assertEqual([path.name for path in self.folder.iterdir()], ["r.json"])
+
+    def test_a_box_outside_the_heights_is_refused(self):
+        source = fixtures("prismarine-schematic") / "schematics" / "smallhouse1.schem"
+        for height in (256, -1000):
+            done = run("import", "schem", source, "--world", self.folder / "w.sqlite", f"--at=0,0,{height}")
+            self.assertRefused(done, height)
+            self.assertIn("nothing is imported", done.stderr)
+            self.assertFalse((self.folder / "w.sqlite").exists())
 
 
 class Volumes(ProgramTest):
@@ -311,7 +612,6 @@ class Volumes(ProgramTest):
 
 def png_rows(path):
     """The rows of a gray PNG with filter type "Sub"."""
-    import zlib
     data, at, packed = pathlib.Path(path).read_bytes(), 8, b""
     while at < len(data):
         length, kind = struct.unpack(">I4s", data[at:at + 8])

@@ -76,7 +76,7 @@ void logReport(const ImportReport& report) {
                       mostOf(counts.blockEntities));
 }
 
-base::Result<void> writeReport(const ImportReport& report, const std::string& file) {
+std::string jsonOf(const ImportReport& report) {
     const formats::ImportCounts& counts = report.counts;
     const nlohmann::json json = {{"chunks", report.chunks},         {"skipped", report.skipped},
                                  {"unfinished", report.unfinished}, {"damage_count", report.damageCount},
@@ -84,7 +84,11 @@ base::Result<void> writeReport(const ImportReport& report, const std::string& fi
                                  {"unknown", counts.unknown},       {"block_entities", counts.blockEntities},
                                  {"below", counts.below},           {"above", counts.above}};
     // Names come from the file and may be invalid UTF-8.
-    return base::writeFile(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+}
+
+base::Result<void> writeReport(const ImportReport& report, const std::string& file) {
+    return base::writeFile(file, jsonOf(report));
 }
 
 base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content) {

@@ -40,6 +40,7 @@ struct ImportReport {
     std::uint64_t chunks = 0;      // stored in this run
     std::uint64_t skipped = 0;     // already edited in the world
     std::uint64_t unfinished = 0;  // of the stored ones: Minecraft had not finished generating them
+    std::uint64_t empty = 0;       // not stored: without blocks
     std::uint64_t damageCount = 0;
     std::vector<std::string> damaged;  // the first ones, a line each
     formats::ImportCounts counts;
@@ -52,6 +53,7 @@ void noteDamage(ImportReport& report, std::string line);
 
 // Logs a summary: counts, unknown names, blocks out of range.
 void logReport(const ImportReport& report);
+[[nodiscard]] std::string jsonOf(const ImportReport& report);
 [[nodiscard]] base::Result<void> writeReport(const ImportReport& report, const std::string& file);
 
 struct ImportWorld {

@@ -1,6 +1,7 @@
 #include "apps/terrane/formats/minecraft_import.h"
 
 #include <algorithm>
+#include <fstream>
 #include <tuple>
 #include <unordered_set>
 #include <vector>
@@ -12,6 +13,7 @@
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
+#include "terrane/formats/file_kind.h"
 
 namespace terrane::app {
 
@@ -27,12 +29,13 @@ bool isFolder(const fs::path& path) {
     return fs::is_directory(path, ignored);
 }
 
-// Folders that may hold the dimension's regions: those of a world, or the named folder itself.
-std::vector<fs::path> regionFolders(const fs::path& source, const std::string& dimension) {
-    const fs::path own = source / "dimensions" / "minecraft";
-    if (dimension == "nether") return {source / "DIM-1" / "region", own / "the_nether" / "region"};
-    if (dimension == "end") return {source / "DIM1" / "region", own / "the_end" / "region"};
-    return {source / "region", own / "overworld" / "region", source};
+// Folders in a world's folder that may hold the dimension's regions, the newest layout first: that of 26.1,
+// then that of 1.2 to 1.21. The last of the overworld is the named folder itself.
+std::vector<fs::path> regionFolders(const std::string& dimension) {
+    const fs::path own = fs::path("dimensions") / "minecraft";
+    if (dimension == "nether") return {own / "the_nether" / "region", "DIM-1/region"};
+    if (dimension == "end") return {own / "the_end" / "region", "DIM1/region"};
+    return {own / "overworld" / "region", "region", "."};
 }
 
 base::Result<std::vector<RegionSource>> regionsIn(const fs::path& folder) {
@@ -52,24 +55,91 @@ base::Result<std::vector<RegionSource>> regionsIn(const fs::path& folder) {
     return regions;
 }
 
+// The table of a region's chunks; nothing if the file cannot be read.
+std::optional<std::string> regionHeader(const fs::path& path) {
+    constexpr std::size_t kHeaderBytes = std::size_t{4} * formats::kRegionChunks;
+    std::error_code ignored;
+    if (!fs::is_regular_file(path, ignored)) return std::nullopt;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return std::nullopt;
+    std::string header(kHeaderBytes, '\0');
+    file.read(header.data(), static_cast<std::streamsize>(header.size()));
+    if (file.bad()) return std::nullopt;
+    return header;
+}
+
+bool isInArea(formats::RegionPos region, int number, const std::optional<world::ChunkArea>& area) {
+    if (!area) return true;
+    const auto [x, z] = chunkOfRegion(region, number);
+    return x >= area->x0 && x < area->x1 && z >= area->y0 && z < area->y1;
+}
+
+// Leaves the regions that have chunks in the area, and those that cannot be read: the import reports them.
+void keepRegionsWithChunks(std::vector<RegionSource>& regions, const std::optional<world::ChunkArea>& area) {
+    std::erase_if(regions, [&](const RegionSource& region) {
+        const auto header = regionHeader(region.path);
+        for (int number = 0; header && number < formats::kRegionChunks; ++number)
+            if (formats::regionHasChunk(*header, number) && isInArea(region.pos, number, area)) return false;
+        return header.has_value();
+    });
+}
+
+// The layout that has chunks, the newest of several.
+base::Result<std::vector<RegionSource>> regionsOfWorld(const fs::path& source, const std::string& dimension) {
+    std::vector<RegionSource> found;
+    for (const fs::path& name : regionFolders(dimension)) {
+        const fs::path folder = name == "." ? source : source / name;
+        if (!isFolder(folder)) continue;
+        auto regions = TERRANE_TRY(regionsIn(folder));
+        keepRegionsWithChunks(regions, std::nullopt);
+        if (found.empty())
+            found = std::move(regions);
+        else if (!regions.empty())
+            base::logWarning("{}: also has chunks, of an older version; not imported", folder.string());
+    }
+    return found;
+}
+
+base::Error noRegions(const fs::path& source, const std::string& dimension) {
+    std::vector<std::string> names;
+    for (const fs::path& name : regionFolders(dimension)) names.push_back(name.string());
+    std::string others;
+    for (const char* other : {"overworld", "nether", "end"}) {
+        if (other == dimension) continue;
+        const auto regions = regionsOfWorld(source, other);
+        if (regions && !regions->empty())
+            others +=
+                fmt::format("{} --dimension {}", others.empty() ? "; there are some with" : " and", other);
+    }
+    return formats::explained(source, "minecraft",
+                              {base::ErrorCode::NotFound,
+                               fmt::format("{}: no chunks of the {}: there is no region file r.X.Z.mca with "
+                                           "chunks in {}{}",
+                                           source.string(), dimension, fmt::join(names, ", "), others)});
+}
+
 }  // namespace
 
 base::Result<std::vector<RegionSource>> regionsOf(const fs::path& source, const std::string& dimension) {
-    if (!isFolder(source)) {
-        const auto pos = formats::regionPosOf(source.filename().string());
-        if (!pos)
-            return base::fail(base::ErrorCode::BadInput,
-                              "{}: neither a folder nor a region file, which is named r.X.Z.mca",
-                              source.string());
-        return std::vector<RegionSource>{{source, *pos}};
+    if (isFolder(source)) {
+        auto regions = TERRANE_TRY(regionsOfWorld(source, dimension));
+        if (regions.empty()) return tl::unexpected(noRegions(source, dimension));
+        return regions;
     }
-    for (const fs::path& folder : regionFolders(source, dimension)) {
-        if (!isFolder(folder)) continue;
-        auto regions = regionsIn(folder);
-        if (!regions || !regions->empty()) return regions;
-    }
-    return base::fail(base::ErrorCode::NotFound, "{}: there are no region files r.X.Z.mca of the {}",
-                      source.string(), dimension);
+    const auto pos = formats::regionPosOf(source.filename().string());
+    if (!pos)
+        return tl::unexpected(formats::explained(
+            source, "minecraft",
+            {base::ErrorCode::BadInput,
+             fmt::format("{}: neither a folder nor a region file, which is named r.X.Z.mca",
+                         source.string())}));
+    std::vector<RegionSource> regions{{source, *pos}};
+    keepRegionsWithChunks(regions, std::nullopt);
+    if (regions.empty())
+        return tl::unexpected(formats::explained(
+            source, "minecraft",
+            {base::ErrorCode::NotFound, fmt::format("{}: this region file has no chunks", source.string())}));
+    return regions;
 }
 
 RegionChunk chunkOfRegion(formats::RegionPos region, int number) {
@@ -143,7 +213,7 @@ class MinecraftImporter {
                                     const std::function<void(std::size_t)>& progress) {
         std::vector<int> wanted;
         for (int number = 0; number < formats::kRegionChunks; ++number)
-            if (isInArea(region, number)) wanted.push_back(number);
+            if (isInArea(region.pos, number, options_.area)) wanted.push_back(number);
         if (wanted.empty()) return {};
         const auto bytes = base::readFile(region.path, formats::kMaxRegionBytes);
         if (!bytes) {
@@ -161,20 +231,16 @@ class MinecraftImporter {
         return {};
     }
 
-    bool isInArea(const RegionSource& region, int number) const {
-        if (!options_.area) return true;
-        const auto [x, z] = chunkOfRegion(region.pos, number);
-        const world::ChunkArea& area = *options_.area;
-        return x >= area.x0 && x < area.x1 && z >= area.y0 && z < area.y1;
-    }
-
     base::Result<void> importBatch(const RegionSource& region, std::string_view bytes,
                                    std::span<const int> numbers) {
         std::vector<DecodedChunk> decoded(numbers.size());
         TERRANE_TRY(base::parallelFor(
             jobs_, numbers.size(), [&](std::size_t k) { decoded[k] = decode(region, bytes, numbers[k]); }));
         for (DecodedChunk& chunk : decoded) {
-            if (!chunk.problem.empty()) noteDamage(report_, std::move(chunk.problem));
+            if (!chunk.problem.empty())
+                noteDamage(report_, std::move(chunk.problem));
+            else if (!chunk.isThere && !chunk.chunk)
+                ++report_.empty;
             if (chunk.isThere) ++report_.skipped;
             if (!chunk.chunk) continue;
             ++report_.chunks;
@@ -232,7 +298,10 @@ class MinecraftImporter {
 
 base::Result<void> importMinecraft(ImportOptions& options) {
     const auto by = TERRANE_TRY(movedBy(options.at));
-    const auto regions = TERRANE_TRY(regionsOf(options.source, options.dimension));
+    auto regions = TERRANE_TRY(regionsOf(options.source, options.dimension));
+    keepRegionsWithChunks(regions, options.area);
+    if (regions.empty())
+        return base::fail(base::ErrorCode::NotFound, "{}: no chunks in --area", options.source);
     const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
@@ -242,7 +311,11 @@ base::Result<void> importMinecraft(ImportOptions& options) {
     const ImportReport& report = importer.report();
     logReport(report);
     options.exitCode = report.damageCount > 0 ? 1 : 0;
-    return options.report.empty() ? base::Result<void>() : writeReport(report, options.report);
+    if (!options.report.empty()) TERRANE_TRY(writeReport(report, options.report));
+    if (report.chunks > 0 || report.skipped > 0) return {};
+    return base::fail(base::ErrorCode::Damaged,
+                      "{}: nothing is imported: {} chunks or files cannot be read, {} chunks have no blocks",
+                      options.source, report.damageCount, report.empty);
 }
 
 }  // namespace terrane::app

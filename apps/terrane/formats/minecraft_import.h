@@ -17,9 +17,10 @@ struct RegionSource {
     formats::RegionPos pos;
 };
 
-// The region files ordered by z, then x. `source` is a world's folder, a folder of region files, or one such
-// file; `dimension` is "overworld", "nether" or "end", for a world's folder. NotFound if there is no region
-// file.
+// The region files that have chunks, ordered by z, then x. `source` is a world's folder, a folder of region
+// files, or one such file; `dimension` is "overworld", "nether" or "end", for a world's folder. If a world
+// has chunks in the folders of several versions, those of the newest. Files that cannot be read count as
+// having chunks. NotFound if there are none.
 [[nodiscard]] base::Result<std::vector<RegionSource>> regionsOf(const std::filesystem::path& source,
                                                                 const std::string& dimension);
 

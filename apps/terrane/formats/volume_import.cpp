@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <filesystem>
 #include <span>
 
 #include "apps/terrane/formats/import_world.h"
@@ -11,6 +12,7 @@
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
+#include "terrane/formats/file_kind.h"
 #include "terrane/formats/schematic.h"
 #include "terrane/formats/vox_file.h"
 #include "terrane/store/chunks/structure_file.h"
@@ -19,13 +21,17 @@
 namespace terrane::app {
 namespace {
 
+namespace fs = std::filesystem;
+
 // Chunks loaded and saved at a time.
 constexpr std::size_t kPlacedBatch = 64;
 
-using VolumeReader = base::Result<formats::BlockVolume> (*)(std::string_view bytes,
-                                                            const pack::Content& content,
-                                                            const formats::BlockMapping& mapping,
-                                                            formats::ImportCounts& counts);
+struct VolumeReader {
+    std::string_view format;  // in `terrane import`
+    base::Result<formats::BlockVolume> (*read)(std::string_view bytes, const pack::Content& content,
+                                               const formats::BlockMapping& mapping,
+                                               formats::ImportCounts& counts);
+};
 
 base::Result<world::BlockPos> cornerOf(const std::string& at) {
     if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
@@ -35,15 +41,19 @@ base::Result<world::BlockPos> cornerOf(const std::string& at) {
     return world::BlockPos{number(0), number(1), number(2)};
 }
 
-// Columns of the volume that lie past the end of the world are an error; layers above or below it are
-// counted.
+// Columns of the volume that lie past the end of the world are an error, and a volume wholly above or below
+// it; other layers above or below are counted.
 base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos corner) {
     const auto isBeyond = [](std::int32_t low, std::int32_t size) {
         return std::int64_t{low} + size - 1 > INT32_MAX;
     };
-    if (!isBeyond(corner.x, volume.size.x) && !isBeyond(corner.y, volume.size.y) &&
-        !isBeyond(corner.z, volume.size.z))
-        return {};
+    const std::int64_t top = std::int64_t{corner.z} + volume.size.z - 1;
+    if (!isBeyond(corner.x, volume.size.x) && !isBeyond(corner.y, volume.size.y)) {
+        if (top >= 0 && corner.z < world::kChunkHeight) return {};
+        return base::fail(base::ErrorCode::BadInput,
+                          "--at: the heights {} to {} are outside the world's, 0 to {}: nothing is imported",
+                          corner.z, top, world::kChunkHeight - 1);
+    }
     return base::fail(base::ErrorCode::BadInput,
                       "--at: {}×{}×{} blocks at {},{},{} reach past the end of the world", volume.size.x,
                       volume.size.y, volume.size.z, corner.x, corner.y, corner.z);
@@ -119,12 +129,17 @@ base::Result<void> placeVolume(const ImportOptions& options, ImportWorld& world,
 base::Result<formats::BlockVolume> readSource(const ImportOptions& options, const pack::Content& content,
                                               VolumeReader reader, formats::ImportCounts& counts) {
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
-    const auto bytes = TERRANE_TRY(base::readFile(options.source, formats::kMaxVolumeBytes));
-    auto volume = reader(bytes, content, mapping, counts);
-    if (!volume) return base::fail(volume.error().code, "{}: {}", options.source, volume.error().message);
-    return volume;
+    const auto explained = [&](const base::Error& error) {
+        return tl::unexpected(formats::explained(options.source, reader.format, error));
+    };
+    const auto bytes = base::readFile(options.source, formats::kMaxVolumeBytes);
+    if (!bytes) return explained(bytes.error());
+    auto volume = reader.read(*bytes, content, mapping, counts);
+    if (volume) return volume;
+    return explained({volume.error().code, fmt::format("{}: {}", options.source, volume.error().message)});
 }
 
+// Writes the structure and the report, or neither.
 base::Result<void> importStructure(const ImportOptions& options, VolumeReader reader, ImportReport& report) {
     if (!options.save.world.empty() || !options.at.empty())
         return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
@@ -133,24 +148,33 @@ base::Result<void> importStructure(const ImportOptions& options, VolumeReader re
     const auto structure = formats::toStructure(volume, *content.blocks);
     if (!structure)
         return base::fail(structure.error().code, "{}: {}", options.source, structure.error().message);
-    return store::writeStructure(options.output, *structure);
+    const auto bytes = store::encodeStructure(*structure);
+    if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
+    const std::string json = jsonOf(report);
+    std::vector<base::FileToWrite> files{
+        {options.output, {reinterpret_cast<const char*>(bytes->data()), bytes->size()}}};
+    if (!options.report.empty()) files.push_back({options.report, json});
+    std::error_code ignored;  // writeFiles() reports the error
+    fs::create_directories(fs::path(options.output).parent_path(), ignored);
+    return base::writeFiles(files);
 }
 
 base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
     ImportReport report;
     if (!options.output.empty()) {
         TERRANE_TRY(importStructure(options, reader, report));
-    } else {
-        const auto corner = TERRANE_TRY(cornerOf(options.at));
-        // Read before a world is created.
-        auto content = TERRANE_TRY(loadContent(options.world, options.save));
-        const auto volume = TERRANE_TRY(readSource(options, content, reader, report.counts));
-        TERRANE_TRY(checkFits(volume, corner));
-        auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
-        TERRANE_TRY(placeVolume(options, world, volume, corner));
-        countOutside(volume, corner.z, report.counts);
-        report.chunks = chunksOver(volume, corner).size();
+        logReport(report);
+        return {};
     }
+    const auto corner = TERRANE_TRY(cornerOf(options.at));
+    // Read before a world is created.
+    auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto volume = TERRANE_TRY(readSource(options, content, reader, report.counts));
+    TERRANE_TRY(checkFits(volume, corner));
+    auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
+    TERRANE_TRY(placeVolume(options, world, volume, corner));
+    countOutside(volume, corner.z, report.counts);
+    report.chunks = chunksOver(volume, corner).size();
     logReport(report);
     return options.report.empty() ? base::Result<void>() : writeReport(report, options.report);
 }
@@ -158,29 +182,31 @@ base::Result<void> importVolume(ImportOptions& options, VolumeReader reader) {
 }  // namespace
 
 base::Result<void> importSchematic(ImportOptions& options) {
-    return importVolume(options,
-                        [](std::string_view bytes, const pack::Content&, const formats::BlockMapping& mapping,
-                           formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
-                            const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
-                            const auto volume = TERRANE_TRY(formats::decodeSchematic(bytes, ids));
-                            return formats::toBlocks(volume, mapping, counts);
-                        });
+    return importVolume(
+        options, {"schem",
+                  [](std::string_view bytes, const pack::Content&, const formats::BlockMapping& mapping,
+                     formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
+                      const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
+                      const auto volume = TERRANE_TRY(formats::decodeSchematic(bytes, ids));
+                      return formats::toBlocks(volume, mapping, counts);
+                  }});
 }
 
 base::Result<void> importVox(ImportOptions& options) {
     return importVolume(
         options,
-        [](std::string_view bytes, const pack::Content& content, const formats::BlockMapping& mapping,
-           formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
-            const auto image = TERRANE_TRY(formats::decodeVox(bytes));
-            const auto tops = TERRANE_TRY(world::topColors(*content.blocks, content.textures));
-            auto volume = formats::toBlocks(image, mapping, *content.blocks, tops);
-            std::array<std::uint64_t, 256> uses{};
-            for (const std::uint8_t cell : image.cells) ++uses[cell];
-            for (std::size_t k = 1; k < uses.size(); ++k)
-                if (uses[k] > 0) counts.blocks[fmt::format("#{:06x}", image.colors[k] >> 8)] += uses[k];
-            return volume;
-        });
+        {"vox",
+         [](std::string_view bytes, const pack::Content& content, const formats::BlockMapping& mapping,
+            formats::ImportCounts& counts) -> base::Result<formats::BlockVolume> {
+             const auto image = TERRANE_TRY(formats::decodeVox(bytes));
+             const auto tops = TERRANE_TRY(world::topColors(*content.blocks, content.textures));
+             auto volume = formats::toBlocks(image, mapping, *content.blocks, tops);
+             std::array<std::uint64_t, 256> uses{};
+             for (const std::uint8_t cell : image.cells) ++uses[cell];
+             for (std::size_t k = 1; k < uses.size(); ++k)
+                 if (uses[k] > 0) counts.blocks[fmt::format("#{:06x}", image.colors[k] >> 8)] += uses[k];
+             return volume;
+         }});
 }
 
 }  // namespace terrane::app
