@@ -272,8 +272,10 @@ class Layouts(ProgramTest):
         self.assertRegex(self.assertImports(4), r"Home/region: also has chunks, of an older version; not imported")
 
     def test_importing_nothing_is_an_error(self):
+        self.assertIn("no such file or folder", self.assertNothing())
         (self.folder / "Home").mkdir()
-        self.assertRegex(self.assertNothing(), "no chunks of the overworld.*dimensions/minecraft/overworld/region, region, ")
+        self.assertRegex(self.assertNothing(), "no chunks of the overworld.* in dimensions/minecraft/overworld/region, region, "
+                         "the folder itself\n")
         file = self.put("region", 0)
         self.assertIn("no chunks of the overworld", self.assertNothing())
         self.assertIn("this region file has no chunks", self.assertNothing(source=file))

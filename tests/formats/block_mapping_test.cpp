@@ -58,6 +58,10 @@ TEST_F(BlockMappingTest, TurnsAndHalves) {
     EXPECT_EQ(blockOf("oak_sign[rotation=8]"), "sign");
     EXPECT_EQ(blockOf("oak_fence[north=true,east=false,south=true,west=false]"), "oak_fence/192");
     EXPECT_EQ(blockOf("lantern[hanging=true]"), "lantern/4");
+    EXPECT_EQ(blockOf("waxed_copper_lantern[hanging=true]"), "lantern/4");
+    EXPECT_EQ(blockOf("copper_wall_torch[facing=east]"), "torch/11");
+    EXPECT_EQ(blockOf("copper_bars[north=true,east=false,south=true,west=false]"),
+              blockOf("iron_bars[north=true,east=false,south=true,west=false]"));
     EXPECT_EQ(blockOf("oak_fence_gate[facing=south,open=true]"), "oak_gate/8");
     EXPECT_EQ(blockOf("water[level=5]"), "water/5");
     EXPECT_EQ(blockOf("water[level=9]"), "water/8");

@@ -102,7 +102,8 @@ base::Result<std::vector<RegionSource>> regionsOfWorld(const fs::path& source, c
 
 base::Error noRegions(const fs::path& source, const std::string& dimension) {
     std::vector<std::string> names;
-    for (const fs::path& name : regionFolders(dimension)) names.push_back(name.string());
+    for (const fs::path& name : regionFolders(dimension))
+        names.push_back(name == "." ? "the folder itself" : name.string());
     std::string others;
     for (const char* other : {"overworld", "nether", "end"}) {
         if (other == dimension) continue;
@@ -126,6 +127,9 @@ base::Result<std::vector<RegionSource>> regionsOf(const fs::path& source, const 
         if (regions.empty()) return tl::unexpected(noRegions(source, dimension));
         return regions;
     }
+    std::error_code ignored;
+    if (!fs::exists(source, ignored))
+        return base::fail(base::ErrorCode::NotFound, "{}: there is no such file or folder", source.string());
     const auto pos = formats::regionPosOf(source.filename().string());
     if (!pos)
         return tl::unexpected(formats::explained(
