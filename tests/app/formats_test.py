@@ -270,6 +270,7 @@ class Layouts(ProgramTest):
         self.put(self.OLD["overworld"], 2)
         self.put(self.NEW["overworld"], 4)
         self.assertRegex(self.assertImports(4), r"Home/region: also has chunks, of an older version; not imported")
+        self.assertIn("--dimension overworld", self.assertNothing("--dimension", "nether"))
 
     def test_importing_nothing_is_an_error(self):
         self.assertIn("no such file or folder", self.assertNothing())

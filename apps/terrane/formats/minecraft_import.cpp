@@ -84,20 +84,18 @@ void keepRegionsWithChunks(std::vector<RegionSource>& regions, const std::option
     });
 }
 
-// The layout that has chunks, the newest of several.
-base::Result<std::vector<RegionSource>> regionsOfWorld(const fs::path& source, const std::string& dimension) {
-    std::vector<RegionSource> found;
+// The regions of each layout that has chunks, the newest first.
+base::Result<std::vector<std::vector<RegionSource>>> layoutsOf(const fs::path& source,
+                                                               const std::string& dimension) {
+    std::vector<std::vector<RegionSource>> layouts;
     for (const fs::path& name : regionFolders(dimension)) {
         const fs::path folder = name == "." ? source : source / name;
         if (!isFolder(folder)) continue;
         auto regions = TERRANE_TRY(regionsIn(folder));
         keepRegionsWithChunks(regions, std::nullopt);
-        if (found.empty())
-            found = std::move(regions);
-        else if (!regions.empty())
-            base::logWarning("{}: also has chunks, of an older version; not imported", folder.string());
+        if (!regions.empty()) layouts.push_back(std::move(regions));
     }
-    return found;
+    return layouts;
 }
 
 base::Error noRegions(const fs::path& source, const std::string& dimension) {
@@ -107,8 +105,8 @@ base::Error noRegions(const fs::path& source, const std::string& dimension) {
     std::string others;
     for (const char* other : {"overworld", "nether", "end"}) {
         if (other == dimension) continue;
-        const auto regions = regionsOfWorld(source, other);
-        if (regions && !regions->empty())
+        const auto layouts = layoutsOf(source, other);
+        if (layouts && !layouts->empty())
             others +=
                 fmt::format("{} --dimension {}", others.empty() ? "; there are some with" : " and", other);
     }
@@ -123,9 +121,12 @@ base::Error noRegions(const fs::path& source, const std::string& dimension) {
 
 base::Result<std::vector<RegionSource>> regionsOf(const fs::path& source, const std::string& dimension) {
     if (isFolder(source)) {
-        auto regions = TERRANE_TRY(regionsOfWorld(source, dimension));
-        if (regions.empty()) return tl::unexpected(noRegions(source, dimension));
-        return regions;
+        auto layouts = TERRANE_TRY(layoutsOf(source, dimension));
+        if (layouts.empty()) return tl::unexpected(noRegions(source, dimension));
+        for (std::size_t k = 1; k < layouts.size(); ++k)
+            base::logWarning("{}: also has chunks, of an older version; not imported",
+                             layouts[k].front().path.parent_path().string());
+        return std::move(layouts.front());
     }
     std::error_code ignored;
     if (!fs::exists(source, ignored))
