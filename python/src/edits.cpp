@@ -43,7 +43,7 @@ std::vector<world::BlockId> narrowed(const py::array& blocks) {
 std::int64_t write(const PyWorld& self, const volume::BlockArea& area,
                    std::span<const world::BlockId> blocks) {
     const auto world = self.opened();
-    return withoutLock([&] { return volume::writeArea(*world, area, blocks, untilInterrupted()); });
+    return withoutLock([&] { return volume::writeArea(*world, area, {blocks}, untilInterrupted()); });
 }
 
 std::int64_t setBlocks(const PyWorld& self, std::int64_t x, std::int64_t y, std::int64_t z,

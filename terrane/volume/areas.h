@@ -17,8 +17,12 @@ namespace terrane::volume {
                                             std::span<world::BlockId> blocks,
                                             const ShouldContinue& shouldContinue);
 
-// Reads whole chunks of any level in the order of `chunks`. `blocks` has 65,536 for each, by z, y, x, and
-// must be zeros at first. Returns BadInput if a chunk is outside the world.
+// The same for block states: 0 for blocks without one.
+[[nodiscard]] base::Result<void> readStates(OpenedWorld& world, const BlockArea& area,
+                                            std::span<std::uint16_t> states, const GoesOn& goesOn);
+
+// Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
+// as zeros. BadInput if a chunk is outside the world.
 [[nodiscard]] base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
                                                  std::span<world::BlockId> blocks,
                                                  const ShouldContinue& shouldContinue);
@@ -32,13 +36,12 @@ namespace terrane::volume {
 [[nodiscard]] base::Result<std::string> digestOf(OpenedWorld& world, const world::ChunkArea& area,
                                                  const ShouldContinue& shouldContinue);
 
-// Sets a checked area to exactly these blocks; other writes wait meanwhile: one id for all, or one for each
-// by z, y, x. No behavior runs (world/blocks/block_behavior.h): sand stays in the air. Chunks that change are
-// saved as edited; they are durable after the store's next flush(). Returns how many blocks changed. Returns
-// The error is BadInput if an id is not a block's; then nothing is written. After another error some chunks
-// may be written.
+// Sets the blocks of areas. Any thread; all of the world's threads work on a call, and other writes wait.
+// Sets a checked area to exactly these blocks. No behavior runs (world/block_behavior.h): sand stays in the
+// air. Chunks that change are saved as edited; they are durable after the store's next flush(). Returns how
+// many blocks changed. BadInput if an id is not a block's: then nothing is written. After another error some
+// chunks may be written.
 [[nodiscard]] base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
-                                                   std::span<const world::BlockId> blocks,
-                                                   const ShouldContinue& shouldContinue);
+                                                   const BlockValues& values, const GoesOn& goesOn);
 
 }  // namespace terrane::volume

@@ -27,12 +27,29 @@ base::Result<std::unique_ptr<OpenedWorld>> OpenedWorld::create(WorldParts parts)
 void OpenedWorld::markEdited(std::span<const world::ChunkPos> chunks) {
     if (chunks.empty()) return;
     hasUnsettledTiles_ = true;
+    {
+        const std::lock_guard lock(listenerMutex_);
+        if (listener_) listener_(chunks);
+    }
     const std::lock_guard lock(editedMutex_);
     if (!edited_) return;
     for (const world::ChunkPos chunk : chunks) edited_->add(chunk);
 }
 
-base::Result<void> OpenedWorld::waitForTiles() {
+void OpenedWorld::setEditListener(EditListener listener) {
+    const std::lock_guard lock(listenerMutex_);
+    listener_ = std::move(listener);
+}
+
+const gen::Biomes* OpenedWorld::biomes() {
+    std::call_once(biomesFlag_, [&] {
+        const store::WorldIdentity& identity = store_->identity();
+        biomes_ = gen::Biomes::create(identity.generator, *blocks_, identity.seed);
+    });
+    return biomes_ ? &*biomes_ : nullptr;
+}
+
+base::Result<void> OpenedWorld::settleTiles() {
     const std::lock_guard lock(settleMutex_);  // other callers wait as well
     if (!hasUnsettledTiles_.exchange(false)) return {};
     auto flushed = store_->flush();

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "terrane/base/job_system.h"
+#include "terrane/gen/generators/biomes.h"
 #include "terrane/gen/level_generators.h"
 #include "terrane/light/light_sources.h"
 #include "terrane/map/surface_source.h"
@@ -49,10 +50,15 @@ class OpenedWorld {
     store::ChunkStore& store() { return *store_; }
     base::JobSystem& jobs() { return jobs_; }
     map::SurfaceSource& surfaces() { return surfaces_; }
+    const gen::Biomes* biomes();                    // null if the generator has none
     std::mutex& editMutex() { return editMutex_; }  // held while chunks are read, changed and saved
 
-    // Call this after edited chunks were saved to the store: their tiles and the surfaces of the land change.
-    void markEdited(std::span<const world::ChunkPos> chunks);
+    // Notes edited chunks that were saved to the store: their tiles and the surfaces of the land change.
+    void noteEdited(std::span<const world::ChunkPos> chunks);
+    // Called with the chunks of each noteEdited(), on its thread; empty: none. Returns when no call of the
+    // former listener is running.
+    using EditListener = std::function<void(std::span<const world::ChunkPos>)>;
+    void setEditListener(EditListener listener);
     // Waits until tiles of levels above 0 show all edits so far.
     [[nodiscard]] base::Result<void> waitForTiles();
     // Returns the chunks among these, of any level, that are edited. The first call reads all rows of a saved
@@ -74,6 +80,10 @@ class OpenedWorld {
 
     std::mutex editMutex_, settleMutex_;
     std::atomic<bool> hasUnsettledTiles_{false};
+    std::once_flag biomesFlag_;
+    std::optional<gen::Biomes> biomes_;  // set by the first biomes()
+    std::mutex listenerMutex_;
+    EditListener listener_;
     std::mutex editedMutex_;
     std::optional<map::EditedPositions> edited_;  // set by the first editedAmong()
 };

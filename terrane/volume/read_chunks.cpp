@@ -5,6 +5,7 @@
 #include <cstring>
 #include <limits>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <utility>
 #include <vector>
@@ -33,11 +34,11 @@ void forEachRow(const ChunkPart& part, const BlockArea& area, int section, const
 }
 
 // Rows of whole chunks have a constant length, which compiles to two moves.
-void copyRow(const world::BlockId* from, world::BlockId* to, std::size_t count) {
+void copyRow(const std::uint16_t* from, std::uint16_t* to, std::size_t count) {
     if (count == world::kChunkSize)
-        std::memcpy(to, from, world::kChunkSize * sizeof(world::BlockId));
+        std::memcpy(to, from, world::kChunkSize * sizeof(std::uint16_t));
     else
-        std::memcpy(to, from, count * sizeof(world::BlockId));
+        std::memcpy(to, from, count * sizeof(std::uint16_t));
 }
 
 int firstSection(const ChunkPart& part) {
@@ -56,18 +57,37 @@ LightLevels lightLevels(light::LightValue value) {
     return {level(light::kDaylight), level(light::kRed), level(light::kGreen), level(light::kBlue)};
 }
 
-void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
-                std::span<world::BlockId> blocks) {
+namespace {
+
+// Calls sectionOf(number) for sections of a chunk, and copies those with values other than 0.
+template <class SectionOf>
+void copySections(const SectionOf& sectionOf, world::ChunkPos pos, const BlockArea& area,
+                  std::span<std::uint16_t> copied) {
     const ChunkPart part = partOf(area, pos);
     Values values;
     for (int s = firstSection(part); s < endSection(part); ++s) {
-        const world::Section& section = chunk.section(s);
-        if (section.isUniform() && section.uniformValue() == world::kAir) continue;
+        const world::Section& section = sectionOf(s);
+        if (section.isUniform() && section.uniformValue() == 0) continue;
         section.unpack(values);
         forEachRow(part, area, s, [&](std::size_t from, std::size_t to, std::size_t count) {
-            copyRow(&values[from], &blocks[to], count);
+            copyRow(&values[from], &copied[to], count);
         });
     }
+}
+
+}  // namespace
+
+void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
+                std::span<world::BlockId> blocks) {
+    static_assert(world::kAir == 0);
+    copySections([&](int number) -> const world::Section& { return chunk.section(number); }, pos, area,
+                 blocks);
+}
+
+void copyStates(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
+                std::span<std::uint16_t> states) {
+    copySections([&](int number) -> const world::Section& { return chunk.blockStates(number); }, pos, area,
+                 states);
 }
 
 void copyLight(const light::ChunkLight& light, world::ChunkPos pos, const BlockArea& area,
@@ -82,19 +102,34 @@ void copyLight(const light::ChunkLight& light, world::ChunkPos pos, const BlockA
     }
 }
 
-std::int64_t writeBlocks(std::span<const world::BlockId> blocks, const BlockArea& area, world::ChunkPos pos,
+namespace {
+
+// Whether the block was another one, or its state.
+bool writeBlock(world::Chunk& chunk, world::BlockIndex at, world::BlockId id,
+                std::optional<std::uint16_t> state) {
+    const bool isOther = chunk.block(at) != id;
+    if (isOther) chunk.setBlock(at, id);
+    if (!state || chunk.blockState(at) == *state) return isOther;
+    chunk.setBlockState(at, *state);
+    return true;
+}
+
+}  // namespace
+
+std::int64_t writeBlocks(const BlockValues& values, const BlockArea& area, world::ChunkPos pos,
                          world::Chunk& chunk) {
     const ChunkPart part = partOf(area, pos);
-    const std::size_t step = blocks.size() == 1 ? 0 : 1;
+    const std::span ids = values.ids;
+    const std::span states = values.states;
+    const std::size_t idStep = ids.size() == 1 ? 0 : 1, stateStep = states.size() == 1 ? 0 : 1;
     std::int64_t changed = 0;
     for (int s = firstSection(part); s < endSection(part); ++s)
         forEachRow(part, area, s, [&](std::size_t to, std::size_t from, std::size_t count) {
             for (std::size_t k = 0; k < count; ++k) {
                 const auto at = static_cast<world::BlockIndex>((static_cast<std::size_t>(s) << 12) + to + k);
-                const world::BlockId id = blocks[(from + k) * step];
-                if (chunk.block(at) == id) continue;
-                chunk.setBlock(at, id);
-                ++changed;
+                const auto state =
+                    states.empty() ? std::nullopt : std::optional(states[(from + k) * stateStep]);
+                changed += writeBlock(chunk, at, ids[(from + k) * idStep], state);
             }
         });
     return changed;

@@ -25,14 +25,23 @@ LightLevels lightLevels(light::LightValue value);
 void copyBlocks(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
                 std::span<world::BlockId> blocks);
 
-// Does the same for light and writes every block.
+// The same for block states; sections without states are not written.
+void copyStates(const world::Chunk& chunk, world::ChunkPos pos, const BlockArea& area,
+                std::span<std::uint16_t> states);
+
+// The same for light; every block is written.
 void copyLight(const light::ChunkLight& light, world::ChunkPos pos, const BlockArea& area,
                std::span<LightLevels> levels);
 
-// Writes the array's blocks that lie in the chunk to it. `blocks` has one id for all blocks, or one for each
-// block of the area. Resets block state and block entity data of blocks that change. Returns how many
-// changed.
-std::int64_t writeBlocks(std::span<const world::BlockId> blocks, const BlockArea& area, world::ChunkPos pos,
+// Values for the blocks of an area: one for all, or one for each by z, y, x.
+struct BlockValues {
+    std::span<const world::BlockId> ids;
+    std::span<const std::uint16_t> states = {};  // empty: a block whose id changes gets state 0
+};
+
+// Writes the values that lie in the chunk to it. A block whose id changes loses its block entity data.
+// Returns how many blocks changed.
+std::int64_t writeBlocks(const BlockValues& values, const BlockArea& area, world::ChunkPos pos,
                          world::Chunk& chunk);
 
 // The chunks to read.

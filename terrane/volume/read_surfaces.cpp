@@ -1,6 +1,7 @@
 #include "terrane/volume/read_surfaces.h"
 
 #include <algorithm>
+#include <vector>
 
 #include "terrane/volume/read_chunks.h"
 
@@ -72,6 +73,33 @@ base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, Surf
                            copyPiece(piece, area, layer, arrays);
                            return {};
                        });
+}
+
+namespace {
+
+void copyBiomes(const gen::Biomes& biomes, const map::ColumnRect& rect, const ColumnArea& area,
+                std::span<std::uint8_t> copied) {
+    std::vector<std::uint8_t> piece(static_cast<std::size_t>(rect.width) *
+                                    static_cast<std::size_t>(rect.height));
+    for (const world::ChunkPos chunk : map::chunksTouching(rect))
+        map::copyChunk(rect, chunk, biomes.of(chunk), piece);
+    for (int y = 0; y < rect.height; ++y)
+        std::copy_n(piece.begin() + std::ptrdiff_t{y} * rect.width, rect.width,
+                    copied.begin() + (rect.y0 + y - area.y0) * (area.x1 - area.x0) + rect.x0 - area.x0);
+}
+
+}  // namespace
+
+base::Result<void> readBiomes(OpenedWorld& world, const ColumnArea& area, std::span<std::uint8_t> biomes,
+                              const GoesOn& goesOn) {
+    const gen::Biomes* source = world.biomes();
+    if (source == nullptr)
+        return base::fail(base::ErrorCode::Unsupported, "the generator {} has no biomes",
+                          world.store().identity().generator);
+    return forEachPart(world, pieceCount(area), goesOn, [&](std::int64_t number) -> base::Result<void> {
+        copyBiomes(*source, pieceOf(area, number), area, biomes);
+        return {};
+    });
 }
 
 }  // namespace terrane::volume

@@ -1,5 +1,5 @@
-// Heights of the land and the blocks on top, by columns of any level of detail. Any thread; all of the
-// world's threads work on a call.
+// Heights of the land, the blocks on top, and biomes, by columns of any level of detail. Any thread; all of
+// the world's threads work on a call.
 #pragma once
 
 #include <cstdint>
@@ -36,5 +36,9 @@ struct SurfaceArrays {
 [[nodiscard]] base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer,
                                               const SurfaceArrays& arrays,
                                               const ShouldContinue& shouldContinue);
+
+// Numbers of biomes (gen/generators/biomes.h) by y, then x. Unsupported if the generator has none.
+[[nodiscard]] base::Result<void> readBiomes(OpenedWorld& world, const ColumnArea& area,
+                                            std::span<std::uint8_t> biomes, const GoesOn& goesOn);
 
 }  // namespace terrane::volume

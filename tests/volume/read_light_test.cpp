@@ -60,9 +60,9 @@ TEST(ReadLight, LampsAndSquaresMeet) {
     const auto world = openWorld("flat");
     // Lamps under a roof, some beside the border of the square that is lit at once.
     const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
-    ASSERT_TRUE(writeArea(*world, {200, 0, 100, 300, 20, 101}, std::span(&stone, 1), {}));
+    ASSERT_TRUE(writeArea(*world, {200, 0, 100, 300, 20, 101}, {std::span(&stone, 1)}, {}));
     for (const std::int64_t x : {203, 250, 255, 256, 260})
-        ASSERT_TRUE(writeArea(*world, {x, 7, 90, x + 1, 8, 91}, std::span(&lamp, 1), {}));
+        ASSERT_TRUE(writeArea(*world, {x, 7, 90, x + 1, 8, 91}, {std::span(&lamp, 1)}, {}));
     expectLight(*world, {1, 0, 85, 275, 17, 105});
 }
 

@@ -71,7 +71,7 @@ TEST(ReadSurfaces, EditsShowAtAllLevels) {
     const ColumnArea area{0, 0, 0, 64, 64};
     EXPECT_THAT(surfacesOf(*world, area).heights, testing::Each(80));
     const world::BlockId stone = contentBlock("stone");
-    ASSERT_TRUE(writeArea(*world, {0, 0, 81, 64, 64, 120}, std::span(&stone, 1), {}));
+    ASSERT_TRUE(writeArea(*world, {0, 0, 81, 64, 64, 120}, {std::span(&stone, 1)}, {}));
     EXPECT_THAT(surfacesOf(*world, area).heights, testing::Each(119));
     EXPECT_THAT(surfacesOf(*world, area).blocks, testing::Each(stone));
     EXPECT_THAT(surfacesOf(*world, {2, 0, 0, 16, 16}).heights, testing::Each(119));
@@ -79,10 +79,44 @@ TEST(ReadSurfaces, EditsShowAtAllLevels) {
 
 TEST(ReadSurfaces, AColumnWithoutBlocksHasNoHeight) {
     const auto world = openWorld("flat");
-    ASSERT_TRUE(writeArea(*world, {3, 4, 0, 4, 5, 256}, std::span(&world::kAir, 1), {}));
+    ASSERT_TRUE(writeArea(*world, {3, 4, 0, 4, 5, 256}, {std::span(&world::kAir, 1)}, {}));
     const Read read = surfacesOf(*world, {0, 3, 4, 5, 5});
     EXPECT_THAT(read.heights, testing::ElementsAre(kNoHeight, 80));
     EXPECT_THAT(read.blocks, testing::ElementsAre(world::kAir, contentBlock("grass")));
+}
+
+TEST(ReadBiomes, TheyAreThoseOfTheGenerator) {
+    const auto world = openWorld("continents");
+    const auto biomes = gen::Biomes::create("continents", contentBlocks(), kVolumeSeed);
+    ASSERT_TRUE(biomes);
+    for (const int level : {0, 3}) {
+        const auto area = columnsOver(level, -300, -50, 1500, 1111).value();
+        std::vector<std::uint8_t> read(static_cast<std::size_t>(area.columnCount()));
+        ASSERT_TRUE(readBiomes(*world, area, read, {}));
+        std::map<world::ChunkPos, std::array<std::uint8_t, 256>> chunks;
+        int wrong = 0;
+        for (std::int64_t y = area.y0; y < area.y1; ++y)
+            for (std::int64_t x = area.x0; x < area.x1; ++x) {
+                world::ChunkPos pos = chunkAtBlock(x, y);
+                pos.level = static_cast<std::uint8_t>(level);
+                if (!chunks.contains(pos)) chunks.emplace(pos, biomes->of(pos));
+                const auto column = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
+                wrong += chunks.at(pos)[column] !=
+                         read[static_cast<std::size_t>((y - area.y0) * (area.x1 - area.x0) + x - area.x0)];
+            }
+        EXPECT_EQ(wrong, 0) << level;
+        EXPECT_LT(*std::ranges::max_element(read), gen::Biomes::names().size());
+        EXPECT_NE(*std::ranges::min_element(read), *std::ranges::max_element(read));
+    }
+}
+
+TEST(ReadBiomes, OtherGeneratorsHaveNone) {
+    const auto world = openWorld("overworld");
+    std::vector<std::uint8_t> read(256);
+    const auto done = readBiomes(*world, {0, 0, 0, 16, 16}, read, {});
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().code, base::ErrorCode::Unsupported);
+    EXPECT_EQ(done.error().message, "the generator overworld has no biomes");
 }
 
 }  // namespace
