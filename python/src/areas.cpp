@@ -1,4 +1,4 @@
-// World.blocks, chunk, chunks, light, digest.
+// World.blocks, states, chunk, chunks, light, digest.
 #include <algorithm>
 
 #include "python/src/arrays.h"
@@ -12,28 +12,23 @@ namespace terrane::python {
 namespace {
 
 using BlockArray = py::array_t<world::BlockId>;
-using Positions = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
 
 constexpr py::ssize_t kChunkSide = world::kChunkSize, kHeight = world::kChunkHeight;
 constexpr std::int64_t kMaxChunksInArray = volume::kMaxAreaBlocks / world::kBlocksPerChunk;
 
-template <class T>
-std::span<T> valuesOf(py::array_t<T>& array) {
-    return {array.mutable_data(), static_cast<std::size_t>(array.size())};
-}
+using ReadArea = base::Result<void>(volume::OpenedWorld&, const volume::BlockArea&, std::span<std::uint16_t>,
+                                    const volume::GoesOn&);
 
-BlockArray readBlocks(const PyWorld& self, const py::sequence& where) {
-    const volume::BlockArea area = areaFrom(where);
+py::array_t<std::uint16_t> readArea(const PyWorld& self, const Arguments& arguments, ReadArea& read) {
+    const volume::BlockArea area = areaFrom(arguments["area"]);
     const auto world = self.opened();
-    auto blocks = zeros<world::BlockId>({area.height(), area.depth(), area.width()});
-    withoutLock([&, values = valuesOf(blocks)] {
-        return volume::readBlocks(*world, area, values, untilInterrupted());
-    });
-    return blocks;
+    auto array = zeros<std::uint16_t>({area.height(), area.depth(), area.width()});
+    withoutLock([&, values = valuesOf(array)] { return read(*world, area, values, untilInterrupted()); });
+    return array;
 }
 
-py::array_t<std::uint8_t> readLight(const PyWorld& self, const py::sequence& where) {
-    const volume::BlockArea area = areaFrom(where);
+py::array_t<std::uint8_t> readLight(const PyWorld& self, const Arguments& arguments) {
+    const volume::BlockArea area = areaFrom(arguments["area"]);
     const auto world = self.opened();
     auto light = zeros<std::uint8_t>({area.height(), area.depth(), area.width(), volume::kChannelCount});
     static_assert(sizeof(volume::LightLevels) == volume::kChannelCount);
@@ -43,19 +38,24 @@ py::array_t<std::uint8_t> readLight(const PyWorld& self, const py::sequence& whe
     return light;
 }
 
-world::ChunkPos chunkPos(std::int64_t x, std::int64_t y, int level) {
-    const bool isChunk = level >= 0 && level <= world::kMaxLevel && std::min(x, y) >= world::kMinChunk &&
-                         std::max(x, y) <= world::kMaxChunk;
-    const world::ChunkPos pos{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
-                              static_cast<std::uint8_t>(level)};
-    if (!isChunk || !world::isInWorld(pos))
+std::uint8_t levelFrom(const Argument& argument) {
+    return static_cast<std::uint8_t>(integerFrom(argument, 0, world::kMaxLevel));
+}
+
+// x and y are from kMinChunk to kMaxChunk.
+world::ChunkPos chunkPos(std::int64_t x, std::int64_t y, std::uint8_t level) {
+    const world::ChunkPos pos{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), level};
+    if (!world::isInWorld(pos))
         throw Failure({base::ErrorCode::BadInput,
                        fmt::format("chunk {},{} of level {}: outside the world", x, y, level)});
     return pos;
 }
 
-BlockArray readChunk(const PyWorld& self, std::int64_t x, std::int64_t y, int level) {
-    const world::ChunkPos pos = chunkPos(x, y, level);
+BlockArray readChunk(const PyWorld& self, const Arguments& arguments) {
+    const auto along = [&](const char* axis) {
+        return integerFrom(arguments[axis], world::kMinChunk, world::kMaxChunk);
+    };
+    const world::ChunkPos pos = chunkPos(along("cx"), along("cy"), levelFrom(arguments["level"]));
     const auto world = self.opened();
     auto blocks = zeros<world::BlockId>({kHeight, kChunkSide, kChunkSide});
     withoutLock([&, values = valuesOf(blocks)] {
@@ -64,59 +64,74 @@ BlockArray readChunk(const PyWorld& self, std::int64_t x, std::int64_t y, int le
     return blocks;
 }
 
-BlockArray readChunks(const PyWorld& self, const Positions& positions, int level) {
-    if (positions.ndim() != 2 || positions.shape(1) != 2)
-        throw Failure({base::ErrorCode::BadInput, "positions: expected an array of shape (n, 2)"});
-    const py::ssize_t count = positions.shape(0);
-    if (count > kMaxChunksInArray)
-        throw Failure({base::ErrorCode::BadInput,
-                       fmt::format("positions: {} chunks are more than {}", count, kMaxChunksInArray)});
+std::vector<world::ChunkPos> chunksFrom(const Argument& positions, std::uint8_t level) {
+    constexpr const char* kExpected = "integers of shape (n, 2)";
+    const py::array array = integerArrayFrom(positions, kExpected);
+    if (array.ndim() != 2 || array.shape(1) != 2) refuse(positions, kExpected);
+    if (array.shape(0) > kMaxChunksInArray)
+        throw Failure({base::ErrorCode::BadInput, fmt::format("positions: {} chunks are more than {}",
+                                                              array.shape(0), kMaxChunksInArray)});
+    const auto n = elementsOf<std::int32_t>(positions, array, world::kMinChunk, world::kMaxChunk);
     std::vector<world::ChunkPos> chunks;
-    for (py::ssize_t k = 0; k < count; ++k)
-        chunks.push_back(chunkPos(positions.at(k, 0), positions.at(k, 1), level));
+    for (std::size_t k = 0; k < n.size(); k += 2) chunks.push_back(chunkPos(n[k], n[k + 1], level));
+    return chunks;
+}
+
+BlockArray readChunks(const PyWorld& self, const Arguments& arguments) {
+    const auto chunks = chunksFrom(arguments["positions"], levelFrom(arguments["level"]));
     const auto world = self.opened();
-    auto blocks = zeros<world::BlockId>({count, kHeight, kChunkSide, kChunkSide});
+    auto blocks =
+        zeros<world::BlockId>({static_cast<py::ssize_t>(chunks.size()), kHeight, kChunkSide, kChunkSide});
     withoutLock([&, values = valuesOf(blocks)] {
         return volume::readChunkArrays(*world, chunks, values, untilInterrupted());
     });
     return blocks;
 }
 
-std::string digest(const PyWorld& self, const py::sequence& where) {
-    const auto [x0, y0, x1, y1] = fourNumbers(where, "chunks");
-    if (x0 >= x1 || y0 >= y1)
-        throw Failure({base::ErrorCode::BadInput, "chunks: expected x0 < x1 and y0 < y1"});
-    const world::ChunkPos first = chunkPos(x0, y0, 0), last = chunkPos(x1 - 1, y1 - 1, 0);
+std::string digest(const PyWorld& self, const Arguments& arguments) {
+    const auto [x0, y0, x1, y1] = rectangleFrom(arguments["chunks"]);
+    if (std::min(x0, y0) < world::kMinChunk || std::max(x1, y1) > world::kMaxChunk + 1 || x0 >= x1 ||
+        y0 >= y1)
+        refuse(arguments["chunks"], fmt::format("x0 < x1 and y0 < y1 from {} to {}", world::kMinChunk,
+                                                std::int64_t{world::kMaxChunk} + 1));
+    const auto edge = [](std::int64_t value) { return static_cast<std::int32_t>(value); };
+    const world::ChunkArea area{edge(x0), edge(y0), edge(x1), edge(y1)};
     const auto world = self.opened();
-    return withoutLock([&] {
-        return volume::digestOf(*world, {first.x, first.y, last.x + 1, last.y + 1}, untilInterrupted());
-    });
+    return withoutLock([&] { return volume::digestOf(*world, area, untilInterrupted()); });
 }
 
 }  // namespace
 
 void addAreaMethods(WorldClass& world) {
-    world
-        .def("blocks", &readBlocks, py::arg("area"),
-             R"(The ids of blocks: uint16 [z, y, x].
+    addMethod(
+        world, "blocks(self, area)",
+        [](const PyWorld& self, const Arguments& given) { return readArea(self, given, volume::readBlocks); },
+        R"(The ids of blocks: uint16 [z, y, x].
 
 area: (x0, y0, z0, x1, y1, z1), or (x0, y0, x1, y1) for the full height, in blocks, the end excluded. The block
-at x, y, z is blocks[z - z0, y - y0, x - x0]. At most 2^30 blocks.)")
-        .def("chunk", &readChunk, py::arg("cx"), py::arg("cy"), py::arg("level") = 0,
-             R"(The blocks of one chunk: uint16 [256, 16, 16] by z, y, x.
+at x, y, z is blocks[z - z0, y - y0, x - x0]. At most 2^30 blocks.)");
+    addMethod(
+        world, "states(self, area)",
+        [](const PyWorld& self, const Arguments& given) { return readArea(self, given, volume::readStates); },
+        R"(The states of blocks: uint16 [z, y, x], 0 for blocks without one.
 
-cx, cy: in chunks of the level. A chunk of level k has 16 by 16 columns, each 2^k blocks wide; level: 0 to 15.)")
-        .def("chunks", &readChunks, py::arg("positions"), py::arg("level") = 0,
-             R"(The blocks of many chunks, made in parallel: uint16 [n, 256, 16, 16] by chunk, z, y, x.
+area: as of blocks(). The bits of a state are those of the block's type, for example the direction of stairs, whether a
+door is open, or the level of a liquid.)");
+    addMethod(world, "chunk(self, cx, cy, level=0)", &readChunk,
+              R"(The blocks of one chunk: uint16 [256, 16, 16] by z, y, x.
 
-positions: (n, 2) integers, cx and cy of each; at most 16,384 chunks.)")
-        .def("light", &readLight, py::arg("area"),
-             R"(Light levels: uint8 [z, y, x, 4], each 0 to 15: sun, red, green, blue.
+cx, cy: in chunks of the level. A chunk of level k has 16 by 16 columns, each 2^k blocks wide; level: 0 to 15.)");
+    addMethod(world, "chunks(self, positions, level=0)", &readChunks,
+              R"(The blocks of many chunks, made in parallel: uint16 [n, 256, 16, 16] by chunk, z, y, x.
+
+positions: (n, 2) integers, cx and cy of each; at most 16,384 chunks.)");
+    addMethod(world, "light(self, area)", &readLight,
+              R"(Light levels: uint8 [z, y, x, 4], each 0 to 15: sun, red, green, blue.
 
 area: as of blocks(). Sun is the share of daylight that reaches a block, whatever the time of day. At most 2^30
-blocks.)")
-        .def("digest", &digest, py::arg("chunks"),
-             R"(The digest that "terrane generate --digest" prints of these chunks: 32 hexadecimal digits.
+blocks.)");
+    addMethod(world, "digest(self, chunks)", &digest,
+              R"(The digest that "terrane generate --digest" prints of these chunks: 32 hexadecimal digits.
 
 chunks: (cx0, cy0, cx1, cy1) in chunks, the end excluded.)");
 }

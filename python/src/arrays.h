@@ -1,14 +1,12 @@
-// NumPy arrays that own memory of the library, and areas from Python sequences.
+// NumPy arrays that own memory of the library.
 #pragma once
 
 #include <pybind11/numpy.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
-
-#include "terrane/volume/block_area.h"
 
 namespace terrane::python {
 
@@ -29,13 +27,9 @@ pybind11::array_t<T> zeros(const std::vector<pybind11::ssize_t>& shape) {
     return pybind11::array_t<T>(shape, static_cast<T*>(memory.bytes), memory.owner);
 }
 
-// An element of a sequence as integer. BadInput, with the text `what`, for anything else.
-std::int64_t integerFrom(const pybind11::handle& number, const char* what);
-
-// (x0, y0, x1, y1) has the world's full height, (x0, y0, z0, x1, y1, z1) is a box; checked.
-volume::BlockArea areaFrom(const pybind11::sequence& numbers);
-
-// Reads (x0, y0, x1, y1). `what` is for messages.
-std::array<std::int64_t, 4> fourNumbers(const pybind11::sequence& numbers, const char* what);
+template <class T>
+std::span<T> valuesOf(pybind11::array_t<T>& array) {
+    return {array.mutable_data(), static_cast<std::size_t>(array.size())};
+}
 
 }  // namespace terrane::python

@@ -9,72 +9,84 @@ namespace py = pybind11;
 namespace terrane::python {
 namespace {
 
-using Ids = py::array_t<std::int64_t, py::array::c_style | py::array::forcecast>;
+using Values16 = py::array_t<std::uint16_t, py::array::c_style>;
 
-volume::BlockArea boxAt(std::int64_t x, std::int64_t y, std::int64_t z, const py::array& blocks) {
-    if (blocks.ndim() != 0 && blocks.ndim() != 3)
-        throw Failure(
-            {base::ErrorCode::BadInput,
-             fmt::format("blocks: expected an id or an array [z, y, x], got {} dimensions", blocks.ndim())});
-    constexpr std::int64_t kFar = std::int64_t{1} << 40;  // sums cannot overflow
-    if (std::min({x, y, z}) < -kFar || std::max({x, y, z}) > kFar)
-        throw Failure({base::ErrorCode::BadInput, fmt::format("{},{},{}: outside the world", x, y, z)});
-    const auto side = [&](int axis) { return blocks.ndim() == 0 ? py::ssize_t{1} : blocks.shape(axis); };
+// The values of an argument, one or an array [z, y, x] of them, and the memory that they lie in.
+struct GivenValues {
+    std::vector<std::int64_t> sides;  // of the array; empty: one value
+    std::vector<std::uint16_t> own;
+    Values16 array;  // used instead if it has the library's layout
+
+    std::span<const std::uint16_t> span() const {
+        return own.empty() ? std::span(array.data(), static_cast<std::size_t>(array.size())) : std::span(own);
+    }
+};
+
+bool hasLayout(const py::array& array) {
+    return Values16::check_(array) &&
+           (py::detail::array_proxy(array.ptr())->flags & py::detail::npy_api::NPY_ARRAY_ALIGNED_) != 0;
+}
+
+GivenValues valuesFrom(const Argument& argument, const char* expected) {
+    if (isInteger(argument.value))
+        return {
+            .sides = {}, .own = {static_cast<std::uint16_t>(integerFrom(argument, 0, 0xFFFF))}, .array = {}};
+    const py::array array = integerArrayFrom(argument, expected);
+    if (array.ndim() != 3 || array.size() == 0) refuse(argument, expected);
+    GivenValues values{.sides = {array.shape(0), array.shape(1), array.shape(2)}, .own = {}, .array = {}};
+    if (hasLayout(array))
+        values.array = Values16(array);
+    else
+        values.own = elementsOf<std::uint16_t>(argument, array, 0, 0xFFFF);
+    return values;
+}
+
+GivenValues blocksFrom(const PyWorld& self, const Argument& argument) {
+    if (!py::isinstance<py::str>(argument.value))
+        return valuesFrom(argument, "a block id, a name or an array of block ids [z, y, x]");
+    return {.sides = {}, .own = {blockId(self, textFrom(argument))}, .array = {}};
+}
+
+// None: no states.
+std::optional<GivenValues> statesFrom(const Argument& argument, const GivenValues& blocks) {
+    if (argument.value.is_none()) return std::nullopt;
+    constexpr const char* kExpected = "a block state or an array of them in the shape of blocks";
+    auto states = valuesFrom(argument, kExpected);
+    if (!states.sides.empty() && states.sides != blocks.sides) refuse(argument, kExpected);
+    return states;
+}
+
+volume::BlockArea boxFrom(const Arguments& arguments, const std::vector<std::int64_t>& sides) {
+    constexpr std::int64_t kLow = INT32_MIN, kHigh = INT32_MAX;
+    const std::int64_t x = integerFrom(arguments["x"], kLow, kHigh),
+                       y = integerFrom(arguments["y"], kLow, kHigh),
+                       z = integerFrom(arguments["z"], 0, world::kChunkHeight - 1);
+    const auto side = [&](std::size_t axis) { return sides.empty() ? std::int64_t{1} : sides[axis]; };
     const volume::BlockArea area{x, y, z, x + side(2), y + side(1), z + side(0)};
     valueOr(volume::checkArea(area));
     return area;
 }
 
-// Ids of any integer type; refuses values that do not fit uint16.
-std::vector<world::BlockId> narrowed(const py::array& blocks) {
-    if (blocks.dtype().kind() != 'i' && blocks.dtype().kind() != 'u')
-        throw Failure({base::ErrorCode::BadInput, "blocks: expected integers"});
-    const Ids wide(blocks);
-    std::vector<world::BlockId> ids(static_cast<std::size_t>(wide.size()));
-    for (std::size_t k = 0; k < ids.size(); ++k) {
-        const std::int64_t id = wide.data()[k];
-        if (id < 0 || id > 0xFFFF)
-            throw Failure({base::ErrorCode::BadInput, fmt::format("block id {}: expected 0 to 65535", id)});
-        ids[k] = static_cast<world::BlockId>(id);
-    }
-    return ids;
-}
-
-std::int64_t write(const PyWorld& self, const volume::BlockArea& area,
-                   std::span<const world::BlockId> blocks) {
+std::int64_t setBlocks(const PyWorld& self, const Arguments& arguments) {
+    const GivenValues blocks = blocksFrom(self, arguments["blocks"]);
+    const auto states = statesFrom(arguments["states"], blocks);
+    const volume::BlockArea area = boxFrom(arguments, blocks.sides);
+    volume::BlockValues values{blocks.span()};
+    if (states) values.states = states->span();
     const auto world = self.opened();
-    return withoutLock([&] { return volume::writeArea(*world, area, {blocks}, untilInterrupted()); });
-}
-
-std::int64_t setBlocks(const PyWorld& self, std::int64_t x, std::int64_t y, std::int64_t z,
-                       const py::object& blocks) {
-    if (py::isinstance<py::str>(blocks)) {
-        const auto name = blocks.cast<std::string>();
-        const world::BlockType* type = self.opened()->blocks().find(name);
-        if (type == nullptr)
-            throw Failure({base::ErrorCode::NotFound, fmt::format("\"{}\" is no block", name)});
-        return write(self, boxAt(x, y, z, py::array(py::int_(0))), std::span(&type->id, 1));
-    }
-    const py::array array = py::array::ensure(blocks);
-    if (!array) throw py::error_already_set();
-    const volume::BlockArea area = boxAt(x, y, z, array);
-    // Without a copy if the array has the library's layout.
-    if (py::isinstance<py::array_t<world::BlockId, py::array::c_style>>(array)) {
-        const auto values = py::array_t<world::BlockId, py::array::c_style>::ensure(array);
-        return write(self, area, {values.data(), static_cast<std::size_t>(values.size())});
-    }
-    return write(self, area, narrowed(array));
+    return withoutLock([&] { return volume::writeArea(*world, area, values, untilInterrupted()); });
 }
 
 }  // namespace
 
 void addEditMethods(WorldClass& world) {
-    world.def("set_blocks", &setBlocks, py::arg("x"), py::arg("y"), py::arg("z"), py::arg("blocks"),
+    addMethod(world, "set_blocks(self, x, y, z, blocks, states=None)", &setBlocks,
               R"(Sets blocks from x, y, z on, and returns the number of changed blocks.
 
-blocks: an id, the name of a block, or an array of ids [z, y, x] (uint16 is not copied). Exactly these blocks are
-set: sand does not fall. A saved world has them on disk after flush() or close() at the latest. An unknown id is an
-error, and nothing changes.)");
+blocks: an id, the name of a block, or an array of ids [z, y, x] (uint16 is not copied). states: None, one for all
+blocks, or an array [z, y, x] in the shape of blocks. Without states, a block that changes gets state 0. Exactly
+these blocks are set: sand does not fall. A saved world has them on disk after flush() or close() at the latest. An
+unknown id is an error, and nothing changes.)");
 }
 
 }  // namespace terrane::python

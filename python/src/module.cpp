@@ -13,13 +13,15 @@ PYBIND11_MODULE(_terrane, module) {
     using namespace terrane;
     module.doc() = "Terrane's worlds as NumPy arrays. Use the package terrane.";
     base::setLogLevel(base::LogLevel::Warning);
+    py::options options;  // signatures are our own: see Signature
+    options.disable_function_signatures();
     python::addErrors(module);
-    module.def(
-        "generators",
-        [](const std::vector<std::string>& content) {
+    python::addFunction(
+        module, "generators(content=())",
+        [](const python::Arguments& arguments) {
+            const auto content = python::textsFrom(arguments["content"]);
             return python::withoutLock([&] { return python::generatorNames(content); });
         },
-        py::arg("content") = std::vector<std::string>(),
         "The names of all generators, for World(generator=...), those of content packs among them.");
     python::addWorld(module);
     module.attr("__version__") = TERRANE_VERSION;

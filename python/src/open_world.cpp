@@ -51,12 +51,8 @@ base::Result<gen::LevelGenerators> generatorsOf(const store::WorldIdentity& iden
     return generators;
 }
 
-base::Result<unsigned> threadCountOf(int threads) {
-    if (threads < 0 || threads > static_cast<int>(kMaxThreads))
-        return base::fail(base::ErrorCode::BadInput, "threads: expected 0 to {}, got {}", kMaxThreads,
-                          threads);
-    if (threads > 0) return static_cast<unsigned>(threads);
-    return std::clamp(std::thread::hardware_concurrency(), 1u, kMaxThreads);
+unsigned threadCountOf(unsigned threads) {
+    return threads > 0 ? threads : std::clamp(std::thread::hardware_concurrency(), 1u, kMaxThreads);
 }
 
 base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned threads) {

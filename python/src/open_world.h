@@ -45,8 +45,8 @@ struct WorldSources {
 [[nodiscard]] base::Result<gen::LevelGenerators> generatorsOf(const store::WorldIdentity& identity,
                                                               const pack::Content& content);
 
-// The machine's thread count for 0. BadInput beyond kMaxThreads.
-[[nodiscard]] base::Result<unsigned> threadCountOf(int threads);
+// The machine's thread count for 0, at most kMaxThreads.
+unsigned threadCountOf(unsigned threads);
 
 // A generated world in memory: edits last as long as the object.
 [[nodiscard]] base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned threads);

@@ -7,9 +7,9 @@ namespace py = pybind11;
 namespace terrane::python {
 
 void addRenderMethods(WorldClass& world) {
-    world.def(
-        "render",
-        [](const PyWorld&, const py::args&, const py::kwargs&) {
+    addMethod(
+        world, kRenderSignature,
+        [](const PyWorld& /*self*/, const Arguments& /*given*/) {
             throw Failure({base::ErrorCode::Unsupported, "render: this build has no graphics"});
         },
         "An image of the world; this build has no graphics: it raises Error unsupported.");

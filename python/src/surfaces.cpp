@@ -1,4 +1,6 @@
-// World.heights, surface.
+// World.heights, surface, biomes, biome_names.
+#include <pybind11/stl.h>
+
 #include <bit>
 
 #include "python/src/arrays.h"
@@ -10,55 +12,82 @@ namespace py = pybind11;
 namespace terrane::python {
 namespace {
 
-int levelOfStep(int step) {
-    if (step < 1 || step > 1 << world::kMaxLevel || !std::has_single_bit(static_cast<unsigned>(step)))
-        throw Failure(
-            {base::ErrorCode::BadInput,
-             fmt::format("step: expected a power of two from 1 to {}, got {}", 1 << world::kMaxLevel, step)});
-    return std::countr_zero(static_cast<unsigned>(step));
+int levelOfStep(const Argument& step) {
+    constexpr std::int64_t kMaxStep = std::int64_t{1} << world::kMaxLevel;
+    const auto blocks = static_cast<std::uint64_t>(integerFrom(step, 1, kMaxStep));
+    if (!std::has_single_bit(blocks)) refuse(step, fmt::format("a power of two from 1 to {}", kMaxStep));
+    return std::countr_zero(blocks);
 }
 
-volume::ColumnArea columnsFrom(const py::sequence& where, int step) {
-    const auto [x0, y0, x1, y1] = fourNumbers(where, "area");
-    return valueOr(volume::columnsOver(levelOfStep(step), x0, y0, x1, y1));
+volume::ColumnArea columnsFrom(const Arguments& arguments) {
+    const auto [x0, y0, x1, y1] = rectangleFrom(arguments["area"]);
+    return valueOr(volume::columnsOver(levelOfStep(arguments["step"]), x0, y0, x1, y1));
+}
+
+template <class T>
+py::array_t<T> columnArray(const volume::ColumnArea& area) {
+    return zeros<T>({area.y1 - area.y0, area.x1 - area.x0});
 }
 
 // `member` selects the array to read.
 template <class T>
-py::array_t<T> readColumns(const PyWorld& self, const volume::ColumnArea& area, bool isGround,
+py::array_t<T> readColumns(const PyWorld& self, const Arguments& arguments,
                            std::span<T> volume::SurfaceArrays::*member) {
+    const volume::ColumnArea area = columnsFrom(arguments);
+    const auto layer =
+        boolFrom(arguments["ground"]) ? volume::SurfaceLayer::Ground : volume::SurfaceLayer::Top;
     const auto world = self.opened();
-    auto values = zeros<T>({area.y1 - area.y0, area.x1 - area.x0});
+    auto values = columnArray<T>(area);
     volume::SurfaceArrays arrays;
-    arrays.*member = {values.mutable_data(), static_cast<std::size_t>(values.size())};
-    const auto layer = isGround ? volume::SurfaceLayer::Ground : volume::SurfaceLayer::Top;
+    arrays.*member = valuesOf(values);
     withoutLock([&] { return volume::readSurfaces(*world, area, layer, arrays, untilInterrupted()); });
     return values;
+}
+
+py::array_t<std::uint8_t> readBiomes(const PyWorld& self, const Arguments& arguments) {
+    const volume::ColumnArea area = columnsFrom(arguments);
+    const auto world = self.opened();
+    auto biomes = columnArray<std::uint8_t>(area);
+    withoutLock([&, values = valuesOf(biomes)] {
+        return volume::readBiomes(*world, area, values, untilInterrupted());
+    });
+    return biomes;
+}
+
+std::vector<std::string> biomeNames(const PyWorld& self) {
+    if (self.opened()->biomes() == nullptr) return {};
+    const auto names = gen::Biomes::names();
+    return {names.begin(), names.end()};
 }
 
 }  // namespace
 
 void addSurfaceMethods(WorldClass& world) {
-    world
-        .def(
-            "heights",
-            [](const PyWorld& self, const py::sequence& area, int step, bool ground) {
-                return readColumns(self, columnsFrom(area, step), ground, &volume::SurfaceArrays::heights);
-            },
-            py::arg("area"), py::arg("step") = 1, py::kw_only(), py::arg("ground") = false,
-            R"(The z of the topmost block of each column: int16 [y, x], -1 if there is none.
+    addMethod(
+        world, "heights(self, area, step=1, *, ground=False)",
+        [](const PyWorld& self, const Arguments& given) {
+            return readColumns(self, given, &volume::SurfaceArrays::heights);
+        },
+        R"(The z of the topmost block of each column: int16 [y, x], -1 if there is none.
 
 area: (x0, y0, x1, y1) in blocks, the end excluded. step: blocks from one column to the next, a power of two up to
 32,768: columns are those of a level of detail, and the area is widened to multiples of the step. ground: ignores
 water and trees; trees in water count as water. Plants without collision never count. At
-most 2^28 columns.)")
-        .def(
-            "surface",
-            [](const PyWorld& self, const py::sequence& area, int step, bool ground) {
-                return readColumns(self, columnsFrom(area, step), ground, &volume::SurfaceArrays::blocks);
-            },
-            py::arg("area"), py::arg("step") = 1, py::kw_only(), py::arg("ground") = false,
-            "The ids of the blocks at the heights of heights(): uint16 [y, x], 0 (air) if there is none.");
+most 2^28 columns.)");
+    addMethod(
+        world, "surface(self, area, step=1, *, ground=False)",
+        [](const PyWorld& self, const Arguments& given) {
+            return readColumns(self, given, &volume::SurfaceArrays::blocks);
+        },
+        "The ids of the blocks at the heights of heights(): uint16 [y, x], 0 (air) if there is none.");
+    addMethod(world, "biomes(self, area, step=1)", &readBiomes,
+              R"(The biome of each column: uint8 [y, x], an index of biome_names.
+
+area, step: as of heights(). Edits do not change biomes. Raises Error unsupported if the generator has no biomes:
+only "continents" has them.)");
+    addProperty(
+        world, "biome_names", &biomeNames,
+        "list[str]: the names of the generator's biomes; the index is the number. Empty if it has none.");
 }
 
 }  // namespace terrane::python

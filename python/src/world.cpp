@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "python/src/errors.h"
+#include "terrane/game/spawn.h"
+#include "terrane/store/saves/save_path.h"
 #include "terrane/world/blocks/block_registry.h"
 
 namespace py = pybind11;
@@ -13,26 +15,43 @@ namespace py = pybind11;
 namespace terrane::python {
 namespace {
 
-// Opens a world without Python's lock.
+// Whether only this process changes the world: it is in memory, or a file that others cannot write.
+bool isOnlyWriter(const SavedWorld& world) {
+    const bool isUrl = store::worldLocation(world.location).kind == store::WorldLocation::Kind::Url;
+    return world.location.empty() || (!world.isReadOnly && !isUrl);
+}
+
+// Opens a world without Python's lock. A world without a location is in memory.
 template <class Open>
-std::shared_ptr<PyWorld> makeWorld(const std::string& location, int threads, const Open& open) {
-    auto sources = withoutLock([&]() -> base::Result<WorldSources> {
-        const auto count = threadCountOf(threads);
-        if (!count) return tl::unexpected(count.error());
-        return open(*count);
-    });
-    return std::make_shared<PyWorld>(std::move(sources), location);
+std::shared_ptr<PyWorld> makeWorld(const SavedWorld& world, unsigned threads, const Open& open) {
+    auto sources = withoutLock([&] { return open(threadCountOf(threads)); });
+    return std::make_shared<PyWorld>(std::move(sources), world.location, isOnlyWriter(world));
 }
 
-std::shared_ptr<PyWorld> makeGenerated(std::uint64_t seed, const std::string& generator, int threads,
-                                       const std::vector<std::string>& content) {
-    return makeWorld("", threads, [&](unsigned count) {
-        return generatedWorld({seed, generator, content}, count);
-    });
+unsigned threadsFrom(const Argument& argument) {
+    return static_cast<unsigned>(integerFrom(argument, 0, kMaxThreads));
 }
 
-std::shared_ptr<PyWorld> openSaved(const SavedWorld& saved, int threads) {
-    return makeWorld(saved.location, threads, [&](unsigned count) { return savedWorld(saved, count); });
+std::shared_ptr<PyWorld> makeGenerated(const Arguments& arguments) {
+    NewWorld made;
+    made.seed = seedFrom(arguments["seed"]);
+    made.generator = textFrom(arguments["generator"]);
+    made.content = textsFrom(arguments["content"]);
+    return makeWorld({}, threadsFrom(arguments["threads"]),
+                     [&](unsigned count) { return generatedWorld(made, count); });
+}
+
+std::shared_ptr<PyWorld> openSaved(const Arguments& arguments) {
+    const auto isGiven = [&](const char* name) { return !arguments[name].value.is_none(); };
+    SavedWorld saved;
+    saved.location = textFrom(arguments["world"]);
+    saved.isReadOnly = boolFrom(arguments["read_only"]);
+    saved.isCreated = boolFrom(arguments["create"]);
+    if (isGiven("seed")) saved.seed = seedFrom(arguments["seed"]);
+    if (isGiven("generator")) saved.generator = textFrom(arguments["generator"]);
+    saved.content = textsFrom(arguments["content"]);
+    return makeWorld(saved, threadsFrom(arguments["threads"]),
+                     [&](unsigned count) { return savedWorld(saved, count); });
 }
 
 std::vector<std::string> blockNames(const PyWorld& world) {
@@ -41,13 +60,18 @@ std::vector<std::string> blockNames(const PyWorld& world) {
     return names;
 }
 
-int blockId(const PyWorld& world, const std::string& name) {
-    const world::BlockType* type = world.opened()->blocks().find(name);
-    if (type == nullptr) throw Failure({base::ErrorCode::NotFound, fmt::format("\"{}\" is no block", name)});
-    return type->id;
+// ((x, y, z), yaw, pitch): the first arguments of render().
+py::tuple spawn(const PyWorld& self) {
+    const auto world = self.opened();
+    const world::Pose pose = withoutLock([&]() -> base::Result<world::Pose> {
+        const gen::Generator* generator = TERRANE_TRY(world->generator(0));
+        return game::findSpawn(*generator, world->blocks());
+    });
+    const glm::dvec3& at = pose.position;
+    return py::make_tuple(py::make_tuple(at.x, at.y, at.z), pose.yaw, pose.pitch);
 }
 
-std::string shown(const PyWorld& world) {
+std::string shownWorld(const PyWorld& world, const Arguments& /*none*/) {
     const store::WorldIdentity& identity = world.identity();
     const std::string where = world.location().empty() ? "" : fmt::format(" {}", world.location());
     return fmt::format("<terrane.World{} seed={} generator={}{}>", where, identity.seed, identity.generator,
@@ -56,22 +80,24 @@ std::string shown(const PyWorld& world) {
 
 void addOpening(py::module_& module, WorldClass& world) {
     const NewWorld otherwise;
-    world.def(py::init(&makeGenerated), py::arg("seed") = otherwise.seed,
-              py::arg("generator") = otherwise.generator, py::arg("threads") = 0, py::kw_only(),
-              py::arg("content") = otherwise.content,
-              R"(A generated world in memory. Edits last as long as the object.
+    const std::string parameters = fmt::format("seed={}, generator=\"{}\", threads=0, *, content=()",
+                                               otherwise.seed, otherwise.generator);
+    const auto init = std::make_shared<const Signature>(fmt::format("World({})", parameters));
+    const Signature shown(fmt::format("__init__(self, {})", parameters));
+    const std::string text =
+        shown.describedBy(R"(A generated world in memory. Edits last as long as the object.
 
-seed: 0 to 2^64 - 1. generator: one of terrane.generators(content). threads: threads per call, 0: one per CPU
-thread of the machine. content: names or paths of content packs.)");
-    module.def(
-        "open",
-        [](const std::string& location, bool isReadOnly, bool isCreated, std::optional<std::uint64_t> seed,
-           std::optional<std::string> generator, int threads, const std::vector<std::string>& content) {
-            return openSaved({location, isReadOnly, isCreated, seed, std::move(generator), content}, threads);
-        },
-        py::arg("world"), py::kw_only(), py::arg("read_only") = false, py::arg("create") = false,
-        py::arg("seed") = py::none(), py::arg("generator") = py::none(), py::arg("threads") = 0,
-        py::arg("content") = std::vector<std::string>(),
+seed: an integer from -2^63 to 2^64 - 1, or a text, as --seed takes it. generator: one of
+terrane.generators(content). threads: threads per call, 0: one per CPU thread of the machine. content: names or paths of
+content packs.)");
+    world.def(py::init([init](const py::args& given, const py::kwargs& named) {
+                  return makeGenerated(Arguments(*init, given, named));
+              }),
+              text.c_str());
+    addFunction(
+        module,
+        "open(world, *, read_only=False, create=False, seed=None, generator=None, threads=0, content=())",
+        &openSaved,
         R"(Opens a saved world: the NAME of one, a FILE ("a.sqlite", "folder/a"), or a URL ("postgresql://host/name").
 
 read_only: the save is not changed, and edits last as long as the object. create: creates a missing world. seed,
@@ -81,46 +107,73 @@ and others.)");
 }
 
 void addProperties(WorldClass& world) {
-    world
-        .def_property_readonly(
-            "seed", [](const PyWorld& self) { return self.identity().seed; }, "int: the world's seed.")
-        .def_property_readonly(
-            "generator", [](const PyWorld& self) { return self.identity().generator; },
-            "str: the name of the world's generator.")
-        .def_property_readonly("threads", &PyWorld::threads, "int: worker threads per call.")
-        .def_property_readonly("location", &PyWorld::location,
-                               "str: the name, file or URL of a saved world; empty for one in memory.")
-        .def_property_readonly("closed", &PyWorld::isClosed, "bool: whether close() was called.")
-        .def_property_readonly("block_names", &blockNames,
-                               "list[str]: the names of all blocks; the index is the id. 0 is air.")
-        .def("block_id", &blockId, py::arg("name"),
-             "The id of a block, for example \"stone\". Raises Error not_found for other names.")
-        .def("__repr__", &shown);
+    addProperty(
+        world, "seed", [](const PyWorld& self) { return self.identity().seed; },
+        "int: the world's seed, 0 to 2^64 - 1.");
+    addProperty(
+        world, "generator", [](const PyWorld& self) { return self.identity().generator; },
+        "str: the name of the world's generator.");
+    addProperty(
+        world, "threads", [](const PyWorld& self) { return self.threads(); },
+        "int: worker threads per call.");
+    addProperty(
+        world, "location", [](const PyWorld& self) { return self.location(); },
+        "str: the name, file or URL of a saved world; empty for one in memory.");
+    addProperty(
+        world, "closed", [](const PyWorld& self) { return self.isClosed(); },
+        "bool: whether close() was called.");
+    addProperty(world, "block_names", &blockNames,
+                "list[str]: the names of all blocks; the index is the id. 0 is air.");
+    addProperty(world, "spawn", &spawn,
+                "((x, y, z), yaw, pitch): the eyes of a new player, as the first arguments of render(). The "
+                "same world gives the same place.");
+    addMethod(
+        world, "block_id(self, name)",
+        [](const PyWorld& self, const Arguments& given) { return blockId(self, textFrom(given["name"])); },
+        "The id of a block, for example \"stone\". Raises Error not_found for other names.");
+    addMethod(world, "__repr__(self)", &shownWorld, "The world as text.");
 }
 
 void addClosing(WorldClass& world) {
-    world
-        .def("flush", &PyWorld::flush,
-             "Waits until all edits are on the disk, or in the database; raises Error where they cannot be.")
-        .def("close", &PyWorld::close,
-             "Saves all edits, and lets go of the world and its memory. Later calls of other methods raise "
-             "Error; calls in progress go on, and the last of them lets go. Raises Error where edits cannot "
-             "be "
-             "saved: the world stays open then. Closing again does nothing.")
-        .def(
-            "__enter__", [](const std::shared_ptr<PyWorld>& self) { return self; }, "The world itself.")
-        .def(
-            "__exit__",
-            [](PyWorld& self, const py::object&, const py::object&, const py::object&) { self.close(); },
-            py::arg("type"), py::arg("value"), py::arg("traceback"), "Closes the world.");
+    const auto close = [](PyWorld& self, const Arguments& /*none*/) { self.close(); };
+    addMethod(
+        world, "flush(self)", [](const PyWorld& self, const Arguments& /*none*/) { self.flush(); },
+        "Waits until all edits are on the disk, or in the database; raises Error where they cannot be.");
+    addMethod(world, "close(self)", close,
+              "Saves all edits, and lets go of the world and its memory. Later calls of other methods raise "
+              "Error; calls in progress go on, and the last of them lets go. Raises Error where edits cannot "
+              "be saved: the world stays open then. Closing again does nothing.");
+    addMethod(
+        world, "__enter__(self)",
+        [](const PyWorld& /*self*/, const Arguments& given) { return given.self(); }, "The world itself.");
+    addMethod(world, "__exit__(self, type, value, traceback)", close, "Closes the world.");
 }
 
 }  // namespace
 
-PyWorld::PyWorld(WorldSources sources, std::string location)
+std::shared_ptr<PyWorld> worldFrom(const py::handle& self, std::string_view called) {
+    if (!py::isinstance<PyWorld>(self))
+        throw py::type_error(
+            fmt::format("{} needs a World, got a value of type {}", called, Py_TYPE(self.ptr())->tp_name));
+    try {
+        return self.cast<std::shared_ptr<PyWorld>>();
+    } catch (const py::cast_error&) {  // made by World.__new__() alone
+        throw py::type_error(fmt::format("{} needs a World that __init__() has opened", called));
+    }
+}
+
+world::BlockId blockId(const PyWorld& world, const std::string& name) {
+    const auto opened = world.opened();
+    const world::BlockType* type = opened->blocks().find(name);
+    if (type == nullptr) throw Failure({base::ErrorCode::NotFound, fmt::format("\"{}\" is no block", name)});
+    return type->id;
+}
+
+PyWorld::PyWorld(WorldSources sources, std::string location, bool isOnlyWriter)
     : content_(std::move(sources.content)),
       location_(std::move(location)),
       threads_(sources.parts.threads),
+      isOnlyWriter_(isOnlyWriter),
       process_(getpid()) {
     opened_ = withoutLock([&] { return volume::OpenedWorld::create(std::move(sources.parts)); });
     identity_ = opened_->store().identity();
@@ -129,11 +182,12 @@ PyWorld::PyWorld(WorldSources sources, std::string location)
 // Destroying the store writes pending data.
 PyWorld::~PyWorld() {
     const py::gil_scoped_release unlocked;
-    if (getpid() == process_)
+    if (getpid() == process_) {
+        drawer_.reset();
         opened_.reset();
-    else
-        new std::shared_ptr<volume::OpenedWorld>(
-            std::move(opened_));  // after a fork: its threads exist in the parent only, so leak it
+    } else {  // after a fork: its threads exist in the parent only, so leak it
+        new std::pair(std::move(drawer_), std::move(opened_));
+    }
 }
 
 std::shared_ptr<volume::OpenedWorld> PyWorld::opened() const {
@@ -152,8 +206,10 @@ void PyWorld::flush() const {
 void PyWorld::close() {
     if (!opened_) return;
     flush();
+    auto drawer = std::exchange(drawer_, {});
     auto world = std::exchange(opened_, {});
     const py::gil_scoped_release unlocked;
+    drawer.reset();
     world.reset();
 }
 

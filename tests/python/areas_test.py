@@ -49,9 +49,10 @@ def test_areas_at_the_edge_of_the_world(flat):
         assert "area" in fails("bad_input", flat.blocks, area)
         assert "area" in fails("bad_input", flat.light, area)
     for chunk in ((2**27, 0), (0, -2**27 - 1), (2**26, 0, 1), (0, 0, 16), (0, 0, -1), (2**40, 0)):
-        assert "outside the world" in fails("bad_input", flat.chunk, *chunk)
+        text = fails("bad_input", flat.chunk, *chunk)
+        assert "outside the world" in text or text.startswith(("cx: ", "cy: ", "level: ")), text
     fails("bad_input", flat.chunks, [(0, 0, 0)])
-    fails("bad_input", flat.chunks, np.zeros((16385, 2)))
+    assert "16385" in fails("bad_input", flat.chunks, np.zeros((16385, 2), int))
     fails("bad_input", flat.digest, (0, 0, 0, 1))
 
 

@@ -21,11 +21,32 @@ def test_arrays_names_and_ids():
         assert (world.blocks((-11, -13, 100, 29, 2, 109)) == box[:, ::2]).all()
 
 
+def test_states_are_kept(tmp_path):
+    file = str(tmp_path / "world.sqlite")
+    random = np.random.default_rng(3)
+    ids, states = random.integers(1, 5, (7, 20, 30)), random.integers(0, 2**16, (7, 20, 30))
+    area = (-11, -13, 100, 19, 7, 107)
+    with terrane.open(file, create=True, generator="flat") as world:
+        assert not world.states((0, 0, 20, 20)).any()
+        assert world.set_blocks(-11, -13, 100, ids, states) == ids.size
+        assert world.set_blocks(-11, -13, 100, ids, states) == world.set_blocks(-11, -13, 100, ids) == 0
+        assert world.set_blocks(-11, -13, 100, ids, 7) == np.count_nonzero(states != 7)
+        assert world.set_blocks(-11, -13, 100, ids, states.astype(np.uint16)) == np.count_nonzero(states != 7)
+        assert world.set_blocks(-11, -13, 100, "sand", 3) == world.set_blocks(-11, -13, 100, "air") == 1
+    with terrane.open(file) as world:
+        kept, read = world.states(area), world.blocks(area)
+        assert kept.dtype == np.uint16 and kept.flags.c_contiguous
+        assert kept[0, 0, 0] == read[0, 0, 0] == 0
+        assert (kept.flat[1:] == states.flat[1:]).all() and (read.flat[1:] == ids.flat[1:]).all()
+        assert world.set_blocks(-10, -13, 100, "lamp_white") == 1 and world.states((-10, -13, 100, -9, -12, 101)) == 0
+
+
 def test_wrong_blocks_change_nothing():
     with terrane.World(generator="flat") as world:
         count = len(world.block_names)
         for blocks in (count, -1, 2**16, 2**40, [[[1, count]]], np.full((1, 1, 2), -5)):
-            assert "block id" in fails("bad_input", world.set_blocks, 0, 0, 90, blocks)
+            text = fails("bad_input", world.set_blocks, 0, 0, 90, blocks)
+            assert text.startswith(("block id", "blocks: expected")), text
         fails("not_found", world.set_blocks, 0, 0, 90, "stoen")
         fails("bad_input", world.set_blocks, 0, 0, 90, 1.5)
         fails("bad_input", world.set_blocks, 0, 0, 90, [1, 2])

@@ -13,6 +13,25 @@ def test_calls_leave_no_memory_behind():
     assert after - before < 4 << 20, f"{before} to {after} bytes"
 
 
+def test_wrong_calls_leave_no_memory_behind():
+    world = terrane.World(generator="flat", threads=1)
+
+    def play(rounds):
+        for number in range(rounds):
+            text = str(number) * 200
+            for call in (lambda: world.blocks((0, 0, 1, text)), lambda: world.chunks([(0.7, 5.9)]), lambda: world.blocks(wrong=text),
+                         lambda: world.set_blocks(0, 0, 0, [[[number / 2]]]), lambda: terrane.World(text, text), lambda: world.states()):
+                try:
+                    call()
+                except (terrane.Error, TypeError):
+                    pass
+
+    play(500)
+    before = python_leak.resident_bytes()
+    play(2000)
+    assert python_leak.resident_bytes() - before < 4 << 20
+
+
 def test_large_arrays_are_freed():
     world = terrane.World(generator="flat", threads=2)
     world.blocks((0, 0, 256, 256))

@@ -52,6 +52,28 @@ def test_wrong_steps_and_areas(land):
         assert "area" in fails("bad_input", land.heights, area)
 
 
+@pytest.mark.parametrize("step", [1, 8, 512])
+def test_biomes_are_named_numbers(step):
+    with terrane.World(seed=1) as world:
+        area = (-70 * step, 30 * step, 130 * step, 160 * step)
+        biomes, names = world.biomes(area, step), world.biome_names
+        assert biomes.shape == (130, 200) and biomes.dtype == np.uint8 and biomes.flags.c_contiguous
+        assert biomes.max() < len(names) == len(set(names)) and "ocean" in " ".join(names)
+        assert (world.biomes((0, 40 * step, 20 * step, 50 * step), step) == biomes[10:20, 70:90]).all()
+    with terrane.World(seed=1, threads=1) as world:
+        wide = world.biomes((-2**15, -2**15, 2**15, 2**15), 64)
+        assert len(np.unique(wide)) > 8
+        # Water is where a biome of water is, and seldom elsewhere.
+        wet = np.array(["ocean" in name for name in names])[wide]
+        water = world.surface((-2**15, -2**15, 2**15, 2**15), 64) == world.block_id("water")
+        assert water[wet].mean() > 0.8 and water[~wet].mean() < 0.2
+
+
+def test_generators_without_biomes_say_so(land):
+    assert land.biome_names == []
+    assert "overworld has no biomes" in fails("unsupported", land.biomes, (0, 0, 1, 1))
+
+
 def test_edits_change_heights():
     with terrane.World(generator="flat") as world:
         area = (0, 0, 64, 64)

@@ -33,12 +33,6 @@ def test_wrong_numbers_of_threads(threads):
     assert "threads" in fails("bad_input", terrane.World, threads=threads)
 
 
-@pytest.mark.parametrize("options", [{"seed": -1}, {"seed": 2**64}, {"seed": "one"}, {"generator": 3}, {"sead": 1}])
-def test_wrong_types_are_type_errors(options):
-    with pytest.raises(TypeError):
-        terrane.World(**options)
-
-
 def test_blocks_have_names_and_ids(flat):
     names = flat.block_names
     assert names[0] == "air" and len(names) == len(set(names)) > 50
@@ -95,13 +89,14 @@ ODD = [None, "", "flat", -1, 2**31, 2**70, 1.5, float("nan"), (), (0,), (0, 0, 1
 
 
 @pytest.mark.parametrize("method,count", [("blocks", 1), ("light", 1), ("heights", 2), ("surface", 2), ("chunk", 3),
-                                          ("chunks", 2), ("digest", 1), ("set_blocks", 4), ("block_id", 1)])
-def test_odd_arguments_are_errors_of_python(method, count):
+                                          ("chunks", 2), ("digest", 1), ("set_blocks", 5), ("block_id", 1), ("states", 1),
+                                          ("biomes", 2)])
+def test_odd_arguments_are_errors(method, count):
     random = np.random.default_rng(1)
     with terrane.World(generator="flat", threads=1) as world:
         for _ in range(300):
             arguments = [ODD[random.integers(len(ODD))] for _ in range(count)]
             try:
                 getattr(world, method)(*arguments)
-            except (terrane.Error, TypeError, ValueError, RuntimeError, OverflowError):
-                pass
+            except terrane.Error as error:
+                assert error.code in ("bad_input", "not_found", "unsupported")
