@@ -17,7 +17,7 @@ constexpr py::ssize_t kChunkSide = world::kChunkSize, kHeight = world::kChunkHei
 constexpr std::int64_t kMaxChunksInArray = volume::kMaxAreaBlocks / world::kBlocksPerChunk;
 
 using ReadArea = base::Result<void>(volume::OpenedWorld&, const volume::BlockArea&, std::span<std::uint16_t>,
-                                    const volume::GoesOn&);
+                                    const volume::ShouldContinue&);
 
 py::array_t<std::uint16_t> readArea(const PyWorld& self, const Arguments& arguments, ReadArea& read) {
     const volume::BlockArea area = areaFrom(arguments["area"]);

@@ -180,7 +180,7 @@ class SceneDrawer {
         view::loadAll(session, scene_->view, camera, request.viewDistance, Clock::now());
         renderer.completeLand();
         renderer.draw({camera, world::environmentAt(request.timeDay),
-                       view::fogDistance(scene_->view.sightDistance()), 0, render::View::Color,
+                       view::fogDistance(scene_->view.visibleDistance()), 0, render::View::Color,
                        game::waterAbove(session, camera.position)});
         return renderer.readImage();
     }
@@ -194,7 +194,7 @@ class SceneDrawer {
         }
         const auto edited = edited_.take();
         if (scene_ && !(world_.isOnlyWriter && update(edited))) scene_.reset();
-        if (request.horizon > 0) TERRANE_TRY(world_.opened->settleTiles());
+        if (request.horizon > 0) TERRANE_TRY(world_.opened->waitForTiles());
         if (!scene_) {
             auto scene = TERRANE_TRY(makeScene(world_, *canvas_));
             scene_ = std::move(scene);

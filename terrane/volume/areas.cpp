@@ -42,11 +42,12 @@ base::Result<void> readBlocks(OpenedWorld& world, const BlockArea& area, std::sp
 }
 
 base::Result<void> readStates(OpenedWorld& world, const BlockArea& area, std::span<std::uint16_t> states,
-                              const GoesOn& goesOn) {
+                              const ShouldContinue& shouldContinue) {
     const world::ChunkArea chunks = chunksOver(area);
-    return readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, const world::Chunk& chunk) {
-        copyStates(chunk, chunkIn(chunks, number), area, states);
-    });
+    return readChunks(world, chunksOf(chunks), shouldContinue,
+                      [&](std::int64_t number, const world::Chunk& chunk) {
+                          copyStates(chunk, chunkIn(chunks, number), area, states);
+                      });
 }
 
 base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
@@ -152,7 +153,7 @@ base::Result<void> readLight(OpenedWorld& world, const BlockArea& area, std::spa
 }
 
 base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area, const BlockValues& values,
-                                     const GoesOn& goesOn) {
+                                     const ShouldContinue& shouldContinue) {
     const std::size_t types = world.blocks().types().size();
     const auto unknown = std::ranges::find_if(values.ids, [&](world::BlockId id) { return id >= types; });
     if (unknown != values.ids.end())
@@ -161,15 +162,16 @@ base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area, 
     const std::lock_guard lock(world.editMutex());
     const world::ChunkArea chunks = chunksOver(area);
     std::atomic<std::int64_t> changed{0};
-    TERRANE_TRY(readChunks(world, chunksOf(chunks), goesOn, [&](std::int64_t number, world::Chunk&& chunk) {
-        const world::ChunkPos pos = chunkIn(chunks, number);
-        const std::int64_t count = writeBlocks(values, area, pos, chunk);
-        if (count == 0) return;
-        changed += count;
-        world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
-                           store::Provenance::Edited);
-        world.noteEdited(std::span(&pos, 1));
-    }));
+    TERRANE_TRY(
+        readChunks(world, chunksOf(chunks), shouldContinue, [&](std::int64_t number, world::Chunk&& chunk) {
+            const world::ChunkPos pos = chunkIn(chunks, number);
+            const std::int64_t count = writeBlocks(values, area, pos, chunk);
+            if (count == 0) return;
+            changed += count;
+            world.store().save(pos, std::make_shared<const world::Chunk>(std::move(chunk)),
+                               store::Provenance::Edited);
+            world.markEdited(std::span(&pos, 1));
+        }));
     return changed.load();
 }
 

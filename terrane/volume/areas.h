@@ -19,7 +19,8 @@ namespace terrane::volume {
 
 // The same for block states: 0 for blocks without one.
 [[nodiscard]] base::Result<void> readStates(OpenedWorld& world, const BlockArea& area,
-                                            std::span<std::uint16_t> states, const GoesOn& goesOn);
+                                            std::span<std::uint16_t> states,
+                                            const ShouldContinue& shouldContinue);
 
 // Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
 // as zeros. BadInput if a chunk is outside the world.
@@ -42,6 +43,7 @@ namespace terrane::volume {
 // many blocks changed. BadInput if an id is not a block's: then nothing is written. After another error some
 // chunks may be written.
 [[nodiscard]] base::Result<std::int64_t> writeArea(OpenedWorld& world, const BlockArea& area,
-                                                   const BlockValues& values, const GoesOn& goesOn);
+                                                   const BlockValues& values,
+                                                   const ShouldContinue& shouldContinue);
 
 }  // namespace terrane::volume

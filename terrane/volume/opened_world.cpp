@@ -49,7 +49,7 @@ const gen::Biomes* OpenedWorld::biomes() {
     return biomes_ ? &*biomes_ : nullptr;
 }
 
-base::Result<void> OpenedWorld::settleTiles() {
+base::Result<void> OpenedWorld::waitForTiles() {
     const std::lock_guard lock(settleMutex_);  // other callers wait as well
     if (!hasUnsettledTiles_.exchange(false)) return {};
     auto flushed = store_->flush();

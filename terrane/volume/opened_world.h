@@ -54,8 +54,8 @@ class OpenedWorld {
     std::mutex& editMutex() { return editMutex_; }  // held while chunks are read, changed and saved
 
     // Notes edited chunks that were saved to the store: their tiles and the surfaces of the land change.
-    void noteEdited(std::span<const world::ChunkPos> chunks);
-    // Called with the chunks of each noteEdited(), on its thread; empty: none. Returns when no call of the
+    void markEdited(std::span<const world::ChunkPos> chunks);
+    // Called with the chunks of each markEdited(), on its thread; empty: none. Returns when no call of the
     // former listener is running.
     using EditListener = std::function<void(std::span<const world::ChunkPos>)>;
     void setEditListener(EditListener listener);

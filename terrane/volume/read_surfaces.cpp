@@ -91,15 +91,16 @@ void copyBiomes(const gen::Biomes& biomes, const map::ColumnRect& rect, const Co
 }  // namespace
 
 base::Result<void> readBiomes(OpenedWorld& world, const ColumnArea& area, std::span<std::uint8_t> biomes,
-                              const GoesOn& goesOn) {
+                              const ShouldContinue& shouldContinue) {
     const gen::Biomes* source = world.biomes();
     if (source == nullptr)
         return base::fail(base::ErrorCode::Unsupported, "the generator {} has no biomes",
                           world.store().identity().generator);
-    return forEachPart(world, pieceCount(area), goesOn, [&](std::int64_t number) -> base::Result<void> {
-        copyBiomes(*source, pieceOf(area, number), area, biomes);
-        return {};
-    });
+    return forEachPart(world, pieceCount(area), shouldContinue,
+                       [&](std::int64_t number) -> base::Result<void> {
+                           copyBiomes(*source, pieceOf(area, number), area, biomes);
+                           return {};
+                       });
 }
 
 }  // namespace terrane::volume

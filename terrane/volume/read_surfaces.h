@@ -39,6 +39,7 @@ struct SurfaceArrays {
 
 // Numbers of biomes (gen/generators/biomes.h) by y, then x. Unsupported if the generator has none.
 [[nodiscard]] base::Result<void> readBiomes(OpenedWorld& world, const ColumnArea& area,
-                                            std::span<std::uint8_t> biomes, const GoesOn& goesOn);
+                                            std::span<std::uint8_t> biomes,
+                                            const ShouldContinue& shouldContinue);
 
 }  // namespace terrane::volume
