@@ -4,7 +4,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(modules base shared world content_files content sound_files sound video store store_postgres gen lua light mesh stream map volume format_files formats game pack net)
+set(modules base shared world content_files content sound_files sound video store store_postgres gen lua light mesh stream map volume format_files formats game pack io net)
 set(TERRANE_OPTIONAL_PKG "")
 set(TERRANE_OPTIONAL_REQUIRES "")
 if(TERRANE_GRAPHICS)

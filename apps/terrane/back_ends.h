@@ -27,7 +27,8 @@ struct OnBackend {
     std::unique_ptr<Worker> worker;
 };
 
-base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
+base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
+                                                                Backend backend,
                                                                 const pack::Content& content);
 // `table` outlives it.
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table);

@@ -1,6 +1,6 @@
 // Back ends of a build without graphics: always the CPU.
 #include "apps/terrane/back_ends.h"
-#include "apps/terrane/open_session.h"
+#include "terrane/io/open_session.h"
 
 namespace terrane::app {
 namespace {
@@ -16,10 +16,11 @@ base::Result<OnBackend<Worker>> onCpu(Backend backend, std::unique_ptr<Worker> w
 
 }  // namespace
 
-base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
+base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
+                                                                Backend backend,
                                                                 const pack::Content& content) {
-    auto generator = TERRANE_TRY(makeGenerator(options, content));
-    return onCpu(backend, gen::makeCpuGenerator(std::move(generator), threadCount(options)));
+    auto generator = TERRANE_TRY(io::makeGenerator(options, content));
+    return onCpu(backend, gen::makeCpuGenerator(std::move(generator), io::threadCount(options)));
 }
 
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table) {

@@ -1,10 +1,10 @@
 #include "apps/terrane/back_ends.h"
-#include "apps/terrane/open_session.h"
 #include "terrane/content/built_in.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen_gpu/gpu_generator.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/io/open_session.h"
 #include "terrane/light_gpu/gpu_batch_lighter.h"
 #include "terrane/mesh_gpu/gpu_mesher.h"
 
@@ -53,14 +53,15 @@ base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionPar
     return made;
 }
 
-base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const WorldOptions& options, Backend backend,
+base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
+                                                                Backend backend,
                                                                 const pack::Content& content) {
     const auto makeCpu = [&]() -> base::Result<std::unique_ptr<gen::BatchGenerator>> {
-        auto generator = TERRANE_TRY(makeGenerator(options, content));
-        return gen::makeCpuGenerator(std::move(generator), threadCount(options));
+        auto generator = TERRANE_TRY(io::makeGenerator(options, content));
+        return gen::makeCpuGenerator(std::move(generator), io::threadCount(options));
     };
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
-        auto graph = TERRANE_TRY(makeGraph(options, content));
+        auto graph = TERRANE_TRY(io::makeGraph(options, content));
         return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), graph, options.effectiveSeed());
     };
     return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);

@@ -145,11 +145,11 @@ base::Result<content::Scene> placeOf(const PlaceOptions& options, const content:
 
 void nameSceneGenerator(CLI::App& command) {
     command.get_option("--generator")
-        ->default_str(
-            fmt::format("{}, {} with --scene", WorldOptions::kDefaultGenerator, content::kSceneGenerator));
+        ->default_str(fmt::format("{}, {} with --scene", io::WorldOptions::kDefaultGenerator,
+                                  content::kSceneGenerator));
 }
 
-WorldOptions worldOf(const PlaceOptions& place, WorldOptions world) {
+io::WorldOptions worldOf(const PlaceOptions& place, io::WorldOptions world) {
     if (place.scene) world.otherwise = content::kSceneGenerator;
     return world;
 }

@@ -57,6 +57,6 @@ base::Result<content::Scene> placeOf(const PlaceOptions& options, const content:
 
 // With --scene the default generator is the scene's; the help of --generator says so.
 void nameSceneGenerator(CLI::App& command);
-WorldOptions worldOf(const PlaceOptions& place, WorldOptions world);
+io::WorldOptions worldOf(const PlaceOptions& place, io::WorldOptions world);
 
 }  // namespace terrane::app

@@ -8,8 +8,8 @@ namespace terrane::app {
 
 base::Result<std::unique_ptr<Offscreen>> Offscreen::create(const OffscreenOptions& options) {
     const GraphicsOptions& graphics = options.graphics;
-    WorldOptions world = options.world;
-    auto opened = TERRANE_TRY(openSessionParts(world, options.save, options.access));
+    io::WorldOptions world = options.world;
+    auto opened = TERRANE_TRY(io::openSessionParts(world, options.save, options.access));
     game::SessionParts& parts = opened.parts;
     auto textures =
         TERRANE_TRY(content::loadTextures(graphics.resourcePack, *parts.blocks, opened.content.textures));

@@ -6,9 +6,9 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/graphics_options.h"
-#include "apps/terrane/open_session.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/io/open_session.h"
 #include "terrane/render/frame/renderer.h"
 #include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
@@ -16,8 +16,8 @@
 namespace terrane::app {
 
 struct OffscreenOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     GraphicsOptions graphics;
     Backend backend = Backend::Cpu;
     store::WorldAccess access = store::WorldAccess::ReadOnly;

@@ -5,9 +5,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <thread>
 
-#include "apps/terrane/output_files.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/save_path.h"
 
@@ -59,8 +57,8 @@ std::vector<std::string> withCurrentNames(std::span<const char* const> arguments
 
 namespace {
 
-void parseSeed(const std::string& text, WorldOptions& options) {
-    auto seed = store::seedFrom(text);
+void parseSeed(const std::string& text, io::WorldOptions& options) {
+    auto seed = io::seedFrom(text);
     if (!seed) throw CLI::ValidationError("--seed", seed.error().message);
     options.seed = seed->seed;
     options.seedText = std::move(seed->text);
@@ -158,25 +156,25 @@ CLI::Validator numberFrom(double low, double high) {
     return CLI::Validator(check, fmt::format("{} to {}", low, high));
 }
 
-void addWorldOptions(CLI::App& command, WorldOptions& options) {
+void addWorldOptions(CLI::App& command, io::WorldOptions& options) {
     command
         .add_option_function<std::string>(
             "--seed", [&](const std::string& text) { parseSeed(text, options); },
             "Seed of the world: a whole number, also a negative one, or a text, whose xxHash64 is the seed")
         ->type_name("NUMBER|TEXT")
-        ->default_str(std::to_string(WorldOptions::kDefaultSeed));
+        ->default_str(std::to_string(io::WorldOptions::kDefaultSeed));
     command
         .add_option("--generator", options.generator,
                     fmt::format("Generator of the world, PACK:NAME of a content pack or one of these: {}",
                                 fmt::join(gen::namesOf(gen::builtInGenerators()), ", ")))
         ->type_name("CHOICE")
-        ->default_str(WorldOptions::kDefaultGenerator);
+        ->default_str(io::WorldOptions::kDefaultGenerator);
     addContentOption(command, options);
     command.add_option("--threads", options.threads, "Worker threads (default: one per CPU core)")
         ->check(numberFrom(1, 256));
 }
 
-void addContentOption(CLI::App& command, WorldOptions& options) {
+void addContentOption(CLI::App& command, io::WorldOptions& options) {
     command
         .add_option(
             "--content", options.content,
@@ -207,7 +205,7 @@ void addReportOption(CLI::App& command, std::string& report) {
                                   "Write counts of what was read and what was not understood (JSON)"));
 }
 
-void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description) {
+void addWorldOption(CLI::App& command, io::SaveOptions& save, const std::string& description) {
     command.add_option("--world", save.world, description)
         ->check(CLI::Validator(isALocation, ""))
         ->type_name("NAME|FILE|URL");
@@ -221,7 +219,7 @@ void addWorldArgument(CLI::App& command, const std::string& name, std::string& w
         ->required();
 }
 
-void addRecreateOption(CLI::App& command, SaveOptions& save) {
+void addRecreateOption(CLI::App& command, io::SaveOptions& save) {
     auto* recreate = command.add_flag_callback(
         "--recreate", [&save] { save.regenerate = store::Regenerate::All; },
         "Copy the world and regenerate it; edits are gone");
@@ -240,7 +238,7 @@ void addRecreateOption(CLI::App& command, SaveOptions& save) {
         ->excludes(recreate);
 }
 
-void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
+void addSaveGameOptions(CLI::App& command, io::SaveOptions& save) {
     addWorldOption(command, save, "World to play in; created if needed");
     addRecreateOption(command, save);
     command
@@ -254,6 +252,15 @@ void addSaveGameOptions(CLI::App& command, SaveOptions& save) {
             },
             "Store chunks without edits too: loading is faster than generating. The world keeps it: on, off")
         ->type_name("CHOICE");
+}
+
+base::Result<void> checkSaveOptions(const io::SaveOptions& save) {
+    if (!save.world.empty()) return {};
+    if (save.regenerate != store::Regenerate::None)
+        return base::fail(base::ErrorCode::BadInput, "--recreate and --regenerate require --world");
+    if (save.storeGenerated)
+        return base::fail(base::ErrorCode::BadInput, "--store-generated requires --world");
+    return {};
 }
 
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area) {
@@ -274,10 +281,6 @@ std::optional<world::ChunkArea> areaOf(const AreaOptions& options) {
     if (options.area || !options.radius) return options.area;
     const int r = *options.radius;
     return world::ChunkArea{-r, -r, r + 1, r + 1};
-}
-
-unsigned threadCount(const WorldOptions& options) {
-    return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
 }
 
 }  // namespace terrane::app

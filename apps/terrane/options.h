@@ -15,7 +15,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/base/text.h"
-#include "terrane/store/saves/world_identity.h"
+#include "terrane/io/world_options.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::app {
@@ -29,54 +29,13 @@ std::string_view currentValue(std::string_view value);
 // The command line with current names: arguments[1] is the command, flags are --name or --name=value.
 std::vector<std::string> withCurrentNames(std::span<const char* const> arguments);
 
-}  // namespace terrane::app
-
-// Values of options that several commands share; options.h parses them. Free of CLI11, which is slow to
-// compile.
-namespace CLI {
-class App;
-}
-
-namespace terrane::app {
-
-struct WorldOptions {
-    // Defaults of a new world; an existing world keeps its own.
-    static constexpr std::uint64_t kDefaultSeed = 1;
-    static constexpr const char* kDefaultGenerator = "continents";
-
-    std::optional<std::uint64_t> seed;
-    std::string seedText;  // text that was hashed to the seed; empty for a number
-    std::optional<std::string> generator;
-    std::string otherwise = kDefaultGenerator;  // of the scene, for commands that draw one
-    std::vector<std::string> content;           // packs: names or paths
-    unsigned threads = 0;                       // 0: as many as the machine has
-
-    std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
-    std::string effectiveGenerator() const { return generator.value_or(otherwise); }
-};
-
-// --world, --recreate, --regenerate, --store-generated.
-struct SaveOptions {
-    std::string world;  // a store::WorldLocation; empty: none, edits are lost at exit
-    store::Regenerate regenerate = store::Regenerate::None;
-    bool followsGenerator = false;  // store::RequestedWorld
-    // Whether generated chunks are stored too. The world remembers it; by default they are.
-    std::optional<bool> storeGenerated;
-};
-
-unsigned threadCount(const WorldOptions& options);
-
 // The values of an option by name.
 template <class T>
 using EnumNames = std::span<const std::pair<std::string, T>>;
 
-}  // namespace terrane::app
-
-namespace terrane::app {
-
-void addWorldOptions(CLI::App& command, WorldOptions& options);
+void addWorldOptions(CLI::App& command, io::WorldOptions& options);
 // Adds --content alone; addWorldOptions() includes it.
-void addContentOption(CLI::App& command, WorldOptions& options);
+void addContentOption(CLI::App& command, io::WorldOptions& options);
 // --area "X0,Y0,X1,Y1" in chunks, the end excluded; not empty and inside the world.
 void addAreaOption(CLI::App& command, std::optional<world::ChunkArea>& area);
 
@@ -91,13 +50,15 @@ void addAreaOptions(CLI::App& command, AreaOptions& options, int maxRadius, cons
 std::optional<world::ChunkArea> areaOf(const AreaOptions& options);
 
 // --world: NAME, FILE or URL. The folder of a file must exist.
-void addWorldOption(CLI::App& command, SaveOptions& save, const std::string& description);
+void addWorldOption(CLI::App& command, io::SaveOptions& save, const std::string& description);
 // --world, --recreate, --regenerate and --store-generated, for commands that create a missing world.
-void addSaveGameOptions(CLI::App& command, SaveOptions& save);
+void addSaveGameOptions(CLI::App& command, io::SaveOptions& save);
+// Fails for options that change a world, if none is named.
+[[nodiscard]] base::Result<void> checkSaveOptions(const io::SaveOptions& save);
 // A required positional argument that names a world: NAME, FILE or URL.
 void addWorldArgument(CLI::App& command, const std::string& name, std::string& world,
                       const std::string& description);
-void addRecreateOption(CLI::App& command, SaveOptions& save);
+void addRecreateOption(CLI::App& command, io::SaveOptions& save);
 
 // -o: the file to write. Checked before the work starts: its folder must be writable and its name must have
 // one of these endings, ignoring case; no endings: any name.

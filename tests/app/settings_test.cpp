@@ -124,7 +124,7 @@ TEST_F(Settings, OptionsOfTheCommandLineAloneAreRefused) {
 TEST_F(Settings, AnOptionOfSeveralValuesTakesAList) {
     std::filesystem::create_directories(file_.parent_path());
     CLI::App command;
-    WorldOptions options;
+    io::WorldOptions options;
     int days = 0;
     addContentOption(command, options);
     command.add_option("--days", days);

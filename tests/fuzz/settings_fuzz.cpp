@@ -20,8 +20,8 @@ using fuzz::FuzzInput;
 struct PlayFlags {
     CLI::App command;
     app::GraphicsOptions graphics;
-    app::WorldOptions world;
-    app::SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
 
     PlayFlags() {
         app::addWorldOptions(command, world);

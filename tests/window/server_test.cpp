@@ -1,6 +1,6 @@
 // Playing on a server, which runs between the program's frames.
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/window/title/join_dialog.h"
+#include "terrane/io/open_session.h"
 #include "tests/net/socket_fixture.h"
 #include "tests/window/window_fixture.h"
 
@@ -16,11 +16,11 @@ struct FlatServer {
                       .value()) {}
 
     static game::SessionParts partsIn(const std::filesystem::path& folder) {
-        WorldOptions options;
+        io::WorldOptions options;
         options.generator = "flat";
         options.threads = 1;
-        const SaveOptions save{.world = (folder / "w.sqlite").string(), .storeGenerated = {}};
-        return std::move(openSessionParts(options, save, store::WorldAccess::ReadWrite).value().parts);
+        const io::SaveOptions save{.world = (folder / "w.sqlite").string(), .storeGenerated = {}};
+        return std::move(io::openSessionParts(options, save, store::WorldAccess::ReadWrite).value().parts);
     }
 
     std::string address() const { return "127.0.0.1:" + std::to_string(sockets->port()); }

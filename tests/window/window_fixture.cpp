@@ -8,7 +8,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "apps/terrane/open_session.h"
+#include "terrane/io/open_session.h"
 #include "tests/gpu/gl_fixture.h"
 
 namespace terrane::app {
@@ -20,11 +20,11 @@ struct OpenSave {
 };
 
 OpenSave openWorldOf(const std::filesystem::path& file, store::WorldAccess access) {
-    WorldOptions options;
+    io::WorldOptions options;
     if (access == store::WorldAccess::ReadWrite) options.generator = "flat";
-    const SaveOptions save{.world = file.string(), .storeGenerated = {}};
-    auto content = loadContent(options, save);
-    auto store = openSave(options, save, access, content.value());
+    const io::SaveOptions save{.world = file.string(), .storeGenerated = {}};
+    auto content = io::loadContent(options, save);
+    auto store = io::openSave(options, save, access, content.value());
     return {*std::move(content), std::move(store.value())};
 }
 

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/content/language.h"
+#include "terrane/io/open_session.h"
 
 namespace terrane::app {
 namespace {
@@ -58,8 +58,8 @@ nlohmann::json typeJson(const world::BlockRegistry& blocks, const content::Langu
             {"generated", type.generated}};
 }
 
-base::Result<void> listBlocks(const WorldOptions& options, bool asJson) {
-    const auto content = loadContent(options);
+base::Result<void> listBlocks(const io::WorldOptions& options, bool asJson) {
+    const auto content = io::loadContent(options);
     if (!content) return tl::unexpected(content.error());
     const auto& blocks = content->blocks;
     auto english = TERRANE_TRY(content::loadLanguage("en"));
@@ -84,7 +84,7 @@ base::Result<void> listBlocks(const WorldOptions& options, bool asJson) {
 }  // namespace
 
 CommandEntry addBlocks(CLI::App& app) {
-    auto options = std::make_shared<WorldOptions>();
+    auto options = std::make_shared<io::WorldOptions>();
     auto asJson = std::make_shared<bool>(false);
     CLI::App* command = app.add_subcommand("blocks", "List every block type");
     command->add_flag("--json", *asJson, "Print all properties as JSON");

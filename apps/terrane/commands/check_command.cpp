@@ -4,9 +4,9 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/text.h"
+#include "terrane/io/open_session.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
@@ -61,7 +61,7 @@ void printText(const std::string& file, const store::CheckReport& report) {
 }
 
 base::Result<void> check(CheckOptions& options) {
-    const auto content = TERRANE_TRY(loadContent({}, {.world = options.file, .storeGenerated = {}}));
+    const auto content = TERRANE_TRY(io::loadContent({}, {.world = options.file, .storeGenerated = {}}));
     const auto report =
         TERRANE_TRY(store_postgres::checkAnyWorld(store::worldLocation(options.file), *content.blocks));
     options.foundDamage = report.isDamaged();

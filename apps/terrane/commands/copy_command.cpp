@@ -4,13 +4,13 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
 #include "apps/terrane/serve/world_records.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
+#include "terrane/io/open_session.h"
 #include "terrane/net/server/server_records.h"
 #include "terrane/store/saves/world_copy.h"
 #include "terrane/store_postgres/any_world.h"
@@ -62,7 +62,7 @@ base::Result<void> copyServers(const CopyOptions& options, const world::BlockReg
 // The records of servers are copied first: if a running server prevents it, the copy is unfinished and can
 // continue later.
 base::Result<void> copy(CopyOptions& options) {
-    const auto content = TERRANE_TRY(loadContent({}, {.world = options.from, .storeGenerated = {}}));
+    const auto content = TERRANE_TRY(io::loadContent({}, {.world = options.from, .storeGenerated = {}}));
     const world::BlockRegistry& blocks = *content.blocks;
     auto from = TERRANE_TRY(store_postgres::openAnyRowsToRead(store::worldLocation(options.from), blocks));
     const auto total = TERRANE_TRY(from->rowCount());

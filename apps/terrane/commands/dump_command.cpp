@@ -4,12 +4,12 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/dump/dump_files.h"
-#include "apps/terrane/dump/loaded_square.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
+#include "terrane/io/area_files.h"
+#include "terrane/io/loaded_square.h"
+#include "terrane/io/open_session.h"
 
 namespace terrane::app {
 namespace {
@@ -17,11 +17,11 @@ namespace {
 enum class What { Blocks, Light, Quads };
 
 struct DumpOptions {
-    WorldOptions world;
+    io::WorldOptions world;
     std::optional<world::ChunkArea> area;
     What what = What::Blocks;
     std::string output;
-    SaveOptions save;
+    io::SaveOptions save;
     Backend backend = Backend::Auto;
     mesh::MeshOptions mesh;
 };
@@ -35,21 +35,21 @@ struct Sources {
 };
 
 base::Result<Sources> openSources(DumpOptions& options, const base::StopSignals& signals) {
-    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
-    auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadOnly, content));
-    auto generator = TERRANE_TRY(makeGenerator(options.world, content));
+    const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
+    auto save = TERRANE_TRY(io::openSave(options.world, options.save, store::WorldAccess::ReadOnly, content));
+    auto generator = TERRANE_TRY(io::makeGenerator(options.world, content));
     return Sources{content.blocks, std::move(save), std::move(generator), signals};
 }
 
 // Calls `take` for each loaded square until it fails or a signal stops the program.
 base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sources,
-                                 const std::function<base::Result<void>(const LoadedSquare&)>& take) {
+                                 const std::function<base::Result<void>(const io::LoadedSquare&)>& take) {
     const world::ChunkArea& area = *options.area;
-    base::JobSystem jobs(threadCount(options.world));
+    base::JobSystem jobs(io::threadCount(options.world));
     base::ProgressBar bar("dumping", static_cast<std::size_t>(area.chunkCount()));
     std::int64_t done = 0;
-    for (std::int64_t k = 0; k < squareCount(area); ++k) {
-        LoadedSquare square(squareOf(area, k));
+    for (std::int64_t k = 0; k < io::squareCount(area); ++k) {
+        io::LoadedSquare square(io::squareOf(area, k));
         TERRANE_TRY(square.load(sources.save.get(), sources.generator, jobs));
         TERRANE_TRY(take(square));
         done += square.area().chunkCount();
@@ -61,8 +61,8 @@ base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sour
 }
 
 base::Result<void> dumpBlocks(const DumpOptions& options, const Sources& sources) {
-    auto file = TERRANE_TRY(VolumeFile::create(options.output, *options.area));
-    const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
+    auto file = TERRANE_TRY(io::VolumeFile::create(options.output, *options.area));
+    const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         return file.write(square.area(), [&](int x, int y, auto values) {
             const world::Chunk& chunk = square.chunk(x / world::kChunkSize, y / world::kChunkSize);
             for (int z = 0; z < world::kChunkHeight; ++z)
@@ -72,7 +72,7 @@ base::Result<void> dumpBlocks(const DumpOptions& options, const Sources& sources
     return written ? file.finish() : written;
 }
 
-std::vector<light::ChunkLight> lightOf(const LoadedSquare& square, light::AreaSolver& solver) {
+std::vector<light::ChunkLight> lightOf(const io::LoadedSquare& square, light::AreaSolver& solver) {
     light::LightArea around{square.chunksX() + 2, square.chunksY() + 2, {}};
     for (int y = -1; y <= square.chunksY(); ++y)
         for (int x = -1; x <= square.chunksX(); ++x) around.chunks.push_back(&square.chunk(x, y));
@@ -82,8 +82,8 @@ std::vector<light::ChunkLight> lightOf(const LoadedSquare& square, light::AreaSo
 base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources) {
     const light::LightTable table(*sources.blocks);
     const auto solver = TERRANE_TRY(makeLightSolver(options.backend, table));
-    auto file = TERRANE_TRY(VolumeFile::create(options.output, *options.area));
-    const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
+    auto file = TERRANE_TRY(io::VolumeFile::create(options.output, *options.area));
+    const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         const std::vector<light::ChunkLight> lights = lightOf(square, *solver.worker);
         const int width = square.chunksX() + 2;
         return file.write(square.area(), [&](int x, int y, auto values) {
@@ -96,7 +96,7 @@ base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources)
     return written ? file.finish() : written;
 }
 
-base::Result<void> appendQuads(QuadFile& file, const LoadedSquare& square, mesh::BatchMesher& mesher,
+base::Result<void> appendQuads(io::QuadFile& file, const io::LoadedSquare& square, mesh::BatchMesher& mesher,
                                const mesh::MeshOptions& options, const world::BlockRegistry& blocks) {
     std::vector<mesh::MeshInput> inputs;
     for (int y = 0; y < square.chunksY(); ++y) {
@@ -119,14 +119,16 @@ base::Result<void> appendQuads(QuadFile& file, const LoadedSquare& square, mesh:
 
 base::Result<void> dumpQuads(const DumpOptions& options, const Sources& sources) {
     const auto mesher = TERRANE_TRY(makeBatchMesher(options.backend, *sources.blocks));
-    auto file = TERRANE_TRY(QuadFile::create(options.output));
-    const auto written = forEachSquare(options, sources, [&](const LoadedSquare& square) {
+    auto file = TERRANE_TRY(io::QuadFile::create(options.output));
+    const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         return appendQuads(file, square, *mesher.worker, options.mesh, *sources.blocks);
     });
     return written ? file.finish() : written;
 }
 
 base::Result<void> dump(DumpOptions& options) {
+    if (options.what != What::Quads && options.area->chunkCount() > io::VolumeFile::kMaxChunks)
+        return base::fail("--area: {} chunks are too many for a file", options.area->chunkCount());
     const base::StopSignals signals;  // the writer removes an unfinished file
     const auto sources = TERRANE_TRY(openSources(options, signals));
     TERRANE_TRY(options.what == What::Blocks  ? dumpBlocks(options, sources)

@@ -1,27 +1,83 @@
 // terrane export: writes blocks, surfaces and meshes of an area in formats of other programs.
+#include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/formats/export_formats.h"
+#include "apps/terrane/commands/progress.h"
 #include "apps/terrane/options.h"
+#include "terrane/base/log.h"
+#include "terrane/io/export_formats.h"
 
 namespace terrane::app {
 namespace {
 
+struct ExportCommand {
+    io::ExportOptions source;
+    std::string output;
+    std::optional<world::ChunkArea> area;  // all heights; or `box`
+    std::string box;                       // "X0,Y0,Z0,X1,Y1,Z1" in blocks, the end excluded
+    std::string mapping;                   // for a schematic
+    int bits = 8;                          // per pixel of a height map
+};
+
+base::Result<world::BlockBox> parseBox(const std::string& text) {
+    const auto numbers = TERRANE_TRY(
+        parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", INT32_MIN, INT32_MAX));
+    const std::vector<std::int32_t>& n = numbers;
+    if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
+        return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
+                          text);
+    if (n[2] < 0 || n[5] > world::kChunkHeight)
+        return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
+                          world::kChunkHeight, text);
+    const auto pos = [&](std::size_t first, int less) {
+        return world::BlockPos{n[first] - less, n[first + 1] - less, n[first + 2] - less};
+    };
+    return world::BlockBox{pos(0, 0), pos(3, 1)};
+}
+
+base::Result<world::BlockBox> boxOf(const ExportCommand& options) {
+    if (options.area.has_value() == !options.box.empty())
+        return base::fail(base::ErrorCode::BadInput, "export needs one of --area and --box");
+    if (!options.area) return parseBox(options.box);
+    return io::boxOf(*options.area);
+}
+
+using Exported = base::Result<io::ExportedFile>;
+
 struct ExportFormat {
     std::string_view name, ending;
-    base::Result<void> (*run)(ExportOptions& options);
+    Exported (*run)(const io::ExportSource& source, const ExportCommand& command,
+                    const io::Progress& progress);
     std::vector<std::string_view> options;  // that not all formats have
 };
 
+// For formats without options.
+template <Exported (*write)(const io::ExportSource&, const std::filesystem::path&, const io::Progress&)>
+Exported exportPlain(const io::ExportSource& source, const ExportCommand& command,
+                     const io::Progress& progress) {
+    return write(source, command.output, progress);
+}
+
+Exported exportSchematic(const io::ExportSource& source, const ExportCommand& command,
+                         const io::Progress& progress) {
+    return io::exportSchematic(source, command.output, command.mapping, progress);
+}
+
+Exported exportPngHeights(const io::ExportSource& source, const ExportCommand& command,
+                          const io::Progress& progress) {
+    return io::exportPngHeights(source, command.output, command.bits, progress);
+}
+
 const std::vector<ExportFormat>& exportFormats() {
     static const std::vector<ExportFormat> formats = {
-        {"glb", ".glb", exportGlb, {"--resource-pack"}},
+        {"glb", ".glb", exportPlain<io::exportGlb>, {"--resource-pack"}},
         {"schem", ".schem", exportSchematic, {"--mapping"}},
-        {"vox", ".vox", exportVox, {"--resource-pack"}},
+        {"vox", ".vox", exportPlain<io::exportVox>, {"--resource-pack"}},
         {"png-heights", ".png", exportPngHeights, {"--bits"}},
-        {"npy", ".npy", exportNpy, {}},
-        {"npy-heights", ".npy", exportNpyHeights, {}},
+        {"npy", ".npy", exportPlain<io::exportNpy>, {}},
+        {"npy-heights", ".npy", exportPlain<io::exportNpyHeights>, {}},
     };
     return formats;
 }
@@ -32,7 +88,7 @@ std::vector<std::string> exportNames() {
     return names;
 }
 
-base::Result<void> runExport(const std::string& name, ExportOptions& options, const CLI::App& command) {
+base::Result<void> runExport(const std::string& name, ExportCommand& options, const CLI::App& command) {
     const auto& formats = exportFormats();
     const auto format = std::ranges::find(formats, name, &ExportFormat::name);
     if (format == formats.end())
@@ -41,13 +97,18 @@ base::Result<void> runExport(const std::string& name, ExportOptions& options, co
     if (!CLI::detail::to_lower(options.output).ends_with(format->ending))
         return base::fail(base::ErrorCode::BadInput, "-o: \"{}\" does not end in {}", options.output,
                           format->ending);
-    return format->run(options);
+    const auto box = TERRANE_TRY(boxOf(options));
+    options.source.box = box;
+    const auto source = TERRANE_TRY(io::openExport(options.source));
+    const auto file = TERRANE_TRY(format->run(source, options, progressBar("exporting")));
+    base::logInfo("{}: {}, {} bytes", options.output, file.content, file.bytes);
+    return {};
 }
 
 }  // namespace
 
 CommandEntry addExport(CLI::App& app) {
-    auto options = std::make_shared<ExportOptions>();
+    auto options = std::make_shared<ExportCommand>();
     auto format = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand("export", "Write an area as a file of another program");
     command->add_option("format", *format, fmt::format("What to write: {}", fmt::join(exportNames(), ", ")))
@@ -63,9 +124,9 @@ CommandEntry addExport(CLI::App& app) {
         ->type_name("FILE");
     addChoice<int>(*command, "--bits", options->bits, {{"8", 8}, {"16", 16}},
                    "Bits per pixel of png-heights");
-    addResourcePackOption(*command, options->resourcePack);
-    addWorldOptions(*command, options->world);
-    addWorldOption(*command, options->save, "World to read; missing chunks are generated");
+    addResourcePackOption(*command, options->source.resourcePack);
+    addWorldOptions(*command, options->source.world);
+    addWorldOption(*command, options->source.save, "World to read; missing chunks are generated");
     return {command, [options, format, command] { return runExport(*format, *options, *command); }};
 }
 

@@ -18,8 +18,8 @@ namespace terrane::app {
 namespace {
 
 struct FlightBenchOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaceOptions place;
@@ -87,6 +87,7 @@ nlohmann::json jsonOf(const view::FlightLog& log) {
 
 base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
+    TERRANE_TRY(checkSaveOptions(options.save));
     auto flight = TERRANE_TRY(flightOf(options));
     auto world = TERRANE_TRY(Offscreen::create({.world = worldOf(options.place, options.world),
                                                 .save = options.save,

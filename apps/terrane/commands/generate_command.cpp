@@ -9,7 +9,6 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
@@ -18,6 +17,7 @@
 #include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/io/open_session.h"
 #include "terrane/store_postgres/any_world.h"
 #include "terrane/world/chunk.h"
 
@@ -25,12 +25,12 @@ namespace terrane::app {
 namespace {
 
 struct GenerateOptions {
-    WorldOptions world;
+    io::WorldOptions world;
     AreaOptions chunks;
     bool digest = false;
     bool json = false;
     bool explain = false;
-    SaveOptions save;
+    io::SaveOptions save;
     Backend backend = Backend::Auto;
     std::string simd;
 };
@@ -143,8 +143,9 @@ void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::C
 }
 
 // Prints the passes, the fields that they read and write, and their GLSL.
-base::Result<void> explain(const WorldOptions& options, const pack::Content& content, world::ChunkPos chunk) {
-    auto graph = TERRANE_TRY(makeGraph(options, content));
+base::Result<void> explain(const io::WorldOptions& options, const pack::Content& content,
+                           world::ChunkPos chunk) {
+    auto graph = TERRANE_TRY(io::makeGraph(options, content));
     for (std::size_t k = 0; k < graph.passes.size(); ++k) {
         const gen::PassGraph& pass = graph.passes[k];
         fmt::print("// pass {}: {}, {}, {} nodes\n", k, pass.name, pass.is3D ? "3D" : "2D",
@@ -162,7 +163,7 @@ base::Result<void> explain(const WorldOptions& options, const pack::Content& con
 void report(const GenerateOptions& options, const Generated& result, double seconds,
             std::string_view backend) {
     const double speed = static_cast<double>(result.chunks) / seconds;
-    const unsigned threads = threadCount(options.world);
+    const unsigned threads = io::threadCount(options.world);
     if (result.skipped > 0)
         base::logInfo("{}: {} chunks existed already",
                       store_postgres::shownOf(store::worldLocation(options.save.world)), result.skipped);
@@ -188,7 +189,7 @@ base::Result<void> generate(GenerateOptions& options) {
         return base::fail("generate needs --radius, --area or --explain");
     }
     const world::ChunkArea area = chosen.value_or(world::ChunkArea{0, 0, 1, 1});
-    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
     if (options.explain) {
         // The first chunk of the area, if one is given.
         const world::ChunkPos chunk =
@@ -199,8 +200,9 @@ base::Result<void> generate(GenerateOptions& options) {
         return base::fail("--simd: this machine does not have {}, only {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
-    auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
-                                     store::WorldSharing::Generating));
+    TERRANE_TRY(checkSaveOptions(options.save));
+    auto save = TERRANE_TRY(io::openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
+                                         store::WorldSharing::Generating));
     auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content));
 
     const auto start = std::chrono::steady_clock::now();

@@ -4,16 +4,16 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/world_records.h"
 #include "terrane/base/text.h"
+#include "terrane/io/open_session.h"
 
 namespace terrane::app {
 namespace {
 
 struct HistoryOptions {
-    SaveOptions save;
+    io::SaveOptions save;
     std::string player;
     std::vector<int> area;
     double minutes = 0;
@@ -58,7 +58,7 @@ void printEdit(const net::LoggedEdit& edit, const std::string& player, const wor
 }
 
 base::Result<void> printHistory(const HistoryOptions& options) {
-    const auto content = TERRANE_TRY(loadContent({}, options.save));
+    const auto content = TERRANE_TRY(io::loadContent({}, options.save));
     const auto& blocks = content.blocks;
     const auto history = TERRANE_TRY(openHistory(store::worldLocation(options.save.world), *blocks));
     net::EditFilter filter;

@@ -1,18 +1,146 @@
 // terrane import: imports worlds, schematics and models of other programs.
+#include <algorithm>
+#include <map>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/formats/import_world.h"
-#include "apps/terrane/formats/minecraft_import.h"
-#include "apps/terrane/formats/volume_import.h"
+#include "apps/terrane/commands/progress.h"
 #include "apps/terrane/options.h"
+#include "terrane/base/files.h"
+#include "terrane/base/log.h"
+#include "terrane/io/minecraft_import.h"
+#include "terrane/io/volume_import.h"
 
 namespace terrane::app {
 namespace {
 
+struct ImportCommand {
+    io::ImportOptions source;
+    io::MinecraftOptions minecraft;
+    bool skipsAir = false;  // of a volume
+    std::string at;         // "X,Y" or "X,Y,Z" in blocks; empty: 0
+    std::string output;     // a structure file instead of a world
+    std::string report;     // file; empty: none
+    int exitCode = 0;       // after the run
+};
+
+constexpr std::size_t kLoggedNames = 5;
+
+std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& counts) {
+    std::uint64_t sum = 0;
+    for (const auto& [name, count] : counts) sum += count;
+    return sum;
+}
+
+// "minecraft:a (12), minecraft:b (3) and 4 more": the most frequent first.
+std::string mostOf(const std::map<std::string, std::uint64_t>& counts) {
+    std::vector<std::pair<std::string, std::uint64_t>> sorted(counts.begin(), counts.end());
+    std::ranges::stable_sort(sorted, std::ranges::greater(), [](const auto& entry) { return entry.second; });
+    std::string text;
+    for (std::size_t k = 0; k < std::min(kLoggedNames, sorted.size()); ++k)
+        text += fmt::format("{}{} ({})", k > 0 ? ", " : "", sorted[k].first, sorted[k].second);
+    if (sorted.size() > kLoggedNames) text += fmt::format(" and {} more", sorted.size() - kLoggedNames);
+    return text;
+}
+
+void logReport(const io::ImportReport& report) {
+    const formats::ImportCounts& counts = report.counts;
+    base::logInfo("{} chunks with {} blocks imported; {} had edits in the world and stay as they are",
+                  report.chunks, sumOf(counts.blocks), report.skipped);
+    if (report.unfinished > 0)
+        base::logInfo("{} of the chunks are not completely generated in the source", report.unfinished);
+    if (report.damageCount > 0) base::logWarning("{} chunks or files could not be read", report.damageCount);
+    if (!counts.unknown.empty())
+        base::logWarning("{} blocks are unknown and became \"missing\": {}", sumOf(counts.unknown),
+                         mostOf(counts.unknown));
+    if (counts.below + counts.above > 0)
+        base::logWarning("{} blocks below and {} above the world's heights are left out (see --shift)",
+                         counts.below, counts.above);
+    if (!counts.blockEntities.empty())
+        base::logInfo("contents of {} blocks are left out: {}", sumOf(counts.blockEntities),
+                      mostOf(counts.blockEntities));
+}
+
+base::Result<void> writeReport(const io::ImportReport& report, const std::string& file) {
+    const formats::ImportCounts& counts = report.counts;
+    const nlohmann::json json = {{"chunks", report.chunks},         {"skipped", report.skipped},
+                                 {"unfinished", report.unfinished}, {"damage_count", report.damageCount},
+                                 {"damaged", report.damaged},       {"blocks", counts.blocks},
+                                 {"unknown", counts.unknown},       {"block_entities", counts.blockEntities},
+                                 {"below", counts.below},           {"above", counts.above}};
+    // Names come from the file and may be invalid UTF-8.
+    return base::writeFile(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+}
+
+base::Result<void> finish(ImportCommand& command, const io::ImportReport& report) {
+    logReport(report);
+    return command.report.empty() ? base::Result<void>() : writeReport(report, command.report);
+}
+
+base::Result<void> checkTarget(const ImportCommand& command) {
+    if (!command.source.save.world.empty()) return {};
+    return base::fail(base::ErrorCode::BadInput, "import needs --world NAME|FILE|URL");
+}
+
+// "X,Y" in blocks: the offset of Minecraft's origin, returned in chunks.
+base::Result<world::ChunkPos> movedBy(const std::string& at) {
+    if (at.empty()) return world::ChunkPos{};
+    const auto numbers = parseNumbers(at, 2, "--at: expected X,Y in blocks");
+    for (const double number : numbers) {
+        const double chunks = number / world::kChunkSize;
+        if (chunks != static_cast<double>(static_cast<std::int32_t>(std::clamp(chunks, -1e8, 1e8))))
+            return base::fail(base::ErrorCode::BadInput,
+                              "--at: expected multiples of {} within the world, got \"{}\"",
+                              world::kChunkSize, at);
+    }
+    return world::ChunkPos{static_cast<std::int32_t>(numbers[0] / world::kChunkSize),
+                           static_cast<std::int32_t>(numbers[1] / world::kChunkSize)};
+}
+
+base::Result<void> importMinecraft(ImportCommand& command) {
+    const auto at = TERRANE_TRY(movedBy(command.at));
+    TERRANE_TRY(checkTarget(command));
+    command.minecraft.at = at;
+    const auto report =
+        TERRANE_TRY(io::importMinecraft(command.source, command.minecraft, progressBar("importing")));
+    command.exitCode = report.damageCount > 0 ? 1 : 0;
+    return finish(command, report);
+}
+
+base::Result<world::BlockPos> cornerOf(const std::string& at) {
+    if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
+    constexpr std::int32_t kFarthest = io::VolumeOptions::kFarthest;
+    const auto numbers =
+        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest));
+    return world::BlockPos{numbers[0], numbers[1], numbers[2]};
+}
+
+base::Result<void> importVolume(ImportCommand& command, io::VolumeFormat format) {
+    if (!command.output.empty()) {
+        if (!command.source.save.world.empty() || !command.at.empty())
+            return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
+        const auto report = TERRANE_TRY(io::importStructure(command.source, format, command.output));
+        return finish(command, report);
+    }
+    const auto corner = TERRANE_TRY(cornerOf(command.at));
+    TERRANE_TRY(checkTarget(command));
+    const auto report = TERRANE_TRY(
+        io::importVolume(command.source, {format, corner, command.skipsAir}, progressBar("importing")));
+    return finish(command, report);
+}
+
+base::Result<void> importSchematic(ImportCommand& command) {
+    return importVolume(command, io::VolumeFormat::Schematic);
+}
+
+base::Result<void> importVox(ImportCommand& command) {
+    return importVolume(command, io::VolumeFormat::Vox);
+}
+
 struct ImportFormat {
     std::string_view name;
-    base::Result<void> (*run)(ImportOptions& options);
+    base::Result<void> (*run)(ImportCommand& command);
     std::vector<std::string_view> options;  // that not all formats have
 };
 
@@ -31,7 +159,7 @@ std::vector<std::string> formatNames() {
     return names;
 }
 
-base::Result<void> runImport(const std::string& name, ImportOptions& options, const CLI::App& command) {
+base::Result<void> runImport(const std::string& name, ImportCommand& options, const CLI::App& command) {
     const auto& formats = importFormats();
     const auto format = std::ranges::find(formats, name, &ImportFormat::name);
     if (format == formats.end())
@@ -43,7 +171,7 @@ base::Result<void> runImport(const std::string& name, ImportOptions& options, co
 }  // namespace
 
 CommandEntry addImport(CLI::App& app) {
-    auto options = std::make_shared<ImportOptions>();
+    auto options = std::make_shared<ImportCommand>();
     auto format = std::make_shared<std::string>();
     CLI::App* command = app.add_subcommand(
         "import", "Import worlds and models of other programs; exit code 1 if something could not be read");
@@ -51,28 +179,30 @@ CommandEntry addImport(CLI::App& app) {
         ->add_option("format", *format, fmt::format("What the source is: {}", fmt::join(formatNames(), ", ")))
         ->type_name("CHOICE")
         ->required();
-    command->add_option("source", options->source, "The file, or the folder of a world")
+    command->add_option("source", options->source.source, "The file, or the folder of a world")
         ->type_name("PATH")
         ->required();
-    addWorldOption(*command, options->save, "World to write into; created if needed");
+    addWorldOption(*command, options->source.save, "World to write into; created if needed");
     command
-        ->add_option("--mapping", options->mapping,
+        ->add_option("--mapping", options->source.mapping,
                      "Table from names to blocks, in addition to the built-in one (TOML)")
         ->check(existingFile())
         ->type_name("FILE");
     command->add_option("--at", options->at, "Position of the source's 0,0 in blocks")->type_name("X,Y[,Z]");
-    addChoice<std::string>(*command, "--dimension", options->dimension,
+    addChoice<std::string>(*command, "--dimension", options->minecraft.dimension,
                            {{"overworld", "overworld"}, {"nether", "nether"}, {"end", "end"}},
                            "Dimension of a world of Minecraft");
-    addAreaOption(*command, options->area);
-    command->add_option("--shift", options->shift, "Blocks added to the heights of a world of Minecraft")
+    addAreaOption(*command, options->minecraft.area);
+    command
+        ->add_option("--shift", options->minecraft.shift,
+                     "Blocks added to the heights of a world of Minecraft")
         ->check(numberFrom(-4096, 4096))
         ->type_name("BLOCKS");
     command->add_flag("--skip-air", options->skipsAir, "Do not import air");
     addOutputOption(*command, options->output, {".structure"}, "Write a structure file instead of a world");
     command->get_option("--output")->required(false);
     addReportOption(*command, options->report);
-    addWorldOptions(*command, options->world);
+    addWorldOptions(*command, options->source.world);
     return {command, [options, format, command] { return runImport(*format, *options, *command); },
             [options] { return options->exitCode; }};
 }

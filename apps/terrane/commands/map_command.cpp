@@ -4,18 +4,18 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/maps/http_map.h"
 #include "apps/terrane/maps/map_options.h"
-#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/static_map.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
+#include "terrane/io/map_world.h"
 #include "terrane/map/area_image.h"
 
 namespace terrane::app {
 namespace {
 
 struct MapOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     AreaOptions chunks;
     int level = 0;
     std::string output, resourcePack;
@@ -39,9 +39,9 @@ base::Result<void> writeMap(MapOptions& options) {
         return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
                           area.chunkCount(), kMaxChunksInMap);
     }
-    const auto world = openMapWorld(options.world, options.save, options.resourcePack);
+    const auto world = io::openMapWorld(options.world, options.save, options.resourcePack);
     if (!world) return tl::unexpected(world.error());
-    auto painter = TERRANE_TRY(painterOf(**world));
+    auto painter = TERRANE_TRY(io::painterOf(**world));
     map::EditedPositions edited;
     for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
     base::JobSystem jobs((*world)->parts.threads);

@@ -10,11 +10,11 @@
 #include <vector>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/base/text.h"
 #include "terrane/content/language.h"
+#include "terrane/io/open_session.h"
 #include "terrane/pack/installed_packs.h"
 #include "terrane/pack/pack.h"
 #include "terrane/pack/pack_files.h"
@@ -107,9 +107,9 @@ base::Result<void> checkPacks(const PacksOptions& options) {
     if (options.names.empty())
         return base::fail(base::ErrorCode::BadInput, "packs check: expected the name of a pack");
     for (const std::string& name : options.names) {
-        WorldOptions world;
+        io::WorldOptions world;
         world.content = {name};
-        const auto content = TERRANE_TRY(loadContent(world));
+        const auto content = TERRANE_TRY(io::loadContent(world));
         const auto read = TERRANE_TRY(pack::readPacks({name}));
         const pack::Pack& pack = read.front();
         warnOfSlips(pack, *content.blocks);

@@ -18,8 +18,8 @@ namespace terrane::app {
 namespace {
 
 struct RecordOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     std::string path, output, framesFolder;
@@ -35,7 +35,7 @@ struct FrameRange {
 
 base::Result<Script> readScript(const RecordOptions& options, const CLI::App& command) {
     auto text = TERRANE_TRY(base::readFile(options.path));
-    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
     ScriptDefaults defaults{options.world, options.graphics, {}};
     for (const CLI::Option* option : command.get_options())
         if (option->count() > 0) defaults.given.push_back(option->get_single_name());

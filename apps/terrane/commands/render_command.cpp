@@ -27,8 +27,8 @@ double millisecondsSince(Clock::time_point start) {
 }
 
 struct RenderCommandOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaceOptions place;

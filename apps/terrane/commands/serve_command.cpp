@@ -6,7 +6,6 @@
 #include "apps/terrane/client_packs.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/maps/server_map.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve/serve_options.h"
 #include "apps/terrane/serve/server_statistics.h"
@@ -14,6 +13,7 @@
 #include "apps/terrane/settings.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
+#include "terrane/io/open_session.h"
 #include "terrane/net/server/server_console.h"
 #include "terrane/net/server/server_loop.h"
 #include "terrane/store_postgres/any_world.h"
@@ -51,8 +51,8 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
     TERRANE_TRY(checkMapSite(options.map));
     auto statistics = TERRANE_TRY(ServerStatistics::open(options.statistics));
-    auto opened = TERRANE_TRY(openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
-                                               store::WorldSharing::Servers));
+    auto opened = TERRANE_TRY(io::openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
+                                                   store::WorldSharing::Servers));
     game::SessionParts& parts = opened.parts;
     const auto content = TERRANE_TRY(serverContent(opened.content));
     // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.

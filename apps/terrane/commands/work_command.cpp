@@ -7,13 +7,13 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/worker/worker.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
+#include "terrane/io/open_session.h"
 #include "terrane/store_postgres/postgres_store.h"
 
 namespace terrane::app {
@@ -24,8 +24,8 @@ using store_postgres::JobOrder;
 using store_postgres::WorkStatus;
 
 struct WorkOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     AreaOptions chunks;
     JobOrder order = JobOrder::Spiral;
     Backend backend = Backend::Auto;
@@ -105,7 +105,7 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
                                      {"skipped", result.skipped},
                                      {"seconds", seconds},
                                      {"chunks_per_second", rate},
-                                     {"threads", threadCount(options.world)},
+                                     {"threads", io::threadCount(options.world)},
                                      {"backend", generator.worker->backend()}};
         std::cout << line.dump() << '\n';
         return {};
@@ -140,14 +140,14 @@ base::Result<void> runWork(WorkOptions& options) {
             "an area of a file");
     const auto address = TERRANE_TRY(store_postgres::addressOf(options.save.world));
     store_postgres::ConnectionPool pool(address);
-    const auto content = TERRANE_TRY(loadContent(options.world, options.save));
+    const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
     if (onlyManages(options)) {
         // Fails if the database holds no world.
         (void)TERRANE_TRY(store_postgres::openRowsToRead(address, *content.blocks));
         return manage(options, pool);
     }
-    auto store = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
-                                      store::WorldSharing::Generating));
+    auto store = TERRANE_TRY(io::openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
+                                          store::WorldSharing::Generating));
     if (auto added = addArea(pool, options); !added || options.addsOnly) return added;
     return runWorker(options, pool, *store, content);
 }

@@ -3,12 +3,12 @@
 #include <boost/asio/io_context.hpp>
 #include <chrono>
 
-#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
+#include "terrane/io/map_world.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/web/map_site.h"
 
@@ -19,7 +19,7 @@ constexpr std::chrono::milliseconds kTick{50};
 
 // The cache beside the world's file; for other worlds a file in the data folder, named after `origin`. Empty
 // if there is no data folder.
-std::filesystem::path cacheFile(const SaveOptions& save, const std::string& origin) {
+std::filesystem::path cacheFile(const io::SaveOptions& save, const std::string& origin) {
     std::error_code error;
     const store::WorldLocation location = store::worldLocation(save.world);
     if (!save.world.empty() && location.kind != store::WorldLocation::Kind::Url)
@@ -32,12 +32,12 @@ std::filesystem::path cacheFile(const SaveOptions& save, const std::string& orig
 
 }  // namespace
 
-base::Result<void> showMap(WorldOptions& worldOptions, const SaveOptions& save,
+base::Result<void> showMap(io::WorldOptions& worldOptions, const io::SaveOptions& save,
                            const std::string& resourcePack, const MapSiteOptions& options) {
     auto address = TERRANE_TRY(webAddressFrom(options.http));
     address.hosts = options.hosts;
     const auto places = TERRANE_TRY(readPlaceFile(options.places));
-    const auto world = TERRANE_TRY(openMapWorld(worldOptions, save, resourcePack));
+    const auto world = TERRANE_TRY(io::openMapWorld(worldOptions, save, resourcePack));
     const auto spawn = TERRANE_TRY(spawnOf(*world));
     const game::SessionParts& opened = world->parts;
     const std::string origin = originOf(opened.store->identity(), *opened.blocks);

@@ -10,7 +10,7 @@
 namespace terrane::app {
 
 // Runs until a signal stops it.
-[[nodiscard]] base::Result<void> showMap(WorldOptions& world, const SaveOptions& save,
+[[nodiscard]] base::Result<void> showMap(io::WorldOptions& world, const io::SaveOptions& save,
                                          const std::string& resourcePack, const MapSiteOptions& options);
 
 }  // namespace terrane::app

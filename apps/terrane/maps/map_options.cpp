@@ -1,10 +1,8 @@
 #include "apps/terrane/maps/map_options.h"
 
-#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/output_files.h"
-#include "terrane/web/host_check.h"
+#include "terrane/io/map_world.h"
 
 namespace terrane::app {
 namespace {

@@ -12,10 +12,11 @@ base::Result<void> checkMapSite(const MapSiteOptions&) {
 }
 void addStaticMapOptions(CLI::App&, StaticMapOptions&) {}
 
-base::Result<void> showMap(WorldOptions&, const SaveOptions&, const std::string&, const MapSiteOptions&) {
+base::Result<void> showMap(io::WorldOptions&, const io::SaveOptions&, const std::string&,
+                           const MapSiteOptions&) {
     return base::fail(base::ErrorCode::Unsupported, "this build has no maps for browsers");
 }
-base::Result<void> writeStaticMap(WorldOptions&, const SaveOptions&, const std::string&,
+base::Result<void> writeStaticMap(io::WorldOptions&, const io::SaveOptions&, const std::string&,
                                   const world::ChunkArea&, const StaticMapOptions&) {
     return base::fail(base::ErrorCode::Unsupported, "this build has no maps for browsers");
 }

@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/log.h"
-#include "terrane/net/server/server.h"
+#include "terrane/io/map_world.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/web/map_site.h"
 

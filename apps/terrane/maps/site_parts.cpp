@@ -2,8 +2,10 @@
 
 #include <boost/asio/ip/address.hpp>
 #include <charconv>
+#include <sstream>
 
 #include "terrane/base/digest.h"
+#include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"
 #include "terrane/store/saves/save_path.h"
@@ -77,7 +79,37 @@ std::string titleOf(const std::string& world) {
     return hasName ? std::string(path.substr(slash + 1)) : "Terrane";
 }
 
-web::MapMarker namedPlace(const std::string& name, const world::Pose& pose) {
+namespace {
+
+// The map shows all places at once: 1,000 names of up to game::kMaxPlaceName bytes are 100 KB for a browser.
+constexpr std::size_t kMaxPlaces = 1000, kMaxBytes = std::size_t{1} << 20;
+
+}  // namespace
+
+base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file) {
+    std::vector<game::Place> places;
+    if (file.empty()) return places;
+    const auto text = TERRANE_TRY(base::readFile(file, kMaxBytes));
+    std::istringstream in(text);
+    int line = 0, unnamed = 0;
+    for (std::string words; std::getline(in, words);) {
+        ++line;
+        if (words.find_first_not_of(" \t\r") == std::string::npos) continue;
+        if (words.back() == '\r') words.pop_back();
+        auto place = game::placeFrom(words);
+        if (!place)
+            return base::fail(base::ErrorCode::BadInput, "{}:{}: no place: expected X Y Z YAW PITCH NAME",
+                              file.string(), line);
+        if (places.size() == kMaxPlaces)
+            return base::fail(base::ErrorCode::BadInput, "{}:{}: more than {} places", file.string(), line,
+                              kMaxPlaces);
+        if (place->name.empty()) place->name = std::to_string(++unnamed);
+        places.push_back(std::move(*place));
+    }
+    return places;
+}
+
+web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
     return {name, pose.position.x, pose.position.y, pose.position.z};
 }
 
@@ -93,7 +125,7 @@ std::vector<web::MapMarker> allPlaces(store::ReadableStore& store, const std::ve
     return namedPlaces(places);
 }
 
-base::Result<web::MapMarker> spawnOf(const MapWorld& world) {
+base::Result<web::NamedPlace> spawnOf(const io::MapWorld& world) {
     const auto generator = TERRANE_TRY(world.parts.generators.at(0));
     return namedPlace("", game::findSpawn(*generator, *world.parts.blocks));
 }

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/maps/map_world.h"
 #include "terrane/base/result.h"
 #include "terrane/game/places.h"
+#include "terrane/io/map_world.h"
 #include "terrane/map/surface_cache.h"
 #include "terrane/web/page.h"
 #include "terrane/web/web_server.h"
@@ -32,11 +32,16 @@ std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& fil
 // The name of a world's file or database; "Terrane" without a world.
 std::string titleOf(const std::string& world);
 
-web::MapMarker namedPlace(const std::string& name, const world::Pose& pose);
-std::vector<web::MapMarker> namedPlaces(const std::vector<game::Place>& places);
-// The places saved in the world, then those of a file (map_world.h).
-std::vector<web::MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
+// Reads a file of places for maps: bookmarks with or without names.
+// Lines are "X Y Z YAW PITCH NAME"; unnamed places are numbered. An empty path gives no places. Errors name
+// the line.
+[[nodiscard]] base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file);
+
+web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose);
+std::vector<web::NamedPlace> namedPlaces(const std::vector<game::Place>& places);
+// The places saved in the world, then those of a file.
+std::vector<web::NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
 // The spawn point, with an empty name. Takes a tenth of a second.
-[[nodiscard]] base::Result<web::MapMarker> spawnOf(const MapWorld& world);
+[[nodiscard]] base::Result<web::NamedPlace> spawnOf(const io::MapWorld& world);
 
 }  // namespace terrane::app

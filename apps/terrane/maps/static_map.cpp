@@ -6,12 +6,12 @@
 #include <mutex>
 #include <utility>
 
-#include "apps/terrane/maps/map_world.h"
 #include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
+#include "terrane/io/map_world.h"
 #include "terrane/map/map_painter.h"
 #include "terrane/map/map_tile.h"
 #include "terrane/map/surface_source.h"
@@ -139,16 +139,16 @@ base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer
 
 }  // namespace
 
-base::Result<void> writeStaticMap(WorldOptions& worldOptions, const SaveOptions& save,
+base::Result<void> writeStaticMap(io::WorldOptions& worldOptions, const io::SaveOptions& save,
                                   const std::string& resourcePack, const world::ChunkArea& chunks,
                                   const StaticMapOptions& options) {
     const auto places = TERRANE_TRY(readPlaceFile(options.places));
-    const auto world = openMapWorld(worldOptions, save, resourcePack);
+    const auto world = io::openMapWorld(worldOptions, save, resourcePack);
     if (!world) return tl::unexpected(world.error());
     const game::SessionParts& opened = (*world)->parts;
     const store::WorldIdentity& identity = opened.store->identity();
     const auto spawn = TERRANE_TRY(spawnOf(**world));
-    auto painter = TERRANE_TRY(painterOf(**world));
+    auto painter = TERRANE_TRY(io::painterOf(**world));
     const auto layers = TERRANE_TRY(layersOf(options.layers, painter));
     const map::BlockRect area = map::blocksOf(chunks);
     const int minZoom = std::min(leastZoom(area), options.maxZoom);

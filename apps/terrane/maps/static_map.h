@@ -19,7 +19,7 @@ struct StaticMapOptions {
 
 // `area`: chunks of level 0. Keeps the images of an earlier call, except those of edited terrain, so a
 // stopped run can continue. Refuses a folder with other files or with the map of another world.
-[[nodiscard]] base::Result<void> writeStaticMap(WorldOptions& world, const SaveOptions& save,
+[[nodiscard]] base::Result<void> writeStaticMap(io::WorldOptions& world, const io::SaveOptions& save,
                                                 const std::string& resourcePack, const world::ChunkArea& area,
                                                 const StaticMapOptions& options);
 

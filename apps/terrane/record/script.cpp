@@ -115,7 +115,7 @@ class ScriptReader {
   private:
     ContentTable open(const toml::table& table) { return {table, file_, error_}; }
 
-    WorldOptions worldOf(ContentTable& table);
+    io::WorldOptions worldOf(ContentTable& table);
     GraphicsOptions graphicsAfter(GraphicsOptions graphics, ContentTable& table);
 
     template <class Read>
@@ -138,8 +138,8 @@ class ScriptReader {
     std::optional<std::string> error_;
 };
 
-WorldOptions ScriptReader::worldOf(ContentTable& table) {
-    WorldOptions world = defaults_.world;
+io::WorldOptions ScriptReader::worldOf(ContentTable& table) {
+    io::WorldOptions world = defaults_.world;
     CLI::App flags;
     addWorldOptions(flags, world);
     applyFlags(table, flags, {"seed", "generator"}, passedOver_);

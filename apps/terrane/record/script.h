@@ -58,7 +58,7 @@ struct Shot {
 };
 
 struct Script {
-    WorldOptions world;
+    io::WorldOptions world;
     std::vector<Shot> shots;  // at least one
     double seconds() const { return shots.back().start + shots.back().seconds; }
 };
@@ -99,7 +99,7 @@ namespace terrane::app {
 // Reads path files (docs/video.md). Errors name the file, the line and the key.
 // Options of the command line; they take precedence over the file.
 struct ScriptDefaults {
-    WorldOptions world;
+    io::WorldOptions world;
     GraphicsOptions graphics;
     // Given flags without dashes: the file's options of these names are ignored; with a preset, all options
     // that it sets.

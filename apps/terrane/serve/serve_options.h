@@ -11,8 +11,8 @@
 namespace terrane::app {
 
 struct ServeOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     std::string settingsFile;  // empty: NAME.server.toml beside the world, if it exists
     net::ListenAddress listen;
     std::string publicAddress;  // empty: from the machine's name and the port

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "apps/terrane/open_session.h"
 #include "apps/terrane/window/game/game_state.h"
 #include "apps/terrane/window/game/watch.h"
 #include "apps/terrane/window/settings/settings_table.h"
@@ -20,6 +19,7 @@
 #include "terrane/game/spawn.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/io/open_session.h"
 #include "terrane/pack/installed_packs.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/store/saves/world_list.h"
@@ -72,13 +72,16 @@ base::Result<world::Pose> startOf(const PlayOptions& options, const game::Bookma
 
 // Worlds are saved unless the player chooses otherwise. A world without a name is named after its generator
 // and seed, so that the same options open it again.
-base::Result<OpenedWorld> openWorld(PlayOptions& options) {
+base::Result<io::OpenedWorld> openWorld(PlayOptions& options) {
     using store::WorldAccess;
-    if (options.savesNothing) return openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
+    if (options.savesNothing) {
+        TERRANE_TRY(checkSaveOptions(options.save));
+        return io::openSessionParts(options.world, options.save, WorldAccess::ReadOnly);
+    }
     std::string& name = options.save.world;
     if (name.empty())
         name = fmt::format("{}-{}", options.world.effectiveGenerator(), options.world.effectiveSeed());
-    auto parts = openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
+    auto parts = io::openSessionParts(options.world, options.save, WorldAccess::ReadWrite);
     // Playing without saving does not help against other errors, such as another generator.
     const bool cannotBeWritten = !parts && (parts.error().code == base::ErrorCode::Io ||
                                             parts.error().code == base::ErrorCode::NotFound);
@@ -165,7 +168,7 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
 }
 
 base::Result<std::optional<TitleChoice>> PlayFlow::showTitle() {
-    const auto content = TERRANE_TRY(loadInstalledContent(options_.world));
+    const auto content = TERRANE_TRY(io::loadInstalledContent(options_.world));
     TitleScreen title({window_, signals_, options_, screen_, content, dataFolder()}, settings_,
                       std::exchange(message_, {}));
     auto chosen = title.run();
@@ -231,16 +234,16 @@ base::Result<void> PlayFlow::playServer(const PlayOptions& asked) {
         base::logInfo("the server is not remembered: {}", kept.error().message);
     const pack::Content& content = play->content();
     const store::WorldIdentity& identity = play->offer()->world.identity;
-    auto parts = TERRANE_TRY(
-        net::remoteSessionParts(identity, content.blocks, threadCount(options.world), content.generators));
+    auto parts = TERRANE_TRY(net::remoteSessionParts(identity, content.blocks, io::threadCount(options.world),
+                                                     content.generators));
     options.world.seed = identity.seed;
     options.world.generator = identity.generator;
     settings_.movement = options_.settings.movement;
     return playFrom(options, {content, std::move(parts.parts)}, screen_, {std::move(play), parts.store});
 }
 
-base::Result<void> PlayFlow::playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
-                                      ServersWorld given) {
+base::Result<void> PlayFlow::playFrom(const PlayOptions& options, io::OpenedWorld opened,
+                                      ScreenOptions screen, ServersWorld given) {
     auto made = TERRANE_TRY(WorldOnScreen::create(std::move(opened), screen));
     WorldOnScreen& world = *made;
     game::Session& session = world.session();

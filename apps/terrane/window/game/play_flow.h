@@ -58,7 +58,7 @@ class PlayFlow {
     base::Result<void> playOnce(PlayOptions& options);
     base::Result<void> playServer(const PlayOptions& options);
     base::Result<void> playChosen(const TitleChoice& choice);
-    base::Result<void> playFrom(const PlayOptions& options, OpenedWorld opened, ScreenOptions screen,
+    base::Result<void> playFrom(const PlayOptions& options, io::OpenedWorld opened, ScreenOptions screen,
                                 ServersWorld given = {});
     base::Result<std::optional<TitleChoice>> showTitle();
     base::Result<void> keepSettings();

@@ -15,7 +15,7 @@ WorldOnScreen::~WorldOnScreen() {
     glUseProgram(0);
 }
 
-base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(OpenedWorld world,
+base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(io::OpenedWorld world,
                                                                    const ScreenOptions& options) {
     std::unique_ptr<WorldOnScreen> made(new WorldOnScreen);
     made->content_ = std::move(world.content);

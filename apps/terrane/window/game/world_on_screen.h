@@ -6,9 +6,9 @@
 #include <string>
 
 #include "apps/terrane/back_ends.h"
-#include "apps/terrane/open_session.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
+#include "terrane/io/open_session.h"
 #include "terrane/render/frame/background_compiler.h"
 #include "terrane/view/block_preview.h"
 #include "terrane/view/gpu_back_ends.h"
@@ -26,7 +26,7 @@ struct ScreenOptions {
 
 class WorldOnScreen {
   public:
-    [[nodiscard]] static base::Result<std::unique_ptr<WorldOnScreen>> create(OpenedWorld world,
+    [[nodiscard]] static base::Result<std::unique_ptr<WorldOnScreen>> create(io::OpenedWorld world,
                                                                              const ScreenOptions& options);
 
     ~WorldOnScreen();

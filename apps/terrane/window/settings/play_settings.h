@@ -47,8 +47,8 @@ std::optional<game::Movement> movementNamed(std::string_view name);
 
 // Options of `terrane play`.
 struct PlayOptions {
-    WorldOptions world;
-    SaveOptions save;
+    io::WorldOptions world;
+    io::SaveOptions save;
     bool savesNothing = false;
     bool skipsTitle = false;
     bool watches = false;  // reload content packs that change

@@ -48,14 +48,14 @@ class MapPreview {
 // A world to play: an existing file, or a new one.
 struct ChosenWorld {
     std::filesystem::path file;
-    std::optional<store::WrittenSeed> seed;  // for a new world
+    std::optional<io::WrittenSeed> seed;  // for a new world
     std::optional<std::string> generator;
 };
 
 struct NewWorldForm {
     std::string name;
     std::string seed;  // empty: randomSeed
-    std::string generator = WorldOptions::kDefaultGenerator;
+    std::string generator = io::WorldOptions::kDefaultGenerator;
     std::uint64_t randomSeed = 0;
 
     bool operator==(const NewWorldForm&) const = default;
@@ -65,7 +65,7 @@ struct NewWorldForm {
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
 
 // Ignores spaces around the seed.
-[[nodiscard]] base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form);
+[[nodiscard]] base::Result<io::WrittenSeed> seedOf(const NewWorldForm& form);
 
 // Errors are one line for the player.
 [[nodiscard]] base::Result<ChosenWorld> worldOf(const NewWorldForm& form,

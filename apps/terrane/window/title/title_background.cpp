@@ -8,11 +8,11 @@
 #include <glm/trigonometric.hpp>
 #include <thread>
 
-#include "apps/terrane/open_session.h"
 #include "terrane/base/log.h"
 #include "terrane/game/player_state.h"
 #include "terrane/game/spawn.h"
 #include "terrane/gpu/framebuffer.h"
+#include "terrane/io/open_session.h"
 #include "terrane/view/camera_path.h"
 
 namespace terrane::app {
@@ -27,13 +27,13 @@ constexpr std::chrono::milliseconds kPause{15};  // pause between frames without
 base::Result<std::unique_ptr<WorldOnScreen>> openWorld(const PlayOptions& options,
                                                        const ScreenOptions& screen,
                                                        const std::filesystem::path& save) {
-    WorldOptions world{.seed = {},
-                       .seedText = {},
-                       .generator = {},
-                       .content = options.world.content,
-                       .threads = options.world.threads};
-    const SaveOptions from{.world = save.string(), .storeGenerated = {}};
-    auto opened = TERRANE_TRY(openSessionParts(world, from, store::WorldAccess::ReadOnly));
+    io::WorldOptions world{.seed = {},
+                           .seedText = {},
+                           .generator = {},
+                           .content = options.world.content,
+                           .threads = options.world.threads};
+    const io::SaveOptions from{.world = save.string(), .storeGenerated = {}};
+    auto opened = TERRANE_TRY(io::openSessionParts(world, from, store::WorldAccess::ReadOnly));
     return WorldOnScreen::create(std::move(opened), screen);
 }
 

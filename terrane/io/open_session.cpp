@@ -1,4 +1,4 @@
-#include "apps/terrane/open_session.h"
+#include "terrane/io/open_session.h"
 
 #include "terrane/base/log.h"
 #include "terrane/gen/generators/catalogue.h"
@@ -7,7 +7,7 @@
 #include "terrane/store/overlay_store.h"
 #include "terrane/store_postgres/any_world.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 base::Result<pack::Content> loadContent(const WorldOptions& options, const SaveOptions& save) {
     auto packs = TERRANE_TRY(pack::readPacks(options.content));
@@ -58,10 +58,9 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     if (!options.seedText.empty())
         base::logInfo("the seed \"{}\" is the number {}", options.seedText, options.effectiveSeed());
     if (save.world.empty()) {
-        if (save.regenerate != store::Regenerate::None)
-            return base::fail(base::ErrorCode::BadInput, "--recreate and --regenerate require --world");
-        if (save.storeGenerated)
-            return base::fail(base::ErrorCode::BadInput, "--store-generated requires --world");
+        if (save.regenerate != store::Regenerate::None || save.storeGenerated)
+            return base::fail(base::ErrorCode::BadInput,
+                              "no world is named that could be regenerated or keep a choice");
         return nullptr;
     }
     // An unknown generator is an error before a save is created.
@@ -114,4 +113,4 @@ base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOpti
     return OpenedWorld{std::move(content), std::move(parts)};
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,27 +1,34 @@
-#include "apps/terrane/formats/export_formats.h"
+#include "terrane/io/export_formats.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <bit>
+#include <filesystem>
+#include <utility>
 
-#include "apps/terrane/dump/loaded_square.h"
-#include "apps/terrane/formats/export_source.h"
-#include "apps/terrane/options.h"
 #include "terrane/base/files.h"
 #include "terrane/base/image.h"
-#include "terrane/base/log.h"
 #include "terrane/base/npy.h"
-#include "terrane/base/process.h"
 #include "terrane/formats/glb_mesh.h"
 #include "terrane/formats/gray_png.h"
 #include "terrane/formats/schematic.h"
 #include "terrane/formats/vox_file.h"
+#include "terrane/io/loaded_square.h"
 #include "terrane/mesh/chunk_mesher.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 namespace {
+
+namespace fs = std::filesystem;
+
+base::Result<ExportedFile> writeResult(const fs::path& output, const base::Result<std::string>& bytes,
+                                       std::string content) {
+    if (!bytes) return base::fail(bytes.error().code, "{}: {}", output.string(), bytes.error().message);
+    TERRANE_TRY(base::writeFile(output, *bytes));
+    return ExportedFile{std::move(content), bytes->size()};
+}
 
 // The chunk with air outside the box, so that the mesh is closed on all sides.
 world::Chunk clipped(const world::Chunk& chunk, world::ChunkPos pos, const world::BlockBox& box) {
@@ -68,45 +75,32 @@ base::Result<void> addSquare(const LoadedSquare& square, const ExportSource& sou
 
 }  // namespace
 
-base::Result<void> exportGlb(ExportOptions& options) {
-    const auto source = TERRANE_TRY(openExport(options));
+base::Result<ExportedFile> exportGlb(const ExportSource& source, const fs::path& output,
+                                     const Progress& progress) {
     const world::ChunkArea area = chunksOf(source.box);
     formats::GlbMesh mesh(*source.blocks, source.textures);
-    base::JobSystem jobs(threadCount(options.world));
-    const base::StopSignals signals;
-    {
-        base::ProgressBar bar("exporting", static_cast<std::size_t>(squareCount(area)));
-        for (std::int64_t k = 0; k < squareCount(area); ++k) {
-            if (signals.stopRequested())
-                return base::fail("stopped after {} of {} squares", k, squareCount(area));
-            LoadedSquare square(squareOf(area, k));
-            TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
-            TERRANE_TRY(addSquare(square, source, mesh));
-            bar.set(static_cast<std::size_t>(k) + 1);
-        }
+    base::JobSystem jobs(source.threads);
+    const auto goesOn = [&](std::int64_t done) {
+        return !progress ||
+               progress(static_cast<std::size_t>(done), static_cast<std::size_t>(squareCount(area)));
+    };
+    for (std::int64_t k = 0; k < squareCount(area); ++k) {
+        if (!goesOn(k)) return base::fail("stopped after {} of {} squares", k, squareCount(area));
+        LoadedSquare square(squareOf(area, k));
+        TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
+        TERRANE_TRY(addSquare(square, source, mesh));
     }
+    (void)goesOn(squareCount(area));
     const world::BlockPos low = source.box.low;
     const auto model = mesh.finish(fmt::format("terrane {},{},{}", low.x, low.y, low.z));
-    if (!model) return base::fail(model.error().code, "{}: {}", options.output, model.error().message);
-    const auto bytes = formats::encodeGlb(*model);
-    if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
-    TERRANE_TRY(base::writeFile(options.output, *bytes));
-    base::logInfo("{}: {} faces, {} materials, {} bytes", options.output, mesh.quadCount(),
-                  model->parts.size(), bytes->size());
-    return {};
+    if (!model) return base::fail(model.error().code, "{}: {}", output.string(), model.error().message);
+    return writeResult(output, formats::encodeGlb(*model),
+                       fmt::format("{} faces, {} materials", mesh.quadCount(), model->parts.size()));
 }
 
 namespace {
 
 static_assert(std::endian::native == std::endian::little, "numbers are written as they lie in memory");
-
-base::Result<void> writeResult(const ExportOptions& options, const base::Result<std::string>& bytes,
-                               const std::string& what) {
-    if (!bytes) return base::fail(bytes.error().code, "{}: {}", options.output, bytes.error().message);
-    TERRANE_TRY(base::writeFile(options.output, *bytes));
-    base::logInfo("{}: {}, {} bytes", options.output, what, bytes->size());
-    return {};
-}
 
 std::string describe(glm::ivec3 size) {
     return fmt::format("{}×{}×{} blocks", size.x, size.y, size.z);
@@ -133,8 +127,7 @@ std::uint16_t heightOf(const world::Chunk& chunk, const world::BlockRegistry& bl
     return 0;
 }
 
-base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
-    const auto source = TERRANE_TRY(openExport(options));
+base::Result<SurfaceHeights> readHeights(const ExportSource& source, const Progress& progress) {
     const world::BlockBox& box = source.box;
     const std::int64_t width = std::int64_t{box.high.x} - box.low.x + 1;
     const std::int64_t height = std::int64_t{box.high.y} - box.low.y + 1;
@@ -143,7 +136,7 @@ base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
                           base::kMaxImagePixels);
     SurfaceHeights heights{static_cast<int>(width), static_cast<int>(height), {}};
     heights.values.resize(static_cast<std::size_t>(width * height));
-    TERRANE_TRY(forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+    TERRANE_TRY(forEachChunk(source, progress, [&](world::ChunkPos pos, const world::Chunk& chunk) {
         const world::BlockPos low = world::blockPos(pos, 0);
         for (int k = 0; k < world::kChunkSize * world::kChunkSize; ++k) {
             const std::int64_t x = std::int64_t{low.x} + k % world::kChunkSize - box.low.x;
@@ -156,64 +149,63 @@ base::Result<SurfaceHeights> readHeights(ExportOptions& options) {
     return heights;
 }
 
-std::string namesOf(const world::BlockRegistry& blocks) {
+base::Result<void> writeNames(const fs::path& output, const world::BlockRegistry& blocks) {
     nlohmann::json names = nlohmann::json::array();
     for (const world::BlockType& type : blocks.types()) names.push_back(type.name);
-    return names.dump(1) + "\n";
+    return base::writeFile(output.string() + ".names.json", names.dump(1) + "\n");
 }
 
 }  // namespace
 
-base::Result<void> exportSchematic(ExportOptions& options) {
-    const auto source = TERRANE_TRY(openExport(options));
-    const auto mapping = TERRANE_TRY(formats::loadMapping(*source.blocks, options.mapping));
-    const auto volume = TERRANE_TRY(readVolume(options, source));
-    return writeResult(options, formats::encodeSchematic(formats::toNames(volume, mapping)),
+base::Result<ExportedFile> exportSchematic(const ExportSource& source, const fs::path& output,
+                                           const std::string& mappingFile, const Progress& progress) {
+    const auto mapping = TERRANE_TRY(formats::loadMapping(*source.blocks, mappingFile));
+    const auto volume = TERRANE_TRY(readVolume(source, progress));
+    return writeResult(output, formats::encodeSchematic(formats::toNames(volume, mapping)),
                        describe(volume.size));
 }
 
-base::Result<void> exportVox(ExportOptions& options) {
-    const auto source = TERRANE_TRY(openExport(options));
+base::Result<ExportedFile> exportVox(const ExportSource& source, const fs::path& output,
+                                     const Progress& progress) {
     const auto tops = TERRANE_TRY(world::topColors(*source.blocks, source.textures));
-    const auto volume = TERRANE_TRY(readVolume(options, source));
+    const auto volume = TERRANE_TRY(readVolume(source, progress));
     const auto image = TERRANE_TRY(formats::toVox(volume, tops));
-    return writeResult(options, formats::encodeVox(image), describe(volume.size));
+    return writeResult(output, formats::encodeVox(image), describe(volume.size));
 }
 
-base::Result<void> exportNpy(ExportOptions& options) {
-    const auto source = TERRANE_TRY(openExport(options));
-    auto volume = TERRANE_TRY(readVolume(options, source));
+base::Result<ExportedFile> exportNpy(const ExportSource& source, const fs::path& output,
+                                     const Progress& progress) {
+    auto volume = TERRANE_TRY(readVolume(source, progress));
     for (std::uint16_t& cell : volume.cells) cell = volume.palette[cell].id;
     const auto side = [&](int axis) { return static_cast<std::size_t>(volume.size[axis]); };
-    const std::string bytes = base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)});
-    const std::string names = namesOf(*source.blocks);
-    TERRANE_TRY(base::writeFiles(
-        std::vector<base::FileToWrite>{{options.output, bytes}, {options.output + ".names.json", names}}));
-    base::logInfo("{}: {}, {} bytes", options.output, describe(volume.size), bytes.size());
-    return {};
+    TERRANE_TRY(writeNames(output, *source.blocks));
+    return writeResult(output, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)}),
+                       describe(volume.size));
 }
 
-base::Result<void> exportNpyHeights(ExportOptions& options) {
-    const auto heights = TERRANE_TRY(readHeights(options));
+base::Result<ExportedFile> exportNpyHeights(const ExportSource& source, const fs::path& output,
+                                            const Progress& progress) {
+    const auto heights = TERRANE_TRY(readHeights(source, progress));
     const std::vector<std::size_t> shape{static_cast<std::size_t>(heights.height),
                                          static_cast<std::size_t>(heights.width)};
-    return writeResult(options, base::encodeNpy({"<u2", shape, bytesOf(heights.values)}),
+    return writeResult(output, base::encodeNpy({"<u2", shape, bytesOf(heights.values)}),
                        fmt::format("{}×{} columns", heights.width, heights.height));
 }
 
-base::Result<void> exportPngHeights(ExportOptions& options) {
-    const auto heights = TERRANE_TRY(readHeights(options));
-    formats::GrayImage image{heights.width, heights.height, options.bits, {}};
+base::Result<ExportedFile> exportPngHeights(const ExportSource& source, const fs::path& output, int bits,
+                                            const Progress& progress) {
+    const auto heights = TERRANE_TRY(readHeights(source, progress));
+    formats::GrayImage image{heights.width, heights.height, bits, {}};
     const auto width = static_cast<std::size_t>(heights.width);
     for (std::size_t row = 0; row < static_cast<std::size_t>(heights.height); ++row) {
         for (std::size_t x = width; x-- > 0;) {
             // Maps 255 to 65,535.
             const std::uint16_t height = heights.values[row * width + x];
-            image.values.push_back(options.bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
+            image.values.push_back(bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
         }
     }
-    return writeResult(options, formats::encodeGrayPng(image),
+    return writeResult(output, formats::encodeGrayPng(image),
                        fmt::format("{}×{} columns", heights.width, heights.height));
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,4 +1,4 @@
-#include "apps/terrane/formats/minecraft_import.h"
+#include "terrane/io/minecraft_import.h"
 
 #include <algorithm>
 #include <fstream>
@@ -6,16 +6,12 @@
 #include <unordered_set>
 #include <vector>
 
-#include "apps/terrane/formats/import_world.h"
-#include "apps/terrane/open_session.h"
-#include "apps/terrane/options.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
-#include "terrane/base/log.h"
-#include "terrane/base/process.h"
-#include "terrane/formats/file_kind.h"
+#include "terrane/io/import_world.h"
+#include "terrane/io/open_session.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 namespace {
 
@@ -171,41 +167,20 @@ struct DecodedChunk {
     formats::ImportCounts counts;
 };
 
-// "X,Y" in blocks: the offset of Minecraft's origin, returned in chunks.
-base::Result<world::ChunkPos> movedBy(const std::string& at) {
-    if (at.empty()) return world::ChunkPos{};
-    const auto numbers = parseNumbers(at, 2, "--at: expected X,Y in blocks");
-    for (const double number : numbers) {
-        const double chunks = number / world::kChunkSize;
-        if (chunks != static_cast<double>(static_cast<std::int32_t>(std::clamp(chunks, -1e8, 1e8))))
-            return base::fail(base::ErrorCode::BadInput,
-                              "--at: expected multiples of {} within the world, got \"{}\"",
-                              world::kChunkSize, at);
-    }
-    return world::ChunkPos{static_cast<std::int32_t>(numbers[0] / world::kChunkSize),
-                           static_cast<std::int32_t>(numbers[1] / world::kChunkSize)};
-}
-
 class MinecraftImporter {
   public:
-    MinecraftImporter(const ImportOptions& options, ImportWorld& world, const formats::BlockMapping& mapping,
-                      const formats::LegacyIds& ids, world::ChunkPos by)
-        : options_(options),
-          world_(world),
-          mapping_(mapping),
-          ids_(ids),
-          by_(by),
-          jobs_(threadCount(options.world)) {}
+    MinecraftImporter(const MinecraftOptions& options, ImportWorld& world,
+                      const formats::BlockMapping& mapping, const formats::LegacyIds& ids)
+        : options_(options), world_(world), mapping_(mapping), ids_(ids), jobs_(world.threads) {}
 
     // Fails if the world cannot be written; unreadable chunks are noted in the report.
-    base::Result<void> run(const std::vector<RegionSource>& regions) {
+    base::Result<void> run(const std::vector<RegionSource>& regions, const Progress& progress) {
         const auto edited = TERRANE_TRY(world_.store->editedChunks());
         edited_.insert(edited.begin(), edited.end());
-        const base::StopSignals signals;
-        base::ProgressBar bar("importing", regions.size() * formats::kRegionChunks);
         for (std::size_t k = 0; k < regions.size(); ++k) {
-            TERRANE_TRY(importRegion(regions[k], signals, [&](std::size_t chunks) {
-                bar.set(k * formats::kRegionChunks + chunks);
+            TERRANE_TRY(importRegion(regions[k], [&](std::size_t chunks) {
+                return !progress ||
+                       progress(k * formats::kRegionChunks + chunks, regions.size() * formats::kRegionChunks);
             }));
         }
         return {};
@@ -214,8 +189,9 @@ class MinecraftImporter {
     ImportReport& report() { return report_; }
 
   private:
-    base::Result<void> importRegion(const RegionSource& region, const base::StopSignals& signals,
-                                    const std::function<void(std::size_t)>& progress) {
+    // `goesOn` takes the number of the region's chunks that are done.
+    base::Result<void> importRegion(const RegionSource& region,
+                                    const std::function<bool(std::size_t)>& goesOn) {
         std::vector<int> wanted;
         for (int number = 0; number < formats::kRegionChunks; ++number)
             if (isInArea(region.pos, number, options_.area)) wanted.push_back(number);
@@ -226,12 +202,14 @@ class MinecraftImporter {
             return {};
         }
         std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
+        std::size_t done = 0;
         for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
-            if (signals.stopRequested())
+            if (!goesOn(done))
                 return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
             const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
             TERRANE_TRY(importBatch(region, *bytes, part));
-            progress(static_cast<std::size_t>(part.back()) + 1);
+            done = static_cast<std::size_t>(part.back()) + 1;
+            (void)goesOn(done);
         }
         return {};
     }
@@ -278,7 +256,7 @@ class MinecraftImporter {
                                         chunk->x, chunk->z, x, z)});
         if (x < world::kMinChunk || x > world::kMaxChunk || z < world::kMinChunk || z > world::kMaxChunk)
             return problem({base::ErrorCode::BadInput, "is outside the world"});
-        result.pos = world::offsetBy(formats::chunkPosOf(*chunk), by_.x, by_.y);
+        result.pos = world::offsetBy(formats::chunkPosOf(*chunk), options_.at.x, options_.at.y);
         if (!world::isInWorld(result.pos))
             return problem({base::ErrorCode::BadInput, "is outside the world"});
         result.isThere = edited_.contains(result.pos);
@@ -289,11 +267,10 @@ class MinecraftImporter {
         return result;
     }
 
-    const ImportOptions& options_;
+    const MinecraftOptions& options_;
     ImportWorld& world_;
     const formats::BlockMapping& mapping_;
     const formats::LegacyIds& ids_;
-    world::ChunkPos by_;
     base::JobSystem jobs_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> edited_;
     ImportReport report_;
@@ -301,26 +278,16 @@ class MinecraftImporter {
 
 }  // namespace
 
-base::Result<void> importMinecraft(ImportOptions& options) {
-    const auto by = TERRANE_TRY(movedBy(options.at));
-    auto regions = TERRANE_TRY(regionsOf(options.source, options.dimension));
-    keepRegionsWithChunks(regions, options.area);
-    if (regions.empty())
-        return base::fail(base::ErrorCode::NotFound, "{}: no chunks in --area", options.source);
+base::Result<ImportReport> importMinecraft(ImportOptions& options, const MinecraftOptions& minecraft,
+                                           const Progress& progress) {
+    const auto regions = TERRANE_TRY(regionsOf(options.source, minecraft.dimension));
     const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
     auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
-    MinecraftImporter importer(options, world, mapping, ids, by);
-    TERRANE_TRY(importer.run(regions));
-    const ImportReport& report = importer.report();
-    logReport(report);
-    options.exitCode = report.damageCount > 0 ? 1 : 0;
-    if (!options.report.empty()) TERRANE_TRY(writeReport(report, options.report));
-    if (report.chunks > 0 || report.skipped > 0) return {};
-    return base::fail(base::ErrorCode::Damaged,
-                      "{}: nothing is imported: {} chunks or files cannot be read, {} chunks have no blocks",
-                      options.source, report.damageCount, report.empty);
+    MinecraftImporter importer(minecraft, world, mapping, ids);
+    TERRANE_TRY(importer.run(regions, progress));
+    return std::move(importer.report());
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,4 +1,4 @@
-#include "apps/terrane/dump/dump_files.h"
+#include "terrane/io/area_files.h"
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include "terrane/base/npy.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 namespace {
 
@@ -87,9 +87,9 @@ std::size_t blocksOver(std::int32_t first, std::int32_t end) {
 }  // namespace
 
 base::Result<VolumeFile> VolumeFile::create(const std::filesystem::path& path, const world::ChunkArea& area) {
-    constexpr auto kMaxChunks = static_cast<std::int64_t>(INT64_MAX / kChunkBytes) - 1;
+    static_assert(kMaxChunks == static_cast<std::int64_t>(INT64_MAX / kChunkBytes) - 1);
     if (area.chunkCount() > kMaxChunks)
-        return base::fail("--area: {} chunks are too many for a file", area.chunkCount());
+        return base::fail("{} chunks are too many for a file", area.chunkCount());
     const std::string header = base::npyHeader(
         "<u2", {blocksOver(area.x0, area.x1), blocksOver(area.y0, area.y1), world::kChunkHeight});
     auto file = TERRANE_TRY(base::OutputFile::create(path));
@@ -119,4 +119,4 @@ base::Result<void> VolumeFile::write(const world::ChunkArea& square, const Colum
     return {};
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

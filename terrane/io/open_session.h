@@ -1,16 +1,15 @@
-// Opens the world that the command line names: its store and its generator.
+// Opens a world from plain settings: its content packs, its store and its generators.
 #pragma once
 
 #include <memory>
 
-#include "apps/terrane/options.h"
-#include "terrane/game/session.h"
+#include "terrane/game/session_parts.h"
+#include "terrane/io/world_options.h"
 #include "terrane/pack/content.h"
 #include "terrane/store/saves/open_world.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
-// The content packs of a command: those of --content, and those that an existing world was made with.
 // The built-in pack, the packs of `options.content`, and those that the world of `save` remembers. A
 // remembered pack that is not in the packs folder is skipped with a line in the log.
 [[nodiscard]] base::Result<pack::Content> loadContent(const WorldOptions& options,
@@ -44,4 +43,4 @@ base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOpti
                                            store::WorldAccess access,
                                            store::WorldSharing sharing = store::WorldSharing::Alone);
 
-}  // namespace terrane::app
+}  // namespace terrane::io

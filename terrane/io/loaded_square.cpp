@@ -1,8 +1,8 @@
-#include "apps/terrane/dump/loaded_square.h"
+#include "terrane/io/loaded_square.h"
 
 #include <algorithm>
 
-namespace terrane::app {
+namespace terrane::io {
 
 namespace {
 
@@ -33,4 +33,4 @@ base::Result<void> LoadedSquare::load(store::ChunkStore* save, const gen::Genera
     return {};
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

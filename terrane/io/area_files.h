@@ -2,6 +2,8 @@
 // One thread.
 #pragma once
 
+#include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <span>
 
@@ -9,7 +11,7 @@
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/world/coords.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 class QuadFile {
   public:
@@ -33,6 +35,9 @@ class QuadFile {
 // Writes one value per block of an area as a NumPy file, uint16 [x, y, z], square by square. One thread.
 class VolumeFile {
   public:
+    // Limit on the area: the size of the file in bytes is a 64-bit integer.
+    static constexpr std::int64_t kMaxChunks = INT64_MAX / (world::kBlocksPerChunk * 2) - 1;
+
     // Fails if the whole volume does not fit on the disk.
     static base::Result<VolumeFile> create(const std::filesystem::path& path, const world::ChunkArea& area);
 
@@ -51,4 +56,4 @@ class VolumeFile {
     std::size_t headerBytes_;
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,17 +1,19 @@
-// terrane import minecraft: imports chunks of region files into a world. Called by import_command.cpp.
+// Imports chunks of Minecraft's region files into a world.
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/terrane/formats/import_world.h"
 #include "terrane/base/result.h"
 #include "terrane/formats/region_file.h"
+#include "terrane/io/import_world.h"
+#include "terrane/world/coords.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
-// Finds the region files of a Minecraft world. Called by minecraft_import.cpp on the command's thread.
+// A region file of a Minecraft world.
 struct RegionSource {
     std::filesystem::path path;
     formats::RegionPos pos;
@@ -33,8 +35,17 @@ struct RegionChunk {
 // Reads a chunk that Minecraft keeps in a file of its own beside the region.
 [[nodiscard]] base::Result<std::string> readExternalChunk(const RegionSource& region, int number);
 
-// Chunks with edits in the world are kept, so a stopped run can continue. Chunks that cannot be read are
-// skipped, counted and logged; options.exitCode is then 1.
-[[nodiscard]] base::Result<void> importMinecraft(ImportOptions& options);
+struct MinecraftOptions {
+    std::string dimension = "overworld";
+    std::optional<world::ChunkArea> area;  // x0, z0, x1, z1 in Minecraft's chunks; none: all
+    world::ChunkPos at;                    // of Minecraft's origin
+    int shift = 0;                         // blocks added to heights
+};
 
-}  // namespace terrane::app
+// Chunks with edits in the world are kept, so a stopped run can continue. Chunks that cannot be read are
+// skipped, counted in the report and logged. Sets seed and generator in `options` to the world's.
+[[nodiscard]] base::Result<ImportReport> importMinecraft(ImportOptions& options,
+                                                         const MinecraftOptions& minecraft,
+                                                         const Progress& progress = {});
+
+}  // namespace terrane::io

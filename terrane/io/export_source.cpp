@@ -1,50 +1,20 @@
-#include "apps/terrane/formats/export_source.h"
+#include "terrane/io/export_source.h"
 
 #include <algorithm>
 #include <functional>
 #include <unordered_map>
 #include <utility>
 
-#include "apps/terrane/open_session.h"
-#include "apps/terrane/options.h"
-#include "terrane/base/log.h"
-#include "terrane/base/process.h"
+#include "terrane/base/job_system.h"
 #include "terrane/content/resource_pack.h"
+#include "terrane/io/open_session.h"
 #include "terrane/stream/area_chunks.h"
 
-namespace terrane::app {
+namespace terrane::io {
 namespace {
 
 // Chunks loaded at a time.
 constexpr std::size_t kExportBatch = 64;
-
-base::Result<world::BlockBox> parseBox(const std::string& text) {
-    constexpr std::int64_t kEnd = std::int64_t{1} << 31;  // of the world, excluded
-    const auto n =
-        TERRANE_TRY(parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", -kEnd, kEnd));
-    if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
-        return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
-                          text);
-    if (n[2] < 0 || n[5] > world::kChunkHeight)
-        return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
-                          world::kChunkHeight, text);
-    const auto pos = [&](std::size_t first, int less) {
-        const auto at = [&](std::size_t axis) { return static_cast<std::int32_t>(n[first + axis] - less); };
-        return world::BlockPos{at(0), at(1), at(2)};
-    };
-    return world::BlockBox{pos(0, 0), pos(3, 1)};
-}
-
-base::Result<world::BlockBox> boxOf(const ExportOptions& options) {
-    if (options.area.has_value() == !options.box.empty())
-        return base::fail(base::ErrorCode::BadInput, "export needs one of --area and --box");
-    if (!options.area) return parseBox(options.box);
-    const world::ChunkArea& area = *options.area;
-    const world::BlockPos high = world::blockPos({area.x1 - 1, area.y1 - 1}, 0);
-    constexpr int kLast = world::kChunkSize - 1;
-    return world::BlockBox{world::blockPos({area.x0, area.y0}, 0),
-                           {high.x + kLast, high.y + kLast, world::kChunkHeight - 1}};
-}
 
 // Assigns palette entries to blocks and states in order of first use.
 class VolumePalette {
@@ -86,15 +56,22 @@ base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, co
 
 }  // namespace
 
+world::BlockBox boxOf(const world::ChunkArea& area) {
+    const world::BlockPos high = world::blockPos({area.x1 - 1, area.y1 - 1}, 0);
+    constexpr int kLast = world::kChunkSize - 1;
+    return {world::blockPos({area.x0, area.y0}, 0),
+            {high.x + kLast, high.y + kLast, world::kChunkHeight - 1}};
+}
+
 base::Result<ExportSource> openExport(ExportOptions& options) {
-    const auto box = TERRANE_TRY(boxOf(options));
     const auto content = loadContent(options.world, options.save);
     if (!content) return tl::unexpected(content.error());
     auto textures = content::loadTextures(options.resourcePack, *content->blocks, content->textures);
     if (!textures) return tl::unexpected(textures.error());
     auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content));
     auto generator = TERRANE_TRY(makeGenerator(options.world, *content));
-    return ExportSource{content->blocks, std::move(*textures), std::move(save), std::move(generator), box};
+    return ExportSource{content->blocks,      std::move(*textures), std::move(save),
+                        std::move(generator), options.box,          threadCount(options.world)};
 }
 
 world::ChunkArea chunksOf(const world::BlockBox& box) {
@@ -102,16 +79,16 @@ world::ChunkArea chunksOf(const world::BlockBox& box) {
     return {low.x, low.y, high.x + 1, high.y + 1};
 }
 
-base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource& source,
-                                const TakeChunk& take) {
+base::Result<void> forEachChunk(const ExportSource& source, const Progress& progress, const TakeChunk& take) {
     const world::ChunkArea area = chunksOf(source.box);
     const std::int64_t width = std::int64_t{area.x1} - area.x0, count = area.chunkCount();
-    base::JobSystem jobs(threadCount(options.world));
-    const base::StopSignals signals;
-    base::ProgressBar bar("exporting", static_cast<std::size_t>(count));
+    base::JobSystem jobs(source.threads);
+    const auto goesOn = [&](std::int64_t done) {
+        return !progress || progress(static_cast<std::size_t>(done), static_cast<std::size_t>(count));
+    };
     std::vector<world::ChunkPos> positions;
     for (std::int64_t next = 0; next < count;) {
-        if (signals.stopRequested()) return base::fail("stopped after {} of {} chunks", next, count);
+        if (!goesOn(next)) return base::fail("stopped after {} of {} chunks", next, count);
         positions.clear();
         for (; next < count && positions.size() < kExportBatch; ++next)
             positions.push_back({static_cast<std::int32_t>(area.x0 + next % width),
@@ -119,12 +96,12 @@ base::Result<void> forEachChunk(const ExportOptions& options, const ExportSource
         const auto chunks =
             TERRANE_TRY(stream::chunksAt(positions, source.save.get(), source.generator, jobs));
         for (std::size_t k = 0; k < positions.size(); ++k) TERRANE_TRY(take(positions[k], chunks[k]));
-        bar.set(static_cast<std::size_t>(next));
     }
+    (void)goesOn(count);
     return {};
 }
 
-base::Result<formats::BlockVolume> readVolume(const ExportOptions& options, const ExportSource& source) {
+base::Result<formats::BlockVolume> readVolume(const ExportSource& source, const Progress& progress) {
     const world::BlockBox& box = source.box;
     const std::int64_t x = std::int64_t{box.high.x} - box.low.x + 1,
                        y = std::int64_t{box.high.y} - box.low.y + 1;
@@ -133,11 +110,11 @@ base::Result<formats::BlockVolume> readVolume(const ExportOptions& options, cons
     formats::BlockVolume volume{{x, y, z}, {}, {}};
     volume.cells.resize(static_cast<std::size_t>(x * y * z));
     VolumePalette palette;
-    TERRANE_TRY(forEachChunk(options, source, [&](world::ChunkPos pos, const world::Chunk& chunk) {
+    TERRANE_TRY(forEachChunk(source, progress, [&](world::ChunkPos pos, const world::Chunk& chunk) {
         return copyChunk(box, pos, chunk, palette, volume);
     }));
     volume.palette = std::move(palette.blocks);
     return volume;
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::io

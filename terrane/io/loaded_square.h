@@ -1,12 +1,12 @@
-// Loads a dumped area square by square, each with a border of one chunk, which light and meshes need. One
-// thread.
+// Loads an area of a world square by square, each with a border of one chunk, which light and meshes need.
+// One thread.
 #pragma once
 
 #include <vector>
 
 #include "terrane/stream/area_chunks.h"
 
-namespace terrane::app {
+namespace terrane::io {
 
 // 32² chunks, 34² with the border: about 10 MiB of blocks, whatever the area's size.
 constexpr int kSquareChunks = 32;
@@ -37,4 +37,4 @@ class LoadedSquare {
     std::vector<world::Chunk> chunks_;
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,25 +1,17 @@
-// A world opened read-only for `terrane map`.
+// A world opened read-only to draw maps of it.
 #pragma once
 
-#include <filesystem>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "apps/terrane/options.h"
 #include "terrane/base/result.h"
-#include "terrane/game/places.h"
 #include "terrane/game/session_parts.h"
+#include "terrane/io/world_options.h"
 #include "terrane/map/map_painter.h"
 #include "terrane/world/blocks/block_model.h"
 
-namespace terrane::app {
-
-// Reads a file of places for maps: bookmarks with or without names.
-// Lines are "X Y Z YAW PITCH NAME"; unnamed places are numbered. An empty path gives no places. Errors name
-// the line.
-[[nodiscard]] base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file);
+namespace terrane::io {
 
 struct MapWorld {
     // The store has the far tiles of edited terrain. The generators outlive it.
@@ -36,4 +28,4 @@ struct MapWorld {
 // The painter of the world's map; the world outlives it. `cache` may be null.
 [[nodiscard]] base::Result<map::MapPainter> painterOf(MapWorld& world, map::SurfaceCache* cache = nullptr);
 
-}  // namespace terrane::app
+}  // namespace terrane::io

@@ -1,0 +1,56 @@
+// Plain settings that name a world and say how it is opened. Pure; any thread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/base/result.h"
+#include "terrane/store/saves/world_identity.h"
+
+namespace terrane::io {
+
+struct WorldOptions {
+    // Defaults of a new world; an existing world keeps its own.
+    static constexpr std::uint64_t kDefaultSeed = 1;
+    static constexpr const char* kDefaultGenerator = "continents";
+
+    std::optional<std::uint64_t> seed;
+    std::string seedText;  // text that was hashed to the seed; empty for a number
+    std::optional<std::string> generator;
+    std::string otherwise = kDefaultGenerator;  // of the scene, for programs that draw one
+    std::vector<std::string> content;           // packs: names or paths
+    unsigned threads = 0;                       // 0: as many as the machine has
+
+    std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }
+    std::string effectiveGenerator() const { return generator.value_or(otherwise); }
+};
+
+struct SaveOptions {
+    std::string world;  // a store::WorldLocation; empty: none, edits are lost at exit
+    store::Regenerate regenerate = store::Regenerate::None;
+    bool followsGenerator = false;  // store::RequestedWorld
+    // Whether generated chunks are stored too. The world remembers it; by default they are.
+    std::optional<bool> storeGenerated;
+};
+
+unsigned threadCount(const WorldOptions& options);
+
+struct WrittenSeed {
+    std::uint64_t seed = 0;
+    std::string text;  // the text whose base::hash64 is the seed; empty for a number
+};
+
+// A number from 0 to 2^64 − 1, or any other text. Fails for an empty text, and for a whole number out of
+// range: hashed as a text it would give a world that the number does not identify.
+[[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
+
+// Called during a long run, on the caller's thread, with the part that is done. The run stops with an error
+// if it returns false; an empty function never stops it.
+using Progress = std::function<bool(std::size_t done, std::size_t total)>;
+
+}  // namespace terrane::io
