@@ -6,7 +6,6 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "apps/terrane/bots/bot.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
@@ -15,6 +14,7 @@
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
 #include "terrane/base/statistics.h"
+#include "terrane/net/client/bot.h"
 
 namespace terrane::app {
 namespace {
@@ -25,39 +25,40 @@ struct BotsOptions {
     double seconds = 60;
     double joinsPerSecond = 50;
     std::string acknowledged;  // file; empty: none
-    BotSettings bots;
+    net::BotSettings bots;
 };
 
-std::uint64_t receivedBytes(const std::deque<Bot>& bots) {
+std::uint64_t receivedBytes(const std::deque<net::Bot>& bots) {
     std::uint64_t bytes = 0;
-    for (const Bot& bot : bots) bytes += bot.link().receivedBytes();
+    for (const net::Bot& bot : bots) bytes += bot.link().receivedBytes();
     return bytes;
 }
-std::uint64_t sentBytes(const std::deque<Bot>& bots) {
+std::uint64_t sentBytes(const std::deque<net::Bot>& bots) {
     std::uint64_t bytes = 0;
-    for (const Bot& bot : bots) bytes += bot.link().sentBytes();
+    for (const net::Bot& bot : bots) bytes += bot.link().sentBytes();
     return bytes;
 }
 
-std::size_t joinedCount(const std::deque<Bot>& bots) {
+std::size_t joinedCount(const std::deque<net::Bot>& bots) {
     return static_cast<std::size_t>(std::ranges::count_if(
-        bots, [](const Bot& bot) { return bot.link().stage() == net::ClientLink::Stage::Joined; }));
+        bots, [](const net::Bot& bot) { return bot.link().stage() == net::ClientLink::Stage::Joined; }));
 }
 
 // Fails if a bot cannot join.
-base::Result<void> checkEnded(const std::deque<Bot>& bots) {
-    for (const Bot& bot : bots)
+base::Result<void> checkEnded(const std::deque<net::Bot>& bots) {
+    for (const net::Bot& bot : bots)
         if (bot.link().stage() == net::ClientLink::Stage::Ended) return base::fail("{}", bot.link().reason());
     return {};
 }
 
 // Traffic and time when all bots have joined: later traffic is that of playing.
 struct Since {
-    BotTime at;
+    net::BotTime at;
     std::uint64_t received = 0, sent = 0;
 };
 
-void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since& since, BotTime now) {
+void printReport(const net::BotWorld& world, const std::deque<net::Bot>& bots, const Since& since,
+                 net::BotTime now) {
     const double seconds = std::chrono::duration<double>(now - since.at).count();
     const double players = static_cast<double>(std::max<std::size_t>(bots.size(), 1));
     const auto perPlayer = [&](std::uint64_t bytes) {
@@ -84,9 +85,10 @@ void printReport(const BotWorld& world, const std::deque<Bot>& bots, const Since
 }
 
 // Writes X Y Z NAME of each acknowledged block; NAME is ? if a later edit has no answer.
-base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, const std::deque<Bot>& bots) {
+base::Result<void> writeAcknowledged(const std::string& file, net::BotWorld& world,
+                                     const std::deque<net::Bot>& bots) {
     if (file.empty()) return {};
-    for (const Bot& bot : bots)
+    for (const net::Bot& bot : bots)
         for (const world::BlockPos pos : bot.undecided()) {
             world.acknowledged.erase(pos);
             world.unknown.insert(pos);
@@ -98,10 +100,10 @@ base::Result<void> writeAcknowledged(const std::string& file, BotWorld& world, c
     return base::writeFile(file, text);
 }
 
-base::Result<void> addBot(std::deque<Bot>& bots, boost::asio::io_context& context, BotWorld& world,
-                          const BotSettings& settings) {
+base::Result<void> addBot(std::deque<net::Bot>& bots, boost::asio::io_context& context, net::BotWorld& world,
+                          const net::BotSettings& settings) {
     const int number = static_cast<int>(bots.size());
-    const auto key = TERRANE_TRY(botKey(settings, number));
+    const auto key = TERRANE_TRY(net::botKey(settings, number));
     bots.emplace_back(context, world, settings, number, key);
     return {};
 }
@@ -111,20 +113,22 @@ base::Result<void> runBots(BotsOptions& options) {
         auto address = TERRANE_TRY(net::serverAddress(server));
         options.bots.servers.push_back(address);
     }
+    options.bots.program = fmt::format("terrane bots {}", TERRANE_VERSION);
     base::raiseOpenFileLimit();
-    BotWorld world(ClientPacks{.cache = {}, .acceptsAll = true, .accepted = {}, .packs = {}, .missing = {}});
+    net::BotWorld world(
+        net::ClientPacks{.cache = {}, .acceptsAll = true, .accepted = {}, .packs = {}, .missing = {}});
     boost::asio::io_context context;
-    std::deque<Bot> bots;
+    std::deque<net::Bot> bots;
     const base::StopSignals signals;
-    const BotTime start = std::chrono::steady_clock::now();
+    const net::BotTime start = std::chrono::steady_clock::now();
     std::optional<Since> since;
-    while (!signals.stopRequested()) {
-        const BotTime now = std::chrono::steady_clock::now();
+    while (!signals.stopAsked()) {
+        const net::BotTime now = std::chrono::steady_clock::now();
         const std::chrono::duration<double> passed = now - start;
         const int due =
             std::min(options.count, 1 + static_cast<int>(passed.count() * options.joinsPerSecond));
         while (static_cast<int>(bots.size()) < due) TERRANE_TRY(addBot(bots, context, world, options.bots));
-        for (Bot& bot : bots) bot.update(now);
+        for (net::Bot& bot : bots) bot.update(now);
         TERRANE_TRY(checkEnded(bots));
         if (!since && joinedCount(bots) == static_cast<std::size_t>(options.count)) {
             since = Since{now, receivedBytes(bots), sentBytes(bots)};
@@ -136,10 +140,10 @@ base::Result<void> runBots(BotsOptions& options) {
         context.restart();
         context.run_for(std::chrono::milliseconds(5));
     }
-    const BotTime end = std::chrono::steady_clock::now();
+    const net::BotTime end = std::chrono::steady_clock::now();
     printReport(world, bots, since.value_or(Since{end, 0, 0}), end);
     TERRANE_TRY(writeAcknowledged(options.acknowledged, world, bots));
-    for (Bot& bot : bots) bot.leave();
+    for (net::Bot& bot : bots) bot.leave();
     context.restart();
     context.run_for(std::chrono::milliseconds(200));
     return {};
@@ -161,9 +165,11 @@ CommandEntry addBots(CLI::App& app) {
     command->add_option("--seconds", options->seconds, "Seconds, counted from when all have joined")
         ->check(numberFrom(0, 1e6))
         ->capture_default_str();
-    addChoice<BotBehaviour>(
+    addChoice<net::BotBehaviour>(
         *command, "--behaviour", options->bots.behaviour,
-        {{"walk", BotBehaviour::Walk}, {"build", BotBehaviour::Build}, {"crowd", BotBehaviour::Crowd}},
+        {{"walk", net::BotBehaviour::Walk},
+         {"build", net::BotBehaviour::Build},
+         {"crowd", net::BotBehaviour::Crowd}},
         "What they do: walk around where they began, the same while all build, or all "
         "around one place");
     command->add_option("--builders", options->bots.builders, "Share of bots that build while they walk")

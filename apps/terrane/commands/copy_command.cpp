@@ -5,13 +5,12 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/output_files.h"
-#include "apps/terrane/serve/world_records.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
 #include "terrane/io/open_session.h"
 #include "terrane/net/server/server_records.h"
+#include "terrane/net_postgres/world_records.h"
 #include "terrane/store/saves/world_copy.h"
 #include "terrane/store_postgres/any_world.h"
 
@@ -45,11 +44,11 @@ void print(const CopyOptions& options, const store::CopyReport& report) {
 base::Result<void> copyServers(const CopyOptions& options, const world::BlockRegistry& blocks) {
     const store::WorldLocation from = store::worldLocation(options.from),
                                to = store::worldLocation(options.to);
-    if (!hasRecords(from)) return {};
-    const auto source = TERRANE_TRY(openRecordsToRead(from, blocks));
+    if (!net_postgres::hasRecords(from)) return {};
+    const auto source = TERRANE_TRY(net_postgres::openRecordsToRead(from, blocks));
     const auto players = TERRANE_TRY(source->players());
     if (players.empty()) return {};
-    const auto target = TERRANE_TRY(openRecords(to, blocks));
+    const auto target = TERRANE_TRY(net_postgres::openRecords(to, blocks));
     const auto copied = net::copyRecords(*source, *target.records);
     if (!copied)
         return base::fail(copied.error().code, "{}: {}", store_postgres::shownOf(from),

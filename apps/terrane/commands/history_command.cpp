@@ -5,9 +5,9 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/serve/world_records.h"
 #include "terrane/base/text.h"
 #include "terrane/io/open_session.h"
+#include "terrane/net_postgres/world_records.h"
 
 namespace terrane::app {
 namespace {
@@ -60,7 +60,8 @@ void printEdit(const net::LoggedEdit& edit, const std::string& player, const wor
 base::Result<void> printHistory(const HistoryOptions& options) {
     const auto content = TERRANE_TRY(io::loadContent({}, options.save));
     const auto& blocks = content.blocks;
-    const auto history = TERRANE_TRY(openHistory(store::worldLocation(options.save.world), *blocks));
+    const auto history =
+        TERRANE_TRY(net_postgres::openHistory(store::worldLocation(options.save.world), *blocks));
     net::EditFilter filter;
     if (!options.player.empty()) {
         filter.player = net::playerCalled(history, options.player);

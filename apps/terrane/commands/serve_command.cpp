@@ -3,19 +3,19 @@
 #include <filesystem>
 #include <memory>
 
-#include "apps/terrane/client_packs.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/maps/server_map.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/serve/serve_options.h"
-#include "apps/terrane/serve/server_statistics.h"
-#include "apps/terrane/serve/world_records.h"
+#include "apps/terrane/serve_options.h"
 #include "apps/terrane/settings.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/io/open_session.h"
+#include "terrane/net/client/client_packs.h"
 #include "terrane/net/server/server_console.h"
 #include "terrane/net/server/server_loop.h"
+#include "terrane/net/server/server_statistics.h"
+#include "terrane/net_postgres/world_records.h"
 #include "terrane/store_postgres/any_world.h"
 
 namespace terrane::app {
@@ -46,18 +46,18 @@ std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
 
 base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     const store::WorldLocation world = store::worldLocation(options.save.world);
-    const auto files = TERRANE_TRY(serverFilesOf(world, options.listen.port));
+    const auto files = TERRANE_TRY(net_postgres::serverFilesOf(world, options.listen.port));
     TERRANE_TRY(readSettings(options, files, command));
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
     TERRANE_TRY(checkMapSite(options.map));
-    auto statistics = TERRANE_TRY(ServerStatistics::open(options.statistics));
+    auto statistics = TERRANE_TRY(net::ServerStatistics::open(options.statistics));
     auto opened = TERRANE_TRY(io::openSessionParts(options.world, options.save, store::WorldAccess::ReadWrite,
                                                    store::WorldSharing::Servers));
     game::SessionParts& parts = opened.parts;
-    const auto content = TERRANE_TRY(serverContent(opened.content));
+    const auto content = TERRANE_TRY(net::serverContent(opened.content));
     // Clients generate unedited chunks themselves: the server needs them rarely, and regenerates them.
     parts.storesGenerated = false;
-    auto records = TERRANE_TRY(openRecords(world, *parts.blocks));
+    auto records = TERRANE_TRY(net_postgres::openRecords(world, *parts.blocks));
     auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
                                                 fmt::format("terrane {}", TERRANE_VERSION), content));
     base::raiseOpenFileLimit();

@@ -8,13 +8,13 @@
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/worker/worker.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
 #include "terrane/io/open_session.h"
 #include "terrane/store_postgres/postgres_store.h"
+#include "terrane/store_postgres/worker.h"
 
 namespace terrane::app {
 namespace {
@@ -95,8 +95,10 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
     auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content));
     const base::StopSignals signals;
     const auto start = std::chrono::steady_clock::now();
-    const auto result = TERRANE_TRY(work({*generator.worker, store, pool, base::processName(), options.waits,
-                                          [&] { return signals.stopRequested(); }}));
+    const auto result = TERRANE_TRY(store_postgres::work(
+        {*generator.worker, store, pool, base::processName(), options.waits,
+         [&] { return signals.stopAsked(); },
+         [] { base::logInfo("the work is paused: `terrane work URL --continue` lets it go on"); }}));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double rate = static_cast<double>(result.chunks) / std::max(seconds, 1e-3);
     if (options.json) {

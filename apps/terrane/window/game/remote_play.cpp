@@ -28,7 +28,7 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
         return base::fail(base::ErrorCode::BadInput, "--name {}: {}", options.name, net::nameRule());
     auto key = TERRANE_TRY(net::loadPlayerKey(dataFolder / "player.key"));
     std::unique_ptr<RemotePlay> play(new RemotePlay(std::make_unique<Network>()));
-    play->packs_.cache = packCacheFolder();
+    play->packs_.cache = net::packCacheFolder();
     play->packs_.acceptsAll = options.acceptsPacks;
     play->packs_.accepted = options.acceptedPacks;
     play->knownServers_ = dataFolder / "known_servers.txt";
@@ -46,7 +46,7 @@ base::Result<std::unique_ptr<RemotePlay>> RemotePlay::connect(const RemoteOption
                         },
                         [&self](const net::WorldOffer& offer) { return self.fetchFirst(offer); },
                         [&self](const net::PackOffer& offer, const net::Bytes& archive) {
-                            return takePack(self.packs_, offer, archive);
+                            return net::takePack(self.packs_, offer, archive);
                         }});
     return play;
 }
@@ -58,7 +58,7 @@ base::Result<bool> RemotePlay::trusts(const std::string& key) const {
 base::Result<std::vector<std::uint8_t>> RemotePlay::fetchFirst(const net::WorldOffer& offer) {
     if (offer_ && offer.packs != offer_->packs)
         return base::fail("the server has other content packs than before: join it again");
-    return app::missingPacks(packs_, offer);
+    return net::missingPacks(packs_, offer);
 }
 
 // After a reconnect the session continues, so the server must still have the same world.
@@ -66,7 +66,7 @@ base::Result<net::SampleDigests> RemotePlay::prove(const net::WorldOffer& offer)
     if (offer_ && !(offer.world == offer_->world && offer.packs == offer_->packs))
         return base::fail("the server has another world than before: join it again");
     if (!offer_) {
-        auto content = TERRANE_TRY(contentOf(packs_, offer));
+        auto content = TERRANE_TRY(net::contentOf(packs_, offer));
         content_ = std::move(content);
     }
     const auto generator = TERRANE_TRY(net::offeredGenerator(offer, *content_.blocks, content_.generators));

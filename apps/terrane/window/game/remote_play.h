@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/client_packs.h"
 #include "terrane/net/client/client_link.h"
+#include "terrane/net/client/client_packs.h"
 #include "terrane/net/client/client_world.h"
 #include "terrane/net/client/remote_session.h"
 
@@ -56,7 +56,7 @@ class RemotePlay {
     base::Result<bool> trusts(const std::string& key) const;
 
     std::unique_ptr<Network> network_;
-    ClientPacks packs_;
+    net::ClientPacks packs_;
     pack::Content content_;
     std::filesystem::path knownServers_;  // file
     std::unique_ptr<net::ClientLink> link_;

@@ -7,12 +7,12 @@
 #include <functional>
 #include <thread>
 
-#include "apps/terrane/client_packs.h"
 #include "apps/terrane/window/hud/overlay.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/text.h"
 #include "apps/terrane/window/ui_style.h"
 #include "terrane/gpu/framebuffer.h"
+#include "terrane/net/client/client_packs.h"
 
 namespace terrane::app {
 
@@ -24,7 +24,7 @@ PackAnswer drawPackDialog(const Screen& screen, const Texts& tr, const std::stri
                {std::min(420 * uiScale(), screen.width - 20), 0}});
     ImGui::TextWrapped(tr("%s uses content packs that are not here. They are kept for the next time."),
                        server.c_str());
-    for (const net::PackOffer& pack : packs) dimText(describe(std::span(&pack, 1)));
+    for (const net::PackOffer& pack : packs) dimText(net::textOf(std::span(&pack, 1)));
     ImGui::Spacing();
     const float width = (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x) / 2;
     if (menuButton(tr("Load them"), width)) answer = PackAnswer::Accept;

@@ -9,7 +9,7 @@
 #include "terrane/base/result.h"
 #include "terrane/net/server/server.h"
 
-namespace terrane::app {
+namespace terrane::net {
 
 class ServerStatistics {
   public:
@@ -17,10 +17,10 @@ class ServerStatistics {
     [[nodiscard]] static base::Result<ServerStatistics> open(const std::string& file);
 
     // Call after each tick with its duration.
-    void addTick(const net::ServerCounts& counts, double milliseconds);
+    void addTick(const ServerState& server, double milliseconds);
 
   private:
-    void write(const net::ServerCounts& counts);
+    void write(const ServerState& server);
 
     std::ofstream out_;
     std::vector<double> ticks_;
@@ -28,4 +28,4 @@ class ServerStatistics {
     double cpuSeconds_ = 0;
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::net

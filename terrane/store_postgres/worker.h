@@ -1,5 +1,5 @@
-// A worker of `terrane work`: takes squares of chunks from the queue of a world in PostgreSQL, generates
-// their missing chunks, and continues until the queue is empty.
+// A worker takes squares of chunks from the queue of a world in PostgreSQL, generates their missing chunks,
+// and continues until the queue is empty. One thread.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,16 @@
 #include "terrane/store_postgres/connection.h"
 #include "terrane/store_postgres/work_queue.h"
 
-namespace terrane::app {
+namespace terrane::store_postgres {
 
 struct WorkerParts {
     gen::BatchGenerator& generator;  // of the world
     store::ChunkStore& store;        // of the world, opened with WorldSharing::Generating
-    store_postgres::ConnectionPool& pool;
+    ConnectionPool& pool;
     std::string name;
     bool waits = false;  // for more jobs when the queue is empty
-    std::function<bool()> stopRequested;
+    std::function<bool()> stopAsked;
+    std::function<void()> onPaused = {};  // called when the queue is paused; may be empty
 };
 
 struct WorkerResult {
@@ -30,4 +31,4 @@ struct WorkerResult {
 // Returns when no job is left or stopRequested(). An unfinished job goes back to the queue.
 [[nodiscard]] base::Result<WorkerResult> work(const WorkerParts& parts);
 
-}  // namespace terrane::app
+}  // namespace terrane::store_postgres

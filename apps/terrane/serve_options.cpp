@@ -1,4 +1,4 @@
-#include "apps/terrane/serve/serve_options.h"
+#include "apps/terrane/serve_options.h"
 
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"

@@ -1,4 +1,4 @@
-#include "apps/terrane/serve/server_statistics.h"
+#include "terrane/net/server/server_statistics.h"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include "terrane/base/machine.h"
 #include "terrane/base/statistics.h"
 
-namespace terrane::app {
+namespace terrane::net {
 namespace {
 
 constexpr std::chrono::seconds kEvery{10};
@@ -22,7 +22,7 @@ base::Result<ServerStatistics> ServerStatistics::open(const std::string& file) {
     return statistics;
 }
 
-void ServerStatistics::addTick(const net::ServerCounts& counts, double milliseconds) {
+void ServerStatistics::addTick(const ServerState& server, double milliseconds) {
     if (!out_.is_open()) return;
     ticks_.push_back(milliseconds);
     const auto now = std::chrono::steady_clock::now();
@@ -32,7 +32,7 @@ void ServerStatistics::addTick(const net::ServerCounts& counts, double milliseco
     write(counts);
 }
 
-void ServerStatistics::write(const net::ServerCounts& counts) {
+void ServerStatistics::write(const ServerState& server) {
     const double cpu = base::cpuSeconds();
     const nlohmann::json line = {{"players", counts.players},
                                  {"ticks", ticks_.size()},
@@ -41,9 +41,9 @@ void ServerStatistics::write(const net::ServerCounts& counts) {
                                  {"tick_ms_max", std::ranges::max(ticks_)},
                                  {"cpu_seconds", cpu - cpuSeconds_},
                                  {"memory_mb", base::megabytes(base::residentBytes())},
-                                 {"chunks", counts.loadedChunks},
-                                 {"edited_chunks", counts.editedChunks},
-                                 {"edits", counts.edits}};
+                                 {"chunks", chunks},
+                                 {"edited_chunks", server.edited.count(0)},
+                                 {"edits", newestEdit(server)}};
     const bool wasGood = out_.good();
     out_ << line.dump() << std::endl;
     if (wasGood && !out_) base::logWarning("the statistics cannot be written any more");
@@ -51,4 +51,4 @@ void ServerStatistics::write(const net::ServerCounts& counts) {
     ticks_.clear();
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net

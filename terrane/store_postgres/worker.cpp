@@ -1,4 +1,4 @@
-#include "apps/terrane/worker/worker.h"
+#include "terrane/store_postgres/worker.h"
 
 #include <algorithm>
 #include <chrono>
@@ -8,11 +8,9 @@
 
 #include "terrane/base/log.h"
 
-namespace terrane::app {
+namespace terrane::store_postgres {
 namespace {
 
-using store_postgres::Connection;
-using store_postgres::Job;
 using Clock = std::chrono::steady_clock;
 
 // Chunks generated at a time: enough for all threads or a batch of the GPU.
@@ -60,11 +58,10 @@ class Worker {
 
     // True if no job is left; waits while another worker has one, since it may come back.
     base::Result<bool> waitForJob() {
-        const auto status = TERRANE_TRY(parts_.pool.run<store_postgres::WorkStatus>(
-            [](Connection& connection) { return workStatus(connection); }));
+        const auto status = TERRANE_TRY(
+            parts_.pool.run<WorkStatus>([](Connection& connection) { return workStatus(connection); }));
         if (!parts_.waits && status.waiting + status.working == 0) return true;
-        if (status.isPaused && !std::exchange(saidPaused_, true))
-            base::logInfo("the work is paused: `terrane work URL --continue` lets it go on");
+        if (status.isPaused && !std::exchange(saidPaused_, true) && parts_.onPaused) parts_.onPaused();
         if (!status.isPaused) saidPaused_ = false;
         // The pool may run it again.
         const std::int64_t chunks = std::exchange(untold_, 0);
@@ -139,4 +136,4 @@ base::Result<WorkerResult> work(const WorkerParts& parts) {
     return Worker(parts).run();
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::store_postgres

@@ -10,7 +10,7 @@
 #include "terrane/net/server/server_records.h"
 #include "terrane/store/saves/save_path.h"
 
-namespace terrane::app {
+namespace terrane::net_postgres {
 
 struct WorldRecords {
     std::unique_ptr<net::ServerRecords> records;
@@ -37,4 +37,4 @@ struct WorldRecords {
 [[nodiscard]] base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& world,
                                                                 std::uint16_t port);
 
-}  // namespace terrane::app
+}  // namespace terrane::net_postgres

@@ -1,9 +1,9 @@
 // The records of a world in a file: a database beside it. Used by both builds of world_records.h.
 #pragma once
 
-#include "apps/terrane/serve/world_records.h"
+#include "terrane/net_postgres/world_records.h"
 
-namespace terrane::app {
+namespace terrane::net_postgres {
 
 [[nodiscard]] base::Result<WorldRecords> openFileRecords(const store::WorldLocation& world,
                                                          const world::BlockRegistry& blocks);
@@ -13,4 +13,4 @@ namespace terrane::app {
 // serverFilesOf() for a world in a file.
 [[nodiscard]] base::Result<std::filesystem::path> filesBeside(const store::WorldLocation& world);
 
-}  // namespace terrane::app
+}  // namespace terrane::net_postgres

@@ -1,5 +1,5 @@
-// A simulated player: it walks, builds, and records what the server sends. Used for load tests, and an
-// example of a client. Runs on one thread; all bots share a BotWorld.
+// A simulated player: it walks, builds, and records what the server sends. For load tests, and an example of
+// a client. Runs on one thread; all bots share a BotWorld.
 #pragma once
 
 #include <array>
@@ -13,15 +13,15 @@
 #include <unordered_map>
 #include <vector>
 
-#include "apps/terrane/client_packs.h"
 #include "terrane/base/result.h"
 #include "terrane/gen/generator.h"
 #include "terrane/net/client/client_link.h"
+#include "terrane/net/client/client_packs.h"
 #include "terrane/net/wire/server_message.h"
 #include "terrane/net/wire/world_proof.h"
 #include "terrane/world/blocks/block_registry.h"
 
-namespace terrane::app {
+namespace terrane::net {
 
 // The ground that bots walk on: generated terrain without edits. Shared by all bots. One thread.
 class BotLand {
@@ -32,7 +32,7 @@ class BotLand {
 
     // The answer to a server's offer, cached for the same offer. Fails if this program generates another
     // world.
-    [[nodiscard]] base::Result<net::SampleDigests> prove(const net::WorldOffer& offer);
+    [[nodiscard]] base::Result<SampleDigests> prove(const WorldOffer& offer);
     // The height of the highest block of a column; call after prove(). Generates the chunk at the first
     // request.
     int groundHeight(std::int32_t x, std::int32_t y);
@@ -44,8 +44,8 @@ class BotLand {
 
     pack::Content content_;
     std::unique_ptr<gen::Generator> generator_;
-    net::WorldOffer offer_;
-    net::SampleDigests digests_{};
+    WorldOffer offer_;
+    SampleDigests digests_{};
     std::unordered_map<world::ChunkPos, Heights, world::ChunkPosHash> heights_;
 };
 
@@ -58,14 +58,15 @@ enum class BotBehaviour : std::uint8_t {
 };
 
 struct BotSettings {
-    std::vector<net::ServerAddress> servers;  // of one world; assigned to bots in turn
-    std::string name = "bot";                 // prefix; a number follows
+    std::vector<ServerAddress> servers;  // of one world; assigned to bots in turn
+    std::string name = "bot";            // prefix; a number follows
     std::string password;
     std::string keyFolder;  // keeps each bot's key; empty: new keys in each run
     BotBehaviour behaviour = BotBehaviour::Walk;
     double builders = 0.1;      // share of bots that build; not used by Build
     double editsPerSecond = 1;  // per bot that builds
     int viewDistance = 8;
+    std::string program = "bot";  // name and version that servers see
 };
 
 // State and statistics shared by all bots.
@@ -93,18 +94,18 @@ struct BotWorld {
 };
 
 // The key of a bot: loaded from BotSettings::keyFolder or created there; a new one without a folder.
-[[nodiscard]] base::Result<net::PlayerKey> botKey(const BotSettings& settings, int number);
+[[nodiscard]] base::Result<PlayerKey> botKey(const BotSettings& settings, int number);
 
 class Bot {
   public:
     Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number,
-        const net::PlayerKey& key);
+        const PlayerKey& key);
 
     // Moves, builds and sends to the server. Call several times per second.
     void update(BotTime now);
     void leave() { link_.leave(); }
 
-    const net::ClientLink& link() const { return link_; }
+    const ClientLink& link() const { return link_; }
     // Positions of edits that the server has not answered yet.
     std::vector<world::BlockPos> undecided() const;
 
@@ -114,11 +115,11 @@ class Bot {
         world::BlockPos pos;
         world::BlockId id = world::kAir;
     };
-    void onMessage(const net::ServerMessage& message);
-    void onJoined(const net::Joined& joined);
+    void onMessage(const ServerMessage& message);
+    void onJoined(const Joined& joined);
     void onViewComplete();
-    void onBlocks(const net::BlocksChanged& changed);
-    void onDone(const net::Done& done);
+    void onBlocks(const BlocksChanged& changed);
+    void onDone(const Done& done);
     void walk(double seconds);
     void chooseGoal();
     void build(BotTime now);
@@ -134,9 +135,9 @@ class Bot {
     world::Pose pose_, home_;
     glm::dvec2 goal_{0};
     std::optional<world::ChunkPos> toldView_;
-    net::CommandNumber lastCommand_ = 0;
-    std::map<net::CommandNumber, Pending> pending_;
-    net::ClientLink link_;  // last: its events reach the rest
+    CommandNumber lastCommand_ = 0;
+    std::map<CommandNumber, Pending> pending_;
+    ClientLink link_;  // last: its events reach the rest
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::net

@@ -1,4 +1,4 @@
-#include "apps/terrane/client_packs.h"
+#include "terrane/net/client/client_packs.h"
 
 #include <fmt/format.h>
 
@@ -14,7 +14,7 @@
 #include "terrane/pack/installed_packs.h"
 #include "terrane/pack/pack_files.h"
 
-namespace terrane::app {
+namespace terrane::net {
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +43,7 @@ std::size_t bytesOf(const pack::Pack& pack) {
     return bytes;
 }
 
-bool findHere(ClientPacks& packs, const net::PackOffer& offer) {
+bool findHere(ClientPacks& packs, const PackOffer& offer) {
     if (packWith(packs, offer.hash)) return true;
     const auto own = pack::isPackName(offer.name) ? pack::findPack(offer.name, pack::packFolders())
                                                   : base::Result<fs::path>(base::fail("no name of a pack"));
@@ -83,7 +83,7 @@ void pruneCache(const fs::path& folder) {
     }
 }
 
-void writeToCache(const ClientPacks& packs, const net::PackOffer& offer, const store::Bytes& archive) {
+void writeToCache(const ClientPacks& packs, const PackOffer& offer, const store::Bytes& archive) {
     if (packs.cache.empty()) return;
     std::error_code error;
     fs::create_directories(packs.cache, error);
@@ -102,12 +102,12 @@ fs::path packCacheFolder() {
     return home && *home ? fs::path(home) / ".cache" / "terrane" / "packs" : fs::path();
 }
 
-base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const net::WorldOffer& offer) {
+base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const WorldOffer& offer) {
     packs.missing.clear();
     std::vector<std::uint8_t> numbers;
     std::size_t bytes = 0;
     for (std::size_t k = 0; k < offer.packs.size(); ++k) {
-        const net::PackOffer& pack = offer.packs[k];
+        const PackOffer& pack = offer.packs[k];
         if (findHere(packs, pack)) continue;
         if (!packs.acceptsAll && std::ranges::find(packs.accepted, pack.hash) == packs.accepted.end())
             packs.missing.push_back(pack);
@@ -119,11 +119,11 @@ base::Result<std::vector<std::uint8_t>> missingPacks(ClientPacks& packs, const n
                           kMaxServerPackBytes >> 20);
     if (!packs.missing.empty())
         return base::fail("the server's world needs content packs that are not installed: {}",
-                          describe(packs.missing));
+                          textOf(packs.missing));
     return numbers;
 }
 
-base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer, const store::Bytes& archive) {
+base::Result<void> takePack(ClientPacks& packs, const PackOffer& offer, const store::Bytes& archive) {
     if (packWith(packs, offer.hash)) return {};  // another connection of this program was faster
     auto pack = pack::packOf(archive, fmt::format("{} of the server", base::printable(offer.name)));
     if (!pack) return tl::unexpected(pack.error());
@@ -140,9 +140,9 @@ base::Result<void> takePack(ClientPacks& packs, const net::PackOffer& offer, con
     return {};
 }
 
-base::Result<pack::Content> contentOf(const ClientPacks& packs, const net::WorldOffer& offer) {
+base::Result<pack::Content> contentOf(const ClientPacks& packs, const WorldOffer& offer) {
     std::vector<pack::Pack> ordered;
-    for (const net::PackOffer& wanted : offer.packs) {
+    for (const PackOffer& wanted : offer.packs) {
         const HeldPack* found = packWith(packs, wanted.hash);
         if (!found) return base::fail("the content pack {} is missing", base::printable(wanted.name));
         ordered.push_back(found->pack);
@@ -150,30 +150,30 @@ base::Result<pack::Content> contentOf(const ClientPacks& packs, const net::World
     return pack::loadContent(std::move(ordered));
 }
 
-base::Result<net::ServerContent> serverContent(const pack::Content& content) {
-    net::ServerContent offered{content.generators, {}};
+base::Result<ServerContent> serverContent(const pack::Content& content) {
+    ServerContent offered{content.generators, {}};
     std::size_t bytes = 0;
     for (const pack::Pack& pack : *content.packs) {
         if (pack.info.name == pack::kBuiltInPack) continue;
         auto archive = std::make_shared<const store::Bytes>(pack::archiveOf(pack));
         bytes += bytesOf(pack);  // as clients count them
-        offered.packs.push_back({{pack.info.name, net::plainText(pack.info.version, net::kMaxPackNameBytes),
+        offered.packs.push_back({{pack.info.name, plainText(pack.info.version, kMaxPackNameBytes),
                                   pack::hashOf(pack), static_cast<std::uint32_t>(archive->size())},
                                  archive});
     }
-    if (offered.packs.size() > net::kMaxPacks || bytes > kMaxServerPackBytes)
+    if (offered.packs.size() > kMaxPacks || bytes > kMaxServerPackBytes)
         return base::fail("a server's world has at most {} content packs of {} MiB together, got {} of {}",
-                          net::kMaxPacks, kMaxServerPackBytes >> 20, offered.packs.size(), bytes >> 20);
+                          kMaxPacks, kMaxServerPackBytes >> 20, offered.packs.size(), bytes >> 20);
     return offered;
 }
 
-std::string describe(std::span<const net::PackOffer> packs) {
+std::string textOf(std::span<const PackOffer> packs) {
     std::string text;
-    for (const net::PackOffer& pack : packs)
+    for (const PackOffer& pack : packs)
         text += fmt::format("{}{}{}{} ({} KB)", text.empty() ? "" : ", ", base::printable(pack.name),
                             pack.version.empty() ? "" : " ", base::printable(pack.version),
                             (pack.bytes + 999) / 1000);
     return text;
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net

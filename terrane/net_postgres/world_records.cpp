@@ -1,12 +1,12 @@
-#include "apps/terrane/serve/world_records.h"
+#include "terrane/net_postgres/world_records.h"
 
-#include "apps/terrane/serve/file_records.h"
 #include "terrane/base/digest.h"
 #include "terrane/base/machine.h"
+#include "terrane/net_postgres/file_records_internal.h"
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/store/saves/save_path.h"
 
-namespace terrane::app {
+namespace terrane::net_postgres {
 namespace {
 
 bool isInDatabase(const store::WorldLocation& world) {
@@ -19,9 +19,8 @@ base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) return openFileRecords(world, blocks);
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    auto records =
-        TERRANE_TRY(net_postgres::PostgresRecords::open(address, blocks, {base::processName(), "", ""}));
-    net_postgres::PostgresRecords* shared = records.get();
+    auto records = TERRANE_TRY(PostgresRecords::open(address, blocks, {base::processName(), "", ""}));
+    PostgresRecords* shared = records.get();
     return WorldRecords{std::move(records), [shared](const std::string& at, const std::string& key) {
                             shared->publishAddress(at, key);
                         }};
@@ -34,8 +33,7 @@ base::Result<std::unique_ptr<net::ServerRecords>> openRecordsToRead(const store:
         return std::move(records.records);
     }
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    auto records = TERRANE_TRY(
-        net_postgres::PostgresRecords::openToRead(address, blocks, {base::processName(), "", ""}));
+    auto records = TERRANE_TRY(PostgresRecords::openToRead(address, blocks, {base::processName(), "", ""}));
     return records;
 }
 
@@ -43,7 +41,7 @@ base::Result<net::History> openHistory(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
     if (!isInDatabase(world)) return openFileHistory(world, blocks);
     const auto address = TERRANE_TRY(store_postgres::addressOf(world.text));
-    return net_postgres::readHistory(address, blocks);
+    return readHistory(address, blocks);
 }
 
 bool hasRecords(const store::WorldLocation& world) {
@@ -64,4 +62,4 @@ base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& wo
     return *folder / fmt::format("database-{:016x}-{}", base::hash64(address.shown), port);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net_postgres

@@ -1,7 +1,7 @@
 // World records of a build without PostgreSQL: always files.
-#include "apps/terrane/serve/file_records.h"
+#include "terrane/net_postgres/file_records_internal.h"
 
-namespace terrane::app {
+namespace terrane::net_postgres {
 
 base::Result<WorldRecords> openRecords(const store::WorldLocation& world,
                                        const world::BlockRegistry& blocks) {
@@ -27,4 +27,4 @@ base::Result<std::filesystem::path> serverFilesOf(const store::WorldLocation& wo
     return filesBeside(world);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net_postgres

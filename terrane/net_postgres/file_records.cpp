@@ -1,8 +1,8 @@
-#include "apps/terrane/serve/file_records.h"
+#include "terrane/net_postgres/file_records_internal.h"
 
 #include "terrane/net/server/sqlite_records.h"
 
-namespace terrane::app {
+namespace terrane::net_postgres {
 
 base::Result<WorldRecords> openFileRecords(const store::WorldLocation& world,
                                            const world::BlockRegistry& blocks) {
@@ -29,4 +29,4 @@ base::Result<std::filesystem::path> filesBeside(const store::WorldLocation& worl
     return path;
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net_postgres

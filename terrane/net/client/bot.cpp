@@ -1,4 +1,4 @@
-#include "apps/terrane/bots/bot.h"
+#include "terrane/net/client/bot.h"
 
 #include <glm/geometric.hpp>
 
@@ -11,18 +11,18 @@
 #include "terrane/net/client/remote_session.h"
 #include "terrane/world/character.h"
 
-namespace terrane::app {
+namespace terrane::net {
 
-base::Result<net::SampleDigests> BotLand::prove(const net::WorldOffer& offer) {
+base::Result<SampleDigests> BotLand::prove(const WorldOffer& offer) {
     if (generator_ && offer.world == offer_.world && offer.samples == offer_.samples &&
         offer.packs == offer_.packs)
         return digests_;
     auto content = TERRANE_TRY(contentOf(packs, offer));
     content_ = std::move(content);
-    auto generator = TERRANE_TRY(net::offeredGenerator(offer, *content_.blocks, content_.generators));
+    auto generator = TERRANE_TRY(offeredGenerator(offer, *content_.blocks, content_.generators));
     generator_ = std::make_unique<gen::Generator>(std::move(generator));
     offer_ = offer;
-    digests_ = net::sampleDigests(*generator_, offer.samples);
+    digests_ = sampleDigests(*generator_, offer.samples);
     heights_.clear();
     return digests_;
 }
@@ -47,17 +47,17 @@ namespace {
 
 constexpr double kWalkSpeed = 4.3;
 constexpr double kRoam = 48, kCrowdRoam = 10;
-constexpr std::chrono::milliseconds kMoveEvery{100};
+constexpr std::chrono::milliseconds kBotMovesEvery{100};
 
 std::string botName(const BotSettings& settings, int number) {
     return fmt::format("{}{}", settings.name, number);
 }
 
-net::ClientIdentity identityOf(const BotSettings& settings, int number, const net::PlayerKey& key) {
-    net::ClientIdentity identity;
+ClientIdentity identityOf(const BotSettings& settings, int number, const PlayerKey& key) {
+    ClientIdentity identity;
     identity.name = botName(settings, number);
     identity.password = settings.password;
-    identity.program = fmt::format("terrane bots {}", TERRANE_VERSION);
+    identity.program = settings.program;
     identity.key = key;
     return identity;
 }
@@ -68,14 +68,13 @@ double millisecondsBetween(BotTime from, BotTime to) {
 
 }  // namespace
 
-base::Result<net::PlayerKey> botKey(const BotSettings& settings, int number) {
-    if (settings.keyFolder.empty()) return net::newPlayerKey();
-    return net::loadPlayerKey(std::filesystem::path(settings.keyFolder) /
-                              (botName(settings, number) + ".key"));
+base::Result<PlayerKey> botKey(const BotSettings& settings, int number) {
+    if (settings.keyFolder.empty()) return newPlayerKey();
+    return loadPlayerKey(std::filesystem::path(settings.keyFolder) / (botName(settings, number) + ".key"));
 }
 
 Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& settings, int number,
-         const net::PlayerKey& key)
+         const PlayerKey& key)
     : world_(world),
       settings_(settings),
       random_(static_cast<std::uint32_t>(number)),
@@ -85,37 +84,35 @@ Bot::Bot(boost::asio::io_context& context, BotWorld& world, const BotSettings& s
       link_(context, settings.servers[static_cast<std::size_t>(number) % settings.servers.size()],
             identityOf(settings, number, key),
             {[](const std::string&) { return true; },
-             [this](const net::WorldOffer& offer) { return world_.land.prove(offer); },
-             [this](const net::ServerMessage& message) { onMessage(message); },
-             [this](const net::WorldOffer& offer) { return missingPacks(world_.land.packs, offer); },
-             [this](const net::PackOffer& offer, const net::Bytes& archive) {
+             [this](const WorldOffer& offer) { return world_.land.prove(offer); },
+             [this](const ServerMessage& message) { onMessage(message); },
+             [this](const WorldOffer& offer) { return missingPacks(world_.land.packs, offer); },
+             [this](const PackOffer& offer, const Bytes& archive) {
                  return takePack(world_.land.packs, offer, archive);
              }}) {}
 
-void Bot::onMessage(const net::ServerMessage& message) {
+void Bot::onMessage(const ServerMessage& message) {
     std::visit(
         base::Match{
-            [this](const net::Joined& joined) { onJoined(joined); },
-            [this](const net::ViewComplete&) { onViewComplete(); },
-            [this](const net::BlocksChanged& changed) { onBlocks(changed); },
-            [this](const net::Done& done) { onDone(done); },
-            [this](const net::Corrected& corrected) {
-                pose_ = net::poseOf(corrected.pose);
+            [this](const Joined& joined) { onJoined(joined); },
+            [this](const ViewComplete&) { onViewComplete(); },
+            [this](const BlocksChanged& changed) { onBlocks(changed); },
+            [this](const Done& done) { onDone(done); },
+            [this](const Corrected& corrected) {
+                pose_ = poseOf(corrected.pose);
                 ++world_.corrections;
             },
-            base::on<net::Greeting, net::WorldOffer, net::PackPart, net::Refused, net::Ping, net::Servers>(
-                [] {}),
+            base::on<Greeting, WorldOffer, PackPart, Refused, Ping, Servers>([] {}),
             // A bot looks at nothing and listens to nobody.
-            base::on<net::ChunkEdits, net::Appears, net::Disappears, net::Poses, net::Said, net::Clock,
-                     net::PlayerList, net::RoleChanged>([] {}),
+            base::on<ChunkEdits, Appears, Disappears, Poses, Said, Clock, PlayerList, RoleChanged>([] {}),
         },
         message);
 }
 
-void Bot::onJoined(const net::Joined& joined) {
+void Bot::onJoined(const Joined& joined) {
     ++world_.joins;
     player_ = joined.player;
-    pose_ = net::poseOf(joined.pose);
+    pose_ = poseOf(joined.pose);
     if (!world_.crowd) world_.crowd = pose_;
     home_ = settings_.behaviour == BotBehaviour::Crowd ? *world_.crowd : pose_;
     // Edits without an answer may have been applied or not.
@@ -142,18 +139,18 @@ std::vector<world::BlockPos> Bot::undecided() const {
     return positions;
 }
 
-void Bot::onBlocks(const net::BlocksChanged& changed) {
+void Bot::onBlocks(const BlocksChanged& changed) {
     if (world_.unseen.empty()) return;
-    for (const net::ChangedBlock& block : changed.blocks) {
+    for (const ChangedBlock& block : changed.blocks) {
         const auto sent = world_.unseen.find(world::blockPos(changed.chunk, block.index));
         if (sent == world_.unseen.end() || sent->second.by == player_) continue;
-        if (settings_.servers.size() > 1 && sent->second.server == net::textOf(link_.address())) continue;
+        if (settings_.servers.size() > 1 && sent->second.server == textOf(link_.address())) continue;
         world_.seenMs.push_back(millisecondsBetween(sent->second.at, std::chrono::steady_clock::now()));
         world_.unseen.erase(sent);
     }
 }
 
-void Bot::onDone(const net::Done& done) {
+void Bot::onDone(const Done& done) {
     const auto found = pending_.find(done.number);
     if (found == pending_.end()) return;
     world_.decidedMs.push_back(millisecondsBetween(found->second.at, std::chrono::steady_clock::now()));
@@ -197,32 +194,32 @@ void Bot::build(BotTime now) {
     const auto known = world_.acknowledged.find(pos);
     const bool isThere = known != world_.acknowledged.end() && known->second != world::kAir;
     const world::BlockId id = isThere ? world::kAir : world_.land.blocks().find("stone")->id;
-    const net::CommandNumber number = ++lastCommand_;
+    const CommandNumber number = ++lastCommand_;
     pending_[number] = {now, pos, id};
-    world_.unseen[pos] = {now, player_, net::textOf(link_.address())};
+    world_.unseen[pos] = {now, player_, textOf(link_.address())};
     ++world_.edits;
-    link_.send(net::Edit{number, pos, world::SetBlock{id, 0}, std::nullopt});
+    link_.send(Edit{number, pos, world::SetBlock{id, 0}, std::nullopt});
 }
 
 void Bot::sendView() {
     const world::ChunkPos center = world::chunkOf(pose_.position);
     if (toldView_ == center) return;
     toldView_ = center;
-    link_.send(net::View{center, static_cast<std::uint8_t>(settings_.viewDistance), 0});
+    link_.send(View{center, static_cast<std::uint8_t>(settings_.viewDistance), 0});
 }
 
 void Bot::update(BotTime now) {
     link_.update(now);
-    const bool isJoined = link_.stage() == net::ClientLink::Stage::Joined;
+    const bool isJoined = link_.stage() == ClientLink::Stage::Joined;
     world_.cuts += wasJoined_ && !isJoined;
     wasJoined_ = isJoined;
-    if (!isJoined || now - moved_ < kMoveEvery) return;
+    if (!isJoined || now - moved_ < kBotMovesEvery) return;
     walk(std::chrono::duration<double>(now - moved_).count());
     moved_ = now;
-    link_.send(net::Move{net::wirePose(pose_)});
+    link_.send(Move{wirePose(pose_)});
     sendView();
     const std::chrono::duration<double> sinceEdit = now - builtAt_;
     if (builds_ && sinceEdit.count() * settings_.editsPerSecond >= 1) build(now);
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::net
