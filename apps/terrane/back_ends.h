@@ -9,7 +9,6 @@
 #include "terrane/light/light_area.h"
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/pack/content.h"
-#include "terrane/view/gpu_back_ends.h"
 #include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::app {
@@ -38,12 +37,5 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
 // --backend of commands that draw: whether workers or the GPU generate, light and mesh the world on screen.
 // True for Backend::Gpu; Auto is the CPU.
 bool usesGpu(Backend backend);
-
-// Makes the GPU back ends and sets `parts` to use them; null if workers do the work. `generators` include the
-// world's generator. The OpenGL context is current. Always uses the built-in shaders, not those of
-// --shader-root.
-base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
-                                                                const gen::GeneratorCatalogue& generators,
-                                                                Backend backend);
 
 }  // namespace terrane::app

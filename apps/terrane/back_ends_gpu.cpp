@@ -1,6 +1,4 @@
 #include "apps/terrane/back_ends.h"
-#include "terrane/content/built_in.h"
-#include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen_gpu/gpu_generator.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
@@ -40,17 +38,6 @@ base::Result<OnBackend<Worker>> makeOnBackend(Backend backend, const MakeCpu& ma
 
 bool usesGpu(Backend backend) {
     return backend == Backend::Gpu;
-}
-
-base::Result<std::unique_ptr<view::GpuBackEnds>> chooseBackEnds(game::SessionParts& parts,
-                                                                const gen::GeneratorCatalogue& generators,
-                                                                Backend backend) {
-    if (!usesGpu(backend)) return nullptr;
-    const store::WorldIdentity& identity = parts.store->identity();
-    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, generators));
-    auto made = view::makeGpuBackEnds(gpu::builtInShaders(""), graph, identity.seed, *parts.blocks);
-    if (made) view::useBackEnds(parts, **made);
-    return made;
 }
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,

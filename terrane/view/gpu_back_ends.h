@@ -11,6 +11,7 @@
 #include "terrane/game/session.h"
 #include "terrane/gen/batch_generator.h"
 #include "terrane/gen/compile/generator_graph.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/light/batch_lighter.h"
@@ -52,6 +53,11 @@ base::Result<std::unique_ptr<GpuBackEnds>> makeGpuBackEnds(const gpu::ShaderLoad
                                                            const gen::GeneratorGraph& graph,
                                                            std::uint64_t seed,
                                                            const world::BlockRegistry& blocks);
+
+// Both for the world of `parts`. `generators` include the world's. The OpenGL context is current. Always uses
+// the built-in shaders.
+base::Result<std::unique_ptr<GpuBackEnds>> useGpuBackEnds(game::SessionParts& parts,
+                                                          const gen::GeneratorCatalogue& generators);
 
 // Makes the session created from `parts` generate, light and mesh on the GPU.
 void useBackEnds(game::SessionParts& parts, const GpuBackEnds& backEnds);

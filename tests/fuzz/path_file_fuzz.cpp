@@ -27,12 +27,12 @@ void walk(const app::Script& script) {
     fuzz::require(std::isfinite(script.seconds()) && script.seconds() > 0);
     for (int step = 0; step <= kSteps; ++step) {
         const double time = script.seconds() * step / kSteps;
-        const app::Shot& shot = app::shotAt(script, time);
+        const view::Shot& shot = view::shotAt(script.shots, time);
         requireFinite(shot.path.at(time - shot.start));
-        render::settingsOf(app::optionsAt(shot, time - shot.start).choices, true);
+        render::settingsOf(view::optionsAt(shot, time - shot.start).choices, true);
     }
-    for (const app::Shot& shot : script.shots)
-        for (const app::EditCue& edit : shot.edits) fuzz::require(edit.box.blockCount() > 0);
+    for (const view::Shot& shot : script.shots)
+        for (const view::EditCue& edit : shot.edits) fuzz::require(edit.box.blockCount() > 0);
 }
 
 }  // namespace

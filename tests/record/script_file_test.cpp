@@ -25,8 +25,8 @@ std::string errorOf(const std::string& text) {
     return script ? "no error" : script.error().message;
 }
 
-render::GraphicsSettings settingsAt(const Shot& shot, double seconds) {
-    return render::settingsOf(optionsAt(shot, seconds).choices, true);
+render::GraphicsSettings settingsAt(const view::Shot& shot, double seconds) {
+    return render::settingsOf(view::optionsAt(shot, seconds).choices, true);
 }
 
 constexpr const char* kKey = "[[shot.key]]\nat = [1, 2, 3]\nlook = [0, 0]\n";
@@ -69,7 +69,7 @@ at = [0, 9, 0]
     EXPECT_EQ(script->world.seed, 7u);
     EXPECT_EQ(script->world.generator, "flat");
     ASSERT_EQ(script->shots.size(), 2u);
-    const Shot &first = script->shots[0], &second = script->shots[1];
+    const view::Shot &first = script->shots[0], &second = script->shots[1];
     EXPECT_EQ(first.name, "first");
     EXPECT_EQ(first.seconds, 4);
     EXPECT_EQ(first.path.at(0).camera.position, glm::dvec3(1, 2, 3.5));
@@ -96,7 +96,7 @@ TEST(ScriptFile, ReadsPlayersWhoBuild) {
     const std::string edit = "[[shot.edit]]\nat = [1, 1, 70]\nblock = \"stone\"\nplayer = \"Ann\"\n";
     const auto script = parse(shotOf(edit + player));
     ASSERT_TRUE(script) << script.error().message;
-    const Shot& shot = script->shots[0];
+    const view::Shot& shot = script->shots[0];
     ASSERT_EQ(shot.players.size(), 1u);
     EXPECT_EQ(shot.players[0].name, "Ann");
     EXPECT_EQ(shot.players[0].number, 3u);
@@ -121,17 +121,17 @@ TEST(ScriptFile, OptionsHoldUntilTheyChangeAndForOneShot) {
     const auto occlusionAt = [&](std::size_t shot, double time) {
         return settingsAt(script->shots[shot], time).render.occlusion;
     };
-    const Shot& shot = script->shots[0];
+    const view::Shot& shot = script->shots[0];
     EXPECT_EQ(settingsAt(shot, 0).viewDistance, 5);
     EXPECT_EQ(settingsAt(shot, 0).mesh.method, mesh::MergeMethod::Greedy);
     EXPECT_EQ(settingsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
-    EXPECT_EQ(optionsAt(shot, 1.99).view, render::View::Color);
-    EXPECT_EQ(optionsAt(shot, 2).view, render::View::Depth);
+    EXPECT_EQ(view::optionsAt(shot, 1.99).view, render::View::Color);
+    EXPECT_EQ(view::optionsAt(shot, 2).view, render::View::Depth);
     EXPECT_EQ(settingsAt(shot, 9).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(occlusionAt(0, 0), render::Occlusion::Raw);
     EXPECT_EQ(occlusionAt(0, 3), render::Occlusion::On);
     EXPECT_EQ(occlusionAt(1, 3), render::Occlusion::Raw);
-    EXPECT_EQ(optionsAt(script->shots[1], 0).view, render::View::Color);
+    EXPECT_EQ(view::optionsAt(script->shots[1], 0).view, render::View::Color);
 }
 
 TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
@@ -139,8 +139,8 @@ TEST(ScriptFile, FormerNamesOfOptionsAreRead) {
         parse("[options]\nview = \"aggregation\"\natmosphere = \"off\"\n" +
               shotOf("[[shot.set]]\ntime = 1\naggregation = \"lines\"\nregion-height = 32\n"));
     ASSERT_TRUE(script) << script.error().message;
-    const Shot& shot = script->shots[0];
-    EXPECT_EQ(optionsAt(shot, 0).view, render::View::Merging);
+    const view::Shot& shot = script->shots[0];
+    EXPECT_EQ(view::optionsAt(shot, 0).view, render::View::Merging);
     EXPECT_FALSE(settingsAt(shot, 0).render.distanceFog);
     EXPECT_EQ(settingsAt(shot, 1).mesh.method, mesh::MergeMethod::Lines);
     EXPECT_EQ(settingsAt(shot, 1).mesh.meshSectionHeight, 32);
@@ -159,7 +159,7 @@ TEST(ScriptFile, TheCommandLineWins) {
     EXPECT_EQ(script->world.seed, 3u);
     EXPECT_EQ(script->world.generator, "flat");
     EXPECT_EQ(settingsAt(script->shots[0], 5).viewDistance, 2);
-    EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth);
+    EXPECT_EQ(view::optionsAt(script->shots[0], 5).view, render::View::Depth);
 }
 
 TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
@@ -173,10 +173,10 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
         defaults.given = std::move(given);
         const auto script = parseScript(text, "p.toml", defaults, blocks());
         EXPECT_TRUE(script);
-        EXPECT_EQ(optionsAt(script->shots[0], 5).view, render::View::Depth) << "no part of a preset";
+        EXPECT_EQ(view::optionsAt(script->shots[0], 5).view, render::View::Depth) << "no part of a preset";
         EXPECT_EQ(settingsAt(script->shots[0], 5).viewDistance, 8) << "no part of a preset";
         EXPECT_EQ(settingsAt(script->shots[0], 5).horizon, 512) << "no part of a preset";
-        return optionsAt(script->shots[0], 5).choices;
+        return view::optionsAt(script->shots[0], 5).choices;
     };
     EXPECT_EQ(choicesWith({"preset"}).preset, "low");
     EXPECT_EQ(choicesWith({"preset"}).changed.size(), 1u) << "the horizon";
@@ -187,10 +187,10 @@ TEST(ScriptFile, APresetOfTheCommandLineStandsAlone) {
 TEST(ScriptFile, ShotsFollowEachOther) {
     const auto script = parse(shotOf("", "seconds = 0.1\n") + shotOf("", "seconds = 0.2\n") + shotOf(""));
     ASSERT_TRUE(script) << script.error().message;
-    EXPECT_EQ(&shotAt(*script, 0), &script->shots[0]);
-    EXPECT_EQ(&shotAt(*script, 0.1), &script->shots[1]);
-    EXPECT_EQ(&shotAt(*script, 0.3), &script->shots[2]) << "0.1 + 0.2 is more than 0.3 in binary";
-    EXPECT_EQ(&shotAt(*script, 99), &script->shots[2]);
+    EXPECT_EQ(&view::shotAt(script->shots, 0), &script->shots[0]);
+    EXPECT_EQ(&view::shotAt(script->shots, 0.1), &script->shots[1]);
+    EXPECT_EQ(&view::shotAt(script->shots, 0.3), &script->shots[2]) << "0.1 + 0.2 is more than 0.3 in binary";
+    EXPECT_EQ(&view::shotAt(script->shots, 99), &script->shots[2]);
 }
 
 struct WrongFile {

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/terrane/record/recorder.h"
-
 namespace terrane::app {
 namespace {
 
@@ -74,16 +72,6 @@ TEST(TitlePainter, KnowsWhichLettersItHas) {
     EXPECT_EQ(TitlePainter::missingLetter("Hello, \u00fc\n\u00df!"), "");
     EXPECT_EQ(TitlePainter::missingLetter("a \u2013 b"), "\u2013");
     EXPECT_EQ(TitlePainter::missingLetter("a\tb"), "\t");
-}
-
-TEST(Recorder, TitlesFadeInAndOut) {
-    const TitleCue title{.time = 3, .seconds = 4, .text = "a"};
-    EXPECT_EQ(titleStrength(title, -1), 0);
-    EXPECT_EQ(titleStrength(title, 0), 0);
-    EXPECT_FLOAT_EQ(titleStrength(title, 0.25), 0.5f);
-    EXPECT_EQ(titleStrength(title, 2), 1);
-    EXPECT_FLOAT_EQ(titleStrength(title, 3.75), 0.5f);
-    EXPECT_EQ(titleStrength(title, 4.1), 0);
 }
 
 }  // namespace

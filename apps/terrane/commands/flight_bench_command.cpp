@@ -89,12 +89,12 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
     if (options.output.empty() && !options.json) return base::fail("flight-bench needs --output or --json");
     TERRANE_TRY(checkSaveOptions(options.save));
     auto flight = TERRANE_TRY(flightOf(options));
-    auto world = TERRANE_TRY(Offscreen::create({.world = worldOf(options.place, options.world),
-                                                .save = options.save,
-                                                .graphics = options.graphics,
-                                                .backend = options.backend,
-                                                .access = store::WorldAccess::ReadWrite,
-                                                .meshMilliseconds = view::WorldView::kFrameMilliseconds}));
+    auto world = TERRANE_TRY(openOffscreen({.world = worldOf(options.place, options.world),
+                                            .save = options.save,
+                                            .graphics = options.graphics,
+                                            .backend = options.backend,
+                                            .access = store::WorldAccess::ReadWrite,
+                                            .meshMilliseconds = view::WorldView::kFrameMilliseconds}));
     flight.viewDistance = world->graphics.viewDistance;
     const view::FlightLog log = view::runFlight(*world->session, *world->view, world->renderer, flight);
     if (!options.output.empty()) {

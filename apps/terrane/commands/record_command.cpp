@@ -5,14 +5,16 @@
 
 #include "apps/terrane/back_ends.h"
 #include "apps/terrane/commands/commands.h"
+#include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
-#include "apps/terrane/output_files.h"
-#include "apps/terrane/record/recorder.h"
 #include "apps/terrane/record/script.h"
+#include "apps/terrane/record/title_painter.h"
 #include "terrane/base/files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
+#include "terrane/io/open_session.h"
 #include "terrane/video/frame_sink.h"
+#include "terrane/view/recorder.h"
 
 namespace terrane::app {
 namespace {
@@ -56,7 +58,7 @@ base::Result<std::unique_ptr<video::FrameSink>> openSink(const RecordOptions& op
     return video::openVideo(options.output, {options.graphics.size, options.framesPerSecond});
 }
 
-base::Result<void> drawFrames(Recorder& recorder, video::FrameSink& sink, const FrameRange& range,
+base::Result<void> drawFrames(view::Recorder& recorder, video::FrameSink& sink, const FrameRange& range,
                               int framesPerSecond, const base::StopSignals& signals) {
     base::ProgressBar bar("recording", static_cast<std::size_t>(range.end - range.first));
     for (std::int64_t k = range.first; k < range.end; ++k) {
@@ -77,15 +79,20 @@ base::Result<void> recordVideo(const RecordOptions& options, const CLI::App& com
     const TitlePainter titles(options.graphics.size.y);
 
     // Edits of the path are not saved: the world is opened read-only.
-    auto world = TERRANE_TRY(Offscreen::create({.world = script.world,
-                                                .save = options.save,
-                                                .graphics = optionsAt(shotAt(script, options.from), 0),
-                                                .backend = options.backend}));
+    const view::OptionsCue& first = view::optionsAt(view::shotAt(script.shots, options.from), 0);
+    GraphicsOptions graphics = options.graphics;
+    graphics.choices = first.choices;
+    graphics.view = first.view;
+    auto world = TERRANE_TRY(openOffscreen(
+        {.world = script.world, .save = options.save, .graphics = graphics, .backend = options.backend}));
     const base::StopSignals signals;  // until the file is finished; the sink removes an unfinished one
     auto sink = TERRANE_TRY(openSink(options));
 
     const auto start = std::chrono::steady_clock::now();
-    Recorder recorder({script, *world, titles, options.graphics.size});
+    view::Recorder recorder({script.shots, *world, options.graphics.size,
+                             [&](base::Image& image, const view::TitleCue& title, float strength) {
+                                 titles.paint(image, title.text, title.isLarge, strength);
+                             }});
     TERRANE_TRY(drawFrames(recorder, *sink, range, options.framesPerSecond, signals));
     TERRANE_TRY(world->finish());
     TERRANE_TRY(sink->finish());

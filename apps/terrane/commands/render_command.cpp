@@ -128,10 +128,10 @@ base::Result<void> renderImage(const RenderCommandOptions& options) {
     const auto start = Clock::now();
     if (!options.place.scene && !options.place.at) return base::fail("render needs --scene or --at");
     const auto place = TERRANE_TRY(placeOf(options.place, {"", {}, content::scenes().front().timeDay}));
-    auto world = Offscreen::create({.world = worldOf(options.place, options.world),
-                                    .save = options.save,
-                                    .graphics = options.graphics,
-                                    .backend = options.backend});
+    auto world = openOffscreen({.world = worldOf(options.place, options.world),
+                                .save = options.save,
+                                .graphics = options.graphics,
+                                .backend = options.backend});
     if (!world) return tl::unexpected(world.error());
     game::Session& session = *(*world)->session;
     render::Renderer& renderer = (*world)->renderer;

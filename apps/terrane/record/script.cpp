@@ -13,17 +13,6 @@
 
 namespace terrane::app {
 
-const Shot& shotAt(const Script& script, double seconds) {
-    const auto after = std::ranges::upper_bound(script.shots, seconds + kTimeSlack, {}, &Shot::start);
-    return after == script.shots.begin() ? *after : *(after - 1);
-}
-
-const GraphicsOptions& optionsAt(const Shot& shot, double secondsInShot) {
-    const auto after =
-        std::ranges::upper_bound(shot.options, secondsInShot + kTimeSlack, {}, &OptionsCue::time);
-    return after == shot.options.begin() ? after->graphics : (after - 1)->graphics;
-}
-
 namespace {
 
 constexpr double kMaxBlocks = 2147483647;  // from the origin
@@ -124,12 +113,12 @@ class ScriptReader {
     view::CameraKey keyOf(ContentTable& table, const view::CameraKey& before, bool isFirst);
     std::vector<view::CameraKey> keysOf(ContentTable& table);
     std::string textOf(ContentTable& table, std::string_view key);
-    TitleCue titleOf(ContentTable& table, double shotSeconds);
-    PlayerCue playerOf(ContentTable& table);
-    EditCue editOf(ContentTable& table, const Shot& shot);
-    void readBox(ContentTable& table, EditCue& edit);
-    void readOptions(ContentTable& shot, Shot& into, const GraphicsOptions& atFirst);
-    void readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots);
+    view::TitleCue titleOf(ContentTable& table, double shotSeconds);
+    view::PlayerCue playerOf(ContentTable& table);
+    view::EditCue editOf(ContentTable& table, const view::Shot& shot);
+    void readBox(ContentTable& table, view::EditCue& edit);
+    void readOptions(ContentTable& shot, view::Shot& into, const GraphicsOptions& atFirst);
+    void readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<view::Shot>& shots);
 
     std::string_view file_;
     const ScriptDefaults& defaults_;
@@ -222,9 +211,9 @@ std::string ScriptReader::textOf(ContentTable& table, std::string_view key) {
     return value.value_or("");
 }
 
-TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
+view::TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
     table.rejectUnknown(Names{"time", "seconds", "text", "place"});
-    TitleCue title;
+    view::TitleCue title;
     title.time = numberOf(table, "time", 0, 0, shotSeconds);
     title.seconds = numberOf(table, "seconds", title.seconds, 0.1, kMaxSeconds);
     title.text = textOf(table, "text");
@@ -237,7 +226,7 @@ TitleCue ScriptReader::titleOf(ContentTable& table, double shotSeconds) {
 }
 
 // The block `at`, or the box between two corners.
-void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
+void ScriptReader::readBox(ContentTable& table, view::EditCue& edit) {
     const auto at = blockPosOf(table, "at"), from = blockPosOf(table, "from"), to = blockPosOf(table, "to");
     if (at ? from || to : !from || !to)
         return table.wrong(table.line(), "at", "needs either at, or from and to");
@@ -250,7 +239,7 @@ void ScriptReader::readBox(ContentTable& table, EditCue& edit) {
         table.wrong(table.line(), "to", fmt::format("more than {} blocks at once", kMaxBlocksOfEdit));
 }
 
-PlayerCue ScriptReader::playerOf(ContentTable& table) {
+view::PlayerCue ScriptReader::playerOf(ContentTable& table) {
     table.rejectUnknown(Names{"name", "number", "key"});
     const std::string name = textOf(table, "name");
     const double number = numberOf(table, "number", 0, 0, 1000);
@@ -260,15 +249,15 @@ PlayerCue ScriptReader::playerOf(ContentTable& table) {
     return {name, static_cast<std::uint32_t>(number), view::CameraPath(std::move(keys))};
 }
 
-EditCue ScriptReader::editOf(ContentTable& table, const Shot& shot) {
+view::EditCue ScriptReader::editOf(ContentTable& table, const view::Shot& shot) {
     table.rejectUnknown(Names{"time", "seconds", "at", "from", "to", "block", "player"});
-    EditCue edit;
+    view::EditCue edit;
     edit.time = numberOf(table, "time", 0, 0, shot.seconds);
     edit.seconds = numberOf(table, "seconds", 0, 0, kMaxSeconds);
     readBox(table, edit);
     if (const toml::node* player = table.node("player")) {
         edit.player = textOf(table, "player");
-        if (std::ranges::find(shot.players, edit.player, &PlayerCue::name) == shot.players.end())
+        if (std::ranges::find(shot.players, edit.player, &view::PlayerCue::name) == shot.players.end())
             table.expected(*player, "player", "the name of a player of the shot");
     }
     const toml::node* node = table.node("block");
@@ -283,22 +272,26 @@ EditCue ScriptReader::editOf(ContentTable& table, const Shot& shot) {
     return edit;
 }
 
-void ScriptReader::readOptions(ContentTable& shot, Shot& into, const GraphicsOptions& atFirst) {
+void ScriptReader::readOptions(ContentTable& shot, view::Shot& into, const GraphicsOptions& atFirst) {
     std::multimap<double, ContentTable> changes;  // by time
     each(shot, "set", [&](ContentTable& table) {
         table.rejectUnknown(with(drawingFlags(), {"time"}));
         changes.emplace(numberOf(table, "time", 0, 0, into.seconds), table);
     });
-    into.options.push_back({0, atFirst});
-    for (auto& [time, table] : changes)
-        into.options.push_back({time, graphicsAfter(into.options.back().graphics, table)});
+    GraphicsOptions graphics = atFirst;
+    into.options.push_back({0, graphics.choices, graphics.view});
+    for (auto& [time, table] : changes) {
+        graphics = graphicsAfter(std::move(graphics), table);
+        into.options.push_back({time, graphics.choices, graphics.view});
+    }
 }
 
-void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics, std::vector<Shot>& shots) {
+void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics,
+                            std::vector<view::Shot>& shots) {
     table.rejectUnknown(Names{"name", "seconds", "key", "title", "set", "edit", "player"});
     const std::vector<view::CameraKey> keys = keysOf(table);
     if (error_) return;
-    Shot shot{
+    view::Shot shot{
         .name = "", .path = view::CameraPath(keys), .options = {}, .titles = {}, .edits = {}, .players = {}};
     if (!shots.empty()) shot.start = shots.back().start + shots.back().seconds;
     shot.seconds = numberOf(table, "seconds", keys.back().time, 0, kMaxSeconds);
@@ -310,7 +303,7 @@ void ScriptReader::readShot(ContentTable& table, const GraphicsOptions& graphics
     each(table, "title", [&](ContentTable& inner) { shot.titles.push_back(titleOf(inner, shot.seconds)); });
     each(table, "player", [&](ContentTable& inner) { shot.players.push_back(playerOf(inner)); });
     each(table, "edit", [&](ContentTable& inner) { shot.edits.push_back(editOf(inner, shot)); });
-    std::ranges::stable_sort(shot.edits, std::less<>(), &EditCue::time);
+    std::ranges::stable_sort(shot.edits, std::less<>(), &view::EditCue::time);
     shots.push_back(std::move(shot));
 }
 

@@ -1,4 +1,4 @@
-// The contents of a video, as read from a path file: a sequence of shots. Plain values.
+// Reads path files of videos (docs/video.md) into plain values.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 #include "apps/terrane/graphics_options.h"
 #include "terrane/base/result.h"
-#include "terrane/view/camera_path.h"
+#include "terrane/view/shots.h"
 #include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/blocks/block_type.h"
 #include "terrane/world/blocks/content_table.h"
@@ -17,58 +17,12 @@
 
 namespace terrane::app {
 
-// Times are seconds from the start of the shot.
-
-// A text in the image.
-struct TitleCue {
-    double time = 0, seconds = 4;
-    std::string text;
-    bool isLarge = false;  // large in the middle; else small at the bottom
-};
-
-// Fills a box of blocks, at once or one by one, ordered by z, y, x.
-struct EditCue {
-    double time = 0, seconds = 0;
-    world::BlockBox box;
-    world::BlockId block = world::kAir;
-    std::string player = {};  // a player of the shot who places them; empty: none
-};
-
-// A player in the image. The path's positions are those of the feet.
-struct PlayerCue {
-    std::string name;
-    std::uint32_t number = 0;  // selects colors and hair
-    view::CameraPath path;
-};
-
-// Graphics options from this time on.
-struct OptionsCue {
-    double time = 0;
-    GraphicsOptions graphics;
-};
-
-struct Shot {
-    std::string name;
-    double start = 0, seconds = 0;  // start: from the beginning of the video
-    view::CameraPath path;
-    std::vector<OptionsCue> options;  // by time; the first is at 0
-    std::vector<TitleCue> titles;
-    std::vector<EditCue> edits;  // by time; they last until the end of the video
-    std::vector<PlayerCue> players;
-};
-
+// A video: the world and its shots.
 struct Script {
     io::WorldOptions world;
-    std::vector<Shot> shots;  // at least one
+    std::vector<view::Shot> shots;  // at least one
     double seconds() const { return shots.back().start + shots.back().seconds; }
 };
-
-// Tolerance for rounding, in seconds: an event at the time of a frame is part of that frame.
-constexpr double kTimeSlack = 1e-6;
-
-// The shot at a time of the video; the last one after its end.
-const Shot& shotAt(const Script& script, double seconds);
-const GraphicsOptions& optionsAt(const Shot& shot, double secondsInShot);
 
 }  // namespace terrane::app
 
@@ -96,7 +50,6 @@ void applyFlags(world::ContentTable& table, CLI::App& flags, const Names& names,
 
 namespace terrane::app {
 
-// Reads path files (docs/video.md). Errors name the file, the line and the key.
 // Options of the command line; they take precedence over the file.
 struct ScriptDefaults {
     io::WorldOptions world;
@@ -106,7 +59,7 @@ struct ScriptDefaults {
     std::vector<std::string> given;
 };
 
-// `name` stands for the file in errors.
+// `name` stands for the file in errors, which also name the line and the key.
 base::Result<Script> parseScript(std::string_view toml, std::string_view name, const ScriptDefaults& defaults,
                                  const world::BlockRegistry& blocks);
 

@@ -29,9 +29,10 @@ base::Result<std::unique_ptr<WorldOnScreen>> WorldOnScreen::create(io::OpenedWor
     auto preview =
         TERRANE_TRY(view::BlockPreview::create(*options.shaders, *parts.blocks, textures, options.device));
     made->preview_ = std::make_unique<view::BlockPreview>(std::move(preview));
-    auto backEnds = chooseBackEnds(parts, made->content_.generators, options.backend);
-    if (!backEnds) return tl::unexpected(backEnds.error());
-    made->backEnds_ = std::move(*backEnds);
+    if (usesGpu(options.backend)) {
+        auto backEnds = TERRANE_TRY(view::useGpuBackEnds(parts, made->content_.generators));
+        made->backEnds_ = std::move(backEnds);
+    }
     made->session_ = std::make_unique<game::Session>(std::move(parts));
     made->compiler_ =
         std::make_unique<render::BackgroundCompiler>(*options.shaders, made->session_->blocks(), textures);

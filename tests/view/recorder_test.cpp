@@ -1,27 +1,27 @@
-#include "apps/terrane/record/recorder.h"
+#include "terrane/view/recorder.h"
 
 #include <gtest/gtest.h>
 
 #include "terrane/world/character.h"
 
-namespace terrane::app {
+namespace terrane::view {
 namespace {
 
 // Walks 8 blocks along x in 4 s, stands for 2 s, and builds from 4.5 s to 5.5 s.
 Shot shotOfAWalk() {
     Shot shot{.name = "",
               .seconds = 10,
-              .path = view::CameraPath({view::CameraKey{}}),
+              .path = CameraPath({CameraKey{}}),
               .options = {},
               .titles = {},
               .edits = {},
               .players = {}};
-    view::CameraKey from, to, last;
+    CameraKey from, to, last;
     from.position = {0, 3, 70};
     to.position = last.position = {8, 3, 70};
     to.time = 4;
     last.time = 6;
-    shot.players = {{"Ann", 3, view::CameraPath({from, to, last})}};
+    shot.players = {{"Ann", 3, CameraPath({from, to, last})}};
     shot.edits = {{.time = 4.5, .seconds = 1, .box = {{9, 3, 70}, {9, 3, 72}}, .block = 1, .player = "Ann"}};
     return shot;
 }
@@ -59,5 +59,33 @@ TEST(ShotFigures, SwingTheArmWhileTheyBuild) {
     EXPECT_EQ(figuresAt(shot, 5)[0].swing, 0) << "another player's edit";
 }
 
+const EditCue kBox{.time = 0, .seconds = 4, .box = {{-1, 5, 70}, {1, 6, 73}}, .block = 1};
+
+TEST(EditPlayer, BlocksComeOneAfterTheOther) {
+    EXPECT_EQ(blocksDone(kBox, -0.1), 0);
+    EXPECT_EQ(blocksDone(kBox, 0), 0);
+    EXPECT_EQ(blocksDone(kBox, 1), 6);
+    EXPECT_EQ(blocksDone(kBox, 3.99), 23);
+    EXPECT_EQ(blocksDone(kBox, 4), 24);
+    EXPECT_EQ(blocksDone(kBox, 100), 24);
+}
+
+TEST(EditPlayer, WithoutTimeAllComeAtOnce) {
+    EditCue edit = kBox;
+    edit.seconds = 0;
+    EXPECT_EQ(blocksDone(edit, -0.01), 0);
+    EXPECT_EQ(blocksDone(edit, 0), 24);
+}
+
+TEST(Recorder, TitlesFadeInAndOut) {
+    const TitleCue title{.time = 3, .seconds = 4, .text = "a"};
+    EXPECT_EQ(titleStrength(title, -1), 0);
+    EXPECT_EQ(titleStrength(title, 0), 0);
+    EXPECT_FLOAT_EQ(titleStrength(title, 0.25), 0.5f);
+    EXPECT_EQ(titleStrength(title, 2), 1);
+    EXPECT_FLOAT_EQ(titleStrength(title, 3.75), 0.5f);
+    EXPECT_EQ(titleStrength(title, 4.1), 0);
+}
+
 }  // namespace
-}  // namespace terrane::app
+}  // namespace terrane::view

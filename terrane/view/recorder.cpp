@@ -1,4 +1,4 @@
-#include "apps/terrane/record/recorder.h"
+#include "terrane/view/recorder.h"
 
 #include <algorithm>
 #include <cmath>
@@ -8,10 +8,10 @@
 #include "terrane/view/camera_path.h"
 #include "terrane/world/character.h"
 
-namespace terrane::app {
+namespace terrane::view {
 
-EditPlayer::EditPlayer(const Script& script) {
-    for (const Shot& shot : script.shots)
+EditPlayer::EditPlayer(std::span<const Shot> shots) {
+    for (const Shot& shot : shots)
         for (const EditCue& edit : shot.edits) edits_.push_back({&edit, shot.start + edit.time});
 }
 
@@ -102,7 +102,7 @@ float titleStrength(const TitleCue& title, double seconds) {
     return static_cast<float>(std::clamp(share, 0.0, 1.0));
 }
 
-base::Result<void> Recorder::apply(const GraphicsOptions& graphics) {
+base::Result<void> Recorder::apply(const OptionsCue& graphics) {
     render::Renderer& renderer = parts_.world.renderer;
     stream::ChunkPipeline& pipeline = parts_.world.session->pipeline();
     const auto settings = render::settingsOf(graphics.choices, parts_.world.device.software);
@@ -131,16 +131,16 @@ void Recorder::warnOfBlocks(const render::Camera& camera, const Shot& shot, doub
 }
 
 base::Result<base::Image> Recorder::frame(double seconds) {
-    const Shot& shot = shotAt(parts_.script, seconds);
+    const Shot& shot = shotAt(parts_.shots, seconds);
     const double inShot = seconds - shot.start;
-    const GraphicsOptions& graphics = optionsAt(shot, inShot);
+    const OptionsCue& graphics = optionsAt(shot, inShot);
     TERRANE_TRY(apply(graphics));
-    const view::PathPoint point = shot.path.at(inShot);
+    const PathPoint point = shot.path.at(inShot);
     game::Session& session = *parts_.world.session;
     // Load the view first: an edit in it then updates only the chunks that it affects.
-    view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
+    loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
     edits_.advanceTo(seconds, session);
-    view::loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
+    loadAll(session, *parts_.world.view, point.camera, viewDistance_, timeOf(seconds));
 
     warnOfBlocks(point.camera, shot, inShot);
 
@@ -149,7 +149,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.figures = figures;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = view::fogDistance(parts_.world.view->visibleDistance());
+    input.fogDistance = fogDistance(parts_.world.view->sightDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.waterAbove = game::waterAbove(session, point.camera.position);
@@ -157,9 +157,9 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     base::Image image = parts_.world.renderer.readImage();
     for (const TitleCue& title : shot.titles) {
         const float strength = titleStrength(title, inShot - title.time);
-        if (strength > 0) parts_.titles.paint(image, title.text, title.isLarge, strength);
+        if (strength > 0 && parts_.paintTitle) parts_.paintTitle(image, title, strength);
     }
     return image;
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::view

@@ -1,24 +1,28 @@
-// Draws the frames of a script in order. Before each frame everything in view is loaded, lit and meshed, and
+// Draws the frames of a video in order. Before each frame everything in view is loaded, lit and meshed, and
 // moving things are placed for the frame's time, so the frames do not depend on the machine's speed. Used on
 // the thread of the OpenGL context.
 #pragma once
 
+#include <functional>
+#include <span>
+#include <utility>
 #include <vector>
 
-#include "apps/terrane/offscreen.h"
-#include "apps/terrane/record/script.h"
-#include "apps/terrane/record/title_painter.h"
+#include "terrane/base/image.h"
+#include "terrane/base/result.h"
 #include "terrane/game/session.h"
+#include "terrane/view/offscreen.h"
+#include "terrane/view/shots.h"
 #include "terrane/world/pose.h"
 
-namespace terrane::app {
+namespace terrane::view {
 
-// Applies the edits of a script to the world, up to a time. The result does not depend on the frames drawn
+// Applies the edits of a video to the world, up to a time. The result does not depend on the frames drawn
 // before. Used on the session's thread.
 class EditPlayer {
   public:
-    // The script outlives this.
-    explicit EditPlayer(const Script& script);
+    // The shots outlive this.
+    explicit EditPlayer(std::span<const Shot> shots);
 
     // `seconds`: time in the video, not before that of the last call.
     void advanceTo(double seconds, game::Session& session);
@@ -41,23 +45,26 @@ std::int64_t blocksDone(const EditCue& edit, double seconds);
 // player's edits.
 std::vector<world::Figure> figuresAt(const Shot& shot, double secondsInShot);
 
-// All parts outlive the recorder.
+// Draws a title into an image; `strength` is its opacity, 0…1.
+using PaintTitle = std::function<void(base::Image& image, const TitleCue& title, float strength)>;
+
+// The shots and the world outlive the recorder.
 struct RecorderParts {
-    const Script& script;
+    std::span<const Shot> shots;  // at least one
     Offscreen& world;
-    const TitlePainter& titles;
-    glm::ivec2 size;  // pixels
+    glm::ivec2 size;             // pixels
+    PaintTitle paintTitle = {};  // empty: no titles
 };
 
 class Recorder {
   public:
-    explicit Recorder(const RecorderParts& parts) : parts_(parts), edits_(parts.script) {}
+    explicit Recorder(RecorderParts parts) : parts_(std::move(parts)), edits_(parts_.shots) {}
 
     // The frame at `seconds` of the video, not before that of the last call.
     base::Result<base::Image> frame(double seconds);
 
   private:
-    base::Result<void> apply(const GraphicsOptions& graphics);
+    base::Result<void> apply(const OptionsCue& graphics);
     void warnOfBlocks(const render::Camera& camera, const Shot& shot, double secondsInShot);
 
     RecorderParts parts_;
@@ -69,4 +76,4 @@ class Recorder {
 // The opacity of a title, 0…1, `seconds` after its start.
 float titleStrength(const TitleCue& title, double seconds);
 
-}  // namespace terrane::app
+}  // namespace terrane::view
