@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "apps/terrane/maps/map_options.h"
+#include "apps/terrane/map_options.h"
 #include "apps/terrane/options.h"
 #include "terrane/net/server/server_sockets.h"
 #include "terrane/net/server/server_state.h"

@@ -194,7 +194,7 @@ base::Result<base::Image> MapPainter::paintArea(const ColumnRect& rect, const Ed
 
 std::uint64_t MapPainter::colorDigest() const {
     // Increase it when painting changes, so that folders do not mix images of two versions
-    // (apps/terrane/maps/static_map.h).
+    // (terrane/web/static_map.h).
     constexpr int kPainting = 2;
     std::string text = fmt::format("{}", kPainting);
     const auto add = [&](const glm::vec3& color) {

@@ -19,15 +19,16 @@ from .processes import end_group
 # detects the change. Modules that are not listed are checked by their own program only. NAME.py is a script of tests/app, which
 # uses the program itself.
 PROGRAMS = {
-    "app": ("app_tests", "record_tests", "maps_tests", "window_tests", "save_commands_test.py", "cli_test.py", "help_test.py",
+    "app": ("app_tests", "record_tests", "window_tests", "save_commands_test.py", "cli_test.py", "help_test.py",
             "dump_test.py", "packs_test.py"),
     "base": ("base_tests", "world_tests", "store_tests", "formats_tests", "net_tests"),
     "content": ("content_tests", "app_tests", "pack_tests"),
     "gen": ("gen_tests", "lua_tests", "map_tests", "volume_tests", "stream_tests", "game_tests", "pack_tests"),
     "game": ("game_tests", "net_tests"),
     "gpu": ("gpu_tests", "gen_gpu_tests", "mesh_gpu_tests", "render_tests"),
+    "io": ("io_tests", "web_tests", "dump_test.py", "save_commands_test.py"),
     "light": ("light_tests", "volume_tests", "stream_tests", "game_tests"),
-    "map": ("map_tests", "web_tests", "maps_tests"),
+    "map": ("map_tests", "web_tests"),
     "mesh": ("mesh_tests", "formats_tests", "stream_tests", "game_tests"),
     "net": ("net_tests", "net_postgres_tests"),
     "net_postgres": ("net_postgres_tests",),

@@ -2,9 +2,7 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/maps/http_map.h"
-#include "apps/terrane/maps/map_options.h"
-#include "apps/terrane/maps/static_map.h"
+#include "apps/terrane/map_options.h"
 #include "apps/terrane/options.h"
 #include "terrane/base/log.h"
 #include "terrane/io/map_world.h"

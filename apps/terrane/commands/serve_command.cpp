@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/maps/server_map.h"
+#include "apps/terrane/map_options.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve_options.h"
 #include "apps/terrane/settings.h"
@@ -67,14 +67,14 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (records.publishAddress)
         records.publishAddress(publicAddress(options, sockets->port()), sockets->key());
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
-                  sockets->port(), host.state->offer.fingerprint.identity.seed,
-                  host.state->offer.fingerprint.identity.generator, sockets->key());
-    const auto map = TERRANE_TRY(ServerMap::open(context, *host.state, options.save.world, options.map, files,
-                                                 opened.content.textures));
+                  sockets->port(), host.state->world.identity.seed, host.state->world.identity.generator,
+                  sockets->key());
+    const auto map = TERRANE_TRY(
+        openServerMap(context, *host.state, options.save.world, options.map, files, opened.content.textures));
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) {
-        statistics.addTick(net::countsOf(*host.state), milliseconds);
-        if (map) map->tick(milliseconds);
+        statistics.addTick(*host.state, milliseconds);
+        if (map) map(milliseconds);
     };
     return net::runServer(context, *host.state, *sockets, loop);
 }

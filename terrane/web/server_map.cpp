@@ -1,4 +1,4 @@
-#include "apps/terrane/maps/server_map.h"
+#include "terrane/web/server_map.h"
 
 #include <glm/common.hpp>
 #include <glm/vec3.hpp>
@@ -7,13 +7,12 @@
 #include <utility>
 #include <vector>
 
-#include "apps/terrane/maps/site_parts.h"
-#include "terrane/base/log.h"
-#include "terrane/io/map_world.h"
 #include "terrane/net/server/server_clients.h"
+#include "terrane/net/server/server_history.h"
+#include "terrane/web/map_parts.h"
 #include "terrane/web/map_site.h"
 
-namespace terrane::app {
+namespace terrane::web {
 
 namespace {
 
@@ -21,8 +20,8 @@ constexpr int kRoof = 3;  // blocks
 
 }  // namespace
 
-std::vector<web::MapMarker> PlayerList::now() {
-    std::vector<web::MapMarker> players;
+std::vector<NamedPlace> ServerPlayers::now() {
+    std::vector<NamedPlace> players;
     if (shown_ == ShownPlayers::None) return players;
     const std::unordered_map<game::PlayerId, Known> before = std::exchange(known_, {});
     const auto add = [&](game::PlayerId id, const std::string& name, const world::Pose& pose) {
@@ -48,8 +47,9 @@ std::vector<web::MapMarker> PlayerList::now() {
     return players;
 }
 
-std::optional<bool> PlayerList::isUnderGround(const world::Pose& pose) const {
-    if (!session_.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
+std::optional<bool> ServerPlayers::isUnderGround(const world::Pose& pose) const {
+    game::Session& session = server_.session;
+    if (!session.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
     const world::BlockPos eyes = world::blockOf(pose.position);
     int roof = 0;
     for (std::int32_t z = std::max(eyes.z + 1, 0); z < world::kChunkHeight && roof < kRoof; ++z)
@@ -59,9 +59,10 @@ std::optional<bool> PlayerList::isUnderGround(const world::Pose& pose) const {
 
 namespace {
 
-void addMetrics(web::MetricsText& text, const net::ServerCounts& counts, const web::Histogram& ticks) {
-    text.gauge("terrane_players", "Players on this server.", static_cast<double>(counts.players));
-    text.gauge("terrane_loaded_chunks", "Chunks in memory.", static_cast<double>(counts.loadedChunks));
+void addMetrics(MetricsText& text, net::ServerState& server, const Histogram& ticks) {
+    text.gauge("terrane_players", "Players on this server.", static_cast<double>(server.playing.size()));
+    text.gauge("terrane_loaded_chunks", "Chunks in memory.",
+               static_cast<double>(server.session.world().chunkCount()));
     text.gauge("terrane_edited_chunks", "Chunks that players changed.",
                static_cast<double>(counts.editedChunks));
     text.counter("terrane_edits_total", "Edits in the world's history.", static_cast<double>(counts.edits));
@@ -73,47 +74,35 @@ void addMetrics(web::MetricsText& text, const net::ServerCounts& counts, const w
 struct ServerMap::Impl {
     explicit Impl(net::ServerEdits& ofServer) : edits(ofServer) {}
 
-    net::ServerEdits& edits;
-    web::Histogram ticks{{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}};
+    net::ServerState& server;
+    Histogram ticks{{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}};
     std::unique_ptr<map::SurfaceCache> cache;
-    std::unique_ptr<web::MapSite> site;
+    std::unique_ptr<MapSite> site;
 };
 
 base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context& context,
-                                                         net::ServerState& server, const std::string& world,
-                                                         const MapSiteOptions& options,
-                                                         const std::filesystem::path& files,
+                                                         net::ServerState& server,
+                                                         const MapSettings& settings, ShownPlayers players,
                                                          const world::TextureSource& textures) {
-    if (options.http.empty()) return nullptr;
-    auto address = TERRANE_TRY(webAddressFrom(options.http));
-    address.hosts = options.hosts;
-    auto places = TERRANE_TRY(readPlaceFile(options.places));
     game::Session& session = server.session;
-    auto impl = std::make_unique<Impl>(server.edits);
-    impl->cache =
-        openMapCache(files.string() + kMapCacheEnding,
-                     originOf(server.offer.fingerprint.identity, session.blocks()), options.diskMegabytes);
-    const auto& edited = server.edits.chunks.positions(0);
-    web::MapSiteParts parts{session.generators(), session.blocks(), textures,
-                            session.store(),      titleOf(world),   namedPlace("", server.offer.spawn)};
-    parts.threads = options.threads;
+    auto impl = std::make_unique<Impl>(server);
+    impl->cache = openMapCache(settings, originOf(server.world.identity, session.blocks()));
+    const auto& edited = server.edited.positions(0);
+    MapSiteParts parts{session.generators(), session.blocks(), textures,
+                       session.store(),      settings.title,   namedPlace("", server.spawn)};
+    parts.threads = settings.threads;
     parts.cache = impl->cache.get();
-    parts.tileBytes = static_cast<std::size_t>(options.memoryMegabytes) * 1'000'000;
+    parts.tileBytes = static_cast<std::size_t>(settings.memoryMegabytes) * 1'000'000;
     parts.edited.assign(edited.begin(), edited.end());
     parts.liveChunk = [&](world::ChunkPos pos) { return session.world().maybeChunkAt(pos); };
-    parts.players = [list = PlayerList(server.clients, session, options.players)]() mutable {
-        return list.now();
-    };
-    parts.places = [&session, ofFile = std::move(places)] { return allPlaces(session.store(), ofFile); };
-    parts.metrics = [&server, &ticks = impl->ticks](web::MetricsText& text) {
-        addMetrics(text, net::countsOf(server), ticks);
-    };
-    auto site = TERRANE_TRY(web::MapSite::open(context, std::move(parts), address));
+    parts.players = [list = ServerPlayers(server, players)]() mutable { return list.now(); };
+    parts.places = [&server, ofFile = settings.places] { return allPlaces(server.session.store(), ofFile); };
+    parts.metrics = [&server, &ticks = impl->ticks](MetricsText& text) { addMetrics(text, server, ticks); };
+    auto site = TERRANE_TRY(MapSite::open(context, std::move(parts), settings.address));
     impl->site = std::move(site);
     server.edits.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {
         shown.onChanged(chunks);
     };
-    base::logInfo("the map is at {}", urlOf(address, impl->site->port()));
     return std::unique_ptr<ServerMap>(new ServerMap(std::move(impl)));
 }
 
@@ -123,9 +112,13 @@ ServerMap::~ServerMap() {
     impl_->edits.onChanged = nullptr;
 }
 
+std::uint16_t ServerMap::port() const {
+    return impl_->site->port();
+}
+
 void ServerMap::tick(double milliseconds) {
     impl_->ticks.add(milliseconds / 1000);
     impl_->site->tick();
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::web

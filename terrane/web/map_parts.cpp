@@ -1,4 +1,4 @@
-#include "apps/terrane/maps/site_parts.h"
+#include "terrane/web/map_parts.h"
 
 #include <boost/asio/ip/address.hpp>
 #include <charconv>
@@ -10,18 +10,18 @@
 #include "terrane/game/spawn.h"
 #include "terrane/store/saves/save_path.h"
 
-namespace terrane::app {
+namespace terrane::web {
 namespace {
 
-base::Result<web::WebAddress> notAnAddress(const std::string& text) {
-    return base::fail(base::ErrorCode::BadInput,
-                      "--http: {} is no port or ADDRESS:PORT, such as 8080 or [::]:8080", text);
+base::Result<WebAddress> notAnAddress(const std::string& text) {
+    return base::fail(base::ErrorCode::BadInput, "{} is no port or ADDRESS:PORT, such as 8080 or [::]:8080",
+                      text);
 }
 
 }  // namespace
 
-base::Result<web::WebAddress> webAddressFrom(const std::string& text) {
-    web::WebAddress address;
+base::Result<WebAddress> webAddressFrom(const std::string& text) {
+    WebAddress address;
     const std::size_t colon = text.rfind(':');
     std::string_view port = text;
     if (colon != std::string::npos) {
@@ -38,11 +38,11 @@ base::Result<web::WebAddress> webAddressFrom(const std::string& text) {
     boost::asio::ip::make_address(address.address, wrong);
     if (wrong)
         return base::fail(base::ErrorCode::BadInput,
-                          "--http: {} is no address to listen on, such as 127.0.0.1 or ::", address.address);
+                          "{} is no address to listen on, such as 127.0.0.1 or ::", address.address);
     return address;
 }
 
-std::string urlOf(const web::WebAddress& address, std::uint16_t port) {
+std::string urlOf(const WebAddress& address, std::uint16_t port) {
     const bool isAll = address.address == "0.0.0.0" || address.address == "::";
     if (isAll) return fmt::format("http://localhost:{}/", port);
     const bool isV6 = address.address.find(':') != std::string::npos;
@@ -59,10 +59,21 @@ std::string originOf(const store::WorldIdentity& identity, const world::BlockReg
                        base::hash64(names));
 }
 
-std::unique_ptr<map::SurfaceCache> openMapCache(const std::filesystem::path& file, const std::string& origin,
-                                                int megabytes) {
-    if (megabytes == 0) return nullptr;
-    auto cache = map::SurfaceCache::open(file, origin, std::int64_t{megabytes} * 1'000'000);
+std::filesystem::path mapCacheFile(const std::string& world, const std::string& origin) {
+    std::error_code error;
+    const store::WorldLocation location = store::worldLocation(world);
+    if (!world.empty() && location.kind != store::WorldLocation::Kind::Url)
+        if (auto file = store::fileOf(location)) return file->replace_extension(kMapCacheEnding);
+    const auto folder = store::dataFolder(store::savePlaces());
+    if (!folder) return {};
+    std::filesystem::create_directories(*folder, error);
+    return *folder / fmt::format("generated-{:016x}{}", base::hash64(origin), kMapCacheEnding);
+}
+
+std::unique_ptr<map::SurfaceCache> openMapCache(const MapSettings& settings, const std::string& origin) {
+    if (settings.cache.empty() || settings.diskMegabytes == 0) return nullptr;
+    auto cache =
+        map::SurfaceCache::open(settings.cache, origin, std::int64_t{settings.diskMegabytes} * 1'000'000);
     if (cache) return std::move(*cache);
     base::logWarning("{}; the map keeps nothing on disk", cache.error().message);
     return nullptr;
@@ -109,25 +120,25 @@ base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path
     return places;
 }
 
-web::NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
+NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
     return {name, pose.position.x, pose.position.y, pose.position.z};
 }
 
-std::vector<web::MapMarker> namedPlaces(const std::vector<game::Place>& places) {
-    std::vector<web::MapMarker> named;
+std::vector<NamedPlace> namedPlaces(const std::vector<game::Place>& places) {
+    std::vector<NamedPlace> named;
     for (const game::Place& place : places) named.push_back(namedPlace(place.name, place.pose));
     return named;
 }
 
-std::vector<web::MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
+std::vector<NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
     std::vector<game::Place> places = game::savedPlaces(store);
     places.insert(places.end(), ofFile.begin(), ofFile.end());
     return namedPlaces(places);
 }
 
-base::Result<web::NamedPlace> spawnOf(const io::MapWorld& world) {
+base::Result<NamedPlace> spawnOf(const io::MapWorld& world) {
     const auto generator = TERRANE_TRY(world.parts.generators.at(0));
     return namedPlace("", game::findSpawn(*generator, *world.parts.blocks));
 }
 
-}  // namespace terrane::app
+}  // namespace terrane::web

@@ -1,8 +1,5 @@
 // A build without browser maps: commands lack their options.
-#include "apps/terrane/maps/http_map.h"
-#include "apps/terrane/maps/map_options.h"
-#include "apps/terrane/maps/server_map.h"
-#include "apps/terrane/maps/static_map.h"
+#include "apps/terrane/map_options.h"
 
 namespace terrane::app {
 
@@ -21,17 +18,10 @@ base::Result<void> writeStaticMap(io::WorldOptions&, const io::SaveOptions&, con
     return base::fail(base::ErrorCode::Unsupported, "this build has no maps for browsers");
 }
 
-struct ServerMap::Impl {};
-
-base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context&, net::ServerState&,
-                                                         const std::string&, const MapSiteOptions&,
-                                                         const std::filesystem::path&,
-                                                         const world::TextureSource&) {
-    return nullptr;
+base::Result<MapTick> openServerMap(boost::asio::io_context&, net::ServerState&, const std::string&,
+                                    const MapSiteOptions&, const std::filesystem::path&,
+                                    const world::TextureSource&) {
+    return MapTick();
 }
-
-ServerMap::ServerMap(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-ServerMap::~ServerMap() = default;
-void ServerMap::tick(double) {}
 
 }  // namespace terrane::app

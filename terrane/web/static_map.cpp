@@ -1,4 +1,4 @@
-#include "apps/terrane/maps/static_map.h"
+#include "terrane/web/static_map.h"
 
 #include <algorithm>
 #include <atomic>
@@ -6,17 +6,15 @@
 #include <mutex>
 #include <utility>
 
-#include "apps/terrane/maps/site_parts.h"
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
-#include "terrane/base/log.h"
-#include "terrane/base/process.h"
 #include "terrane/io/map_world.h"
 #include "terrane/map/map_painter.h"
 #include "terrane/map/map_tile.h"
 #include "terrane/map/surface_source.h"
+#include "terrane/web/map_parts.h"
 
-namespace terrane::app {
+namespace terrane::web {
 namespace {
 
 namespace fs = std::filesystem;
@@ -25,8 +23,6 @@ using map::MapTile;
 
 // The file that identifies the world of a folder.
 constexpr const char* kOriginFile = "terrane-map.txt";
-// Limit: a few days of work, 300 GB.
-constexpr std::int64_t kMaxTiles = 10'000'000;
 
 base::Result<void> prepareFolder(const fs::path& folder, const std::string& origin) {
     std::error_code error;
@@ -48,10 +44,10 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
     return base::writeFile(file, origin + "\n");
 }
 
-base::Result<void> writePage(const fs::path& folder, const web::PageInfo& info) {
-    for (const base::EmbeddedFile& file : web::pageFiles())
+base::Result<void> writePage(const fs::path& folder, const PageFacts& facts) {
+    for (const base::EmbeddedFile& file : pageFiles())
         TERRANE_TRY(base::writeFile(folder / file.path, file.data));
-    return base::writeFile(folder / "world.js", web::scriptOf(info));
+    return base::writeFile(folder / "world.js", scriptOf(facts));
 }
 
 // The finest zoom, from 0 down, at which the area is no wider than a tile.
@@ -62,25 +58,8 @@ int leastZoom(const map::BlockRect& area) {
     return zoom;
 }
 
-base::Result<std::vector<Layer>> layersOf(const std::vector<std::string>& names,
-                                          const map::MapPainter& painter) {
-    std::vector<Layer> layers;
-    for (const std::string& name : names) {
-        const auto layer = map::layerNamed(name);
-        if (!layer) return base::fail(base::ErrorCode::BadInput, "--layers: there is no layer {}", name);
-        if (!painter.hasLayer(*layer))
-            return base::fail(base::ErrorCode::BadInput, "--layers: the generator has no {}", name);
-        layers.push_back(*layer);
-    }
-    for (int k = 0; names.empty() && k < map::kLayerCount; ++k)
-        if (painter.hasLayer(static_cast<Layer>(k))) layers.push_back(static_cast<Layer>(k));
-    const bool hasBase = std::ranges::any_of(
-        layers, [](Layer layer) { return layer != Layer::Height && layer != Layer::Biome; });
-    if (!hasBase)
-        return base::fail(
-            base::ErrorCode::BadInput,
-            "--layers: height and biome are drawn over day, night or isometric: name one of these");
-    return layers;
+int minZoomOf(const StaticMapSettings& settings) {
+    return std::min(leastZoom(map::blocksOf(settings.area)), settings.maxZoom);
 }
 
 class TileWriter {
@@ -122,61 +101,76 @@ class TileWriter {
     base::Error error_;
 };
 
-// False if a signal stopped it.
-base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer, base::JobSystem& jobs) {
+// False if `progress` stopped it.
+base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer, base::JobSystem& jobs,
+                              const io::Progress& progress) {
     constexpr std::size_t kAtATime = 64;
-    const base::StopSignals signals;
-    base::ProgressBar bar("mapping", tiles.size());
     for (std::size_t done = 0; done < tiles.size(); done += kAtATime) {
-        if (signals.stopRequested()) return false;
+        if (progress && !progress(done, tiles.size())) return false;
         const auto some = tiles.subspan(done, std::min(kAtATime, tiles.size() - done));
         TERRANE_TRY(base::parallelFor(jobs, some.size(), [&](std::size_t k) { writer.write(some[k]); }));
         TERRANE_TRY(writer.result());
-        bar.set(done + some.size());
     }
+    if (progress) (void)progress(tiles.size(), tiles.size());
     return true;
 }
 
 }  // namespace
 
-base::Result<void> writeStaticMap(io::WorldOptions& worldOptions, const io::SaveOptions& save,
-                                  const std::string& resourcePack, const world::ChunkArea& chunks,
-                                  const StaticMapOptions& options) {
-    const auto places = TERRANE_TRY(readPlaceFile(options.places));
-    const auto world = io::openMapWorld(worldOptions, save, resourcePack);
-    if (!world) return tl::unexpected(world.error());
-    const game::SessionParts& opened = (*world)->parts;
-    const store::WorldIdentity& identity = opened.store->identity();
-    const auto spawn = TERRANE_TRY(spawnOf(**world));
-    auto painter = TERRANE_TRY(io::painterOf(**world));
-    const auto layers = TERRANE_TRY(layersOf(options.layers, painter));
-    const map::BlockRect area = map::blocksOf(chunks);
-    const int minZoom = std::min(leastZoom(area), options.maxZoom);
-    if (map::countTiles(area, layers, minZoom, options.maxZoom) > kMaxTiles)
-        return base::fail(base::ErrorCode::BadInput,
-                          "a map has at most {} images; a lower --max-zoom needs fewer", kMaxTiles);
-    const std::string origin =
-        fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter.colorDigest());
-    TERRANE_TRY(prepareFolder(options.folder, origin));
-
-    web::PageInfo info{.identity = identity, .name = titleOf(save.world), .spawn = spawn};
-    info.places = allPlaces(*opened.store, places);
-    for (const Layer layer : layers) info.layers.emplace_back(map::nameOf(layer));
-    info.minZoom = minZoom;
-    info.maxZoom = options.maxZoom;
-    info.isLive = false;
-    info.area = area;
-    TERRANE_TRY(writePage(options.folder, info));
-
-    map::EditedPositions edited;
-    for (const world::ChunkPos chunk : (*world)->edited) edited.add(chunk);
-    TileWriter writer(painter, edited, options.folder);
-    base::JobSystem jobs(opened.threads);
-    const std::vector<MapTile> tiles = map::tilesOf(area, layers, minZoom, options.maxZoom);
-    const auto isDone = TERRANE_TRY(writeTiles(tiles, writer, jobs));
-    base::logInfo("{}: {} of {} images written{}", options.folder, writer.written(), tiles.size(),
-                  isDone ? "; open index.html" : " before it was stopped: the same command continues");
-    return {};
+std::int64_t imageCountOf(const StaticMapSettings& settings) {
+    return map::countTiles(map::blocksOf(settings.area), settings.layers, minZoomOf(settings),
+                           settings.maxZoom);
 }
 
-}  // namespace terrane::app
+base::Result<std::vector<Layer>> layersOf(const std::vector<std::string>& names,
+                                          const map::MapPainter& painter) {
+    std::vector<Layer> layers;
+    for (const std::string& name : names) {
+        const auto layer = map::layerNamed(name);
+        if (!layer) return base::fail(base::ErrorCode::BadInput, "there is no layer {}", name);
+        if (!painter.hasLayer(*layer))
+            return base::fail(base::ErrorCode::BadInput, "the generator has no {}", name);
+        layers.push_back(*layer);
+    }
+    for (int k = 0; names.empty() && k < map::kLayerCount; ++k)
+        if (painter.hasLayer(static_cast<Layer>(k))) layers.push_back(static_cast<Layer>(k));
+    const bool hasBase = std::ranges::any_of(
+        layers, [](Layer layer) { return layer != Layer::Height && layer != Layer::Biome; });
+    if (!hasBase)
+        return base::fail(base::ErrorCode::BadInput,
+                          "height and biome are drawn over day, night or isometric: name one of these");
+    return layers;
+}
+
+base::Result<StaticMapWritten> writeStaticMap(io::MapWorld& world, map::MapPainter& painter,
+                                              const StaticMapSettings& settings,
+                                              const io::Progress& progress) {
+    if (imageCountOf(settings) > kMaxImages)
+        return base::fail(base::ErrorCode::BadInput, "a map has at most {} images", kMaxImages);
+    const game::SessionParts& opened = world.parts;
+    const store::WorldIdentity& identity = opened.store->identity();
+    const auto spawn = TERRANE_TRY(spawnOf(world));
+    const std::string origin =
+        fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter.colorDigest());
+    TERRANE_TRY(prepareFolder(settings.folder, origin));
+
+    const map::BlockRect area = map::blocksOf(settings.area);
+    PageFacts facts{.identity = identity, .name = settings.title, .spawn = spawn};
+    facts.places = allPlaces(*opened.store, settings.places);
+    for (const Layer layer : settings.layers) facts.layers.emplace_back(map::nameOf(layer));
+    facts.minZoom = minZoomOf(settings);
+    facts.maxZoom = settings.maxZoom;
+    facts.isLive = false;
+    facts.area = area;
+    TERRANE_TRY(writePage(settings.folder, facts));
+
+    map::EditedPositions edited;
+    for (const world::ChunkPos chunk : world.edited) edited.add(chunk);
+    TileWriter writer(painter, edited, settings.folder);
+    base::JobSystem jobs(opened.threads);
+    const std::vector<MapTile> tiles = map::tilesOf(area, settings.layers, facts.minZoom, settings.maxZoom);
+    const auto isDone = TERRANE_TRY(writeTiles(tiles, writer, jobs, progress));
+    return StaticMapWritten{writer.written(), tiles.size(), isDone};
+}
+
+}  // namespace terrane::web

@@ -2,31 +2,32 @@
 // their own.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
 #include <unordered_map>
 #include <vector>
 
-#include "apps/terrane/maps/map_options.h"
 #include "terrane/net/server/server_state.h"
+#include "terrane/web/map_parts.h"
 #include "terrane/web/page.h"
 #include "terrane/world/blocks/block_model.h"
 
-namespace terrane::app {
+namespace terrane::web {
+
+enum class ShownPlayers : std::uint8_t { None, Surface, All };
 
 // The players on a server's map. Runs on the server's thread.
 // Omits players under ground, if asked to: those with three opaque blocks above their head.
-class PlayerList {
+class ServerPlayers {
   public:
-    // The clients and the session of the server outlive it.
-    PlayerList(const net::ServerClients& clients, game::Session& session, ShownPlayers shown)
-        : clients_(clients), session_(session), shown_(shown) {}
+    // The server outlives it.
+    ServerPlayers(net::ServerState& server, ShownPlayers shown) : server_(server), shown_(shown) {}
 
     // Requests the chunks that players are in. Until a chunk is loaded, a player from a neighboring chunk
     // keeps its state, and others are omitted.
-    std::vector<web::MapMarker> now();
+    std::vector<NamedPlace> now();
 
   private:
     // None if the chunk is not loaded.
@@ -42,26 +43,25 @@ class PlayerList {
     std::unordered_map<game::PlayerId, Known> known_;
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::web
 
 namespace boost::asio {
 class io_context;
 }
 
-namespace terrane::app {
+namespace terrane::web {
 
 class ServerMap {
   public:
-    // Null if the options name no port. `world`: as on the command line; `files`: from serverFilesOf(). The
-    // context and the server outlive the map.
+    // The context and the server outlive the map.
     [[nodiscard]] static base::Result<std::unique_ptr<ServerMap>> open(boost::asio::io_context& context,
                                                                        net::ServerState& server,
-                                                                       const std::string& world,
-                                                                       const MapSiteOptions& options,
-                                                                       const std::filesystem::path& files,
+                                                                       const MapSettings& settings,
+                                                                       ShownPlayers players,
                                                                        const world::TextureSource& textures);
     ~ServerMap();
 
+    std::uint16_t port() const;
     // Call after each tick of the server with its duration.
     void tick(double milliseconds);
 
@@ -71,4 +71,4 @@ class ServerMap {
     std::unique_ptr<Impl> impl_;
 };
 
-}  // namespace terrane::app
+}  // namespace terrane::web
