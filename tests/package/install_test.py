@@ -98,12 +98,25 @@ class Install(unittest.TestCase):
         self.assertNotEqual(first, second)
         return first
 
+    def use_world_tools(self, build):
+        if "world_tools" not in run(CMAKE, "--build", build, "--target", "help"):
+            return  # a build without maps or PostgreSQL
+        run(CMAKE, "--build", build, "--target", "world_tools")
+        folder = self.folder / "tools"
+        printed = run(build / "world_tools", folder, env=os.environ | {"LIBGL_ALWAYS_SOFTWARE": "1"})
+        for line in (r"import: 1 chunk", r"export: \d+ faces, \d+ materials; 16×16 columns", r"map: (\d+) of \1 images written",
+                     r"server: 1 player joined, and built", r"video: 3 frames"):
+            self.assertRegex(printed, f"(?m)^{line}$")
+        for name in ("area.glb", "heights.npy", "blocks.npy", "map/index.html", "frames/frame_00002.png"):
+            self.assertGreater((folder / name).stat().st_size, 0, name)
+
     def test_an_example_by_find_package_and_by_pkg_config(self):
         build = self.folder / "build"
         run(CMAKE, "-G", "Ninja", "-S", self.examples, "-B", build, "-DCMAKE_BUILD_TYPE=Debug", f"-DCMAKE_PREFIX_PATH={self.prefix}")
         run(CMAKE, "--build", build, "--target", "own_generator", "own_behavior")
         self.assertIn("8,8,40: iron becomes rust", run(build / "own_behavior"))
         text = self.build_and_run(build / "own_generator")
+        self.use_world_tools(build)
 
         paths = {"PKG_CONFIG_PATH": str(self.find("terrane.pc").parent)}
         sources = [self.examples / name for name in ("own_generator.cpp", "tutorial_generators.cpp")]
