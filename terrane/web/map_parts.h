@@ -35,8 +35,8 @@ inline constexpr const char* kMapCacheEnding = ".map.sqlite";
 
 // Identifies everything that surfaces of generated terrain depend on.
 std::string originOf(const store::WorldIdentity& identity, const world::BlockRegistry& blocks);
-// The file that caches surfaces of `world`, a store::WorldLocation: beside its file; for a database or without
-// a world in the data folder, named after `origin`. Empty if there is no data folder.
+// The file that caches surfaces of `world`, a store::WorldLocation: beside its file; for a database or
+// without a world in the data folder, named after `origin`. Empty if there is no data folder.
 std::filesystem::path mapCacheFile(const std::string& world, const std::string& origin);
 // Null without a file or megabytes; also, with a warning, if the file cannot be used.
 std::unique_ptr<map::SurfaceCache> openMapCache(const MapSettings& settings, const std::string& origin);
