@@ -128,7 +128,7 @@ base::Result<void> serve(const fs::path& folder) {
 
     const Clock::time_point end = Clock::now() + std::chrono::seconds(60);
     net::ServerLoop loop;
-    loop.stopAsked = [&] { return !players.decidedMs.empty() || Clock::now() > end; };
+    loop.stopRequested = [&] { return !players.decidedMs.empty() || Clock::now() > end; };
     loop.onTick = [&](double milliseconds) {
         statistics.addTick(*host.state, milliseconds);
         map->tick(milliseconds);

@@ -6,10 +6,12 @@
 
 #include "apps/terrane/commands/progress.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/base/process.h"
 #include "terrane/io/map_world.h"
+#include "terrane/web/host_check.h"
 #include "terrane/web/static_map.h"
 #include "terrane/web/world_map.h"
 
@@ -22,9 +24,19 @@ CLI::Validator notEmpty() {
     return CLI::Validator([](const std::string& value) { return value.empty() ? "is empty" : ""; }, "");
 }
 
+CLI::Validator hostName() {
+    return CLI::Validator(
+        [](const std::string& value) {
+            return web::isHostName(value) ? std::string()
+                                          : value + " is no host name, such as map.example.org";
+        },
+        "");
+}
+
 base::Result<web::WebAddress> addressOf(const MapSiteOptions& options) {
     auto address = web::webAddressFrom(options.http);
     if (!address) return base::fail(address.error().code, "--http: {}", address.error().message);
+    address->hosts = options.hosts;
     return address;
 }
 
@@ -61,6 +73,12 @@ void addMapSiteOptions(CLI::App& command, MapSiteOptions& options, bool isServer
         ->check(notEmpty())
         ->type_name("[ADDRESS:]PORT");
     command
+        .add_option("--map-host", options.hosts,
+                    "Name under which browsers reach the map, such as map.example.org; again for each name. "
+                    "Without it they reach it as localhost and by its address")
+        ->check(hostName())
+        ->type_name("NAME");
+    command
         .add_option("--map-disk", options.diskMegabytes, "Megabytes of the cache file for maps; 0: no file")
         ->check(numberFrom(0, kMaxMegabytes))
         ->capture_default_str();
@@ -88,12 +106,11 @@ base::Result<void> checkMapSite(const MapSiteOptions& options) {
 }
 
 void addStaticMapOptions(CLI::App& command, StaticMapOptions& options) {
-    command
-        .add_option("--tiles", options.folder,
-                    "Write the map as a folder with a web page and its images; existing images stay unless "
-                    "their land was edited")
-        ->check(notEmpty())
-        ->type_name("DIR");
+    writesFolder(command.add_option(
+                     "--tiles", options.folder,
+                     "Write the map as a folder with a web page and its images; existing images stay unless "
+                     "their land was edited"))
+        ->check(notEmpty());
     command
         .add_option("--max-zoom", options.maxZoom,
                     "The finest images of --tiles: 2 has 4 pixels per block, -1 two blocks per pixel")
@@ -120,7 +137,7 @@ base::Result<void> showMap(io::WorldOptions& worldOptions, const io::SaveOptions
                                    base::logInfo("the map is at {}", web::urlOf(settings.address, port));
                                    signals.emplace();
                                },
-                               [&] { return signals->stopAsked(); }});
+                               [&] { return signals->stopRequested(); }});
 }
 
 base::Result<void> writeStaticMap(io::WorldOptions& worldOptions, const io::SaveOptions& save,

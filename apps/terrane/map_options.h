@@ -21,7 +21,8 @@ class App;
 namespace terrane::app {
 
 struct MapSiteOptions {
-    std::string http;  // "PORT" or "ADDRESS:PORT"; empty: no map
+    std::string http;                // "PORT" or "ADDRESS:PORT"; empty: no map
+    std::vector<std::string> hosts;  // names of the map besides localhost and its address
     int diskMegabytes = 300, memoryMegabytes = 64;
     unsigned threads = 1;
     std::string places;  // file; empty: none

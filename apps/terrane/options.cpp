@@ -58,7 +58,7 @@ std::vector<std::string> withCurrentNames(std::span<const char* const> arguments
 namespace {
 
 void parseSeed(const std::string& text, io::WorldOptions& options) {
-    auto seed = io::seedFrom(text);
+    auto seed = store::seedFrom(text);
     if (!seed) throw CLI::ValidationError("--seed", seed.error().message);
     options.seed = seed->seed;
     options.seedText = std::move(seed->text);

@@ -65,26 +65,28 @@ class EditedChunks {
     EditedChunks(const EditedChunks&) = delete;
     EditedChunks& operator=(const EditedChunks&) = delete;
 
-base::Result<base::Image> drawParts(game::SessionParts parts, const pack::Content& content,
-                                    const ImageRequest& request) {
-    const auto world = view::Offscreen::create(
-        std::move(parts), content.generators, content.textures,
-        {.size = request.size, .graphics = {request.preset, {}, request.viewDistance}});
-    if (!world) return tl::unexpected(world.error());
-    game::Session& session = *(*world)->session;
-    view::WorldView& view = *(*world)->view;
-    view.setHorizon({request.horizon, (*world)->graphics.detail});
-    const render::Camera camera = view::cameraOf(request.pose, request.fieldOfView);
-    view::loadAll(session, view, camera, request.viewDistance, std::chrono::steady_clock::now());
-    render::Renderer& renderer = (*world)->renderer;
-    renderer.draw({camera, world::environmentAt(request.timeDay), view::fogDistance(view.sightDistance()), 0,
-                   render::View::Color, game::waterAbove(session, camera.position)});
-    return renderer.readImage();
-}
+    base::Result<base::Image> drawParts(game::SessionParts parts, const pack::Content& content,
+                                        const ImageRequest& request) {
+        const auto world = view::Offscreen::create(
+            std::move(parts), content.generators, content.textures,
+            {.size = request.size, .graphics = {request.preset, {}, request.viewDistance}});
+        if (!world) return tl::unexpected(world.error());
+        game::Session& session = *(*world)->session;
+        view::WorldView& view = *(*world)->view;
+        view.setHorizon({request.horizon, (*world)->graphics.detail});
+        const render::Camera camera = view::cameraOf(request.pose, request.fieldOfView);
+        view::loadAll(session, view, camera, request.viewDistance, std::chrono::steady_clock::now());
+        render::Renderer& renderer = (*world)->renderer;
+        renderer.draw({camera, world::environmentAt(request.timeDay),
+                       view::fogDistance(view.visibleDistance()), 0, render::View::Color,
+                       game::waterAbove(session, camera.position)});
+        return renderer.readImage();
+    }
 
 }  // namespace
 
-base::Result<base::Image> drawImage(const DrawnWorld& world, const ImageRequest& request) {
+base::Result<base::Image>
+drawImage(const DrawnWorld& world, const ImageRequest& request) {
     if (auto checked = checkRequest(request); !checked) return tl::unexpected(checked.error());
     base::Result<base::Image> image = base::fail("not drawn");
     std::thread([&] {

@@ -80,17 +80,17 @@ base::Result<ExportedFile> exportGlb(const ExportSource& source, const fs::path&
     const world::ChunkArea area = chunksOf(source.box);
     formats::GlbMesh mesh(*source.blocks, source.textures);
     base::JobSystem jobs(source.threads);
-    const auto goesOn = [&](std::int64_t done) {
+    const auto shouldContinue = [&](std::int64_t done) {
         return !progress ||
                progress(static_cast<std::size_t>(done), static_cast<std::size_t>(squareCount(area)));
     };
     for (std::int64_t k = 0; k < squareCount(area); ++k) {
-        if (!goesOn(k)) return base::fail("stopped after {} of {} squares", k, squareCount(area));
+        if (!shouldContinue(k)) return base::fail("stopped after {} of {} squares", k, squareCount(area));
         LoadedSquare square(squareOf(area, k));
         TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
         TERRANE_TRY(addSquare(square, source, mesh));
     }
-    (void)goesOn(squareCount(area));
+    (void)shouldContinue(squareCount(area));
     const world::BlockPos low = source.box.low;
     const auto model = mesh.finish(fmt::format("terrane {},{},{}", low.x, low.y, low.z));
     if (!model) return base::fail(model.error().code, "{}: {}", output.string(), model.error().message);
@@ -149,10 +149,10 @@ base::Result<SurfaceHeights> readHeights(const ExportSource& source, const Progr
     return heights;
 }
 
-base::Result<void> writeNames(const fs::path& output, const world::BlockRegistry& blocks) {
+std::string namesOf(const world::BlockRegistry& blocks) {
     nlohmann::json names = nlohmann::json::array();
     for (const world::BlockType& type : blocks.types()) names.push_back(type.name);
-    return base::writeFile(output.string() + ".names.json", names.dump(1) + "\n");
+    return names.dump(1) + "\n";
 }
 
 }  // namespace
@@ -178,9 +178,11 @@ base::Result<ExportedFile> exportNpy(const ExportSource& source, const fs::path&
     auto volume = TERRANE_TRY(readVolume(source, progress));
     for (std::uint16_t& cell : volume.cells) cell = volume.palette[cell].id;
     const auto side = [&](int axis) { return static_cast<std::size_t>(volume.size[axis]); };
-    TERRANE_TRY(writeNames(output, *source.blocks));
-    return writeResult(output, base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)}),
-                       describe(volume.size));
+    const std::string bytes = base::encodeNpy({"<u2", {side(2), side(1), side(0)}, bytesOf(volume.cells)});
+    const std::string names = namesOf(*source.blocks);
+    TERRANE_TRY(base::writeFiles(
+        std::vector<base::FileToWrite>{{output.string(), bytes}, {output.string() + ".names.json", names}}));
+    return ExportedFile{describe(volume.size), bytes.size()};
 }
 
 base::Result<ExportedFile> exportNpyHeights(const ExportSource& source, const fs::path& output,

@@ -83,12 +83,12 @@ base::Result<void> forEachChunk(const ExportSource& source, const Progress& prog
     const world::ChunkArea area = chunksOf(source.box);
     const std::int64_t width = std::int64_t{area.x1} - area.x0, count = area.chunkCount();
     base::JobSystem jobs(source.threads);
-    const auto goesOn = [&](std::int64_t done) {
+    const auto shouldContinue = [&](std::int64_t done) {
         return !progress || progress(static_cast<std::size_t>(done), static_cast<std::size_t>(count));
     };
     std::vector<world::ChunkPos> positions;
     for (std::int64_t next = 0; next < count;) {
-        if (!goesOn(next)) return base::fail("stopped after {} of {} chunks", next, count);
+        if (!shouldContinue(next)) return base::fail("stopped after {} of {} chunks", next, count);
         positions.clear();
         for (; next < count && positions.size() < kExportBatch; ++next)
             positions.push_back({static_cast<std::int32_t>(area.x0 + next % width),
@@ -97,7 +97,7 @@ base::Result<void> forEachChunk(const ExportSource& source, const Progress& prog
             TERRANE_TRY(stream::chunksAt(positions, source.save.get(), source.generator, jobs));
         for (std::size_t k = 0; k < positions.size(); ++k) TERRANE_TRY(take(positions[k], chunks[k]));
     }
-    (void)goesOn(count);
+    (void)shouldContinue(count);
     return {};
 }
 

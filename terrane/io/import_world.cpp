@@ -49,7 +49,7 @@ base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content 
     world.generators = std::make_unique<gen::LevelGenerators>(std::move(generators));
     world.store = std::move(store);
     world.threads = threadCount(options.world);
-    stream::keepTileRows(*world.store, *world.generators, *world.content.blocks, {});
+    stream::maintainTileRows(*world.store, *world.generators, *world.content.blocks, {});
     return world;
 }
 

@@ -13,7 +13,7 @@ base::Result<std::unique_ptr<MapWorld>> openMapWorld(WorldOptions& options, cons
     auto opened = TERRANE_TRY(openSessionParts(options, save, store::WorldAccess::ReadOnly));
     auto world = std::make_unique<MapWorld>(MapWorld{std::move(opened.parts), {}, {}});
     store::ChunkStore& store = *world->parts.store;
-    stream::keepTileRows(store, world->parts.generators, *world->parts.blocks, {});
+    stream::maintainTileRows(store, world->parts.generators, *world->parts.blocks, {});
     TERRANE_TRY(stream::buildTileRows(store));
     auto edited = TERRANE_TRY(store.editedChunks());
     world->edited = std::move(edited);

@@ -189,9 +189,9 @@ class MinecraftImporter {
     ImportReport& report() { return report_; }
 
   private:
-    // `goesOn` takes the number of the region's chunks that are done.
+    // `shouldContinue` takes the number of the region's chunks that are done.
     base::Result<void> importRegion(const RegionSource& region,
-                                    const std::function<bool(std::size_t)>& goesOn) {
+                                    const std::function<bool(std::size_t)>& shouldContinue) {
         std::vector<int> wanted;
         for (int number = 0; number < formats::kRegionChunks; ++number)
             if (isInArea(region.pos, number, options_.area)) wanted.push_back(number);
@@ -204,12 +204,12 @@ class MinecraftImporter {
         std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
         std::size_t done = 0;
         for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
-            if (!goesOn(done))
+            if (!shouldContinue(done))
                 return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
             const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
             TERRANE_TRY(importBatch(region, *bytes, part));
             done = static_cast<std::size_t>(part.back()) + 1;
-            (void)goesOn(done);
+            (void)shouldContinue(done);
         }
         return {};
     }
@@ -280,7 +280,10 @@ class MinecraftImporter {
 
 base::Result<ImportReport> importMinecraft(ImportOptions& options, const MinecraftOptions& minecraft,
                                            const Progress& progress) {
-    const auto regions = TERRANE_TRY(regionsOf(options.source, minecraft.dimension));
+    auto regions = TERRANE_TRY(regionsOf(options.source, minecraft.dimension));
+    keepRegionsWithChunks(regions, minecraft.area);
+    if (regions.empty())
+        return base::fail(base::ErrorCode::NotFound, "{}: no chunks in --area", options.source.string());
     const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));

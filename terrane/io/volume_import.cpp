@@ -6,6 +6,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
+#include "terrane/formats/file_kind.h"
 #include "terrane/formats/schematic.h"
 #include "terrane/formats/vox_file.h"
 #include "terrane/io/import_world.h"
@@ -18,6 +19,21 @@ namespace {
 
 // Chunks loaded and saved at a time.
 constexpr std::size_t kPlacedBatch = 64;
+
+base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos corner) {
+    const auto isBeyond = [](std::int32_t low, std::int32_t size) {
+        return std::int64_t{low} + size - 1 > INT32_MAX;
+    };
+    if (isBeyond(corner.x, volume.size.x) || isBeyond(corner.y, volume.size.y))
+        return base::fail(base::ErrorCode::BadInput,
+                          "--at: {}×{}×{} blocks at {},{},{} reach past the end of the world", volume.size.x,
+                          volume.size.y, volume.size.z, corner.x, corner.y, corner.z);
+    const std::int64_t top = std::int64_t{corner.z} + volume.size.z - 1;
+    if (top >= 0 && corner.z < world::kChunkHeight) return {};
+    return base::fail(base::ErrorCode::BadInput,
+                      "--at: the heights {} to {} are outside the world's, 0 to {}: nothing is imported",
+                      corner.z, top, world::kChunkHeight - 1);
+}
 
 // Copies the blocks of the volume in one chunk; `corner` is the volume's lowest block.
 void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool skipsAir, world::ChunkPos pos,
@@ -107,12 +123,16 @@ base::Result<formats::BlockVolume> readVox(std::string_view bytes, const pack::C
 base::Result<formats::BlockVolume> readSource(const ImportOptions& options, const pack::Content& content,
                                               VolumeFormat format, formats::ImportCounts& counts) {
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
-    const auto bytes = TERRANE_TRY(base::readFile(options.source, formats::kMaxVolumeBytes));
-    auto volume = format == VolumeFormat::Vox ? readVox(bytes, content, mapping, counts)
-                                              : readSchematic(bytes, mapping, counts);
-    if (!volume)
-        return base::fail(volume.error().code, "{}: {}", options.source.string(), volume.error().message);
-    return volume;
+    const bool isVox = format == VolumeFormat::Vox;
+    const auto explained = [&](const base::Error& error) {
+        return tl::unexpected(formats::explained(options.source, isVox ? "vox" : "schem", error));
+    };
+    const auto bytes = base::readFile(options.source, formats::kMaxVolumeBytes);
+    if (!bytes) return explained(bytes.error());
+    auto volume = isVox ? readVox(*bytes, content, mapping, counts) : readSchematic(*bytes, mapping, counts);
+    if (volume) return volume;
+    return explained(
+        {volume.error().code, fmt::format("{}: {}", options.source.string(), volume.error().message)});
 }
 
 }  // namespace
@@ -123,6 +143,7 @@ base::Result<ImportReport> importVolume(ImportOptions& options, const VolumeOpti
     // Read before a world is created.
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto volume = TERRANE_TRY(readSource(options, content, volumeOptions.format, report.counts));
+    TERRANE_TRY(checkFits(volume, volumeOptions.corner));
     auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
     TERRANE_TRY(placeVolume(volumeOptions, world, volume, progress));
     countOutside(volume, volumeOptions.corner.z, report.counts);
@@ -130,17 +151,16 @@ base::Result<ImportReport> importVolume(ImportOptions& options, const VolumeOpti
     return report;
 }
 
-base::Result<ImportReport> importStructure(const ImportOptions& options, VolumeFormat format,
-                                           const std::filesystem::path& output) {
-    ImportReport report;
+base::Result<ImportedStructure> importStructure(const ImportOptions& options, VolumeFormat format) {
+    ImportedStructure imported;
     const auto content = TERRANE_TRY(loadContent(options.world, options.save));
-    const auto volume = TERRANE_TRY(readSource(options, content, format, report.counts));
+    const auto volume = TERRANE_TRY(readSource(options, content, format, imported.report.counts));
     const auto structure = formats::toStructure(volume, *content.blocks);
     if (!structure)
         return base::fail(structure.error().code, "{}: {}", options.source.string(),
                           structure.error().message);
-    TERRANE_TRY(store::writeStructure(output, *structure));
-    return report;
+    imported.bytes = TERRANE_TRY(store::encodeStructure(*structure));
+    return imported;
 }
 
 }  // namespace terrane::io

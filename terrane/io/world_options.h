@@ -6,10 +6,8 @@
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "terrane/base/result.h"
 #include "terrane/store/saves/world_identity.h"
 
 namespace terrane::io {
@@ -39,15 +37,6 @@ struct SaveOptions {
 };
 
 unsigned threadCount(const WorldOptions& options);
-
-struct WrittenSeed {
-    std::uint64_t seed = 0;
-    std::string text;  // the text whose base::hash64 is the seed; empty for a number
-};
-
-// A number from 0 to 2^64 − 1, or any other text. Fails for an empty text, and for a whole number out of
-// range: hashed as a text it would give a world that the number does not identify.
-[[nodiscard]] base::Result<WrittenSeed> seedFrom(std::string_view text);
 
 // Called during a long run, on the caller's thread, with the part that is done. The run stops with an error
 // if it returns false; an empty function never stops it.

@@ -18,7 +18,7 @@ struct WorkerParts {
     ConnectionPool& pool;
     std::string name;
     bool waits = false;  // for more jobs when the queue is empty
-    std::function<bool()> stopAsked;
+    std::function<bool()> stopRequested;
     std::function<void()> onPaused = {};  // called when the queue is paused; may be empty
 };
 

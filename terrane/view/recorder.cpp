@@ -149,7 +149,7 @@ base::Result<base::Image> Recorder::frame(double seconds) {
     input.figures = figures;
     input.camera = point.camera;
     input.environment = world::environmentAt(point.timeDay);
-    input.fogDistance = fogDistance(parts_.world.view->sightDistance());
+    input.fogDistance = fogDistance(parts_.world.view->visibleDistance());
     input.timeSeconds = static_cast<float>(seconds);
     input.view = graphics.view;
     input.waterAbove = game::waterAbove(session, point.camera.position);

@@ -120,23 +120,23 @@ base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path
     return places;
 }
 
-NamedPlace namedPlace(const std::string& name, const world::Pose& pose) {
+MapMarker namedPlace(const std::string& name, const world::Pose& pose) {
     return {name, pose.position.x, pose.position.y, pose.position.z};
 }
 
-std::vector<NamedPlace> namedPlaces(const std::vector<game::Place>& places) {
-    std::vector<NamedPlace> named;
+std::vector<MapMarker> namedPlaces(const std::vector<game::Place>& places) {
+    std::vector<MapMarker> named;
     for (const game::Place& place : places) named.push_back(namedPlace(place.name, place.pose));
     return named;
 }
 
-std::vector<NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
+std::vector<MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile) {
     std::vector<game::Place> places = game::savedPlaces(store);
     places.insert(places.end(), ofFile.begin(), ofFile.end());
     return namedPlaces(places);
 }
 
-base::Result<NamedPlace> spawnOf(const io::MapWorld& world) {
+base::Result<MapMarker> spawnOf(const io::MapWorld& world) {
     const auto generator = TERRANE_TRY(world.parts.generators.at(0));
     return namedPlace("", game::findSpawn(*generator, *world.parts.blocks));
 }

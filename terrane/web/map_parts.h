@@ -49,11 +49,11 @@ std::string titleOf(const std::string& world);
 // the line.
 [[nodiscard]] base::Result<std::vector<game::Place>> readPlaceFile(const std::filesystem::path& file);
 
-NamedPlace namedPlace(const std::string& name, const world::Pose& pose);
-std::vector<NamedPlace> namedPlaces(const std::vector<game::Place>& places);
+MapMarker namedPlace(const std::string& name, const world::Pose& pose);
+std::vector<MapMarker> namedPlaces(const std::vector<game::Place>& places);
 // The places saved in the world, then those of a file.
-std::vector<NamedPlace> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
+std::vector<MapMarker> allPlaces(store::ReadableStore& store, const std::vector<game::Place>& ofFile);
 // The spawn point, with an empty name. Takes a tenth of a second.
-[[nodiscard]] base::Result<NamedPlace> spawnOf(const io::MapWorld& world);
+[[nodiscard]] base::Result<MapMarker> spawnOf(const io::MapWorld& world);
 
 }  // namespace terrane::web

@@ -20,8 +20,8 @@ constexpr int kRoof = 3;  // blocks
 
 }  // namespace
 
-std::vector<NamedPlace> ServerPlayers::now() {
-    std::vector<NamedPlace> players;
+std::vector<MapMarker> ServerPlayers::now() {
+    std::vector<MapMarker> players;
     if (shown_ == ShownPlayers::None) return players;
     const std::unordered_map<game::PlayerId, Known> before = std::exchange(known_, {});
     const auto add = [&](game::PlayerId id, const std::string& name, const world::Pose& pose) {

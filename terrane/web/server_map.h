@@ -22,12 +22,13 @@ enum class ShownPlayers : std::uint8_t { None, Surface, All };
 // Omits players under ground, if asked to: those with three opaque blocks above their head.
 class ServerPlayers {
   public:
-    // The server outlives it.
-    ServerPlayers(net::ServerState& server, ShownPlayers shown) : server_(server), shown_(shown) {}
+    // The clients and the session of the server outlive it.
+    ServerPlayers(const net::ServerClients& clients, game::Session& session, ShownPlayers shown)
+        : clients_(clients), session_(session), shown_(shown) {}
 
     // Requests the chunks that players are in. Until a chunk is loaded, a player from a neighboring chunk
     // keeps its state, and others are omitted.
-    std::vector<NamedPlace> now();
+    std::vector<MapMarker> now();
 
   private:
     // None if the chunk is not loaded.

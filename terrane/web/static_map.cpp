@@ -44,7 +44,7 @@ base::Result<void> prepareFolder(const fs::path& folder, const std::string& orig
     return base::writeFile(file, origin + "\n");
 }
 
-base::Result<void> writePage(const fs::path& folder, const PageFacts& facts) {
+base::Result<void> writePage(const fs::path& folder, const PageInfo& facts) {
     for (const base::EmbeddedFile& file : pageFiles())
         TERRANE_TRY(base::writeFile(folder / file.path, file.data));
     return base::writeFile(folder / "world.js", scriptOf(facts));
@@ -155,7 +155,7 @@ base::Result<StaticMapWritten> writeStaticMap(io::MapWorld& world, map::MapPaint
     TERRANE_TRY(prepareFolder(settings.folder, origin));
 
     const map::BlockRect area = map::blocksOf(settings.area);
-    PageFacts facts{.identity = identity, .name = settings.title, .spawn = spawn};
+    PageInfo facts{.identity = identity, .name = settings.title, .spawn = spawn};
     facts.places = allPlaces(*opened.store, settings.places);
     for (const Layer layer : settings.layers) facts.layers.emplace_back(map::nameOf(layer));
     facts.minZoom = minZoomOf(settings);

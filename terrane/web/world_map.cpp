@@ -27,7 +27,7 @@ base::Result<void> serveWorldMap(io::MapWorld& world, const MapSettings& setting
     boost::asio::io_context context;
     auto site = TERRANE_TRY(MapSite::open(context, std::move(parts), settings.address));
     if (loop.onOpened) loop.onOpened(site->port());
-    while (!loop.stopAsked()) {
+    while (!loop.stopRequested()) {
         context.restart();
         context.run_for(kTick);
         site->tick();

@@ -12,10 +12,10 @@ namespace terrane::web {
 
 struct WorldMapLoop {
     std::function<void(std::uint16_t port)> onOpened = {};  // may be empty
-    std::function<bool()> stopAsked;                        // called a few times per second
+    std::function<bool()> stopRequested;                    // called a few times per second
 };
 
-// Uses the world's threads in place of those of `settings`. Runs until stopAsked().
+// Uses the world's threads in place of those of `settings`. Runs until stopRequested().
 [[nodiscard]] base::Result<void> serveWorldMap(io::MapWorld& world, const MapSettings& settings,
                                                const WorldMapLoop& loop);
 

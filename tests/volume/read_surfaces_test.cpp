@@ -91,7 +91,7 @@ TEST(ReadBiomes, TheyAreThoseOfTheGenerator) {
     ASSERT_TRUE(biomes);
     for (const int level : {0, 3}) {
         const auto area = columnsOver(level, -300, -50, 1500, 1111).value();
-        std::vector<std::uint8_t> read(static_cast<std::size_t>(area.columnCount()));
+        std::vector<std::uint8_t> read(static_cast<std::size_t>((area.x1 - area.x0) * (area.y1 - area.y0)));
         ASSERT_TRUE(readBiomes(*world, area, read, {}));
         std::map<world::ChunkPos, std::array<std::uint8_t, 256>> chunks;
         int wrong = 0;

@@ -122,7 +122,7 @@ base::Result<void> runBots(BotsOptions& options) {
     const base::StopSignals signals;
     const net::BotTime start = std::chrono::steady_clock::now();
     std::optional<Since> since;
-    while (!signals.stopAsked()) {
+    while (!signals.stopRequested()) {
         const net::BotTime now = std::chrono::steady_clock::now();
         const std::chrono::duration<double> passed = now - start;
         const int due =

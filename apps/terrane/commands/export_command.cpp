@@ -22,9 +22,9 @@ struct ExportCommand {
 };
 
 base::Result<world::BlockBox> parseBox(const std::string& text) {
-    const auto numbers = TERRANE_TRY(
-        parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", INT32_MIN, INT32_MAX));
-    const std::vector<std::int32_t>& n = numbers;
+    constexpr std::int64_t kEnd = std::int64_t{1} << 31;  // of the world, excluded
+    const auto n =
+        TERRANE_TRY(parseWholeNumbers(text, 6, "--box: expected X0,Y0,Z0,X1,Y1,Z1 in blocks", -kEnd, kEnd));
     if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
         return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
                           text);
@@ -32,7 +32,8 @@ base::Result<world::BlockBox> parseBox(const std::string& text) {
         return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
                           world::kChunkHeight, text);
     const auto pos = [&](std::size_t first, int less) {
-        return world::BlockPos{n[first] - less, n[first + 1] - less, n[first + 2] - less};
+        const auto at = [&](std::size_t axis) { return static_cast<std::int32_t>(n[first + axis] - less); };
+        return world::BlockPos{at(0), at(1), at(2)};
     };
     return world::BlockBox{pos(0, 0), pos(3, 1)};
 }

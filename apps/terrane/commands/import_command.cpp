@@ -1,5 +1,6 @@
 // terrane import: imports worlds, schematics and models of other programs.
 #include <algorithm>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -62,20 +63,20 @@ void logReport(const io::ImportReport& report) {
                       mostOf(counts.blockEntities));
 }
 
-base::Result<void> writeReport(const io::ImportReport& report, const std::string& file) {
+// Names come from the file and may be invalid UTF-8.
+std::string jsonOf(const io::ImportReport& report) {
     const formats::ImportCounts& counts = report.counts;
     const nlohmann::json json = {{"chunks", report.chunks},         {"skipped", report.skipped},
                                  {"unfinished", report.unfinished}, {"damage_count", report.damageCount},
                                  {"damaged", report.damaged},       {"blocks", counts.blocks},
                                  {"unknown", counts.unknown},       {"block_entities", counts.blockEntities},
                                  {"below", counts.below},           {"above", counts.above}};
-    // Names come from the file and may be invalid UTF-8.
-    return base::writeFile(file, json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
+    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 base::Result<void> finish(ImportCommand& command, const io::ImportReport& report) {
     logReport(report);
-    return command.report.empty() ? base::Result<void>() : writeReport(report, command.report);
+    return command.report.empty() ? base::Result<void>() : base::writeFile(command.report, jsonOf(report));
 }
 
 base::Result<void> checkTarget(const ImportCommand& command) {
@@ -105,23 +106,40 @@ base::Result<void> importMinecraft(ImportCommand& command) {
     const auto report =
         TERRANE_TRY(io::importMinecraft(command.source, command.minecraft, progressBar("importing")));
     command.exitCode = report.damageCount > 0 ? 1 : 0;
-    return finish(command, report);
+    TERRANE_TRY(finish(command, report));
+    if (report.chunks > 0 || report.skipped > 0) return {};
+    return base::fail(base::ErrorCode::Damaged,
+                      "{}: nothing is imported: {} chunks or files cannot be read, {} chunks have no blocks",
+                      command.source.source.string(), report.damageCount, report.empty);
 }
 
 base::Result<world::BlockPos> cornerOf(const std::string& at) {
     if (at.empty()) return base::fail(base::ErrorCode::BadInput, "import needs --at X,Y,Z, or -o FILE");
-    constexpr std::int32_t kFarthest = io::VolumeOptions::kFarthest;
     const auto numbers =
-        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", -kFarthest, kFarthest));
-    return world::BlockPos{numbers[0], numbers[1], numbers[2]};
+        TERRANE_TRY(parseWholeNumbers(at, 3, "--at: expected X,Y,Z in blocks", INT32_MIN, INT32_MAX));
+    const auto number = [&](std::size_t axis) { return static_cast<std::int32_t>(numbers[axis]); };
+    return world::BlockPos{number(0), number(1), number(2)};
+}
+
+// Writes the structure and the report, or neither.
+base::Result<void> writeStructure(const ImportCommand& command, const io::ImportedStructure& imported) {
+    const std::string json = jsonOf(imported.report);
+    std::vector<base::FileToWrite> files{
+        {command.output, {reinterpret_cast<const char*>(imported.bytes.data()), imported.bytes.size()}}};
+    if (!command.report.empty()) files.push_back({command.report, json});
+    std::error_code ignored;  // writeFiles() reports the error
+    std::filesystem::create_directories(std::filesystem::path(command.output).parent_path(), ignored);
+    TERRANE_TRY(base::writeFiles(files));
+    logReport(imported.report);
+    return {};
 }
 
 base::Result<void> importVolume(ImportCommand& command, io::VolumeFormat format) {
     if (!command.output.empty()) {
         if (!command.source.save.world.empty() || !command.at.empty())
             return base::fail(base::ErrorCode::BadInput, "-o cannot be used with --world and --at");
-        const auto report = TERRANE_TRY(io::importStructure(command.source, format, command.output));
-        return finish(command, report);
+        const auto imported = TERRANE_TRY(io::importStructure(command.source, format));
+        return writeStructure(command, imported);
     }
     const auto corner = TERRANE_TRY(cornerOf(command.at));
     TERRANE_TRY(checkTarget(command));

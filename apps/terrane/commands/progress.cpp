@@ -21,7 +21,7 @@ io::Progress progressBar(std::string what) {
             shown->bar.emplace(what, total);
         }
         shown->bar->set(done);
-        return !shown->signals.stopAsked();
+        return !shown->signals.stopRequested();
     };
 }
 

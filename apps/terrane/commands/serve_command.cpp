@@ -67,8 +67,8 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     if (records.publishAddress)
         records.publishAddress(publicAddress(options, sockets->port()), sockets->key());
     base::logInfo("{} on port {}, seed {}, generator {}; key {}", store_postgres::shownOf(world),
-                  sockets->port(), host.state->world.identity.seed, host.state->world.identity.generator,
-                  sockets->key());
+                  sockets->port(), host.state->offer.fingerprint.identity.seed,
+                  host.state->offer.fingerprint.identity.generator, sockets->key());
     const auto map = TERRANE_TRY(
         openServerMap(context, *host.state, options.save.world, options.map, files, opened.content.textures));
     net::ServerLoop loop;

@@ -97,7 +97,7 @@ base::Result<void> runWorker(WorkOptions& options, store_postgres::ConnectionPoo
     const auto start = std::chrono::steady_clock::now();
     const auto result = TERRANE_TRY(store_postgres::work(
         {*generator.worker, store, pool, base::processName(), options.waits,
-         [&] { return signals.stopAsked(); },
+         [&] { return signals.stopRequested(); },
          [] { base::logInfo("the work is paused: `terrane work URL --continue` lets it go on"); }}));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     const double rate = static_cast<double>(result.chunks) / std::max(seconds, 1e-3);

@@ -143,10 +143,10 @@ NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSe
     return form;
 }
 
-base::Result<io::WrittenSeed> seedOf(const NewWorldForm& form) {
+base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form) {
     const std::string_view text = trimmed(form.seed);
-    if (text.empty()) return io::WrittenSeed{form.randomSeed, ""};
-    return io::seedFrom(text);
+    if (text.empty()) return store::WrittenSeed{form.randomSeed, ""};
+    return store::seedFrom(text);
 }
 
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {

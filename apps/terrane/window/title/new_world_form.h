@@ -48,7 +48,7 @@ class MapPreview {
 // A world to play: an existing file, or a new one.
 struct ChosenWorld {
     std::filesystem::path file;
-    std::optional<io::WrittenSeed> seed;  // for a new world
+    std::optional<store::WrittenSeed> seed;  // for a new world
     std::optional<std::string> generator;
 };
 
@@ -65,7 +65,7 @@ struct NewWorldForm {
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
 
 // Ignores spaces around the seed.
-[[nodiscard]] base::Result<io::WrittenSeed> seedOf(const NewWorldForm& form);
+[[nodiscard]] base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form);
 
 // Errors are one line for the player.
 [[nodiscard]] base::Result<ChosenWorld> worldOf(const NewWorldForm& form,
