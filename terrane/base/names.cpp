@@ -156,7 +156,7 @@ tl::unexpected<Error> refused(std::string message) {
 // The first character that no name has.
 std::optional<char32_t> forbiddenIn(std::string_view name) {
     while (!name.empty()) {
-        const Character next = firstCodePoint(name);
+        const CodePoint next = firstCodePoint(name);
         if (!uset_contains(checker().allowed.get(), static_cast<UChar32>(next.code))) return next.code;
         name.remove_prefix(next.bytes);
     }

@@ -8,6 +8,7 @@
 
 #include "terrane/base/files.h"
 #include "terrane/base/job_system.h"
+#include "terrane/formats/file_kind.h"
 #include "terrane/io/import_world.h"
 #include "terrane/io/open_session.h"
 

@@ -64,7 +64,7 @@ std::filesystem::path mapCacheFile(const std::string& world, const std::string& 
     const store::WorldLocation location = store::worldLocation(world);
     if (!world.empty() && location.kind != store::WorldLocation::Kind::Url)
         if (auto file = store::fileOf(location)) return file->replace_extension(kMapCacheEnding);
-    const auto folder = store::dataFolder(store::savePlaces());
+    const auto folder = store::dataFolder(store::saveEnvironment());
     if (!folder) return {};
     std::filesystem::create_directories(*folder, error);
     return *folder / fmt::format("generated-{:016x}{}", base::hash64(origin), kMapCacheEnding);

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "terrane/net/server/server.h"
 #include "terrane/net/server/server_clients.h"
-#include "terrane/net/server/server_history.h"
 #include "terrane/web/map_parts.h"
 #include "terrane/web/map_site.h"
 
@@ -48,8 +48,7 @@ std::vector<MapMarker> ServerPlayers::now() {
 }
 
 std::optional<bool> ServerPlayers::isUnderGround(const world::Pose& pose) const {
-    game::Session& session = server_.session;
-    if (!session.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
+    if (!session_.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
     const world::BlockPos eyes = world::blockOf(pose.position);
     int roof = 0;
     for (std::int32_t z = std::max(eyes.z + 1, 0); z < world::kChunkHeight && roof < kRoof; ++z)
@@ -59,10 +58,9 @@ std::optional<bool> ServerPlayers::isUnderGround(const world::Pose& pose) const 
 
 namespace {
 
-void addMetrics(MetricsText& text, net::ServerState& server, const Histogram& ticks) {
-    text.gauge("terrane_players", "Players on this server.", static_cast<double>(server.playing.size()));
-    text.gauge("terrane_loaded_chunks", "Chunks in memory.",
-               static_cast<double>(server.session.world().chunkCount()));
+void addMetrics(MetricsText& text, const net::ServerCounts& counts, const Histogram& ticks) {
+    text.gauge("terrane_players", "Players on this server.", static_cast<double>(counts.players));
+    text.gauge("terrane_loaded_chunks", "Chunks in memory.", static_cast<double>(counts.loadedChunks));
     text.gauge("terrane_edited_chunks", "Chunks that players changed.",
                static_cast<double>(counts.editedChunks));
     text.counter("terrane_edits_total", "Edits in the world's history.", static_cast<double>(counts.edits));
@@ -74,7 +72,7 @@ void addMetrics(MetricsText& text, net::ServerState& server, const Histogram& ti
 struct ServerMap::Impl {
     explicit Impl(net::ServerEdits& ofServer) : edits(ofServer) {}
 
-    net::ServerState& server;
+    net::ServerEdits& edits;
     Histogram ticks{{0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5}};
     std::unique_ptr<map::SurfaceCache> cache;
     std::unique_ptr<MapSite> site;
@@ -85,19 +83,21 @@ base::Result<std::unique_ptr<ServerMap>> ServerMap::open(boost::asio::io_context
                                                          const MapSettings& settings, ShownPlayers players,
                                                          const world::TextureSource& textures) {
     game::Session& session = server.session;
-    auto impl = std::make_unique<Impl>(server);
-    impl->cache = openMapCache(settings, originOf(server.world.identity, session.blocks()));
-    const auto& edited = server.edited.positions(0);
+    auto impl = std::make_unique<Impl>(server.edits);
+    impl->cache = openMapCache(settings, originOf(server.offer.fingerprint.identity, session.blocks()));
+    const auto& edited = server.edits.chunks.positions(0);
     MapSiteParts parts{session.generators(), session.blocks(), textures,
-                       session.store(),      settings.title,   namedPlace("", server.spawn)};
+                       session.store(),      settings.title,   namedPlace("", server.offer.spawn)};
     parts.threads = settings.threads;
     parts.cache = impl->cache.get();
     parts.tileBytes = static_cast<std::size_t>(settings.memoryMegabytes) * 1'000'000;
     parts.edited.assign(edited.begin(), edited.end());
     parts.liveChunk = [&](world::ChunkPos pos) { return session.world().maybeChunkAt(pos); };
-    parts.players = [list = ServerPlayers(server, players)]() mutable { return list.now(); };
-    parts.places = [&server, ofFile = settings.places] { return allPlaces(server.session.store(), ofFile); };
-    parts.metrics = [&server, &ticks = impl->ticks](MetricsText& text) { addMetrics(text, server, ticks); };
+    parts.players = [list = ServerPlayers(server.clients, session, players)]() mutable { return list.now(); };
+    parts.places = [&session, ofFile = settings.places] { return allPlaces(session.store(), ofFile); };
+    parts.metrics = [&server, &ticks = impl->ticks](MetricsText& text) {
+        addMetrics(text, net::countsOf(server), ticks);
+    };
     auto site = TERRANE_TRY(MapSite::open(context, std::move(parts), settings.address));
     impl->site = std::move(site);
     server.edits.onChanged = [&shown = *impl->site](std::span<const world::ChunkPos> chunks) {

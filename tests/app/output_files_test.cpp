@@ -28,7 +28,7 @@ class OutputFilesTest : public testing::Test {
     // The error of a command line; empty: there is none.
     static std::string errorOf(std::vector<std::string> arguments) {
         CLI::App command("", "test");
-        SaveOptions save;
+        io::SaveOptions save;
         std::string trace, report, input, content, tiles;
         addWorldOption(command, save, "");
         addTraceOption(command, trace);

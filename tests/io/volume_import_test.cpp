@@ -74,9 +74,9 @@ TEST_F(VolumeImport, NeedsAWorld) {
 }
 
 TEST_F(VolumeImport, BecomesAStructure) {
-    const auto report = importStructure(options(), VolumeFormat::Vox, folder_ / "model.structure");
-    ASSERT_TRUE(report) << report.error().message;
-    EXPECT_GT(std::filesystem::file_size(folder_ / "model.structure"), 0u);
+    const auto imported = importStructure(options(), VolumeFormat::Vox);
+    ASSERT_TRUE(imported) << imported.error().message;
+    EXPECT_TRUE(store::decodeStructure(imported->bytes));
     EXPECT_FALSE(std::filesystem::exists(folder_ / "world.sqlite"));
 }
 

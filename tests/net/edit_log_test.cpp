@@ -32,7 +32,7 @@ class EditLogTest : public RecordsTest {
         EXPECT_TRUE(done) << done.error().message;
         return edits;
     }
-    std::vector<RolledBack> plan(const EditFilter& filter) {
+    std::vector<game::ChangedBlock> plan(const EditFilter& filter) {
         flush();
         const auto forEachEdit = [&](const EditFilter& wanted, EditOrder order, const UseEdit& use) {
             return records_->forEachEdit(wanted, order, use);
@@ -130,7 +130,7 @@ TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
     const auto all = plan({.player = 8});
     ASSERT_EQ(all.size(), 2u);
     EXPECT_EQ(all[0].pos, pos);
-    EXPECT_EQ(all[0].made, valueOf("stone"));
+    EXPECT_EQ(all[0].after, valueOf("stone"));
     EXPECT_EQ(all[0].before, valueOf("glass"));
     const auto inArea = plan({.player = 8, .area = game::ColumnArea{40, 0, 60, 9}});
     ASSERT_EQ(inArea.size(), 1u);
@@ -167,9 +167,9 @@ TEST_F(EditLogTest, RollbacksEqualAReference) {
         }
         const auto found = plan({.player = player});
         ASSERT_EQ(found.size(), expected.size());
-        for (const RolledBack& block : found) {
+        for (const game::ChangedBlock& block : found) {
             EXPECT_EQ(block.before, valueOf(expected[block.pos].first));
-            EXPECT_EQ(block.made, valueOf(expected[block.pos].second));
+            EXPECT_EQ(block.after, valueOf(expected[block.pos].second));
         }
     }
 }

@@ -239,12 +239,73 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
     {
         TestServer server(folder_.path());
         ASSERT_NO_FATAL_FAILURE(annBuilds(server, pos));
-        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
+        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("rolling back 1 blocks;"));
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
     TestServer again(folder_.path());
     again.state().session.pipeline().chunkAt(world::chunkOf(pos));
     EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
+}
+
+// After a server ran with a date of the future, the last minute is still the last minute.
+TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    ServerHistory& history = server.state().history;
+    const world::BlockPos early = above(ann), middle = above(ann, 3), late = above(ann, 4);
+    const std::int64_t hourMs = 3'600'000, yearMs = 365 * 24 * hourMs;
+    const auto log = [&](world::BlockPos pos, std::int64_t timeMs) {
+        const world::BlockValue air{}, glass{contentBlock("glass"), 0, nullptr};
+        server.state().session.setBlocks(std::vector<world::PlacedBlock>{{pos, glass}});
+        const std::vector<game::ChangedBlock> changes{{pos, air, glass}};
+        const auto edits =
+            loggedEdits(history.newest + 1, server.state().clients.known.byName("Ann")->id, timeMs, changes);
+        history.newest = edits.back().number;
+        (void)history.records.append(edits);
+    };
+    log(early, nowMs() + yearMs);   // the date was wrong
+    log(middle, nowMs() - hourMs);  // an hour ago it was right
+    log(late, nowMs());
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback * 1").starts_with("rolling back 1 blocks;"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return history.rollbacks.empty(); }));
+    EXPECT_NE(server.state().session.world().block(early), world::kAir);
+    EXPECT_NE(server.state().session.world().block(middle), world::kAir);
+    EXPECT_EQ(server.state().session.world().block(late), world::kAir);
+}
+
+TEST(StampClock, GoesOnWhileTheSystemsClockIsBehind) {
+    const Time start = std::chrono::steady_clock::now();
+    StampClock stamps;
+    stamps.newestMs = nowMs() + 3'600'000;
+    const std::int64_t first = stamps.at(start);
+    EXPECT_EQ(first, stamps.newestMs);
+    EXPECT_EQ(stamps.at(start + std::chrono::seconds(90)), first + 90'000);
+    StampClock behind;
+    behind.newestMs = nowMs() - 3'600'000;
+    (void)behind.at(start);
+    EXPECT_GE(behind.at(start + std::chrono::seconds(1)), nowMs() - 1000) << "the system's clock is later";
+}
+
+// The flood of a source that is rolled back is gone with it, and what stood on the blocks falls.
+TEST_F(ServerTest, ARollbackRunsTheRules) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos pos = above(ann);
+    ASSERT_EQ(ann.put(pos, "water"), game::EditResult::Applied);
+    const auto water = [&] {
+        int count = 0;
+        for (int y = -10; y <= 10; ++y)
+            for (int x = -10; x <= 10; ++x)
+                for (int z = -8; z <= 0; ++z)
+                    count += server.state().session.world().block({pos.x + x, pos.y + y, pos.z + z}) ==
+                             contentBlock("water");
+        return count;
+    };
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return water() > 10; }));
+    (void)runConsoleLine(server.state(), "rollback Ann 10");
+    EXPECT_TRUE(stepUntil(server, {&ann}, [&] { return water() == 0; })) << water();
 }
 
 TEST_F(ServerTest, ARollbackLoadsItsChunks) {
@@ -256,7 +317,7 @@ TEST_F(ServerTest, ARollbackLoadsItsChunks) {
     }
     TestServer again(folder_.path());
     ASSERT_FALSE(again.state().session.world().maybeChunkAt(world::chunkOf(pos)));
-    EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("blocks rolled back: 1;"));
+    EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("rolling back 1 blocks;"));
     ASSERT_TRUE(stepUntil(again, {}, [&] { return again.state().history.rollbacks.empty(); }));
     again.state().session.pipeline().chunkAt(world::chunkOf(pos));
     EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
@@ -271,7 +332,7 @@ TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
     ASSERT_EQ(bob.put(bobs, "glass"), game::EditResult::Applied);
     ASSERT_TRUE(stepUntil(server, {&ann, &bob},
                           [&] { return ann.block(bobs) != world::kAir && bob.block(anns) != world::kAir; }));
-    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("blocks rolled back: 1;"));
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("rolling back 1 blocks;"));
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.block(bobs) == world::kAir; }));
     EXPECT_EQ(ann.block(anns), contentBlock("glass"));
 }

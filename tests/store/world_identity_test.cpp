@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 
+#include "terrane/base/digest.h"
 #include "tests/store/store_fixture.h"
 
 namespace terrane::store {
@@ -20,6 +21,15 @@ TEST(SeedFrom, ANegativeSeedIsTheSame64Bits) {
     for (const char* bad : {"", "+1", "-9223372036854775809", "18446744073709551616"})
         EXPECT_FALSE(seedFrom(bad)) << bad;
     EXPECT_EQ(seedFrom("- 1")->text, "- 1");
+}
+
+TEST(SeedFrom, HashesOtherTexts) {
+    for (const std::string text : {"my world", "7 ", "0x10", "1.5"}) {
+        const auto seed = seedFrom(text);
+        ASSERT_TRUE(seed) << text;
+        EXPECT_EQ(seed->seed, base::hash64(text));
+        EXPECT_EQ(seed->text, text);
+    }
 }
 
 TEST(RequireSame, SaysHowTheyDiffer) {

@@ -14,7 +14,7 @@ class ServerPlayersTest : public ::testing::Test {
 
     // Moves Ann to a height in blocks above or below the ground's highest opaque block.
     void stand(int above) {
-        net::ServerClient& client = server_.state().clients.begin()->second;
+        net::ServerClient& client = server_.state().clients.all.begin()->second;
         world::Pose pose = net::poseOf(client.pose);
         const auto chunk = world::chunkOf(pose.position);
         ASSERT_TRUE(waitFor([&] { return server_.state().session.world().maybeChunkAt(chunk) != nullptr; }));
@@ -27,7 +27,7 @@ class ServerPlayersTest : public ::testing::Test {
         client.pose = net::wirePose(pose);
     }
     void move(double blocks) {
-        net::ServerClient& client = server_.state().clients.begin()->second;
+        net::ServerClient& client = server_.state().clients.all.begin()->second;
         world::Pose pose = net::poseOf(client.pose);
         pose.position.x += blocks;
         client.pose = net::wirePose(pose);
@@ -42,14 +42,14 @@ class ServerPlayersTest : public ::testing::Test {
         return false;
     }
     std::size_t shown(ShownPlayers which) {
-        ServerPlayers list(server_.state(), which);
+        ServerPlayers list(server_.state().clients, server_.state().session, which);
         return list.now().size();
     }
 
     base::TempFolder folder_;
     net::TestServer server_{folder_.path(), net::patientSettings()};
     net::TestWire ann_{server_};
-    ServerPlayers list_{server_.state(), ShownPlayers::Surface};
+    ServerPlayers list_{server_.state().clients, server_.state().session, ShownPlayers::Surface};
 };
 
 TEST_F(ServerPlayersTest, NobodyIsHiddenOnTheSurface) {

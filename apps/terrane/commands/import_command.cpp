@@ -66,12 +66,12 @@ void logReport(const io::ImportReport& report) {
 // Names come from the file and may be invalid UTF-8.
 std::string jsonOf(const io::ImportReport& report) {
     const formats::ImportCounts& counts = report.counts;
-    const nlohmann::json json = {{"chunks", report.chunks},         {"skipped", report.skipped},
+    const nlohmann::json root = {{"chunks", report.chunks},         {"skipped", report.skipped},
                                  {"unfinished", report.unfinished}, {"damage_count", report.damageCount},
                                  {"damaged", report.damaged},       {"blocks", counts.blocks},
                                  {"unknown", counts.unknown},       {"block_entities", counts.blockEntities},
                                  {"below", counts.below},           {"above", counts.above}};
-    return json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
+    return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 base::Result<void> finish(ImportCommand& command, const io::ImportReport& report) {
@@ -123,10 +123,10 @@ base::Result<world::BlockPos> cornerOf(const std::string& at) {
 
 // Writes the structure and the report, or neither.
 base::Result<void> writeStructure(const ImportCommand& command, const io::ImportedStructure& imported) {
-    const std::string json = jsonOf(imported.report);
+    const std::string report = jsonOf(imported.report);
     std::vector<base::FileToWrite> files{
         {command.output, {reinterpret_cast<const char*>(imported.bytes.data()), imported.bytes.size()}}};
-    if (!command.report.empty()) files.push_back({command.report, json});
+    if (!command.report.empty()) files.push_back({command.report, report});
     std::error_code ignored;  // writeFiles() reports the error
     std::filesystem::create_directories(std::filesystem::path(command.output).parent_path(), ignored);
     TERRANE_TRY(base::writeFiles(files));

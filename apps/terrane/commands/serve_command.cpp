@@ -73,7 +73,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
         openServerMap(context, *host.state, options.save.world, options.map, files, opened.content.textures));
     net::ServerLoop loop;
     loop.onTick = [&](double milliseconds) {
-        statistics.addTick(*host.state, milliseconds);
+        statistics.addTick(net::countsOf(*host.state), milliseconds);
         if (map) map(milliseconds);
     };
     return net::runServer(context, *host.state, *sockets, loop);

@@ -272,10 +272,10 @@ void ClientWorld::onDone(const Done& done) {
     using Kind = WaitingDecision::Kind;
     const Kind kind = waiting_.front().kind;
     waiting_.pop_front();
-    using Build = game::BuildOutcome::Result;
+    using Built = game::BuildOutcome::Result;
     using Taken = game::UndoResult::Outcome;
-    if (kind == Kind::Build && done.result <= static_cast<std::uint8_t>(Build::NotAllowed))
-        decided_.push_back(game::BuildOutcome{static_cast<Build>(done.result), done.changed, done.kept});
+    if (kind == Kind::Build && done.result <= static_cast<std::uint8_t>(Built::NotAllowed))
+        decided_.push_back(game::BuildOutcome{static_cast<Built>(done.result), done.changed, done.kept});
     if ((kind == Kind::Undo || kind == Kind::Redo) &&
         done.result <= static_cast<std::uint8_t>(Taken::NotAllowed))
         decided_.push_back(

@@ -104,14 +104,16 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, s
     return edits;
 }
 
-base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, const EditFilter& filter) {
-    std::unordered_map<world::BlockPos, RolledBack, world::BlockPosHash> blocks;
+base::Result<std::vector<game::ChangedBlock>> rollback(const ForEachEdit& forEachEdit,
+                                                       const EditFilter& filter) {
+    std::unordered_map<world::BlockPos, game::ChangedBlock, world::BlockPosHash> blocks;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         for (std::size_t k = 0; k < edit.after.size(); ++k) {
             const world::BlockPos pos = world::blockPos(edit.chunk, edit.after[k].index);
             if (filter.area && !filter.area->contains(pos)) continue;
-            // Edits come newest first: the first one seen gives `made`, the last one `before`.
-            const auto found = blocks.try_emplace(pos, RolledBack{pos, edit.after[k].value, {}}).first;
+            // Edits come newest first: the first one seen gives `after`, the last one `before`.
+            const auto found =
+                blocks.try_emplace(pos, game::ChangedBlock{pos, {}, edit.after[k].value}).first;
             found->second.before = edit.before[k].value;
         }
         if (blocks.size() <= kMaxRollback) return {};
@@ -120,10 +122,10 @@ base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit, c
                           kMaxRollback);
     };
     TERRANE_TRY(forEachEdit(filter, EditOrder::NewestFirst, take));
-    std::vector<RolledBack> plan;
+    std::vector<game::ChangedBlock> plan;
     plan.reserve(blocks.size());
     for (auto& [pos, block] : blocks) plan.push_back(std::move(block));
-    std::ranges::sort(plan, {}, [](const RolledBack& block) {
+    std::ranges::sort(plan, {}, [](const game::ChangedBlock& block) {
         return std::pair(world::chunkOf(block.pos), world::blockIndex(block.pos));
     });
     return plan;

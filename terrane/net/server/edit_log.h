@@ -64,16 +64,11 @@ struct EditRow {
 };
 [[nodiscard]] base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids);
 
-// A block that a rollback changes, from the value after the last selected edit to the value before the first.
-struct RolledBack {
-    world::BlockPos pos;
-    world::BlockValue made, before;
-};
 // Maximum number of blocks in one rollback: 2,000,000 × about 200 bytes = 400 MB.
 constexpr std::size_t kMaxRollback = 2'000'000;
 // Computes a rollback, sorted by chunk, then block index. Fails if there are more than kMaxRollback blocks.
-[[nodiscard]] base::Result<std::vector<RolledBack>> rollback(const ForEachEdit& forEachEdit,
-                                                             const EditFilter& filter);
+[[nodiscard]] base::Result<std::vector<game::ChangedBlock>> rollback(const ForEachEdit& forEachEdit,
+                                                                     const EditFilter& filter);
 
 // Read access to the edit history of a world's servers, also while they run. One thread at a time.
 struct History {

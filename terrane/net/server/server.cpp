@@ -103,11 +103,11 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                 changed[world::chunkOf(edit.pos)].push_back(world::blockIndex(edit.pos));
         });
     session.setChangeListener(
-        [&history = server->history, &sharing = server->sharing](
-            game::PlayerId player, std::span<const game::ChangedBlock> changes) {
-            logChanges(history, sharing, player, changes);
+        [&state = *server](game::PlayerId player, std::span<const game::ChangedBlock> changes) {
+            logChanges(state.history, state.sharing, player, state.clients.now, changes);
         },
         parts.records.shared() != nullptr);
+    startStamps(server->history);
     const bool isRestored = TERRANE_TRY(restoreEdits(server->history, session));
     if (isRestored) TERRANE_TRY(saveEverything(*server));
     TERRANE_TRY(beginSharing(server->sharing, parts.records, session, server->edits.chunks));
@@ -169,7 +169,7 @@ void tick(ServerState& server, Time now) {
     // for it.
     updateChunks(sharing, session, clients.now);
     runCommands(clients, session, history);
-    continueRollbacks(history, sharing, session);
+    continueRollbacks(history, sharing, session, server.clients.now);
     if (clients.tick % kTicksPerLiveChunks == 1) {
         server.liveChunks = findLiveChunks(clients, edits.chunks, session.pipeline());
         if (sharing.shared) requestRegions(*sharing.shared, server.liveChunks);
@@ -200,7 +200,7 @@ base::Result<void> saveEverything(ServerState& server) {
     while (!history.rollbacks.empty()) {
         (void)session.pipeline().chunkAt(history.rollbacks.front().chunk);
         completeLoaded(sharing, session);
-        continueRollbacks(history, sharing, session);
+        continueRollbacks(history, sharing, session, server.clients.now);
     }
     if (sharing.shared) {
         // Afterwards all own edits are decided among the servers.

@@ -159,7 +159,7 @@ std::string claimList(const KnownPlayers& players) {
     return text;
 }
 
-std::string rollbackLine(ServerHistory& history, const KnownPlayers& players, Words words) {
+std::string rollbackLine(ServerHistory& history, const KnownPlayers& players, Time now, Words words) {
     EditFilter filter;
     if (words[0] != "*") {
         const KnownPlayer* player = players.byName(words[0]);
@@ -169,15 +169,14 @@ std::string rollbackLine(ServerHistory& history, const KnownPlayers& players, Wo
     const auto minutes = numberFrom<double>(words[1]);
     if (!minutes || !(*minutes > 0) || *minutes > 1e8)
         return fmt::format("{} is no number of minutes", words[1]);
-    filter.sinceMs = nowMs() - static_cast<std::int64_t>(*minutes * 60000);
     if (words.size() == 6) {
         filter.area = areaFrom(words.subspan(2));
         if (!filter.area) return "the corners are four whole numbers: X0 Y0 X1 Y1";
     } else if (words.size() != 2) {
         return "an area is four whole numbers: X0 Y0 X1 Y1";
     }
-    const auto count = startRollback(history, filter);
-    return count ? fmt::format("blocks rolled back: {}; what others changed since stays", *count)
+    const auto count = startRollback(history, filter, static_cast<std::int64_t>(*minutes * 60000), now);
+    return count ? fmt::format("rolling back {} blocks; what changed since stays", *count)
                  : count.error().message;
 }
 
@@ -251,7 +250,7 @@ constexpr ConsoleCommand kCommands[] = {
      [](Server& s, Words w) { return unclaim(s.clients.known, s.session.permissions.claims, w); }},
     {"claims", "", "all claims", 0, 0, [](Server& s, Words) { return claimList(s.clients.known); }},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,
-     [](Server& s, Words w) { return rollbackLine(s.history, s.clients.known, w); }},
+     [](Server& s, Words w) { return rollbackLine(s.history, s.clients.known, s.clients.now, w); }},
     {"mark", "X Y Z NAME", "names a place on maps; players name their own position: /mark NAME", 4, kAny,
      [](Server& s, Words w) { return mark(s.places, w); }},
     {"unmark", "NAME", "removes a named place", 1, kAny,

@@ -12,11 +12,36 @@ namespace {
 // Chunks of a rollback per tick: some milliseconds.
 constexpr std::size_t kRollbackChunks = 8;
 
+// The newest edit that the filter selects; none if there is no such edit.
+base::Result<std::optional<LoggedEdit>> newestOf(ServerRecords& records, const EditFilter& filter) {
+    std::optional<LoggedEdit> newest;
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
+        newest = edit;
+        return base::fail("found");  // ends the search
+    };
+    const auto searched = records.forEachEdit(filter, EditOrder::NewestFirst, take);
+    if (!searched && !newest) return tl::unexpected(searched.error());
+    return newest;
+}
+
 }  // namespace
 
-void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player,
+void startStamps(ServerHistory& history) {
+    constexpr std::int64_t kWarnedMs = 60'000;
+    const auto newest = newestOf(history.records, {});
+    if (!newest || !*newest) return;  // none; who reads the history hears of damage
+    history.stamps.newestMs = (*newest)->timeMs;
+    const std::int64_t ahead = history.stamps.newestMs - nowMs();
+    if (ahead > kWarnedMs)
+        base::logWarning(
+            "the newest edit of the history has a date {} minutes ahead of the clock: the clock is wrong, or "
+            "was; new edits are dated after it",
+            ahead / 60'000);
+}
+
+void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player, Time now,
                 std::span<const game::ChangedBlock> changes) {
-    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, nowMs(), changes);
+    std::vector<LoggedEdit> edits = loggedEdits(history.newest + 1, player, history.stamps.at(now), changes);
     if (edits.empty()) return;
     if (!sharing.shared) history.newest = edits.back().number;
     history.lastWrite = history.records.append(edits);
@@ -67,42 +92,55 @@ void autosave(ServerHistory& history, SharingState& sharing, game::Session& sess
     if (sharing.shared || history.saved < upTo) history.saving = {upTo, number};
 }
 
-base::Result<std::size_t> startRollback(ServerHistory& history, const EditFilter& filter) {
+base::Result<std::size_t> startRollback(ServerHistory& history, EditFilter filter, std::int64_t ms,
+                                        Time now) {
     // The reader sees only durable edits.
     TERRANE_TRY(history.records.flush());
+    const std::int64_t sinceMs = history.stamps.at(now) - ms;
+    const auto before = TERRANE_TRY(newestOf(history.records, {.untilMs = sinceMs - 1}));
+    if (before) filter.afterNumber = before->number;
     const auto forEachEdit = [&](const EditFilter& selected, EditOrder order, const UseEdit& use) {
         return history.records.forEachEdit(selected, order, use);
     };
     auto plan = TERRANE_TRY(rollback(forEachEdit, filter));
     // Each block occurs once in the plan. Parts of earlier rollbacks stay separate, even of the same chunk.
     const std::size_t first = history.rollbacks.size();
-    for (RolledBack& block : plan) {
+    for (game::ChangedBlock& block : plan) {
         const world::ChunkPos chunk = world::chunkOf(block.pos);
         if (history.rollbacks.size() == first || history.rollbacks.back().chunk != chunk)
-            history.rollbacks.push_back({chunk, {}});
+            history.rollbacks.push_back({chunk, {}, {}});
         history.rollbacks.back().blocks.push_back(std::move(block));
     }
     return plan.size();
 }
 
-void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session) {
+void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session, Time now) {
+    if (history.rollbacks.empty()) return;
     // Loads the chunks of the next parts ahead.
     for (std::size_t k = 0; k < std::min(history.rollbacks.size(), 4 * kRollbackChunks); ++k)
         (void)session.pipeline().maybeLoadChunkAt(history.rollbacks[k].chunk);
     for (std::size_t k = 0; k < kRollbackChunks && !history.rollbacks.empty(); ++k) {
-        const RollbackPart& part = history.rollbacks.front();
-        if (!session.world().maybeChunkAt(part.chunk)) return;
-        std::vector<world::PlacedBlock> blocks;
+        if (!session.world().maybeChunkAt(history.rollbacks.front().chunk)) return;
+        const RollbackPart part = std::move(history.rollbacks.front());
+        history.rollbacks.pop_front();
+        session.runRules(part.settling);
+        const std::vector<world::PlacedBlock> blocks = game::blocksBefore(session.world(), part.blocks);
+        history.rolledBack += blocks.size();
+        history.keptByRollbacks += part.blocks.size() - blocks.size();
         std::vector<game::ChangedBlock> changes;
-        for (const RolledBack& block : part.blocks) {
-            if (world::blockValue(session.world(), block.pos) != block.made) continue;
-            blocks.push_back({block.pos, block.before});
-            changes.push_back({block.pos, block.made, block.before});
+        RollbackPart settling{part.chunk, {}, {}};
+        for (const world::PlacedBlock& block : blocks) {
+            changes.push_back({block.pos, world::blockValue(session.world(), block.pos), block.value});
+            settling.settling.push_back(block.pos);
         }
         session.setBlocks(blocks);
-        logChanges(history, sharing, game::kNoPlayer, changes);
-        history.rollbacks.pop_front();
+        logChanges(history, sharing, game::kNoPlayer, now, changes);
+        if (!blocks.empty()) history.rollbacks.push_back(std::move(settling));
     }
+    if (!history.rollbacks.empty()) return;
+    base::logInfo("{} blocks rolled back; {} that changed since stay", history.rolledBack,
+                  history.keptByRollbacks);
+    history.rolledBack = history.keptByRollbacks = 0;
 }
 
 }  // namespace terrane::net

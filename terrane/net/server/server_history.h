@@ -12,8 +12,11 @@
 namespace terrane::net {
 
 // Logs the changes of a player's command, or of a rollback (game::kNoPlayer).
-void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player,
+void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player, Time now,
                 std::span<const game::ChangedBlock> changes);
+
+// Continues the stamps of the history's edits. Warns if the newest one is of the future.
+void startStamps(ServerHistory& history);
 
 // Applies edits that the world's store lacks, and returns whether there are any. Call before players join;
 // blocks.
@@ -23,9 +26,12 @@ constexpr std::chrono::seconds kHistorySaveEvery{5};
 // Sends edited chunks to the store every kHistorySaveEvery, and notes once they are saved. Call in each tick.
 void autosave(ServerHistory& history, SharingState& sharing, game::Session& session, Time now);
 
-// Reverts the selected edits where the blocks still have the edited value; runs over several ticks. Returns
-// the number of blocks to check.
-[[nodiscard]] base::Result<std::size_t> startRollback(ServerHistory& history, const EditFilter& filter);
-void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session);
+// Reverts the selected edits of the last `ms` milliseconds where the blocks are still what the edit made
+// them, as undo does, and runs the rules: liquid without a source runs dry. Runs over several ticks; then a
+// message says how many blocks changed. Returns the number of blocks to check. Which edits are the last ones
+// follows from their order: an edit is older than all with greater numbers, whatever date it had.
+[[nodiscard]] base::Result<std::size_t> startRollback(ServerHistory& history, EditFilter filter,
+                                                      std::int64_t ms, Time now);
+void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Session& session, Time now);
 
 }  // namespace terrane::net

@@ -132,10 +132,27 @@ struct ServerEdits {
 // Blocks that changed, by chunk; in any order, some several times.
 using ChangedIndices = std::map<world::ChunkPos, std::vector<world::BlockIndex>>;
 
-// A rollback in one chunk. Rollbacks run over several ticks, since their chunks must be loaded.
+// A part of a rollback in one chunk. Rollbacks run over several ticks, since their chunks must be loaded:
+// first all blocks are set, then the rules run for those that changed, so that nothing falls which still gets
+// its ground back.
 struct RollbackPart {
     world::ChunkPos chunk;
-    std::vector<RolledBack> blocks;
+    std::vector<game::ChangedBlock> blocks;  // to set
+    std::vector<world::BlockPos> settling;   // for which the rules are to run
+};
+
+// Stamps of edits, milliseconds since 1970, that never go back: by the system's clock, but at least as late
+// as the history's newest edit and the time since then. A wrong date thus moves stamps once, and durations
+// between them stay right.
+struct StampClock {
+    std::int64_t newestMs = 0;  // stamp of the history's newest edit when the server started
+    Time startedAt{};           // first time that the server knew
+
+    std::int64_t at(Time now) {
+        if (startedAt == Time{}) startedAt = now;
+        const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now - startedAt);
+        return std::max(nowMs(), newestMs + since.count());
+    }
 };
 
 // The edit history, and the progress of saving its edits to the world's store. `newest` and `saved` are 0 if
@@ -151,7 +168,9 @@ struct ServerHistory {
     };
     std::optional<SavePoint> saving = {};  // being written by the store
     Time nextSave{};
+    StampClock stamps = {};
     std::deque<RollbackPart> rollbacks = {};
+    std::size_t rolledBack = 0, keptByRollbacks = 0;  // blocks of the running rollbacks
 };
 
 // Named places, in the metadata of the world.

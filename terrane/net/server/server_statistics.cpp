@@ -22,7 +22,7 @@ base::Result<ServerStatistics> ServerStatistics::open(const std::string& file) {
     return statistics;
 }
 
-void ServerStatistics::addTick(const ServerState& server, double milliseconds) {
+void ServerStatistics::addTick(const ServerCounts& counts, double milliseconds) {
     if (!out_.is_open()) return;
     ticks_.push_back(milliseconds);
     const auto now = std::chrono::steady_clock::now();
@@ -32,7 +32,7 @@ void ServerStatistics::addTick(const ServerState& server, double milliseconds) {
     write(counts);
 }
 
-void ServerStatistics::write(const ServerState& server) {
+void ServerStatistics::write(const ServerCounts& counts) {
     const double cpu = base::cpuSeconds();
     const nlohmann::json line = {{"players", counts.players},
                                  {"ticks", ticks_.size()},
@@ -41,9 +41,9 @@ void ServerStatistics::write(const ServerState& server) {
                                  {"tick_ms_max", std::ranges::max(ticks_)},
                                  {"cpu_seconds", cpu - cpuSeconds_},
                                  {"memory_mb", base::megabytes(base::residentBytes())},
-                                 {"chunks", chunks},
-                                 {"edited_chunks", server.edited.count(0)},
-                                 {"edits", newestEdit(server)}};
+                                 {"chunks", counts.loadedChunks},
+                                 {"edited_chunks", counts.editedChunks},
+                                 {"edits", counts.edits}};
     const bool wasGood = out_.good();
     out_ << line.dump() << std::endl;
     if (wasGood && !out_) base::logWarning("the statistics cannot be written any more");

@@ -17,10 +17,10 @@ class ServerStatistics {
     [[nodiscard]] static base::Result<ServerStatistics> open(const std::string& file);
 
     // Call after each tick with its duration.
-    void addTick(const ServerState& server, double milliseconds);
+    void addTick(const ServerCounts& counts, double milliseconds);
 
   private:
-    void write(const ServerState& server);
+    void write(const ServerCounts& counts);
 
     std::ofstream out_;
     std::vector<double> ticks_;
