@@ -55,9 +55,9 @@ bool isSame(const fs::path& a, const fs::path& b) {
     return resolved(a) == resolved(b) || fs::equivalent(a, b, ignored);
 }
 
-bool liesIn(const fs::path& path, const fs::path& folder) {
+bool isFileOf(const fs::path& path, const fs::path& folder) {
     std::error_code ignored;
-    if (!fs::is_directory(folder, ignored)) return false;
+    if (!fs::is_directory(folder, ignored) || !fs::exists(path, ignored)) return false;
     const fs::path file = resolved(path), above = resolved(folder);
     return std::ranges::mismatch(above, file).in1 == above.end();
 }
@@ -118,12 +118,11 @@ base::Result<void> checkOutputs(CLI::App& command) {
         if (!output.isWritten) continue;
         for (const UsedPath& other : used) {
             if (other.option == output.option) continue;
-            const bool isInside = !other.isWritten && liesIn(output.path, other.path);
+            const bool isInside = !other.isWritten && isFileOf(output.path, other.path);
             if (!isInside && !isSame(output.path, other.path)) continue;
-            return base::fail(base::ErrorCode::BadInput, "{}: {} {} {}", output.option->get_name(),
-                              output.path.string(),
-                              isInside ? "would be written into the folder of" : "is also a file of",
-                              other.option->get_name());
+            return base::fail(
+                base::ErrorCode::BadInput, "{}: {} {} {}", output.option->get_name(), output.path.string(),
+                isInside ? "is a file in the folder of" : "is also a file of", other.option->get_name());
         }
     }
     return {};

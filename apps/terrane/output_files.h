@@ -20,9 +20,9 @@ CLI::Option* writesWorld(CLI::Option* option);
 std::string isInAFolder(const std::string& text);
 
 // Fails if a file or folder that the parsed command writes is also one that another option reads or writes:
-// a world with its logs, locks and server's files, or a file; or if it lies in a folder that another option
-// reads. Sees through symbolic and hard links and other spellings of a path. Called between parsing and
-// running, on the main thread.
+// a world with its logs, locks and server's files, or a file; or if it is a file in a folder that another
+// option reads. Sees through symbolic and hard links and other spellings of a path. Called between parsing
+// and running, on the main thread.
 [[nodiscard]] base::Result<void> checkOutputs(CLI::App& command);
 
 }  // namespace terrane::app

@@ -22,6 +22,7 @@ class OutputFilesTest : public testing::Test {
         fs::current_path(folder_.path());
         for (const char* name : {"h.sqlite", "in.toml"}) std::ofstream(name) << "content";
         fs::create_directory("pack");
+        std::ofstream("pack/blocks.toml") << "content";
     }
     ~OutputFilesTest() override { fs::current_path(former_); }
 
@@ -81,11 +82,12 @@ TEST_F(OutputFilesTest, TwoOutputsAreTwoFiles) {
     EXPECT_THAT(errorOf({"--report", "same.json", "--trace", "./same.json"}), HasSubstr("is also a file of"));
 }
 
-TEST_F(OutputFilesTest, NothingIsWrittenIntoAFolderThatIsRead) {
+TEST_F(OutputFilesTest, NoFileOfAFolderThatIsReadIsReplaced) {
     EXPECT_THAT(errorOf({"--content", "pack", "--trace", "pack/blocks.toml"}),
-                HasSubstr("would be written into the folder of --content"));
+                HasSubstr("is a file in the folder of --content"));
     EXPECT_THAT(errorOf({"--content", "pack", "--tiles", "pack"}), HasSubstr("--content"));
     EXPECT_EQ(errorOf({"--content", "pack", "--trace", "pack.json"}), "");
+    EXPECT_EQ(errorOf({"--content", "pack", "--trace", "pack/new.json"}), "") << "it replaces nothing";
 }
 
 }  // namespace

@@ -137,9 +137,10 @@ TEST(SavedPlaces, StayWithTheWorld) {
 
 TEST(SavedPlaces, KeepTheirOwner) {
     base::TempFolder folder;
-    const auto answers = [](TestServer& server, const std::string& line) {
+    const ClientIdentity identity = testIdentity("Ann");
+    const auto answers = [&](TestServer& server, const std::string& line) {
         TestWire ann(server);
-        (void)logIn(ann, testIdentity("Ann"));
+        (void)logIn(ann, identity);
         server.tick();
         (void)ann.take();
         ann.say(Say{line});

@@ -257,6 +257,7 @@ TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
     const std::int64_t hourMs = 3'600'000, yearMs = 365 * 24 * hourMs;
     const auto log = [&](world::BlockPos pos, std::int64_t timeMs) {
         const world::BlockValue air{}, glass{contentBlock("glass"), 0, nullptr};
+        (void)server.state().session.pipeline().chunkAt(world::chunkOf(pos));
         server.state().session.setBlocks(std::vector<world::PlacedBlock>{{pos, glass}});
         const std::vector<game::ChangedBlock> changes{{pos, air, glass}};
         const auto edits =

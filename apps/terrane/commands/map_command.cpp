@@ -1,5 +1,6 @@
 // terrane map: draws an area from above, as generated or as saved.
 #include <memory>
+#include <optional>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/map_options.h"
@@ -15,7 +16,7 @@ struct MapOptions {
     io::WorldOptions world;
     io::SaveOptions save;
     AreaOptions chunks;
-    int level = 0;
+    std::optional<int> level;
     std::string output, resourcePack;
     MapSiteOptions site;
     StaticMapOptions files;
@@ -23,6 +24,8 @@ struct MapOptions {
 
 // Limit: 16,384² pixels, an image of 1 GiB in memory.
 constexpr std::int64_t kMaxChunksInMap = 1024 * 1024;
+// Without --level, the finest level whose image has at most 4,096² pixels: seconds, and some megabytes.
+constexpr std::int64_t kChunksOfChosenLevel = 256 * 256;
 
 base::Result<world::ChunkArea> chosenArea(const MapOptions& options) {
     const auto area = areaOf(options.chunks);
@@ -30,9 +33,21 @@ base::Result<world::ChunkArea> chosenArea(const MapOptions& options) {
     return *area;
 }
 
+int chosenLevel(const MapOptions& options, const world::ChunkArea& area) {
+    if (options.level) return *options.level;
+    int level = 0;
+    while (level < world::kMaxLevel && world::areaOver(area, level).chunkCount() > kChunksOfChosenLevel)
+        ++level;
+    if (level > 0)
+        base::logInfo("level {} is drawn: a pixel is {} blocks wide; --level 0 draws each block", level,
+                      std::int64_t{1} << level);
+    return level;
+}
+
 base::Result<void> writeMap(MapOptions& options) {
     const auto chosen = TERRANE_TRY(chosenArea(options));
-    const world::ChunkArea area = world::areaOver(chosen, options.level);
+    const int level = chosenLevel(options, chosen);
+    const world::ChunkArea area = world::areaOver(chosen, level);
     if (area.chunkCount() > kMaxChunksInMap) {
         return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
                           area.chunkCount(), kMaxChunksInMap);
@@ -45,7 +60,7 @@ base::Result<void> writeMap(MapOptions& options) {
     base::JobSystem jobs((*world)->parts.threads);
     base::Result<base::Image> image;
     {
-        const map::ColumnRect rect = map::columnsOf(area, options.level);
+        const map::ColumnRect rect = map::columnsOf(area, level);
         base::ProgressBar bar("mapping", static_cast<std::size_t>(rect.height));
         image = map::drawArea(painter, rect, edited, jobs, [&](int rows) {
             bar.set(static_cast<std::size_t>(rows));
@@ -55,7 +70,7 @@ base::Result<void> writeMap(MapOptions& options) {
     if (!image) return tl::unexpected(image.error());
     TERRANE_TRY(base::writePng(options.output, *image));
     base::logInfo("{}: {} chunks, {}x{} blocks", options.output, area.chunkCount(),
-                  std::int64_t{image->width} << options.level, std::int64_t{image->height} << options.level);
+                  std::int64_t{image->width} << level, std::int64_t{image->height} << level);
     return {};
 }
 
@@ -100,7 +115,10 @@ CommandEntry addMap(CLI::App& app) {
     CLI::App* command = app.add_subcommand(
         "map", "Draw a map of an area into a PNG file or a folder of files, or show it to browsers");
     addAreaOptions(*command, options->chunks, world::kMaxChunk, "Chunks around 0,0: (2R+1)² of them");
-    command->add_option("--level", options->level, "A pixel is 2^LEVEL blocks wide")
+    command
+        ->add_option(
+            "--level", options->level,
+            "A pixel is 2^LEVEL blocks wide (default: the first whose image has at most 4096x4096 pixels)")
         ->check(numberFrom(0, world::kMaxLevel));
     addOutputOption(*command, options->output, {".png"}, "The PNG file");
     command->get_option("--output")->required(false);
