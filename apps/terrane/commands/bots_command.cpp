@@ -191,10 +191,9 @@ CommandEntry addBots(CLI::App& app) {
         ->capture_default_str();
     command->add_option("--password", options->bots.password, "Password of the server, if it has one")
         ->type_name("TEXT");
-    command
-        ->add_option("--keys", options->bots.keyFolder,
-                     "Folder for the bots' keys, so that a server recognizes them in the next run")
-        ->type_name("DIR");
+    writesFolder(
+        command->add_option("--keys", options->bots.keyFolder,
+                            "Folder for the bots' keys, so that a server recognizes them in the next run"));
     writesFile(command->add_option(
         "--acknowledged", options->acknowledged,
         "At the end write the blocks that the server acknowledged: one line X Y Z NAME each; "
