@@ -33,7 +33,7 @@ std::optional<BlockPos> Selection::pasteCorner(BlockPos middle) const {
     if (!clipboard_) return std::nullopt;
     const glm::ivec3 size = clipboard_->size;
     const int z = std::max(0, std::min(middle.z, world::kChunkHeight - size.z));
-    return BlockPos{middle.x - (size.x - 1) / 2, middle.y - (size.y - 1) / 2, z};
+    return world::offsetBy({middle.x, middle.y, z}, -(size.x - 1) / 2, -(size.y - 1) / 2, 0);
 }
 
 world::MirrorAxis sidewaysAxis(float yaw) {

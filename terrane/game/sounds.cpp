@@ -29,7 +29,7 @@ bool isWater(const world::World& world, const world::BlockRegistry& blocks, worl
 
 bool seesSky(const world::World& world, const world::BlockRegistry& blocks, world::BlockPos from) {
     for (int k = 0; k < kSkyReach; ++k)
-        if (!blocks.type(world.block({from.x, from.y, from.z + k})).collision.empty()) return false;
+        if (!blocks.type(world.block(world::offsetBy(from, 0, 0, k))).collision.empty()) return false;
     return true;
 }
 
@@ -38,7 +38,7 @@ float openness(const world::World& world, const world::BlockRegistry& blocks, wo
     constexpr std::array<std::array<int, 2>, 9> kColumns = {
         {{0, 0}, {4, 0}, {-4, 0}, {0, 4}, {0, -4}, {3, 3}, {3, -3}, {-3, 3}, {-3, -3}}};
     const auto open = std::ranges::count_if(kColumns, [&](const std::array<int, 2>& column) {
-        return seesSky(world, blocks, {ears.x + column[0], ears.y + column[1], ears.z});
+        return seesSky(world, blocks, world::offsetBy(ears, column[0], column[1], 0));
     });
     return static_cast<float>(open) / static_cast<float>(kColumns.size());
 }
@@ -61,7 +61,7 @@ void addWater(Ambience& ambience, const world::World& world, const world::BlockR
     double nearest = kWaterReach;
     for (int y = -kWaterReach; y <= kWaterReach; y += kStep) {
         for (int x = -kWaterReach; x <= kWaterReach; x += kStep) {
-            const auto found = surfaceIn(world, blocks, {cell.x + x, cell.y + y, cell.z});
+            const auto found = surfaceIn(world, blocks, world::offsetBy(cell, x, y, 0));
             if (!found) continue;
             const glm::dvec3 at(found->x + 0.5, found->y + 0.5, found->z + 1);
             if (glm::distance(at, ears) > kWaterReach) continue;

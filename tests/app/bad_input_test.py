@@ -149,7 +149,7 @@ CASES = [
     ((*DUMP, "--what", "nothing"), '"nothing"'),
     ((*DUMP, "--backend", "abacus"), '"abacus"'),
     (("map", "-o", "{png}"), "--radius"),
-    (("map", "--radius", "512", "-o", "{png}"), "1050625 chunks"),
+    (("map", "--radius", "512", "--level", "0", "-o", "{png}"), "1050625 chunks"),
     (("map", "--radius", "8191", "--level", "3", "-o", "{png}"), "4194304 chunks"),
     (("map", "--radius", "1", "--level", "16", "-o", "{png}"), '"16"'),
     # Saves

@@ -203,7 +203,7 @@ TEST(ScriptFile, ErrorsNameFileLineAndKey) {
         {"", "p.toml:"},
         {"seed = ", "p.toml:1: "},
         {"\nspeed = 1\n", "p.toml:2: speed: unknown key"},
-        {"\n\nseed = -1\n" + shotOf(""), "p.toml:3: seed: expected a whole number"},
+        {"\n\nseed = \"+1\"\n" + shotOf(""), "p.toml:3: seed: expected a whole number"},
         {"[options]\nseed = 1\n", "p.toml:2: seed: unknown key"},
         {"[options]\nssao = \"maybe\"\n", "p.toml:2: ssao: expected one of off, on, raw, got \"maybe\""},
         {"[options]\nsize = \"2x2\"\n", "p.toml:2: size: unknown key"},

@@ -44,12 +44,8 @@ enum Face : std::uint8_t { kFaceNegX, kFacePosX, kFaceNegY, kFacePosY, kFaceNegZ
 
 // Returns the cell adjacent to a face of a block.
 constexpr BlockPos adjacent(BlockPos pos, Face face) {
-    // Wraps around at the ends of the numbers, where no chunk is.
-    const auto step = [&](std::int32_t at, int axis) {
-        const std::uint32_t by = face / 2 != axis ? 0u : face % 2 == 0 ? ~0u : 1u;
-        return static_cast<std::int32_t>(static_cast<std::uint32_t>(at) + by);
-    };
-    return {step(pos.x, 0), step(pos.y, 1), step(pos.z, 2)};
+    const auto step = [&](int axis) { return face / 2 != axis ? 0 : face % 2 == 0 ? -1 : 1; };
+    return offsetBy(pos, step(0), step(1), step(2));
 }
 
 constexpr std::uint16_t kStateFacing = 3, kStateUpsideDown = 4, kStateOther = 8;
