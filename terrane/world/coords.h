@@ -50,8 +50,8 @@ constexpr ChunkPos offsetBy(ChunkPos c, std::int32_t dx, std::int32_t dy) {
     return {c.x + dx, c.y + dy, c.level};
 }
 
-// Returns the block that lies dx, dy, dz blocks away. Wraps around at the ends of the numbers: what lies past the last
-// column is at the other end of the world, where no chunk of the same view is.
+// Returns the block that lies dx, dy, dz blocks away. Wraps around at the ends of the numbers: what lies past
+// the last column is at the other end of the world, where no chunk of the same view is.
 constexpr BlockPos offsetBy(BlockPos p, std::int32_t dx, std::int32_t dy, std::int32_t dz) {
     const auto sum = [](std::int32_t a, std::int32_t b) {
         return static_cast<std::int32_t>(static_cast<std::uint32_t>(a) + static_cast<std::uint32_t>(b));
