@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "apps/terrane/output_files.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/store/saves/save_path.h"
 

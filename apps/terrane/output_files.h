@@ -9,7 +9,7 @@
 namespace terrane::app {
 
 // Marks an option as one that names a file to write: its folder must exist and be writable, and
-// checkOutputs() knows it. The option's other words stay with the caller.
+// checkOutputs() knows it. Sets the type name; the caller adds the rest.
 CLI::Option* writesFile(CLI::Option* option);
 // The same for a folder, which is created if needed.
 CLI::Option* writesFolder(CLI::Option* option);

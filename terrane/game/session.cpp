@@ -24,6 +24,12 @@ bool isLoaded(const world::World& world, world::BlockPos pos) {
     return world::isInHeight(pos.z) && world.maybeChunkAt(world::chunkOf(pos));
 }
 
+// Whether the area has columns of the chunk or of those beside it.
+bool touches(const ColumnArea& area, world::ChunkPos pos) {
+    return pos.x >= (area.x0 >> 4) - 1 && pos.x <= (area.x1 >> 4) + 1 && pos.y >= (area.y0 >> 4) - 1 &&
+           pos.y <= (area.y1 >> 4) + 1;
+}
+
 }  // namespace
 
 // Loading is about ten times as fast as generating (docs/performance.md): persistent stores keep generated
@@ -119,15 +125,17 @@ EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEd
     // Changes by nobody are one step, recorded only for a listener: of scripts if it hears all, and growth.
     const bool isGrowth = std::holds_alternative<world::RunTick>(command.change);
     const bool isRecorded = command.player != kNoPlayer || reportsAll_ || (isGrowth && changeListener_);
-    world::BlockRecorder recorder;
-    world::applyChange(world_, *blocks_, command.pos, command.change, edits,
-                       isRecorded ? &recorder : nullptr);
-    std::vector<world::PlacedBlock> former = recorder.take();
+    world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
+    const bool mayBeRefused = command.player != kNoPlayer && !permissions.claims.all().empty();
+    world::BlockRecorder own;  // of a change that may have to be taken back
+    world::BlockRecorder* const recorder = mayBeRefused ? &own : &recorded;
+    world::applyChange(world_, *blocks_, command.pos, command.change, edits, isRecorded ? recorder : nullptr);
+    if (!mayBeRefused) return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
+    std::vector<world::PlacedBlock> former = own.take();
     if (breaksForeign(command.player, std::span(edits).subspan(before))) {
         takeBackAll(former, edits, before);
         return EditResult::Claimed;
     }
-    world::BlockRecorder& recorded = isStep || command.player == kNoPlayer ? changes.steps : changes.uses;
     for (world::PlacedBlock& block : former) recorded.note(block.pos, std::move(block.value));
     return edits.size() > before ? EditResult::Applied : EditResult::Unchanged;
 }
@@ -267,15 +275,24 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
 
 // Liquid does not flow into a claim from outside: it would wash away what others may not break.
 void Session::flow(std::span<const world::ChunkPos> chunks) {
-    const Claims& claims = permissions.claims;
+    // A thousand cells ask for their neighbors: only the claims near them are searched.
+    std::vector<const Claim*> near;
+    for (const Claim& claim : permissions.claims.all())
+        if (std::ranges::any_of(chunks, [&](world::ChunkPos pos) { return touches(claim.area, pos); }))
+            near.push_back(&claim);
+    const auto claimAt = [&](world::BlockPos pos) {
+        const auto found =
+            std::ranges::find_if(near, [&](const Claim* claim) { return claim->area.contains(pos); });
+        return found == near.end() ? nullptr : *found;
+    };
     const std::function<bool(world::BlockPos, world::BlockPos)> mayFlow = [&](world::BlockPos from,
                                                                               world::BlockPos to) {
-        const Claim* claim = claims.at(to);
-        return !claim || claim == claims.at(from);
+        const Claim* claim = claimAt(to);
+        return !claim || claim == claimAt(from);
     };
     std::vector<world::BlockEdit> edits;
     world::flowLiquids(world_, *blocks_, chunks, edits,
-                       {claims.all().empty() ? nullptr : &mayFlow, changeListener_ ? &flow_ : nullptr});
+                       {near.empty() ? nullptr : &mayFlow, changeListener_ ? &flow_ : nullptr});
     for (auto& [cause, changes] : flow_.changes) notifyStep(static_cast<PlayerId>(cause), changes);
     flow_.changes.clear();
     notifyEdits(kNoPlayer, edits);

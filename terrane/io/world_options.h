@@ -1,11 +1,13 @@
 // Plain settings that name a world and say how it is opened. Pure; any thread.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "terrane/store/saves/world_identity.h"
@@ -36,7 +38,9 @@ struct SaveOptions {
     std::optional<bool> storeGenerated;
 };
 
-unsigned threadCount(const WorldOptions& options);
+inline unsigned threadCount(const WorldOptions& options) {
+    return options.threads > 0 ? options.threads : std::max(1u, std::thread::hardware_concurrency());
+}
 
 // Called during a long run, on the caller's thread, with the part that is done. The run stops with an error
 // if it returns false; an empty function never stops it.

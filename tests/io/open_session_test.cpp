@@ -65,5 +65,12 @@ TEST(OpenSession, AnUnknownGeneratorMakesNoFile) {
     EXPECT_FALSE(std::filesystem::exists(folder / "world.sqlite"));
 }
 
+TEST(ThreadCount, IsThatOfTheMachineUnlessGiven) {
+    WorldOptions options;
+    EXPECT_GE(threadCount(options), 1u);
+    options.threads = 3;
+    EXPECT_EQ(threadCount(options), 3u);
+}
+
 }  // namespace
 }  // namespace terrane::io

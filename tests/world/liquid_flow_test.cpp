@@ -241,5 +241,22 @@ TEST_F(LiquidFlow, HeightsFollowLevels) {
     EXPECT_DOUBLE_EQ(height(1, 1), 1) << "it falls from level 1 above";
 }
 
+// Cells that never settle, as in chunks that are unloaded, must not fill the memory.
+TEST(FlowRecord, ForgetsCellsThatAreGone) {
+    FlowWorld flow;
+    flow.addChunks(-1, -1, 1, 1);
+    FlowRecord record;
+    for (std::size_t k = 0; k < FlowRecord::kMaxCauses; ++k)
+        record.causes[{static_cast<std::int32_t>(k) + 1000, 0, 5}] = 7;  // where no chunk is
+    const std::size_t before = flow.edits.size();
+    flow.set({3, 3, 1}, "water");
+    record.note(flow.world, contentBlocks(), std::span(flow.edits).subspan(before), 9);
+    EXPECT_EQ(record.causes.size(), 1u);
+    EXPECT_EQ(record.causes.at({3, 3, 1}), 9u);
+    (void)flowLiquids(flow.world, contentBlocks(), chunksWithin({0, 0}, 1), flow.edits, {nullptr, &record});
+    EXPECT_FALSE(record.changes.contains(0));
+    EXPECT_TRUE(record.changes.contains(9));
+}
+
 }  // namespace
 }  // namespace terrane::world

@@ -215,17 +215,31 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
     return surface * (kMaxLiquidLevel + 1 - form) / (kMaxLiquidLevel + 1);
 }
 
+namespace {
+
+bool isUnsettled(const World& world, const BlockRegistry& blocks, BlockPos pos) {
+    return (world.blockState(pos) & kLiquidUnsettled) != 0 && isFlowing(blocks.type(world.block(pos)));
+}
+
+}  // namespace
+
 void FlowRecord::note(const World& world, const BlockRegistry& blocks, std::span<const BlockEdit> edits,
                       FlowCause cause) {
     for (const BlockEdit& edit : edits) {
-        const bool flows = isFlowing(blocks.type(world.block(edit.pos))) &&
-                           (world.blockState(edit.pos) & kLiquidUnsettled) != 0;
-        if (!flows) continue;
-        if (cause == 0)
+        if (!isUnsettled(world, blocks, edit.pos)) continue;
+        if (cause == 0) {
             causes.erase(edit.pos);
-        else if (causes.size() < kMaxCauses || causes.contains(edit.pos))
-            causes[edit.pos] = cause;
+            continue;
+        }
+        if (causes.size() >= kMaxCauses) forgetOthers(world, blocks);
+        causes[edit.pos] = cause;
     }
+}
+
+// Cells that were replaced or unloaded while they flowed leave their cause behind.
+void FlowRecord::forgetOthers(const World& world, const BlockRegistry& blocks) {
+    std::erase_if(causes, [&](const auto& entry) { return !isUnsettled(world, blocks, entry.first); });
+    if (causes.size() > kMaxCauses / 2) causes.clear();  // so that this is rare
 }
 
 // Writes call behaviors, which unsettle the neighbors of changed blocks. If a behavior has put another block
@@ -242,9 +256,12 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
         next = nextValues(cells, unsettled.cells);
     }
     FlowRecord* const record = options.record;
-    // Causes of this tick: those of cells that its changes unsettle are for the next one.
+    // Causes of the cells of this tick: those of cells that its changes unsettle are for the next one.
     std::unordered_map<BlockPos, FlowCause, BlockPosHash> causes;
-    if (record) std::swap(causes, record->causes);
+    for (const BlockPos pos : next.settled) {
+        if (!record || record->causes.empty()) break;
+        if (auto known = record->causes.extract(pos)) causes.insert(std::move(known));
+    }
     const auto causeOf = [&](BlockPos pos) {
         const auto found = causes.find(pos);
         return found == causes.end() ? FlowCause{0} : found->second;
@@ -264,10 +281,6 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
         const auto state = static_cast<std::uint16_t>(change.after.form | kLiquidUnsettled);
         const bool isDry = change.after.id == kAir;
         apply(change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state}, causeOf(change.by));
-    }
-    if (record) {  // cells that wait keep their causes
-        for (const BlockPos pos : next.settled) causes.erase(pos);
-        record->causes.merge(causes);
     }
     return unsettled.cells.size();
 }

@@ -50,7 +50,8 @@ using FlowCause = std::uint64_t;
 // For a history of who changed what. The caller keeps the causes from tick to tick, and adds those of cells
 // that an edit unsettles.
 struct FlowRecord {
-    // The most cells whose cause is known: 65,536 × about 40 bytes = 2.6 MB. Others have cause 0.
+    // The most cells whose cause is known: 65,536 × about 64 bytes = 4 MB. In a larger flood, causes are
+    // forgotten: cause 0.
     static constexpr std::size_t kMaxCauses = 65536;
 
     std::unordered_map<BlockPos, FlowCause, BlockPosHash> causes;  // of unsettled cells
@@ -59,6 +60,9 @@ struct FlowRecord {
     // Notes who unsettled the cells of these edits that hold flowing liquid.
     void note(const World& world, const BlockRegistry& blocks, std::span<const BlockEdit> edits,
               FlowCause cause);
+
+  private:
+    void forgetOthers(const World& world, const BlockRegistry& blocks);
 };
 
 // Limits of a tick, and what is recorded of it. Plain values; the pointers may be null.
