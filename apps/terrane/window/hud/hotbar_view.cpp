@@ -44,10 +44,10 @@ void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const Bl
     if (hotbar.block() != shown_.block() || hotbar.selected != shown_.selected) nameSeconds_ = kNameSeconds;
     shown_ = hotbar;
     nameSeconds_ = std::max(0.0, nameSeconds_ - seconds);
-    constexpr float kWidth = game::Hotbar::kSlots * (kSlot + kGap) - kGap;
-    const float scale = std::min(uiScale(), screen.width / (kWidth + 2 * kMargin));
+    constexpr float kSlotsWidth = game::Hotbar::kSlots * (kSlot + kGap) - kGap;
+    const float scale = std::min(uiScale(), screen.width / (kSlotsWidth + 2 * kMargin));
     const float side = kSlot * scale, step = side + kGap * scale, edge = 3 * scale;
-    const float left = (screen.width - kWidth * scale) / 2, top = screen.height - side - kMargin * scale;
+    const float left = (screen.width - kSlotsWidth * scale) / 2, top = screen.height - side - kMargin * scale;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto corner = [&](std::size_t slot) { return ImVec2(left + step * static_cast<float>(slot), top); };
     // Grouped by texture: each change of the texture is a draw call.
