@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <nlohmann/json_fwd.hpp>
 
 #include "apps/terrane/options.h"
 #include "terrane/gen/batch_generator.h"
@@ -37,5 +38,8 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
 // --backend of commands that draw: whether workers or the GPU generate, light and mesh the world on screen.
 // True for Backend::Gpu; Auto is the CPU.
 bool usesGpu(Backend backend);
+
+// Facts about the graphics driver for `terrane info`; {"error": …} without one.
+nlohmann::json graphicsInfo();
 
 }  // namespace terrane::app

@@ -1,5 +1,8 @@
 // Back ends of a build without graphics: always the CPU.
 #include "apps/terrane/back_ends.h"
+
+#include <nlohmann/json.hpp>
+
 #include "terrane/io/open_session.h"
 
 namespace terrane::app {
@@ -29,6 +32,10 @@ base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, cons
 
 base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend, const world::BlockRegistry&) {
     return onCpu(backend, mesh::makeCpuMesher());
+}
+
+nlohmann::json graphicsInfo() {
+    return {{"error", "this program was built without graphics"}};
 }
 
 }  // namespace terrane::app

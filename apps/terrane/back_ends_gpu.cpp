@@ -1,4 +1,7 @@
 #include "apps/terrane/back_ends.h"
+
+#include <nlohmann/json.hpp>
+
 #include "terrane/gen_gpu/gpu_generator.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
@@ -72,6 +75,22 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
         return mesh_gpu::GpuBatchMesher(std::move(mesher));
     };
     return makeOnBackend<mesh::BatchMesher>(backend, makeCpu, makeGpu);
+}
+
+nlohmann::json graphicsInfo() {
+    const auto context = gpu::HeadlessContext::create({});
+    if (!context) return {{"error", context.error().message}};
+    const gpu::DeviceInfo d = gpu::queryDevice();
+    return {{"vendor", d.vendor},
+            {"renderer", d.renderer},
+            {"version", d.version},
+            {"glsl", d.glsl},
+            {"software", d.software},
+            {"max_samples", d.maxSamples},
+            {"max_storage_block_bytes", d.maxStorageBlockBytes},
+            {"max_texture_size", d.maxTextureSize},
+            {"max_texture_3d_size", d.maxTexture3dSize},
+            {"max_anisotropy", d.maxAnisotropy}};
 }
 
 }  // namespace terrane::app

@@ -2,7 +2,7 @@
 #include <algorithm>
 
 #include "terrane/base/log.h"
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

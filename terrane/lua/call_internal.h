@@ -128,4 +128,15 @@ struct Option {
 // Sets the options that the table names. Throws on unknown names and on values that are not numbers.
 void readOptions(Call& c, int argument, std::initializer_list<Option> options);
 
+// All functions that scripts can call, by the file that has them. state.cpp gives them to a state.
+std::span<const Function> baseFunctions();        // base_functions.cpp: print, pairs, type, …
+std::span<const Function> stringFunctions();      // string_functions.cpp
+std::span<const Function> tableFunctions();       // table_functions.cpp
+std::span<const Function> expressionFunctions();  // expression_functions.cpp: select, min, sin, …
+std::span<const Function> operators();            // operators.cpp, named as fields of metatables
+std::span<const Function> comparisons();          // operators.cpp: lt, le, …
+std::span<const Function> generatorMethods();     // generator_methods.cpp
+std::span<const Function> passMethods();          // pass_methods.cpp
+std::span<const Function> noiseMethods();         // noise_methods.cpp: of passes too
+
 }  // namespace terrane::lua

@@ -4,7 +4,7 @@
 
 #include "terrane/gen/generators/trees/trees.h"
 #include "terrane/gen/noise/noise.h"
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "terrane/gen/generators/trees/trees.h"
 #include "terrane/lua/call_internal.h"
-#include "terrane/lua/function_tables_internal.h"
 
 namespace terrane::lua {
 namespace {

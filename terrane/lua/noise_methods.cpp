@@ -1,7 +1,6 @@
 // Methods of passes: noise, random numbers, scatter, erosion.
 #include "terrane/gen/language/compounds.h"
 #include "terrane/lua/call_internal.h"
-#include "terrane/lua/function_tables_internal.h"
 
 namespace terrane::lua {
 namespace {

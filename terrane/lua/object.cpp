@@ -3,7 +3,7 @@
 #include <string>
 
 #include "terrane/base/text.h"
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -1,6 +1,6 @@
 // Operators of expressions, and their comparisons, which Lua's own operators cannot be: those give booleans.
 
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -1,7 +1,7 @@
 // Methods of passes: fields and blocks, variables, branches and loops.
 #include <memory>
 
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

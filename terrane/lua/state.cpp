@@ -4,7 +4,7 @@
 #include <cstring>
 
 #include "terrane/base/text.h"
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -1,7 +1,7 @@
 // Functions of lists. Lua's own sort depends on the clock, and none of its own counts the steps it takes.
 #include <algorithm>
 
-#include "terrane/lua/function_tables_internal.h"
+#include "terrane/lua/call_internal.h"
 
 namespace terrane::lua {
 namespace {

@@ -8,7 +8,7 @@
 #include <thread>
 
 #include "apps/terrane/commands/commands.h"
-#include "apps/terrane/graphics_info.h"
+#include "apps/terrane/back_ends.h"
 #include "apps/terrane/options.h"
 #include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generators/catalogue.h"
