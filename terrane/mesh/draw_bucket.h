@@ -5,13 +5,18 @@
 #include <cstdint>
 
 #include "terrane/mesh/shape_faces.h"
+#include "terrane/shared/variants.h"
 #include "terrane/world/blocks/block_type.h"
 
 namespace terrane::mesh {
 
 // Needs of the alpha channel in a draw call. Each alpha class has two draw buckets: with back faces culled,
 // and without.
-enum class AlphaClass : std::uint8_t { Opaque, Tested, Blended };
+enum class AlphaClass : std::uint8_t {
+    Opaque = ALPHA_OPAQUE,
+    Tested = ALPHA_TESTED,
+    Blended = ALPHA_BLENDED
+};
 
 constexpr int kDrawBucketCount = 6;
 // Directions 0–5: one-sided quads that face along an axis, in the order of world::Face. They are invisible

@@ -232,7 +232,8 @@ class BadInput(ProgramTest):
         taken = {"--resource-pack", "--shader-root", "--simd", "--settings", "--collect-perf-data"}
         tried = 0
         for command in re.findall(r"^  ([a-z-]+)  ", run("--help").stdout, re.M):
-            for option, kind in re.findall(r"^  (?:-\w,)?(--[a-z-]+) ([A-Z]\S*)", run(command, "--help").stdout, re.M):
+            options = re.findall(r"^  (?:-\w,)?(--[a-z-]+) ([A-Z]\S*)", run(command, "--help").stdout, re.M)
+            for option, kind in support.few(options, 6):
                 if option in taken or kind in ("Excludes:", "REQUIRED"):
                     continue
                 names = self.names()
@@ -246,7 +247,7 @@ class BadInput(ProgramTest):
                     if command in enough and command != "record":
                         self.assertIn(option[2:], done.stderr)
                 tried += 1
-        self.assertGreater(tried, 60)
+        self.assertGreater(tried, 60 if support.tests_all() else 25)
 
     # root can write everywhere except in read-only file systems.
     def test_a_folder_that_nothing_can_be_written_in(self):

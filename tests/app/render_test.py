@@ -55,7 +55,7 @@ class Render(ProgramTest):
         return image, text
 
     def test_scenes_are_drawn(self):
-        for scene in ("ocean", "desert", "landscape", "cave"):
+        for scene in support.few(("ocean", "desert", "cave", "landscape"), 2):
             image, text = self.render("scene.png", "--scene", scene, "--debug-gl")
             self.assertGreater(len(image.colors()), 20, scene)
             self.assertEqual(text, "")
@@ -127,18 +127,20 @@ class Render(ProgramTest):
     def test_merging_changes_the_count_of_triangles_only(self):
         scene = ("--scene", "landscape", "--json")
         quads = {}
-        for method in ("none", "lines", "squares", "squares-ext", "greedy"):
+        for method in support.few(("none", "squares", "squares-ext", "lines", "greedy"), 3):
             _, text = self.render("m.png", *scene, "--merging", method)
             quads[method] = json.loads(text)["quads"]
         self.assertLess(quads["greedy"], 0.92 * quads["squares-ext"])
-        self.assertLess(quads["squares-ext"], quads["squares"])
-        self.assertLess(max(quads["squares"], quads["lines"]), quads["none"])
+        self.assertLess(quads["squares-ext"], quads["none"])
+        if support.tests_all():
+            self.assertLess(quads["squares-ext"], quads["squares"])
+            self.assertLess(max(quads["squares"], quads["lines"]), quads["none"])
         meshSections = [json.loads(self.render("r.png", *scene, "--mesh-section-height", height)[1])["regions"]
                    for height in ("8", "128")]
         self.assertGreater(meshSections[0], meshSections[1])
 
     def test_the_image_does_not_depend_on_the_back_end(self):
-        for scene, samples in (("landscape", "1"), ("ocean", "4")):
+        for scene, samples in support.few((("ocean", "4"), ("landscape", "1")), 1):
             arguments = ("--scene", scene, "--size", "160x90", "--view-distance", "4", "--preset", "medium", "--samples",
                          samples, "--debug-gl")
             for backend in ("cpu", "gpu"):
@@ -147,19 +149,20 @@ class Render(ProgramTest):
 
     def test_views_show_something_else(self):
         images = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows
-                    for view in ("color", "normal", "depth", "merging", "light")]
+                    for view in support.few(("color", "normal", "depth", "merging", "light"), 3)]
         for k, image in enumerate(images):
             self.assertNotIn(image, images[:k])
-        self.assertTrue(all(r == g == b for row in images[2] for r, g, b in row), "depth is grey")
+        self.assertTrue(all(r == g == b for row in images[len(images) // 2] for r, g, b in row), "depth is grey")
 
     def test_presets_and_the_flags_that_change_them(self):
         scene = ("--scene", "landscape")
         low, _ = self.render("low.png", *scene, "--preset", "low")
-        for preset in ("medium", "high", "ultra", "thesis"):
+        for preset in support.few(("thesis", "medium", "high", "ultra"), 1):
             self.assertTrue(self.render("a.png", *scene, "--preset", preset)[0].rows != low.rows, preset)
         self.assertEqual(self.render("a.png", *scene, "--preset", "low", "--shadows", "off")[0].rows, low.rows)
-        for flag, word, look in (("--shading", "off", "136,-6"), ("--distance-fog", "off", "136,-6"),
-                                 ("--god-rays", "on", "40,45"), ("--ssao", "raw", "136,-6"), ("--clouds", "on", "40,45")):
+        for flag, word, look in support.few((("--shading", "off", "136,-6"), ("--distance-fog", "off", "136,-6"),
+                                             ("--god-rays", "on", "40,45"), ("--ssao", "raw", "136,-6"),
+                                             ("--clouds", "on", "40,45")), 2):
             plain, _ = self.render("b.png", *scene, "--preset", "low", "--look", look)
             changed, _ = self.render("c.png", *scene, "--preset", "low", "--look", look, flag, word)
             self.assertTrue(plain.rows != changed.rows, flag)

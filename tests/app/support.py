@@ -39,6 +39,11 @@ def tests_all():
     return os.environ.get("TERRANE_DEPTH") == "all"
 
 
+def few(cases, count):
+    """All cases at full depth; at the gate so many, spread over them."""
+    return cases if tests_all() else cases[::max(1, -(-len(cases) // count))]
+
+
 def environment(display=None, settings=None):
     """The environment of this process, with only the given display server, and with settings and worlds in terrane/ of a
     folder, or none."""

@@ -1,5 +1,5 @@
 // Blurs the ambient occlusion along one axis: Gaussian of 9 taps, σ = 3, over pixels at a similar distance.
-// AXIS: 0 x, 1 y. MSAA_SAMPLES: of the depth. NEAREST_LAYER: as in ambient_occlusion.frag.glsl.
+// AXIS: which one. MSAA_SAMPLES: of the depth. NEAREST_LAYER: as in ambient_occlusion.frag.glsl.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/quads/gbuffer_read.glsl"
 #include "terrane/render/frame/nearest_depth.glsl"
@@ -11,7 +11,7 @@ layout(location = 0) out vec4 outVisibility;
 const float kWeights[5] = float[](0.1509, 0.1427, 0.1208, 0.0915, 0.0620);
 
 void main() {
-    ivec2 pixel = ivec2(gl_FragCoord.xy), step = AXIS == 0 ? ivec2(1, 0) : ivec2(0, 1), last = textureSize(source, 0) - 1;
+    ivec2 pixel = ivec2(gl_FragCoord.xy), step = AXIS == AXIS_X ? ivec2(1, 0) : ivec2(0, 1), last = textureSize(source, 0) - 1;
     bool isDrawn = isDrawnAt(pixel);
     if (!isDrawn) discard;
     float middle = blocksOfDepth(nearestDepthAt(pixel));

@@ -1,10 +1,10 @@
 // Figures of players, each an instance: boxes that turn about joints; x ahead, y to the left, z up, at rest with the
 // feet at z = 0. Only the three faces of a box that face the camera or the light are drawn; a face has six vertices.
-// PASS: 0 G-buffer, 2 shadow map.
+// PASS: surfaces or shadows.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/figures/figure_look.glsl"
 #include "terrane/shared/figure.h"
-#if PASS == 2
+#if PASS == PASS_SHADOWS
 #include "terrane/shared/constants.h"
 #include "terrane/shared/shadow.h"
 
@@ -18,7 +18,7 @@ layout(std140, binding = kFiguresBinding) uniform FigureBlock {
     FigureRecord figures[kMostFigures];
 };
 
-#if PASS == 0
+#if PASS == PASS_SURFACES
 layout(location = 0) out vec3 outPlace;       // at rest
 layout(location = 1) flat out uvec2 outFace;  // part, axis of the normal × 2 + 1 if positive; look
 layout(location = 2) flat out vec3 outNormal;
@@ -109,7 +109,7 @@ void main() {
     Joint joint = jointOf(box.joint, figure);
     vec3 pivot = vec3(0.0, 0.0, kPivots[box.joint]), origin = figure.feet.xyz + pivot + vec3(0.0, 0.0, joint.rise);
     int axis = int(vertex / 6u), u = (axis + 1) % 3, v = (axis + 2) % 3;
-#if PASS == 2
+#if PASS == PASS_SHADOWS
     bool isPositive = dot(joint.turn[axis], shadowDraw.toLight.xyz) > 0.0;
 #else
     vec3 eye = (frame.cameraPosition.xyz - origin) * joint.turn + pivot;
@@ -121,7 +121,7 @@ void main() {
     side[u] = float(corner & 1u);
     side[v] = float(corner >> 1);
     vec3 place = mix(box.min, box.max, side), position = origin + joint.turn * (place - pivot);
-#if PASS == 2
+#if PASS == PASS_SHADOWS
     position.xy += float(kChunkSize) * vec2(frame.cameraChunk - shadowDraw.anchorChunk);
     gl_Position = shadowDraw.toClip * vec4(position, 1.0);
 #else

@@ -1,5 +1,6 @@
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
+#include "terrane/shared/variants.h"
 
 layout(std140, binding = kFrameBinding) uniform FrameBlock {
     Frame frame;

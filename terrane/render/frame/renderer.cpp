@@ -22,7 +22,7 @@ namespace {
 // Uniforms of a frame (camera, tint, air, land, shadows), those of culling twice, and those of the shadow map
 // rectangles that figures are drawn into, aligned; then the figures in view, and those that cast shadows.
 constexpr std::size_t kRingBytes = 8192 + ShadowMap::kFigureRingBytes + 2 * FigurePass::kRingBytes;
-constexpr int kLightViewDistance = 16;  // chunks, until setViewDistance
+constexpr int kFirstViewDistance = 4;  // chunks, until setViewDistance: the smallest store of light
 constexpr float kMaxAnisotropy = 8.0f;
 
 // Least light that casts shadows, linear: between sun and moon the light is too dark to see.
@@ -56,7 +56,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     if (!renderer.ring_.isMapped())
         return base::fail(base::ErrorCode::OutOfResources,
                           "the graphics driver has no memory for frame data");
-    renderer.viewDistance_ = kLightViewDistance;
+    renderer.viewDistance_ = kFirstViewDistance;
     renderer.quadSizes_ = quads;
     renderer.clearChunks();
     renderer.shaders_ = &shaders;

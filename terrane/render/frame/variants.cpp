@@ -143,7 +143,7 @@ gpu::ShaderDefines TransparencyVariant::defines() const {
                     {"SHADOW", number(sun.shadows)},
                     {"LAND", sun.usesLand},
                     {"OCCLUSION", hasOcclusion},
-                    {"LIGHT_SMOOTH", number(light)},
+                    {"LIGHT", number(light)},
                     {"QUADS", drawsQuads},
                     {"DIRECT", isDirect},
                     {"OVER_SKY", !isDirect},
@@ -173,7 +173,7 @@ std::vector<TransparencyVariant> TransparencyVariant::all() {
 gpu::ShaderDefines ShadeVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples},
                     {"PER_SAMPLE", isPerSample},
-                    {"LIGHT_SMOOTH", number(light)},
+                    {"LIGHT", number(light)},
                     {"SHADOW", number(sun.shadows)},
                     {"LAND", sun.usesLand},
                     {"OCCLUSION", hasOcclusion},
@@ -214,7 +214,7 @@ std::vector<SkyVariant> SkyVariant::all() {
 }
 
 gpu::ShaderDefines MaskVariant::defines() const {
-    return defined({{"MSAA_SAMPLES", samples}, {"OF", number(of)}});
+    return defined({{"MSAA_SAMPLES", samples}, {"MASK", number(of)}});
 }
 
 std::vector<MaskVariant> MaskVariant::all() {
@@ -263,7 +263,7 @@ std::vector<FinalVariant> FinalVariant::all() {
 }
 
 gpu::ShaderDefines DebugViewVariant::defines() const {
-    return defined({{"MSAA_SAMPLES", samples}, {"LIGHT_SMOOTH", number(light)}});
+    return defined({{"MSAA_SAMPLES", samples}, {"LIGHT", number(light)}});
 }
 
 std::vector<DebugViewVariant> DebugViewVariant::all() {

@@ -8,6 +8,7 @@
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/draw_bucket.h"
 #include "terrane/render/frame/render_options.h"
+#include "terrane/shared/variants.h"
 
 namespace terrane::render {
 
@@ -21,9 +22,13 @@ struct QuadFeatures {
     bool operator==(const QuadFeatures&) const = default;
 };
 
-enum class ShadowEdges : std::uint8_t { None, Hard, Soft };         // SHADOW
-enum class LightDetail : std::uint8_t { Classic, Smooth, Simple };  // LIGHT_SMOOTH; Simple: far away, in air
-enum class QuadPass : std::uint8_t { Surfaces, Layers, Shadows };   // PASS
+enum class ShadowEdges : std::uint8_t { None = SHADOW_NONE, Hard = SHADOW_HARD, Soft = SHADOW_SOFT };
+enum class LightDetail : std::uint8_t {
+    Classic = LIGHT_CLASSIC,
+    Smooth = LIGHT_SMOOTH,
+    Simple = LIGHT_SIMPLE
+};
+enum class QuadPass : std::uint8_t { Surfaces = PASS_SURFACES, Layers = PASS_LAYERS, Shadows = PASS_SHADOWS };
 
 // Returns whether a shader reads the land up to the horizon (land_map.h) with these options, if there is
 // land.
@@ -97,8 +102,7 @@ struct SkyVariant {
     static std::vector<SkyVariant> all();
 };
 
-// The pixels in which any sample has a surface; shows the sky or may fade into it; has a layer.
-enum class MaskOf : std::uint8_t { Surfaces, Sky, Layers };
+enum class MaskOf : std::uint8_t { Surfaces = MASK_SURFACES, Sky = MASK_SKY, Layers = MASK_LAYERS };
 struct MaskVariant {
     int samples = 4;
     MaskOf of = MaskOf::Surfaces;
@@ -115,7 +119,7 @@ struct OcclusionVariant {
     static std::vector<OcclusionVariant> all();
 };
 
-enum class Axis : std::uint8_t { X, Y };
+enum class Axis : std::uint8_t { X = AXIS_X, Y = AXIS_Y };
 // occlusion_blur.frag.glsl
 struct OcclusionBlurVariant {
     OcclusionVariant occlusion;

@@ -1,4 +1,4 @@
-// ALPHA_CLASS: 0 opaque, 1 tested. MSAA_SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
+// ALPHA_CLASS: opaque or tested. MSAA_SAMPLES: above 1, holes are tested at each sample. SMOOTH: see block_texture.glsl.
 // TINT: see block_tint.glsl.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/shared/hash.h"
@@ -12,7 +12,7 @@ layout(location = 0) in vec2 inTexel;
 layout(location = 1) flat in uvec2 inFace;
 layout(location = 0) out vec4 outSurface;
 
-#if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
+#if ALPHA_CLASS == ALPHA_TESTED && MSAA_SAMPLES > 1
 // Without gl_SampleMask all samples that the triangle covers would be drawn. The nearest texel decides whether a sample
 // is in a hole: a filter would read eight texels.
 bool isHole(vec2 texel, int level) {
@@ -51,13 +51,13 @@ float glowOf(float alpha) {
 
 void main() {
     vec2 dx = dFdx(inTexel), dy = dFdy(inTexel), at = inTexel;
-#if ALPHA_CLASS == 1 && MSAA_SAMPLES > 1
+#if ALPHA_CLASS == ALPHA_TESTED && MSAA_SAMPLES > 1
     int mask = samplesWithoutHole(nearestLevel(dx, dy), at);
     if (mask == 0) discard;
     gl_SampleMask[0] = mask;
 #endif
     vec4 texel = blockTexture(inFace.x, at, dx, dy);
-#if ALPHA_CLASS == 1 && MSAA_SAMPLES == 1
+#if ALPHA_CLASS == ALPHA_TESTED && MSAA_SAMPLES == 1
     if (texel.a < minAlpha(inFace.x)) discard;
 #endif
     uint direction = directionOfFace(inFace.x);

@@ -1,5 +1,4 @@
-// PASS: 0 G-buffer, 1 blended layer, 2 shadow map. ALPHA_CLASS: 0 opaque, 1 tested, 2 blended. FACE_SAMPLING: see
-// block_texture.glsl. TINT: see block_tint.glsl.
+// PASS, ALPHA_CLASS: see shared/variants.h. FACE_SAMPLING: see block_texture.glsl. TINT: see block_tint.glsl.
 // Pulls a quad's corner from the quad buffer. A quad has four vertices; the base vertex of a draw is four times its
 // first quad, its base instance the number of its mesh section.
 #include "terrane/render/frame/edge_expansion.glsl"
@@ -9,7 +8,7 @@
 #include "terrane/shared/quad.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/shape_face.h"
-#if PASS == 2
+#if PASS == PASS_SHADOWS
 #include "terrane/shared/shadow.h"
 
 layout(std140, binding = kShadowDrawBinding) uniform ShadowDrawBlock {
@@ -27,7 +26,7 @@ layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
 layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
 
-#if PASS == 0
+#if PASS == PASS_SURFACES
 layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
 #endif
 
@@ -54,7 +53,7 @@ layout(location = 2) flat out uint outSampling;
 // Quad by its number in the arena, or from a list of those to draw.
 Quad quadOf(int vertex) {
     int number = vertex >> 2;
-#if PASS == 0
+#if PASS == PASS_SURFACES
     int place = number - int(kFirstListedQuad);
     if (place >= 0) number = int(texelFetch(listedQuads, place).r);
 #endif
@@ -111,8 +110,8 @@ void main() {
     uint level = uint(meshSectionChunk.z);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
-#if PASS == 2
-    if (ALPHA_CLASS == 1 && level == 0u && (material.animation == kAnimationTopWaves || material.animation == kAnimationWholeWaves))
+#if PASS == PASS_SHADOWS
+    if (ALPHA_CLASS == ALPHA_TESTED && level == 0u && (material.animation == kAnimationTopWaves || material.animation == kAnimationWholeWaves))
         inChunk -= kWaveSink * shadowDraw.toLight.xyz;
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, shadowDraw.anchorChunk), 0.0);
     gl_Position = shadowDraw.toClip * vec4(position, 1.0);
@@ -120,13 +119,13 @@ void main() {
     if ((frame.switches & kSwitchAnimation) != 0 && level == 0u) {
         inChunk += waveOffset(material, surfaceShare(face, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
-#if PASS == 1
+#if PASS == PASS_LAYERS
     if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOf(faceDirectionOf(face));
 #endif
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #endif
-#if PASS == 0
+#if PASS == PASS_SURFACES
     // Not for blended quads, whose overlap would be visible.
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec3 axisU = face.axisU.xyz + face.bend.xyz * corner.y, axisV = face.axisV.xyz + face.bend.xyz * corner.x;

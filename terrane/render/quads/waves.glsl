@@ -33,7 +33,7 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
 vec3 waveOffset(MaterialRecord material, float surface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
                 float seconds) {
     uint animation = material.animation;
-#if ALPHA_CLASS == 1
+#if ALPHA_CLASS == ALPHA_TESTED
     vec2 base = vec2((chunk & 4095) * int(kChunkSize));
     if (animation == kAnimationTopWaves) {
         vec2 at = base + cell.xy;
@@ -47,7 +47,7 @@ vec3 waveOffset(MaterialRecord material, float surface, ivec2 chunk, vec3 cell, 
         float b = sin(kTurn * fract(0.23 * seconds + (at.x - at.y + 2.0 * at.z) / 8.0));
         return 0.035 * vec3(a, b, a - b);
     }
-#elif ALPHA_CLASS == 2
+#elif ALPHA_CLASS == ALPHA_BLENDED
     if (animation == kAnimationLiquidSurface && surface > 0.0) {
         return vec3(0.0, 0.0, surface * optionsWaveHeight(material.options) * liquidWave(chunk, inChunk.xy, seconds));
     }

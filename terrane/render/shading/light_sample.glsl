@@ -1,8 +1,7 @@
-// Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT_SMOOTH selects
-// the way of sampling, see docs/light.md: 0 classic, 1 smooth, 2 smooth for distant surfaces, without the wide filter,
-// whose effect is invisible there.
+// Light at a point of a surface, from the light tiles of LightStore. Needs frame_uniforms.glsl. LIGHT selects the way of
+// sampling, see docs/light.md: classic, smooth, or smooth without the wide filter, whose effect is invisible far away.
 #include "terrane/render/shading/light_nodes.glsl"
-#if LIGHT_SMOOTH
+#if LIGHT != LIGHT_CLASSIC
 #include "terrane/render/shading/light_smooth.glsl"
 #endif
 
@@ -34,7 +33,7 @@ vec4 sampleClassic(vec3 at) {
 // Red, green, blue, daylight, 0…1. A normal of zero samples inside a block, for plants.
 vec4 sampleLight(vec3 position, vec3 normal) {
     vec3 at = position + 0.5 * normal - 0.5;
-#if LIGHT_SMOOTH
+#if LIGHT != LIGHT_CLASSIC
     // A face in the middle of an opaque block, as stairs have, is lit by the layer in front of the block.
     const float kPastMiddle = 1.0 / 64.0;
     return sampleSmooth(at + kPastMiddle * normal, normal);

@@ -98,7 +98,7 @@ vec4 sampleSmooth(vec3 at, vec3 normal) {
     vec3 rest = at - vec3(layer.lowest);
     vec2 inLayer = vec2(dot(rest, vec3(layer.stepU)), dot(rest, vec3(layer.stepV)));
     Close close = closeNodes(layer, inLayer);
-#if LIGHT_SMOOTH == 2
+#if LIGHT == LIGHT_SIMPLE
     return close.visibility * toned(close.light);
 #else
     return close.visibility * toned(farNodes(layer, inLayer, close));

@@ -1,14 +1,14 @@
-// Discards pixels in which no sample has what OF selects: 0 a surface, 1 the sky or a surface that may fade into it, 2
-// a layer of blended faces. MSAA_SAMPLES: more than one. For surfaces the depth tells distant ones and those of far
+// Discards pixels in which no sample has what MASK selects: a surface, the sky or a surface that may fade into it, a
+// layer of blended faces. MSAA_SAMPLES: more than one. For surfaces the depth tells distant ones and those of far
 // tiles apart.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/quads/gbuffer_read.glsl"
 
-#if OF == 2
+#if MASK == MASK_LAYERS
 layout(binding = kTransparencyDepthUnit) uniform sampler2DMS layerDepth;
 #endif
 
-#if OF == 0
+#if MASK == MASK_SURFACES
 float depthOfClass(ivec2 pixel) {
     bool areFar = true, areDistant = true;
     for (int k = 0; k < MSAA_SAMPLES; ++k) {
@@ -21,9 +21,9 @@ float depthOfClass(ivec2 pixel) {
 #endif
 
 bool isThere(ivec2 pixel, int k) {
-#if OF == 2
+#if MASK == MASK_LAYERS
     return texelFetch(layerDepth, pixel, k).r > depthAt(pixel, k);
-#elif OF == 1
+#elif MASK == MASK_SKY
     return blocksOfDepth(depthAt(pixel, k)) >= kFadingBegins * frame.fogDistance;
 #else
     return depthAt(pixel, k) > 0.0;
@@ -35,7 +35,7 @@ void main() {
     bool isAnyThere = false;
     for (int k = 0; k < MSAA_SAMPLES; ++k) isAnyThere = isAnyThere || isThere(pixel, k);
     if (!isAnyThere) discard;
-#if OF == 0
+#if MASK == MASK_SURFACES
     gl_FragDepth = depthOfClass(pixel);
 #endif
 }

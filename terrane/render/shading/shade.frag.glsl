@@ -1,6 +1,6 @@
 // Shades the G-buffer: light toward the camera as premultiplied color and coverage, over the sky.
 // MSAA_SAMPLES: of the G-buffer. PER_SAMPLE: 1 shades each sample of a pixel with several surfaces, 0 their mean.
-// SHADOW: 0 without shadows, else see shadow_sample.glsl. OCCLUSION: 1 with ambient occlusion. LAND, FAR: see
+// SHADOW: see shared/variants.h. OCCLUSION: 1 with ambient occlusion. LAND, FAR: see
 // land_light.glsl, lighting.glsl. OVER_SKY: 1 blends fading surfaces with the sky that was drawn behind them, 0
 // computes the sky here: without clouds its color is known, and no sky needs to be drawn or read. DIRECT: 1 writes
 // display colors (target.h).

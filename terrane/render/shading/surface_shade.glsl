@@ -1,7 +1,7 @@
 // Light of an opaque surface that reaches the camera: premultiplied color, and coverage. SHADOW, OVER_SKY: see
 // shade.frag.glsl.
 // Needs lighting.glsl, distance_fog.glsl, gbuffer_read.glsl, and `inRay`.
-#if SHADOW > 0
+#if SHADOW != SHADOW_NONE
 #include "terrane/render/shadow/shadow_sample.glsl"
 #endif
 
@@ -19,7 +19,7 @@ vec4 shadeAt(Surface s, Lit lit, float depth, float visibility) {
     if ((frame.switches & kSwitchUnlit) != 0) return throughAirOf(s.albedo, toPoint, 1.0);
     Land land = landAt(position);
     float shadow = 1.0;
-#if SHADOW > 0
+#if SHADOW != SHADOW_NONE
     shadow = lightShare(position, lit.normal, length(toPoint), land.share);
 #endif
     vec4 levels = levelsAt(position, s);

@@ -1,6 +1,6 @@
 // Light of all layers of blended faces over the image: the color that they add, and the share of the background that
 // they transmit, for each channel.
-// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: 0 without shadows, else see shadow_sample.glsl.
+// MSAA_SAMPLES: of the layers and the G-buffer. LAYERS: 1 to 3. SHADOW: see shared/variants.h.
 // OCCLUSION: 1 with ambient occlusion of the nearest layer. LAND: see land_light.glsl. WATER_DETAIL: see water.glsl.
 // QUADS: 1 draws over the quads of the first layer, 0 over the whole screen. DIRECT: 1 with QUADS writes display colors
 // (target.h).
@@ -46,7 +46,7 @@ Passed shadeLayer(Layer layer, float depth, float behind, float visibility, bool
         return over(throughAir(layer.surface.albedo, toPoint, 1.0) * layer.alpha);
     Land land = landAt(position);
     float shadow = 1.0;
-#if SHADOW > 0
+#if SHADOW != SHADOW_NONE
     shadow = lightShare(position, layer.surface.normal, length(toPoint), land.share);
 #endif
     vec4 levels = levelsAt(position, layer.surface);

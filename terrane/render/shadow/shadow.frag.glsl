@@ -1,4 +1,4 @@
-// ALPHA_CLASS: 0 opaque, 1 tested. The target has depth only.
+// ALPHA_CLASS: opaque or tested. The target has depth only.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/shared/quad.h"
 #include "terrane/shared/shape_face.h"
@@ -11,7 +11,7 @@ layout(location = 0) in vec2 inTexel;
 layout(location = 1) flat in uvec2 inFace;
 
 void main() {
-#if ALPHA_CLASS == 1
+#if ALPHA_CLASS == ALPHA_TESTED
     float alpha = nearestTexel(inFace.x, inTexel, nearestLevel(dFdx(inTexel), dFdy(inTexel))).a;
     if (alpha < minAlpha(inFace.x)) discard;
 #endif

@@ -1,9 +1,9 @@
 // Share of the sun's or moon's light that no block stops. Needs frame_uniforms.glsl.
-// SHADOW: 1 hard edges, 2 edges that widen with the distance to the caster.
+// SHADOW: hard edges, or soft ones, which widen with the distance to the caster.
 #include "terrane/shared/shadow.h"
 
 layout(binding = kShadowUnit) uniform sampler2DArrayShadow shadowMaps;
-#if SHADOW == 2
+#if SHADOW == SHADOW_SOFT
 layout(binding = kShadowDepthsUnit) uniform sampler2DArray shadowDepths;
 #endif
 layout(std140, binding = kShadowBinding) uniform ShadowBlock {
@@ -24,7 +24,7 @@ float alongRow(int cascade, uint row, vec4 position) {
                position);
 }
 
-#if SHADOW == 2
+#if SHADOW == SHADOW_SOFT
 // Half the angular width of the sun as a tangent: twice the real one, so that edges are soft at the height of a tree.
 const float kSunSize = 0.01;
 const float kMostEdge = 0.4;  // blocks
@@ -54,7 +54,7 @@ float softShare(vec4 at, float texel) {
 // surface of this slope, so that the surface does not shade itself.
 float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
     float texel = ofCascade(cascade, shadows.texels.xyz);
-#if SHADOW == 2
+#if SHADOW == SHADOW_SOFT
     float texels = 2.2;
 #else
     float texels = 1.5;
@@ -62,7 +62,7 @@ float cascadeShare(int cascade, vec3 position, vec3 normal, float slope) {
     vec4 moved = vec4(position + normal * (0.02 + texels * texel * slope), 1.0);
     float layer = ofCascade(cascade, shadows.layers.xyz);
     vec4 at = vec4(alongRow(cascade, 0u, moved), alongRow(cascade, 1u, moved), layer, alongRow(cascade, 2u, moved));
-#if SHADOW == 2
+#if SHADOW == SHADOW_SOFT
     return softShare(at, texel);
 #else
     return texture(shadowMaps, at);
