@@ -1,0 +1,34 @@
+// The choices of shader variants (render/frame/variants.h). Macros, because the shaders' preprocessor compares them.
+#ifndef TERRANE_SHARED_VARIANTS_H
+#define TERRANE_SHARED_VARIANTS_H
+
+// PASS
+#define PASS_SURFACES 0
+#define PASS_LAYERS 1
+#define PASS_SHADOWS 2
+
+// ALPHA_CLASS
+#define ALPHA_OPAQUE 0
+#define ALPHA_TESTED 1
+#define ALPHA_BLENDED 2
+
+// SHADOW
+#define SHADOW_NONE 0
+#define SHADOW_HARD 1
+#define SHADOW_SOFT 2
+
+// LIGHT: far away, in air, LIGHT_SIMPLE reads one voxel
+#define LIGHT_CLASSIC 0
+#define LIGHT_SMOOTH 1
+#define LIGHT_SIMPLE 2
+
+// MASK: the pixels in which any sample has a surface; shows the sky or may fade into it; has a layer
+#define MASK_SURFACES 0
+#define MASK_SKY 1
+#define MASK_LAYERS 2
+
+// AXIS
+#define AXIS_X 0
+#define AXIS_Y 1
+
+#endif
