@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -41,6 +42,11 @@ struct CodePoint {
 // change colors, titles or earlier output. The result is one line: control characters (also those of Unicode
 // that reorder or break lines) and bytes that are not UTF-8 become \xNN for each byte.
 [[nodiscard]] std::string printable(std::string_view text);
+
+// Returns "1 block", "2 blocks": `what` is a noun whose plural has an s.
+[[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
 
 namespace detail {
 void printLine(fmt::string_view format, fmt::format_args args);

@@ -1,13 +1,15 @@
-// Caches a value that is expensive to compute and computes it again after a pause. One thread at a time may
-// use it.
+// Values that depend on time: values computed again after a pause, rates, reports of failures. Times are of
+// the steady clock and come from the caller. One thread at a time may use an object.
 #pragma once
 
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 namespace terrane::base {
 
+// Caches a value that is expensive to compute and computes it again after a pause.
 template <class T>
 class TimedValue {
   public:
@@ -59,5 +61,39 @@ class TokenBucket {
     double perSecond_, most_, tokens_;
     std::optional<Time> last_;
 };
+
+// Decides what a log tells of something that is tried again and again, such as writing to a full disk: its
+// first failure, and that it works again once it has not failed for a while. Without the while, a disk that
+// takes every second write would fill the log.
+class FailureReport {
+  public:
+    using Time = std::chrono::steady_clock::time_point;
+
+    explicit FailureReport(std::chrono::milliseconds quiet) : quiet_(quiet) {}
+
+    // Call after each failure. Returns whether to report it.
+    [[nodiscard]] bool hasBegun() {
+        reportAt_ = Time::max();
+        return !std::exchange(isFailing_, true);
+    }
+    // Call after each success, and at reportAt(). Returns whether to report that it works again.
+    [[nodiscard]] bool hasEnded(Time now) {
+        if (!isFailing_) return false;
+        if (reportAt_ == Time::max()) reportAt_ = now + quiet_;
+        if (now < reportAt_) return false;
+        reportAt_ = Time::max();
+        isFailing_ = false;
+        return true;
+    }
+    Time reportAt() const { return reportAt_; }  // max: nothing is to be reported without a further attempt
+
+  private:
+    std::chrono::milliseconds quiet_;
+    Time reportAt_ = Time::max();
+    bool isFailing_ = false;
+};
+
+// How long something must work before a log tells so.
+constexpr std::chrono::seconds kQuietAfterFailure{10};
 
 }  // namespace terrane::base

@@ -7,6 +7,16 @@
 
 namespace terrane::store {
 
+void RowMessages::tell() {
+    for (const Message& message : messages_) {
+        if (message.level == base::LogLevel::Warning)
+            base::logWarning("{}", message.text);
+        else
+            base::logError("{}", message.text);
+    }
+    messages_.clear();
+}
+
 world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
     const StoredRow row = read_(pos);
     if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;

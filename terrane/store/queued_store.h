@@ -8,8 +8,10 @@
 #include <mutex>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "terrane/base/log.h"
 #include "terrane/store/chunk_store.h"
 #include "terrane/store/save_queue.h"
 #include "terrane/store/saves/world_identity.h"
@@ -33,6 +35,22 @@ struct RowChanges {
     std::vector<KeyedRow> rows;
     std::vector<std::int64_t> deleted;  // keys
     Metadata metadata;                  // may have reserved names
+};
+
+// Messages about rows of a transaction. They are told once it is committed, and not at each attempt.
+class RowMessages {
+  public:
+    void warn(std::string text) { messages_.push_back({base::LogLevel::Warning, std::move(text)}); }
+    void error(std::string text) { messages_.push_back({base::LogLevel::Error, std::move(text)}); }
+    void forget() { messages_.clear(); }  // the transaction failed
+    void tell();
+
+  private:
+    struct Message {
+        base::LogLevel level;
+        std::string text;
+    };
+    std::vector<Message> messages_;
 };
 
 // Read access to the rows of a world in a database.

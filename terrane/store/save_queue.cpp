@@ -7,6 +7,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/text.h"
 
 namespace terrane::store {
 namespace {
@@ -39,9 +40,10 @@ base::Result<void> resultOf(const SaveQueue::WriteBatch& write, const SaveBatch&
 
 // Description of a lost batch, metadata by name. A damaged row is not lost: it stays in the file.
 std::string listOf(const SaveBatch& batch) {
-    std::string text = fmt::format("{} chunks", batch.chunks.size());
+    std::string text = base::counted(batch.chunks.size(), "chunk");
     for (const auto& [name, value] : batch.metadata) text += fmt::format(", the setting {}", name);
-    if (!batch.damaged.empty()) text += fmt::format(", {} damaged rows in quarantine", batch.damaged.size());
+    if (!batch.damaged.empty())
+        text += fmt::format(", {} in quarantine", base::counted(batch.damaged.size(), "damaged row"));
     return text;
 }
 
@@ -62,7 +64,8 @@ std::vector<ChunkRow> editedOf(const QueuedChunks& chunks) {
     return edited;
 }
 
-SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits) : write_(std::move(write)), limits_(limits) {
+SaveQueue::SaveQueue(WriteBatch write, SaveLimits limits)
+    : write_(std::move(write)), limits_(limits), report_(kQuietDelays * limits.delay) {
     if (limits_.clock) {
         limits_.clock->writeIfDue = [this] { writeIfDue(); };
     } else {
@@ -177,10 +180,12 @@ void SaveQueue::run() {
     std::unique_lock lock(mutex_);
     while (true) {
         while (!isDue()) {
-            if (due_ == Clock::time_point::max()) {
+            reportIfDue();
+            const Clock::time_point next = std::min(due_, report_.reportAt());
+            if (next == Clock::time_point::max()) {
                 wake_.wait(lock);
             } else {
-                wake_.wait_until(lock, due_);
+                wake_.wait_until(lock, next);
             }
         }
         const bool isLast = isEnding_;
@@ -191,7 +196,15 @@ void SaveQueue::run() {
 
 void SaveQueue::writeIfDue() {
     std::unique_lock lock(mutex_);
-    if (isDue()) writeOnce(lock, isEnding_);
+    if (isDue()) {
+        writeOnce(lock, isEnding_);
+    } else {
+        reportIfDue();
+    }
+}
+
+void SaveQueue::reportIfDue() {
+    if (problem_.message.empty() && report_.hasEnded(now())) base::logInfo("saving works again");
 }
 
 void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
@@ -205,13 +218,13 @@ void SaveQueue::writeOnce(std::unique_lock<std::mutex>& lock, bool isLast) {
     lock.lock();
 
     if (done) {
-        if (!problem_.message.empty()) base::logInfo("saving works again");
         problem_ = {};
         durable_ = goal;
         writing_ = {};
+        reportIfDue();
     } else {
         // flush() reports the problem itself; the destructor reports the losses of the last attempt.
-        if (problem_.message.empty() && requestedAttempts_ < attempts_ && !isLast)
+        if (report_.hasBegun() && requestedAttempts_ < attempts_ && !isLast)
             base::logError("{}; waiting, tried again every {} s: {}", done.error().message,
                            kTryAgainDelays * static_cast<double>(limits_.delay.count()) / 1000,
                            contentOf(writing_));

@@ -16,6 +16,7 @@
 #include <tuple>
 #include <vector>
 
+#include "terrane/base/timing.h"
 #include "terrane/store/chunk_store.h"
 #include "terrane/store/chunks/bytes.h"
 #include "terrane/store/chunks/entity_budget.h"
@@ -66,6 +67,8 @@ struct ManualClock {
 };
 
 constexpr int kTryAgainDelays = 2;
+// Saving must have worked for this time before the log tells so: on a full disk some batches fit.
+constexpr int kQuietDelays = 10;
 
 struct SaveLimits {
     // Queued saves are written after this time, or once there are this many chunks of about 10 KB. A failed
@@ -106,6 +109,7 @@ class SaveQueue {
     Clock::time_point now() const { return limits_.clock ? limits_.clock->now : Clock::now(); }
     bool isDue() const;
     void writeOnce(std::unique_lock<std::mutex>& lock, bool isLast);
+    void reportIfDue();
     void requeue(SaveBatch failed);
     std::optional<QueuedChunk> findLocked(world::ChunkPos pos) const;
     template <class Add>
@@ -121,6 +125,7 @@ class SaveQueue {
     std::uint64_t attempts_ = 0, requestedAttempts_ = 0;  // begun; requested by flush
     std::uint64_t finished_ = 0;                          // attempts
     base::Error problem_;                                 // of the last attempt; no message if it succeeded
+    base::FailureReport report_;                          // to the log
     Clock::time_point failingSince_;                      // while there is a problem
     bool isProblemReported_ = false;                      // reported by flush(), and nothing was added since
     bool isEnding_ = false;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/text.h"
 #include "terrane/store/chunks/chunk_codec.h"
@@ -58,13 +57,16 @@ PostgresWriter::~PostgresWriter() {
 
 template <class T, class Do>
 base::Result<T> PostgresWriter::inTransaction(Do action) {
-    return pool_.retry<T>([&]() -> base::Result<T> {
+    auto done = pool_.retry<T>([&]() -> base::Result<T> {
+        messages_.forget();
         if (!connection_.isUsable()) {
             auto connection = TERRANE_TRY(reconnect(pool_.address(), sharing_, contents_));
             connection_ = std::move(connection);
         }
         return store_postgres::inTransaction(connection_, action);
     });
+    if (done) messages_.tell();
+    return done;
 }
 
 base::Result<bool> PostgresWriter::write(const store::SaveBatch& batch, const store::ChunkPosSet& unread,
@@ -144,8 +146,8 @@ base::Result<void> PostgresWriter::writeMetadata(const store::Metadata& metadata
         if (isText(name) && isText(value))
             commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
         else
-            base::logError("{}: the setting {} is not a text in UTF-8, and is not saved", connection_.shown(),
-                           name.substr(0, 64));
+            messages_.error(fmt::format("{}: the setting {} is not a text in UTF-8, and is not saved",
+                                        connection_.shown(), name.substr(0, 64)));
     }
     if (!isComplete_) commands.push_back({&kRemoveSetting, Parameters().text(store::kDerivedRowsMark)});
     return commands.empty() ? base::Result<void>() : connection_.changeAll(commands);
@@ -188,8 +190,8 @@ base::Result<void> PostgresWriter::writeChunks(const QueuedChunks& chunks) {
         const bool isEdited = chunk.provenance == Provenance::Edited;
         auto encoded = store::encodeChunk(*chunk.chunk, contents_.ids, store::checksumSeed(pos, isEdited));
         if (!encoded) {
-            base::logError("{}: {}: {}; it is not saved", connection_.shown(), store::nameOf(pos),
-                           encoded.error().message);
+            messages_.error(fmt::format("{}: {}: {}; it is not saved", connection_.shown(),
+                                        store::nameOf(pos), encoded.error().message));
             isComplete_ = false;
             continue;
         }
@@ -258,8 +260,8 @@ base::Result<void> PostgresWriter::quarantineDamaged(std::span<const std::int64_
             const ChunkPos pos = store::posOf(row.key);
             const auto problem = TERRANE_TRY(problemOf(connection_, pos, row.row));
             if (problem.empty()) continue;
-            base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", connection_.shown(),
-                             store::nameOf(pos), problem);
+            messages_.warn(fmt::format("{}: {}: {}; its old data is kept in the table quarantine",
+                                       connection_.shown(), store::nameOf(pos), problem));
             TERRANE_TRY(quarantineRow(pos, problem));
         }
     }

@@ -48,7 +48,8 @@ class PostgresWriter {
     const WorldContents& contents_;
     Connection connection_;
     store::WorldSharing sharing_;
-    bool isComplete_ = true;  // derived rows of the running transaction are complete
+    bool isComplete_ = true;       // derived rows of the running transaction are complete
+    store::RowMessages messages_;  // of the running transaction
 };
 
 }  // namespace terrane::store_postgres

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/base/log.h"
+#include "terrane/base/timing.h"
 
 namespace terrane::store_postgres {
 namespace {
@@ -103,8 +104,11 @@ class Worker {
     base::Result<void> flush(const Job& job) {
         while (true) {
             auto done = parts_.store.flush();
+            if (done && report_.hasEnded(Clock::now())) base::logInfo("saving works again");
             if (done || parts_.stopRequested()) return done;
-            base::logError("{}; the square at {},{} waits", done.error().message, job.area.x0, job.area.y0);
+            if (report_.hasBegun())
+                base::logError("{}; the square at {},{} waits", done.error().message, job.area.x0,
+                               job.area.y0);
             std::this_thread::sleep_for(kRenewEvery);
         }
     }
@@ -127,6 +131,7 @@ class Worker {
     WorkerResult result_;
     std::int64_t untold_ = 0;  // chunks not yet reported to the database
     Clock::time_point renewed_{};
+    base::FailureReport report_{base::kQuietAfterFailure};  // of flush()
     bool isFirst_ = true, saidPaused_ = false;
 };
 

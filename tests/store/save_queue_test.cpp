@@ -198,13 +198,50 @@ TEST(SaveQueue, WhatTheLastAttemptLosesIsNamed) {
                   queue.add({0, 0}, {numberedChunk(1), Provenance::Edited});
                   queue.add(DamagedRow{{1, 1}, 0, "cut off"});
               }),
-              "terrane: error: a.sqlite: the disk is full; lost: 1 chunks, 1 damaged rows in quarantine\n");
+              "terrane: error: a.sqlite: the disk is full; lost: 1 chunk, 1 damaged row in quarantine\n");
     EXPECT_EQ(lastWords([](SaveQueue& queue) {
                   queue.add("time", "0.5");
                   EXPECT_FALSE(queue.flush());
               }),
               "")
         << "who called flush() knows";
+}
+
+// A disk that is nearly full takes some batches and refuses others: the log tells of it once, and of its end
+// once everything is written and nothing has failed for a while.
+TEST(SaveQueue, AlternatingFailuresAreToldOnce) {
+    int attempts = 0;
+    bool isFull = true;
+    ManualClock clock;
+    testing::internal::CaptureStderr();
+    {
+        SaveQueue queue(
+            [&](const SaveBatch&) -> base::Result<void> {
+                if (++attempts % 2 == 1 && isFull) return base::fail("a.sqlite: the disk is full");
+                return {};
+            },
+            {.delay = 1000ms, .clock = &clock});
+        const auto play = [&](int seconds) {
+            for (int k = 0; k < seconds; ++k) {
+                queue.add({k, 0}, {numberedChunk(k), Provenance::Edited});
+                clock.now += 1s;
+                clock.writeIfDue();
+            }
+        };
+        play(60);
+        EXPECT_GT(attempts, 20);
+        isFull = false;
+        play(5);
+        EXPECT_EQ(queue.status().problem, "");
+        for (int k = 0; k < 20; ++k) {  // nothing more to write
+            clock.now += 1s;
+            clock.writeIfDue();
+        }
+        play(5);
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(),
+              "terrane: error: a.sqlite: the disk is full; waiting, tried again every 2 s: 1 chunk\n"
+              "terrane: saving works again\n");
 }
 
 TEST(SaveQueue, ManyThreads) {

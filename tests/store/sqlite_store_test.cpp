@@ -266,5 +266,24 @@ TEST_F(SqliteStoreTest, AMovedOrReplacedFileIsNotWritten) {
     EXPECT_EQ(*open()->load({0, 0}).chunk, *numberedChunk(2));
 }
 
+// Each attempt to write meets the damaged row again.
+TEST_F(SqliteStoreTest, MessagesAboutRowsAreToldOnceTheyAreWritten) {
+    { open()->save({0, 0}, numberedChunk(1), Provenance::Edited); }
+    runSql(path_, "UPDATE chunks SET data = x'0102'");
+    const std::filesystem::path elsewhere = folder_ / "elsewhere";
+    const auto store = open();
+    std::filesystem::rename(path_, elsewhere);
+    store->save({0, 0}, numberedChunk(2), Provenance::Edited);
+    testing::internal::CaptureStderr();
+    for (int k = 0; k < 5; ++k) EXPECT_FALSE(store->flush());
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "") << "flush() returns the reason";
+    std::filesystem::rename(elsewhere, path_);
+    testing::internal::CaptureStderr();
+    EXPECT_TRUE(store->flush());
+    const std::string log = testing::internal::GetCapturedStderr();
+    EXPECT_EQ(std::ranges::count(log, '\n'), 1) << log;
+    EXPECT_THAT(log, HasSubstr("its old data is kept in the table quarantine"));
+}
+
 }  // namespace
 }  // namespace terrane::store

@@ -81,10 +81,6 @@ base::Result<void> listPacks(const PacksOptions& options) {
     return {};
 }
 
-std::string counted(std::size_t count, std::string_view what) {
-    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
 // Warns about likely mistakes: textures that no block uses, and names of missing blocks.
 void warnOfSlips(const pack::Pack& pack, const world::BlockRegistry& blocks) {
     for (const auto& [path, data] : pack.files) {
@@ -117,8 +113,9 @@ base::Result<void> checkPacks(const PacksOptions& options) {
             return type.name.starts_with(pack.info.name + ":");
         };
         const auto blocks = std::ranges::count_if(content.blocks->types(), isOwn);
-        base::printLine("{}: good: {}, {}, {}", name, counted(static_cast<std::size_t>(blocks), "block"),
-                        counted(generatorsOf(pack).size(), "generator"), counted(pack.files.size(), "file"));
+        base::printLine(
+            "{}: good: {}, {}, {}", name, base::counted(static_cast<std::size_t>(blocks), "block"),
+            base::counted(generatorsOf(pack).size(), "generator"), base::counted(pack.files.size(), "file"));
     }
     return {};
 }

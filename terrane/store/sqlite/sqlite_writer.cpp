@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "terrane/base/log.h"
 #include "terrane/base/profile.h"
 #include "terrane/store/chunks/chunk_codec.h"
 #include "terrane/store/chunks/chunk_key.h"
@@ -69,6 +68,7 @@ base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
 base::Result<Transaction> SqliteWriter::begin() {
     if (hasFailed_) (void)file_.database.execute("PRAGMA wal_checkpoint(TRUNCATE)");
     hasFailed_ = true;  // until the commit, also if an exception is thrown
+    messages_.forget();
     return Transaction::begin(file_.database);
 }
 
@@ -125,6 +125,7 @@ base::Result<void> SqliteWriter::commit(Transaction& transaction) {
     TERRANE_TRY(files_.check());
     TERRANE_TRY(transaction.commit());
     hasFailed_ = false;
+    messages_.tell();
     if (file_.lock) file_.lock->setHasLog(true);
     return {};
 }
@@ -143,8 +144,8 @@ base::Result<void> SqliteWriter::writeChunk(world::ChunkPos pos, const QueuedChu
     const bool isEdited = chunk.provenance == Provenance::Edited;
     const auto bytes = encodeChunk(*chunk.chunk, file_.ids, checksumSeed(pos, isEdited));
     if (!bytes) {
-        base::logError("{}: {}: {}; it is not saved", file_.database.path(), nameOf(pos),
-                       bytes.error().message);
+        messages_.error(fmt::format("{}: {}: {}; it is not saved", file_.database.path(), nameOf(pos),
+                                    bytes.error().message));
         isComplete_ = false;
         return {};
     }
@@ -204,8 +205,8 @@ base::Result<void> SqliteWriter::quarantineIfDamaged(world::ChunkPos pos) {
         return quarantineRow(pos, damaged.error().message);
     if (!damaged) return tl::unexpected(damaged.error());
     if (!*damaged) return {};
-    base::logWarning("{}: {}: {}; its old data is kept in the table quarantine", file_.database.path(),
-                     nameOf(pos), (*damaged)->reason);
+    messages_.warn(fmt::format("{}: {}: {}; its old data is kept in the table quarantine",
+                               file_.database.path(), nameOf(pos), (*damaged)->reason));
     return quarantine(**damaged);
 }
 

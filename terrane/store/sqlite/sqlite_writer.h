@@ -86,6 +86,7 @@ class SqliteWriter {
     MetadataTable metadata_;
     bool isComplete_ = true;  // derived rows of the running transaction are complete
     bool hasFailed_ = false;  // the last transaction failed
+    RowMessages messages_;    // of the running transaction
 };
 
 }  // namespace terrane::store
