@@ -10,6 +10,9 @@ using store_postgres::Connection;
 using store_postgres::Parameters;
 using store_postgres::Statement;
 
+// Times are those of the database's clock, the only one that all servers share. It may be set back: then
+// times lie in the future, so a server is gone also if its last heartbeat is too far ahead, and a lease has
+// ended if it would last longer than any does. A server that runs writes a new time within a second.
 constexpr Statement kAddServer = {
     "INSERT INTO servers (name, address, key, saved) SELECT $1, $2, $3, newest FROM history RETURNING "
     "number"};
@@ -21,8 +24,9 @@ constexpr Statement kPutServer = {
 constexpr Statement kRemoveServer = {"DELETE FROM servers WHERE number = $1"};
 constexpr Statement kRemoveLeases = {"DELETE FROM growth_leases WHERE server = $1"};
 constexpr Statement kForgetServer = {
-    "WITH gone AS (DELETE FROM servers WHERE number = $1 AND seen < clock_timestamp() - $2 * interval '1 "
-    "second' RETURNING number) DELETE FROM growth_leases USING gone WHERE server = gone.number"};
+    "WITH gone AS (DELETE FROM servers WHERE number = $1 AND seen NOT BETWEEN clock_timestamp() - $2 * "
+    "interval '1 second' AND clock_timestamp() + $2 * interval '1 second' RETURNING number) "
+    "DELETE FROM growth_leases USING gone WHERE server = gone.number"};
 // Updates the row only if the value rises, since appends write the row, too.
 constexpr Statement kRaiseSaved = {
     "WITH now AS (SELECT coalesce((SELECT min(saved) FROM servers), $1) AS saved) "
@@ -31,12 +35,14 @@ constexpr Statement kRaiseSaved = {
 constexpr Statement kSaved = {"SELECT saved FROM history"};
 constexpr Statement kOtherServers = {
     "SELECT number, name, address, key, "
-    "seen > clock_timestamp() - $2 * interval '1 second' FROM servers WHERE number <> $1 ORDER BY number"};
+    "seen BETWEEN clock_timestamp() - $2 * interval '1 second' AND clock_timestamp() + $2 * interval '1 "
+    "second' FROM servers WHERE number <> $1 ORDER BY number"};
 constexpr Statement kLease = {
     "INSERT INTO growth_leases (region, server, until) SELECT region, $2, clock_timestamp() + $3 * interval "
     "'1 second' FROM unnest($1::bigint[]) AS region ORDER BY region ON CONFLICT (region) DO UPDATE SET "
     "server = excluded.server, until = excluded.until WHERE growth_leases.server = excluded.server OR "
-    "growth_leases.until < clock_timestamp()"};
+    "growth_leases.until < clock_timestamp() OR growth_leases.until > clock_timestamp() + $3 * interval '2 "
+    "seconds'"};
 constexpr Statement kLeased = {
     "SELECT region FROM growth_leases WHERE server = $1 AND until > clock_timestamp()"};
 constexpr Statement kUnsaved = {

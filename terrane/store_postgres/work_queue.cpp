@@ -9,6 +9,8 @@ namespace {
 // Maximum per area: 2^20 squares of 2^10 chunks.
 constexpr std::int64_t kMaxJobs = 1 << 20;
 
+// Times are those of the database's clock, the only one that all workers share. It may be set back: a lease
+// that would last longer than any does has ended, like one that lies in the past.
 constexpr Statement kHasArea = {
     "SELECT EXISTS (SELECT 1 FROM work_areas a WHERE x0 = $1 AND y0 = $2 AND x1 = $3 AND y1 = $4 AND NOT "
     "EXISTS "
@@ -26,8 +28,8 @@ constexpr Statement kRemoveWorker = {"DELETE FROM workers WHERE number = $1"};
 constexpr Statement kTake = {
     "UPDATE jobs SET worker = $1, lease = clock_timestamp() + $2 * interval '1 second', attempts = attempts "
     "+ 1 "
-    "WHERE number = (SELECT number FROM jobs WHERE state = 0 AND (lease IS NULL OR lease < "
-    "clock_timestamp()) "
+    "WHERE number = (SELECT number FROM jobs WHERE state = 0 AND (lease IS NULL OR lease NOT BETWEEN "
+    "clock_timestamp() AND clock_timestamp() + $2 * interval '2 seconds') "
     "AND NOT (SELECT is_paused FROM work_state) ORDER BY area, place LIMIT 1 FOR UPDATE SKIP LOCKED) "
     "RETURNING number, x0, y0, x1, y1"};
 constexpr Statement kRenew = {
@@ -44,17 +46,19 @@ constexpr Statement kFinish = {"UPDATE jobs SET state = 1, lease = NULL WHERE nu
 constexpr Statement kPause = {"UPDATE work_state SET is_paused = ($1 <> 0)"};
 constexpr Statement kCancel = {"UPDATE jobs SET state = 2, lease = NULL WHERE state = 0"};
 constexpr Statement kJobCounts = {
-    "SELECT count(*) FILTER (WHERE state = 0 AND (lease IS NULL OR lease < clock_timestamp())), "
-    "count(*) FILTER (WHERE state = 0 AND lease >= clock_timestamp()), count(*) FILTER (WHERE state = 1), "
+    "SELECT count(*) FILTER (WHERE state = 0 AND (lease IS NULL OR lease NOT BETWEEN clock_timestamp() AND "
+    "clock_timestamp() + $1 * interval '2 seconds')), "
+    "count(*) FILTER (WHERE state = 0 AND lease BETWEEN clock_timestamp() AND clock_timestamp() + $1 * "
+    "interval '2 seconds'), count(*) FILTER (WHERE state = 1), "
     "count(*) FILTER (WHERE state = 2), "
     "coalesce(sum((x1 - x0)::bigint * (y1 - y0)) FILTER (WHERE state < 2), 0)::bigint, "
     "coalesce(sum((x1 - x0)::bigint * (y1 - y0)) FILTER (WHERE state = 1), 0)::bigint, "
     "(SELECT is_paused FROM work_state) FROM jobs"};
 constexpr Statement kWorkers = {
     "SELECT name, chunks, (rate * 1000)::bigint, "
-    "(extract(epoch FROM clock_timestamp() - seen) * 1000)::bigint, x0, y0, x1, y1 FROM workers "
+    "(greatest(extract(epoch FROM clock_timestamp() - seen), 0) * 1000)::bigint, x0, y0, x1, y1 FROM workers "
     "LEFT JOIN jobs ON jobs.number = workers.job AND jobs.worker = workers.number AND jobs.state = 0 "
-    "WHERE seen > clock_timestamp() - interval '1 minute' ORDER BY workers.number"};
+    "WHERE abs(extract(epoch FROM clock_timestamp() - seen)) < 60 ORDER BY workers.number"};
 
 world::ChunkArea areaOf(const Rows& rows, int row, int column) {
     const auto at = [&](int k) { return static_cast<std::int32_t>(rows.number(row, column + k)); };
@@ -178,7 +182,7 @@ base::Result<std::int64_t> cancelJobs(Connection& connection) {
 }
 
 base::Result<WorkStatus> workStatus(Connection& connection) {
-    const auto counts = TERRANE_TRY(connection.run(kJobCounts));
+    const auto counts = TERRANE_TRY(connection.run(kJobCounts, Parameters().number(kLease.count())));
     WorkStatus status;
     status.waiting = counts.number(0, 0);
     status.working = counts.number(0, 1);

@@ -1,8 +1,10 @@
 // Several servers of one world: edits, players, chat, time.
+#include <algorithm>
 #include <random>
 
 #include "terrane/game/places.h"
 #include "terrane/net/server/server_console.h"
+#include "terrane/net_postgres/server_rows.h"
 #include "tests/net_postgres/shared_server_fixture.h"
 
 namespace terrane::net_postgres {
@@ -190,6 +192,50 @@ TEST_F(SharedServersTest, OthersSaveWhatAKilledServerChanged) {
     auto reader = store_postgres::openReader(servers_.address(), *registry).value();
     EXPECT_EQ(reader->load(world::chunkOf(pos)).chunk->block(world::blockIndex(pos)),
               contentBlock("cyan_glass"));
+}
+
+// The database's clock is set back by an hour: times of before lie in the future. A killed server is gone
+// nevertheless, and its leases end; a running one renews its own.
+TEST_F(SharedServersTest, AKilledServerIsGoneAlsoIfTheClockIsSetBack) {
+    servers_.add();  // makes the world
+    auto connection = store_postgres::Connection::open(servers_.address()).value();
+    const ServerName killedName{"killed", "", ""}, ownName{"own", "", ""};
+    const auto killed = addServer(connection, killedName).value(),
+               own = addServer(connection, ownName).value();
+    const std::vector<net::Region> regions{7};
+    const auto beatOf = [&](const ServerName& name, std::int64_t server) {
+        return beat(connection, name, {.server = server, .saved = 0, .players = 0, .regions = regions})
+            .value();
+    };
+    const auto isAlive = [&](const BeatAnswer& answer, std::int64_t server) {
+        return std::ranges::any_of(
+            answer.others, [&](const auto& other) { return other.number == server && other.isAlive; });
+    };
+    EXPECT_EQ(beatOf(killedName, killed).regions, regions);
+    BeatAnswer answer = beatOf(ownName, own);
+    EXPECT_TRUE(answer.regions.empty());
+    EXPECT_TRUE(isAlive(answer, killed));
+    const auto setBack = [&](const std::string& interval) {
+        postgres_.sql("UPDATE " + schema_ + ".servers SET seen = seen + interval '" + interval + "'");
+        postgres_.sql("UPDATE " + schema_ + ".growth_leases SET until = until + interval '" + interval + "'");
+    };
+    setBack("3 seconds");  // a small correction
+    answer = beatOf(ownName, own);
+    EXPECT_TRUE(answer.regions.empty());
+    EXPECT_TRUE(isAlive(answer, killed));
+    setBack("1 hour");
+    answer = beatOf(ownName, own);
+    EXPECT_EQ(answer.regions, regions) << "a lease does not last an hour";
+    EXPECT_FALSE(isAlive(answer, killed));
+    EXPECT_TRUE(isAlive(beatOf(killedName, killed), own));
+    answer = beatOf(ownName, own);
+    EXPECT_TRUE(isAlive(answer, killed)) << "it had only stalled";
+    setBack("1 hour");
+    ASSERT_TRUE(connection.changeAll(std::vector{removeServerCommand(killed)}));
+    EXPECT_EQ(postgres_.query("SELECT count(*) FROM " + schema_ +
+                              ".servers WHERE number = " + std::to_string(killed)),
+              "0");
+    servers_.stopAll();
 }
 
 TEST_F(SharedServersTest, APlayerIsOnOneServerAtATime) {
