@@ -25,13 +25,13 @@ constexpr Statement kClaims = {"SELECT name, x0, y0, x1, y1, owner, members FROM
 constexpr Statement kText = {"SELECT value FROM texts WHERE name = $1"};
 constexpr Statement kPlaces = {"SELECT value FROM settings WHERE name = $1"};
 constexpr Statement kEnds = {"SELECT newest, saved FROM history"};
-// $1, $2: range of numbers; $3: player, negative for any; $4, $5: times; $6, $7: chunks; $8: limit.
+// $1, $2: range of numbers; $3: player, negative for any; $4: time; $5, $6: chunks; $7: limit.
 constexpr Statement kEditsUp = {
     "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
-    "player = $3) AND time >= $4 AND time < $5 AND chunk BETWEEN $6 AND $7 ORDER BY number LIMIT $8"};
+    "player = $3) AND time < $4 AND chunk BETWEEN $5 AND $6 ORDER BY number LIMIT $7"};
 constexpr Statement kEditsDown = {
     "SELECT number, time, player, chunk, blocks FROM edits WHERE number > $1 AND number < $2 AND ($3 < 0 OR "
-    "player = $3) AND time >= $4 AND time < $5 AND chunk BETWEEN $6 AND $7 ORDER BY number DESC LIMIT $8"};
+    "player = $3) AND time < $4 AND chunk BETWEEN $5 AND $6 ORDER BY number DESC LIMIT $7"};
 constexpr Statement kAddPlayer = {
     "INSERT INTO players (id, key, name, role, pose, ban) VALUES ($1, $2, $3, $4, $5, $6) ON CONFLICT DO "
     "NOTHING"};
@@ -151,8 +151,7 @@ base::Result<EditPage> readEdits(Connection& connection, const store::BlockIdMap
                                           .number(isUp && last ? *last : filter.afterNumber)
                                           .number(!isUp && last ? *last : kHighest)
                                           .number(filter.player ? std::int64_t{*filter.player} : -1)
-                                          .number(filter.sinceMs.value_or(kLowest))
-                                          .number(filter.untilMs.value_or(kHighest))
+                                          .number(filter.beforeMs.value_or(kHighest))
                                           .number(chunks.first)
                                           .number(chunks.last)
                                           .number(kEditsInPage)));

@@ -8,6 +8,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/profile.h"
+#include "terrane/base/timing.h"
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/net_postgres/record_rows.h"
 
@@ -33,13 +34,14 @@ constexpr std::chrono::seconds kLastAttempts{10};
 void PostgresRecords::run() {
     base::setThreadName("records");
     std::optional<Clock::time_point> endBy;
+    base::FailureReport report(base::kQuietAfterFailure);
     while (true) {
         waitForWork();
         const auto done = work();
         std::unique_lock lock(mutex_);
         ++attempts_;
-        if (!done && problem_.empty()) base::logError("{}", done.error().message);
-        if (done && !problem_.empty()) base::logInfo("{}: it works again", name_.name);
+        if (!done && report.hasBegun()) base::logError("{}", done.error().message);
+        if (done && report.hasEnded(Clock::now())) base::logInfo("{}: it works again", name_.name);
         problem_ = done ? "" : done.error().message;
         written_.notify_all();
         const bool isEmpty = queue_.empty() && batch_.empty();

@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <filesystem>
+
+#include "terrane/base/files.h"
 #include "tests/base/temp_folder.h"
 #include "tests/pack/pack_fixture.h"
 
@@ -62,6 +66,23 @@ TEST_F(ClientPacksTest, TheCacheKeepsThem) {
     const base::TempFolder folder;
     ClientPacks first = packsThatAccept(folder / "cache"), second = packsThatAccept(folder / "cache");
     ASSERT_TRUE(takePack(first, offer_.packs[0], *archive_));
+    const auto missing = missingPacks(second, offer_);
+    ASSERT_TRUE(missing) << missing.error().message;
+    EXPECT_TRUE(missing->empty());
+}
+
+// A date of the future does not make an old file the last one used.
+TEST_F(ClientPacksTest, TheCacheKeepsWhatWasUsedLast) {
+    const base::TempFolder folder;
+    const std::filesystem::path cache = folder / "cache", old = cache / "old";
+    std::filesystem::create_directories(cache);
+    ASSERT_TRUE(base::writeFile(old, ""));
+    std::filesystem::resize_file(old, std::uintmax_t{600} << 20);  // sparse, more than a cache may have
+    std::filesystem::last_write_time(
+        old, std::filesystem::file_time_type::clock::now() + std::chrono::hours(24 * 365));
+    ClientPacks first = packsThatAccept(cache), second = packsThatAccept(cache);
+    ASSERT_TRUE(takePack(first, offer_.packs[0], *archive_));
+    EXPECT_FALSE(std::filesystem::exists(old));
     const auto missing = missingPacks(second, offer_);
     ASSERT_TRUE(missing) << missing.error().message;
     EXPECT_TRUE(missing->empty());

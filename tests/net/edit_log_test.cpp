@@ -107,10 +107,34 @@ TEST_F(EditLogTest, IsFilteredByPlayerAreaAndTime) {
     EXPECT_EQ(numbers({.area = game::ColumnArea{90, -5, 110, 5}}), (Numbers{2}));
     EXPECT_EQ(numbers({.area = game::ColumnArea{0, 0, 14, 20}}), (Numbers{1}))
         << "the chunk alone is not enough";
-    EXPECT_EQ(numbers({.sinceMs = 200}), (Numbers{2, 3}));
-    EXPECT_EQ(numbers({.sinceMs = 100, .untilMs = 200}), (Numbers{1}));
+    EXPECT_EQ(numbers({.beforeMs = 200}), (Numbers{1}));
     EXPECT_EQ(numbers({.afterNumber = 2}), (Numbers{3}));
     EXPECT_EQ(records_->historyEnds()->newest, 3);
+}
+
+// The clock was wrong for some edits: the last edits are those with the greatest numbers.
+TEST_F(EditLogTest, TheLastEditsFollowFromTheirOrder) {
+    const std::int64_t right = 1'000'000, hour = 3'600'000, year = 365 * 24 * hour;
+    for (const std::int64_t time :
+         {right, right + year, right + 1000, right - hour, right + 2000, right + 3000})
+        log(7, time, {{{0, 0, 70}, valueOf("air"), valueOf("glass")}});
+    const auto since = [&](std::int64_t timeMs, EditFilter filter = {}) {
+        const auto forEachEdit = [&](const EditFilter& wanted, EditOrder order, const UseEdit& use) {
+            return records_->forEachEdit(wanted, order, use);
+        };
+        flush();
+        EXPECT_TRUE(selectSince(filter, forEachEdit, timeMs));
+        std::vector<std::int64_t> numbers;
+        for (const LoggedEdit& edit : found(filter)) numbers.push_back(edit.number);
+        return numbers;
+    };
+    using Numbers = std::vector<std::int64_t>;
+    EXPECT_EQ(since(right + 2500), (Numbers{6}));
+    EXPECT_EQ(since(right + 1500), (Numbers{5, 6})) << "not those of the next year";
+    EXPECT_EQ(since(right + 1000), (Numbers{5, 6})) << "one with an earlier date lies between";
+    EXPECT_EQ(since(right - 2 * hour), (Numbers{1, 2, 3, 4, 5, 6}));
+    EXPECT_EQ(since(right - 2 * hour, {.afterNumber = 4}), (Numbers{5, 6}));
+    EXPECT_TRUE(since(right + 4000).empty());
 }
 
 TEST_F(EditLogTest, RemembersWhatTheWorldHas) {
@@ -135,7 +159,7 @@ TEST_F(EditLogTest, ARollbackSpansAllEditsOfABlock) {
     const auto inArea = plan({.player = 8, .area = game::ColumnArea{40, 0, 60, 9}});
     ASSERT_EQ(inArea.size(), 1u);
     EXPECT_EQ(inArea[0].pos, (BlockPos{50, 2, 70}));
-    EXPECT_EQ(plan({.player = 8, .sinceMs = 250})[0].before, valueOf("sand"));
+    EXPECT_EQ(plan({.player = 8, .afterNumber = 2})[0].before, valueOf("sand"));
     EXPECT_TRUE(plan({.player = 9}).empty());
 }
 

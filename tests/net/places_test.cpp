@@ -127,7 +127,7 @@ TEST_F(MarkedPlaces, OddPlacesAreRefused) {
 
 TEST(SavedPlaces, StayWithTheWorld) {
     base::TempFolder folder;
-    for (const char* places : {"0 places", "1 places\nhome at 1 2 70"}) {
+    for (const char* places : {"0 places", "1 place\nhome at 1 2 70"}) {
         TestServer server(folder.path());
         EXPECT_EQ(runConsoleLine(server.state(), "marks"), places);
         (void)runConsoleLine(server.state(), "mark 1 2 70 home");

@@ -1,6 +1,8 @@
 #include "terrane/net/server/sqlite_records.h"
 
 #include <atomic>
+#include <memory>
+#include <utility>
 
 #include "terrane/base/files.h"
 #include "tests/net/server_file_fixture.h"
@@ -56,6 +58,19 @@ TEST_F(ServerFileTest, AFailureIsToldAndTriedAgain) {
     EXPECT_EQ(state(*file_), 4);
     EXPECT_EQ(file_->problem(), "");
     EXPECT_EQ(file_->durable(), 2u);
+}
+
+TEST_F(ServerFileTest, AlternatingFailuresAreToldOnce) {
+    testing::internal::CaptureStderr();
+    for (int k = 0; k < 5; ++k) {
+        const auto isFirst = std::make_shared<bool>(true);
+        file_->write([isFirst](store::Database&) -> base::Result<void> {
+            if (std::exchange(*isFirst, false)) return base::fail("the disk is full");
+            return {};
+        });
+        while (!file_->flush()) continue;
+    }
+    EXPECT_EQ(testing::internal::GetCapturedStderr(), "terrane: error: the disk is full\n");
 }
 
 TEST_F(ServerFileTest, HasOneServerAtATime) {

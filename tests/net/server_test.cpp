@@ -1,6 +1,10 @@
 // Players on one server, without sockets: each has its own world, and all worlds become equal.
 #include "terrane/net/server/server.h"
 
+#include <gmock/gmock.h>
+
+#include <limits>
+
 #include "terrane/net/server/server_console.h"
 #include "terrane/net/server/server_history.h"
 #include "tests/net/server_fixture.h"
@@ -239,7 +243,7 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
     {
         TestServer server(folder_.path());
         ASSERT_NO_FATAL_FAILURE(annBuilds(server, pos));
-        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("rolling back 1 blocks;"));
+        EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("rolling back 1 block;"));
         ASSERT_TRUE(stop(server.state(), "the test ends"));
     }
     TestServer again(folder_.path());
@@ -268,24 +272,117 @@ TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
     log(early, nowMs() + yearMs);   // the date was wrong
     log(middle, nowMs() - hourMs);  // an hour ago it was right
     log(late, nowMs());
-    EXPECT_TRUE(runConsoleLine(server.state(), "rollback * 1").starts_with("rolling back 1 blocks;"));
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback * 1").starts_with("rolling back 1 block;"));
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return history.rollbacks.empty(); }));
     EXPECT_NE(server.state().session.world().block(early), world::kAir);
     EXPECT_NE(server.state().session.world().block(middle), world::kAir);
     EXPECT_EQ(server.state().session.world().block(late), world::kAir);
 }
 
+// The clock is set back by an hour while the server runs: the last seconds are still the last seconds.
+TEST_F(ServerTest, ARollbackOfSecondsAfterTheClockWasSetBack) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    ServerHistory& history = server.state().history;
+    std::int64_t systemMs = nowMs();
+    history.stamps.systemMs = [&] { return systemMs; };
+    const world::BlockPos early = above(ann), late = above(ann, 3);
+    ASSERT_EQ(ann.put(early, "glass"), game::EditResult::Applied);
+    for (int k = 0; k < 10; ++k) {
+        server.now += std::chrono::seconds(1);
+        step(server, {&ann});
+    }
+    systemMs -= 3'600'000;
+    ASSERT_EQ(ann.put(late, "glass"), game::EditResult::Applied);
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback * 0.1").starts_with("rolling back 1 block;"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return history.rollbacks.empty(); }));
+    EXPECT_NE(server.state().session.world().block(early), world::kAir);
+    EXPECT_EQ(server.state().session.world().block(late), world::kAir);
+}
+
+constexpr std::int64_t kHourMs = 3'600'000, kYearMs = 365 * 24 * kHourMs;
+
+// A system's clock that is set, and a steady one that goes on.
+struct TestClocks {
+    std::int64_t systemMs = 1'800'000'000'000;
+    Time steady{std::chrono::hours(5)};
+
+    void pass(std::chrono::milliseconds time) {
+        systemMs += time.count();
+        steady += time;
+    }
+};
+
 TEST(StampClock, GoesOnWhileTheSystemsClockIsBehind) {
-    const Time start = std::chrono::steady_clock::now();
-    StampClock stamps;
-    stamps.newestMs = nowMs() + 3'600'000;
-    const std::int64_t first = stamps.at(start);
-    EXPECT_EQ(first, stamps.newestMs);
-    EXPECT_EQ(stamps.at(start + std::chrono::seconds(90)), first + 90'000);
-    StampClock behind;
-    behind.newestMs = nowMs() - 3'600'000;
-    (void)behind.at(start);
-    EXPECT_GE(behind.at(start + std::chrono::seconds(1)), nowMs() - 1000) << "the system's clock is later";
+    TestClocks clocks;
+    StampClock stamps{.systemMs = [&] { return clocks.systemMs; }};
+    stamps.newestMs = clocks.systemMs + kHourMs;
+    const std::int64_t first = stamps.at(clocks.steady);
+    EXPECT_EQ(first, clocks.systemMs + kHourMs);
+    clocks.pass(std::chrono::seconds(90));
+    EXPECT_EQ(stamps.at(clocks.steady), first + 90'000);
+    StampClock later{.systemMs = [&] { return clocks.systemMs; }};
+    later.newestMs = clocks.systemMs - kHourMs;
+    EXPECT_EQ(later.at(clocks.steady), clocks.systemMs) << "the system's clock is later";
+    StampClock idle{.systemMs = [&] { return clocks.systemMs; }};
+    idle.newestMs = clocks.systemMs + kHourMs;
+    idle.begin(clocks.steady);
+    const std::int64_t before = idle.newestMs;
+    clocks.pass(std::chrono::minutes(10));
+    EXPECT_EQ(idle.at(clocks.steady), before + 600'000) << "time without edits";
+}
+
+// The clock is set while the server runs: an hour back, a year ahead, and right again.
+TEST(StampClock, NeverGoesBackWhileItRuns) {
+    TestClocks clocks;
+    StampClock stamps{.systemMs = [&] { return clocks.systemMs; }};
+    testing::internal::CaptureStderr();
+    std::int64_t last = stamps.at(clocks.steady);
+    const auto passMinutes = [&](int minutes) {
+        for (int k = 0; k < minutes; ++k) {
+            clocks.pass(std::chrono::minutes(1));
+            const std::int64_t stamp = stamps.at(clocks.steady);
+            EXPECT_EQ(stamp, last + 60'000) << "a minute is a minute";
+            last = stamp;
+        }
+    };
+    passMinutes(30);
+    clocks.systemMs -= kHourMs;
+    passMinutes(30);
+    EXPECT_EQ(
+        testing::internal::GetCapturedStderr(),
+        "terrane: warning: the newest edit of the history has a date 60 minutes ahead of the clock: the "
+        "clock is wrong, or was; new edits are dated after it\n")
+        << "warned once";
+    clocks.systemMs += kHourMs;
+    passMinutes(5);
+    clocks.systemMs += kYearMs;
+    EXPECT_EQ(last = stamps.at(clocks.steady), clocks.systemMs) << "it may have been wrong before";
+    passMinutes(5);
+    testing::internal::CaptureStderr();
+    clocks.systemMs -= kYearMs;
+    passMinutes(60);
+    EXPECT_THAT(testing::internal::GetCapturedStderr(), testing::HasSubstr("525600 minutes ahead"));
+}
+
+// Two servers of a world, whose clocks differ by an hour: edits in the order of their numbers have stamps in
+// that order.
+TEST(StampClock, FollowsTheOtherServers) {
+    TestClocks clocks;
+    StampClock stamps{.systemMs = [&] { return clocks.systemMs; }};
+    testing::internal::CaptureStderr();
+    const std::int64_t own = stamps.at(clocks.steady);
+    clocks.pass(std::chrono::minutes(1));
+    stamps.hear(own + kHourMs, clocks.steady);
+    clocks.pass(std::chrono::minutes(1));
+    EXPECT_EQ(stamps.at(clocks.steady), own + kHourMs + 60'000);
+    stamps.hear(own, clocks.steady);
+    EXPECT_EQ(stamps.at(clocks.steady), own + kHourMs + 60'000) << "an earlier one changes nothing";
+    stamps.hear(std::numeric_limits<std::int64_t>::max(), clocks.steady);
+    clocks.pass(std::chrono::minutes(1));
+    EXPECT_EQ(stamps.at(clocks.steady), kLastDateMs + 60'000) << "a damaged one";
+    (void)testing::internal::GetCapturedStderr();
 }
 
 // The flood of a source that is rolled back is gone with it, and what stood on the blocks falls.
@@ -318,7 +415,7 @@ TEST_F(ServerTest, ARollbackLoadsItsChunks) {
     }
     TestServer again(folder_.path());
     ASSERT_FALSE(again.state().session.world().maybeChunkAt(world::chunkOf(pos)));
-    EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("rolling back 1 blocks;"));
+    EXPECT_TRUE(runConsoleLine(again.state(), "rollback Ann 60").starts_with("rolling back 1 block;"));
     ASSERT_TRUE(stepUntil(again, {}, [&] { return again.state().history.rollbacks.empty(); }));
     again.state().session.pipeline().chunkAt(world::chunkOf(pos));
     EXPECT_EQ(again.state().session.world().block(pos), world::kAir);
@@ -333,7 +430,7 @@ TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
     ASSERT_EQ(bob.put(bobs, "glass"), game::EditResult::Applied);
     ASSERT_TRUE(stepUntil(server, {&ann, &bob},
                           [&] { return ann.block(bobs) != world::kAir && bob.block(anns) != world::kAir; }));
-    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("rolling back 1 blocks;"));
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Bob 60").starts_with("rolling back 1 block;"));
     ASSERT_TRUE(stepUntil(server, {&ann, &bob}, [&] { return ann.block(bobs) == world::kAir; }));
     EXPECT_EQ(ann.block(anns), contentBlock("glass"));
 }

@@ -1,10 +1,11 @@
 // terrane history: lists who changed what in a shared world, even while its server runs.
-#include <chrono>
+#include <algorithm>
 #include <ctime>
 #include <memory>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "terrane/base/log.h"
 #include "terrane/base/text.h"
 #include "terrane/io/open_session.h"
 #include "terrane/net_postgres/world_records.h"
@@ -57,6 +58,21 @@ void printEdit(const net::LoggedEdit& edit, const std::string& player, const wor
                   nameOf(edit.after[k]), 1);
 }
 
+// The end of the last minutes: now, or the newest edit, if that has a date of the future. The server's
+// stamps never go back, so after a wrong date they are ahead of the clock.
+base::Result<std::int64_t> timeOfLastMinutes(const net::History& history) {
+    const std::int64_t now = net::nowMs();
+    const auto newest = TERRANE_TRY(net::newestEdit(history.forEachEdit, {}));
+    if (!newest || newest->timeMs <= now) return now;
+    const std::int64_t newestMs = std::min(newest->timeMs, net::kLastDateMs);
+    if (newestMs - now > net::kWarnedOfDateMs)
+        base::logWarning(
+            "the newest edit of the history has a date {} ahead of the clock; the last minutes are counted "
+            "from it",
+            base::counted(static_cast<std::uint64_t>((newestMs - now) / 60'000), "minute"));
+    return newestMs;
+}
+
 base::Result<void> printHistory(const HistoryOptions& options) {
     const auto content = TERRANE_TRY(io::loadContent({}, options.save));
     const auto& blocks = content.blocks;
@@ -73,10 +89,11 @@ base::Result<void> printHistory(const HistoryOptions& options) {
         filter.area = game::ColumnArea{
             std::min(options.area[0], options.area[2]), std::min(options.area[1], options.area[3]),
             std::max(options.area[0], options.area[2]), std::max(options.area[1], options.area[3])};
-    const auto now = std::chrono::system_clock::now().time_since_epoch();
-    if (options.minutes > 0)
-        filter.sinceMs = std::chrono::duration_cast<std::chrono::milliseconds>(now).count() -
-                         static_cast<std::int64_t>(options.minutes * 60000);
+    if (options.minutes > 0) {
+        const std::int64_t now = TERRANE_TRY(timeOfLastMinutes(history));
+        TERRANE_TRY(net::selectSince(filter, history.forEachEdit,
+                                     now - static_cast<std::int64_t>(options.minutes * 60000)));
+    }
     std::size_t count = 0;
     bool isCut = false;
     const auto print = [&](const net::LoggedEdit& edit) -> base::Result<void> {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdlib>
 #include <system_error>
 #include <utility>
@@ -43,6 +44,20 @@ std::size_t bytesOf(const pack::Pack& pack) {
     return bytes;
 }
 
+// Gives the file the latest time in its folder, for pruneCache(): also after a wrong date, the file that was
+// used last is the newest.
+void markAsUsed(const fs::path& file) {
+    std::error_code error;
+    fs::file_time_type time = fs::file_time_type::clock::now();
+    for (fs::directory_iterator it(file.parent_path(), error), end; !error && it != end;
+         it.increment(error)) {
+        std::error_code unknown;
+        const fs::file_time_type other = it->last_write_time(unknown);
+        if (!unknown && it->path() != file) time = std::max(time, other + std::chrono::milliseconds(1));
+    }
+    fs::last_write_time(file, time, error);
+}
+
 bool findHere(ClientPacks& packs, const PackOffer& offer) {
     if (packWith(packs, offer.hash)) return true;
     const auto own = pack::isPackName(offer.name) ? pack::findPack(offer.name, pack::packFolders())
@@ -54,11 +69,11 @@ bool findHere(ClientPacks& packs, const PackOffer& offer) {
     if (!fs::exists(file, ignored)) return false;
     const auto bytes = base::readFile(file);
     if (!bytes) return false;
-    fs::last_write_time(file, fs::file_time_type::clock::now(), ignored);  // for pruneCache()
+    markAsUsed(file);
     return addIfEqual(packs, pack::packOf(std::as_bytes(std::span(*bytes)), file.string()), offer.hash);
 }
 
-// Deletes the least recently used files until the rest fits kMaxCacheBytes.
+// Deletes the least recently used files, by markAsUsed(), until the rest fits kMaxCacheBytes.
 void pruneCache(const fs::path& folder) {
     struct CacheFile {
         fs::path path;
@@ -88,8 +103,10 @@ void writeToCache(const ClientPacks& packs, const PackOffer& offer, const store:
     std::error_code error;
     fs::create_directories(packs.cache, error);
     const std::string_view bytes(reinterpret_cast<const char*>(archive.data()), archive.size());
-    if (auto written = base::writeFile(cacheFile(packs, offer.hash), bytes); !written)
+    const auto file = cacheFile(packs, offer.hash);
+    if (auto written = base::writeFile(file, bytes); !written)
         base::logWarning("the server's pack cannot be kept: {}", written.error().message);
+    markAsUsed(file);
     pruneCache(packs.cache);
 }
 

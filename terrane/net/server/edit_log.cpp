@@ -66,6 +66,23 @@ bool isInArea(const LoggedEdit& edit, const EditFilter& filter) {
     });
 }
 
+base::Result<std::optional<LoggedEdit>> newestEdit(const ForEachEdit& forEachEdit, const EditFilter& filter) {
+    std::optional<LoggedEdit> newest;
+    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
+        newest = edit;
+        return base::fail("found");  // ends the search
+    };
+    const auto searched = forEachEdit(filter, EditOrder::NewestFirst, take);
+    if (!searched && !newest) return tl::unexpected(searched.error());
+    return newest;
+}
+
+base::Result<void> selectSince(EditFilter& filter, const ForEachEdit& forEachEdit, std::int64_t sinceMs) {
+    const auto before = TERRANE_TRY(newestEdit(forEachEdit, {.beforeMs = sinceMs}));
+    if (before) filter.afterNumber = std::max(filter.afterNumber, before->number);
+    return {};
+}
+
 // Keys are ordered by x first.
 KeyRange chunkKeys(const game::ColumnArea& area) {
     const world::ChunkPos low{area.x0 >> 4, world::kMinChunk}, high{area.x1 >> 4, world::kMaxChunk};

@@ -31,6 +31,10 @@ struct LoggedEdit {
 
 // The current time as in LoggedEdit::timeMs.
 std::int64_t nowMs();
+// A time of an edit that is so far ahead of the clock is worth a warning.
+constexpr std::int64_t kWarnedOfDateMs = 60'000;
+// The year 9999: later times of a damaged history are not continued.
+constexpr std::int64_t kLastDateMs = 253'402'300'799'000;
 // One edit for each chunk, more if a chunk has many changed blocks. Numbers start at `first`.
 std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, std::int64_t timeMs,
                                     std::span<const game::ChangedBlock> changes);
@@ -39,7 +43,7 @@ std::vector<LoggedEdit> loggedEdits(std::int64_t first, game::PlayerId player, s
 struct EditFilter {
     std::optional<game::PlayerId> player = {};
     std::optional<game::ColumnArea> area = {};  // contains at least one block of the edit
-    std::optional<std::int64_t> sinceMs = {}, untilMs = {};
+    std::optional<std::int64_t> beforeMs = {};  // its time is earlier
     std::int64_t afterNumber = 0;
 };
 enum class EditOrder : std::uint8_t { OldestFirst, NewestFirst };
@@ -54,6 +58,14 @@ struct KeyRange {
     std::int64_t first = 0, last = 0;
 };
 KeyRange chunkKeys(const game::ColumnArea& area);
+
+// The newest edit that the filter selects; none if there is no such edit.
+[[nodiscard]] base::Result<std::optional<LoggedEdit>> newestEdit(const ForEachEdit& forEachEdit,
+                                                                 const EditFilter& filter);
+// Restricts the filter to the edits since a time. Which edits these are follows from their order, since dates
+// may have been wrong for a while: an edit is older than all with greater numbers, whatever time it has.
+[[nodiscard]] base::Result<void> selectSince(EditFilter& filter, const ForEachEdit& forEachEdit,
+                                             std::int64_t sinceMs);
 
 // Encodes the blocks of an edit with the saved ids of `ids`.
 Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids);

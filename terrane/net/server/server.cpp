@@ -64,6 +64,9 @@ void applySharedChanges(ServerState& server) {
     ServerEdits& edits = server.edits;
     game::Session& session = server.session;
     SharedChanges changes = server.sharing.shared->popChanges();
+    for (const HistoryEvent& event : changes.history)
+        if (const auto* edit = std::get_if<LoggedEdit>(&event))
+            server.history.stamps.hear(edit->timeMs, clients.now);
     applyHistory(server.sharing, session, clients, edits, changes);
     const std::vector<world::ChunkPos> stored = dropTail(server.sharing, changes.saved, clients.now);
     if (edits.onChanged && !stored.empty()) edits.onChanged(stored);
@@ -162,6 +165,7 @@ void tick(ServerState& server, Time now) {
     SharingState& sharing = server.sharing;
     clients.now = std::max(clients.now, now);
     ++clients.tick;
+    history.stamps.begin(clients.now);
     applySharedChanges(server);
     sendChangedBlocks(clients, edits, session.world(), std::exchange(server.changed, {}));
     updateLogins(clients, server.password, server.offer, server.jobs);

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "terrane/base/names.h"
+#include "terrane/base/text.h"
 #include "terrane/net/server/server.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_history.h"
@@ -176,7 +177,7 @@ std::string rollbackLine(ServerHistory& history, const KnownPlayers& players, Ti
         return "an area is four whole numbers: X0 Y0 X1 Y1";
     }
     const auto count = startRollback(history, filter, static_cast<std::int64_t>(*minutes * 60000), now);
-    return count ? fmt::format("rolling back {} blocks; what changed since stays", *count)
+    return count ? fmt::format("rolling back {}; what changed since stays", base::counted(*count, "block"))
                  : count.error().message;
 }
 

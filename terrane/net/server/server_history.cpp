@@ -1,8 +1,11 @@
 #include "terrane/net/server/server_history.h"
 
+#include <algorithm>
+#include <chrono>
 #include <map>
 
 #include "terrane/base/log.h"
+#include "terrane/base/text.h"
 #include "terrane/game/player_state.h"
 #include "terrane/net/sharing/server_sharing.h"
 
@@ -12,31 +15,49 @@ namespace {
 // Chunks of a rollback per tick: some milliseconds.
 constexpr std::size_t kRollbackChunks = 8;
 
-// The newest edit that the filter selects; none if there is no such edit.
-base::Result<std::optional<LoggedEdit>> newestOf(ServerRecords& records, const EditFilter& filter) {
-    std::optional<LoggedEdit> newest;
-    const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
-        newest = edit;
-        return base::fail("found");  // ends the search
+ForEachEdit readerOf(ServerRecords& records) {
+    return [&records](const EditFilter& selected, EditOrder order, const UseEdit& use) {
+        return records.forEachEdit(selected, order, use);
     };
-    const auto searched = records.forEachEdit(filter, EditOrder::NewestFirst, take);
-    if (!searched && !newest) return tl::unexpected(searched.error());
-    return newest;
+}
+
+// Warns once while the system's clock is behind the stamps.
+void warnIfBehind(StampClock& stamps, std::int64_t newestMs, std::int64_t systemMs) {
+    const std::int64_t ahead = newestMs - systemMs;
+    const bool isBehind = ahead > kWarnedOfDateMs;
+    if (isBehind && !stamps.isBehind)
+        base::logWarning(
+            "the newest edit of the history has a date {} ahead of the clock: the clock is wrong, or "
+            "was; new edits are dated after it",
+            base::counted(static_cast<std::uint64_t>(ahead / 60'000), "minute"));
+    stamps.isBehind = isBehind;
 }
 
 }  // namespace
 
+std::int64_t StampClock::at(Time now) {
+    begin(now);
+    const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now - newestAt);
+    newestAt += since;  // in whole milliseconds, so that no part of one is lost
+    newestMs += since.count();
+    const std::int64_t system = systemMs();
+    warnIfBehind(*this, newestMs, system);
+    return newestMs = std::max(newestMs, system);
+}
+
+void StampClock::hear(std::int64_t stampMs, Time now) {
+    begin(now);
+    const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now - newestAt);
+    if (stampMs <= newestMs + since.count()) return;
+    newestMs = std::min(stampMs, kLastDateMs);
+    newestAt = now;
+}
+
 void startStamps(ServerHistory& history) {
-    constexpr std::int64_t kWarnedMs = 60'000;
-    const auto newest = newestOf(history.records, {});
+    const auto newest = newestEdit(readerOf(history.records), {});
     if (!newest || !*newest) return;  // none; who reads the history hears of damage
-    history.stamps.newestMs = (*newest)->timeMs;
-    const std::int64_t ahead = history.stamps.newestMs - nowMs();
-    if (ahead > kWarnedMs)
-        base::logWarning(
-            "the newest edit of the history has a date {} minutes ahead of the clock: the clock is wrong, or "
-            "was; new edits are dated after it",
-            ahead / 60'000);
+    history.stamps.newestMs = std::min((*newest)->timeMs, kLastDateMs);
+    warnIfBehind(history.stamps, history.stamps.newestMs, history.stamps.systemMs());
 }
 
 void logChanges(ServerHistory& history, SharingState& sharing, game::PlayerId player, Time now,
@@ -65,8 +86,8 @@ base::Result<bool> restoreEdits(ServerHistory& history, game::Session& session) 
         (void)session.pipeline().chunkAt(pos);
         session.setBlocks(placedBlocks(pos, blocks));
     }
-    base::logInfo("{} chunks brought back from the history, edits {} to {}", chunks.size(), ends.saved + 1,
-                  ends.newest);
+    base::logInfo("{} brought back from the history, edits {} to {}", base::counted(chunks.size(), "chunk"),
+                  ends.saved + 1, ends.newest);
     return true;
 }
 
@@ -96,12 +117,8 @@ base::Result<std::size_t> startRollback(ServerHistory& history, EditFilter filte
                                         Time now) {
     // The reader sees only durable edits.
     TERRANE_TRY(history.records.flush());
-    const std::int64_t sinceMs = history.stamps.at(now) - ms;
-    const auto before = TERRANE_TRY(newestOf(history.records, {.untilMs = sinceMs - 1}));
-    if (before) filter.afterNumber = before->number;
-    const auto forEachEdit = [&](const EditFilter& selected, EditOrder order, const UseEdit& use) {
-        return history.records.forEachEdit(selected, order, use);
-    };
+    const ForEachEdit forEachEdit = readerOf(history.records);
+    TERRANE_TRY(selectSince(filter, forEachEdit, history.stamps.at(now) - ms));
     auto plan = TERRANE_TRY(rollback(forEachEdit, filter));
     // Each block occurs once in the plan. Parts of earlier rollbacks stay separate, even of the same chunk.
     const std::size_t first = history.rollbacks.size();
@@ -138,8 +155,8 @@ void continueRollbacks(ServerHistory& history, SharingState& sharing, game::Sess
         if (!blocks.empty()) history.rollbacks.push_back(std::move(settling));
     }
     if (!history.rollbacks.empty()) return;
-    base::logInfo("{} blocks rolled back; {} that changed since stay", history.rolledBack,
-                  history.keptByRollbacks);
+    base::logInfo("{} rolled back; {} that changed since {}", base::counted(history.rolledBack, "block"),
+                  history.keptByRollbacks, history.keptByRollbacks == 1 ? "stays" : "stay");
     history.rolledBack = history.keptByRollbacks = 0;
 }
 

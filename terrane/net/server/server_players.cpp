@@ -7,6 +7,7 @@
 #include "terrane/base/log.h"
 #include "terrane/base/match.h"
 #include "terrane/base/names.h"
+#include "terrane/base/text.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_commands.h"
 #include "terrane/net/server/server_console.h"
@@ -88,7 +89,7 @@ std::string unmarkPlace(ServerPlaces& places, std::string_view typed) {
 
 std::string placeList(const ServerPlaces& places) {
     const std::vector<game::Place> all = game::savedPlaces(places.store);
-    std::string text = fmt::format("{} places", all.size());
+    std::string text = base::counted(all.size(), "place");
     for (const game::Place& place : all) {
         const auto& at = place.pose.position;
         text += fmt::format("\n{} at {:.0f} {:.0f} {:.0f}", place.name, at.x, at.y, at.z);
@@ -110,9 +111,8 @@ std::string markHere(ServerPlaces& places, const ServerClient& client, std::stri
         if (hasPlace(all, *name))
             return fmt::format("there is a place {} of another: only operators can move it", *name);
         if (own->size() >= places.settings.maxPlacesOfPlayer)
-            return fmt::format(
-                "you have named {} places, the maximum of a player: remove one with /unmark NAME",
-                own->size());
+            return fmt::format("you have named {}, the maximum of a player: remove one with /unmark NAME",
+                               base::counted(own->size(), "place"));
         if (all.size() + kPlacesOfOperators >= game::kMaxPlaces)
             return fmt::format("there are {} named places: only operators can name more", all.size());
     }

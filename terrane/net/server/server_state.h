@@ -142,17 +142,21 @@ struct RollbackPart {
 };
 
 // Stamps of edits, milliseconds since 1970, that never go back: by the system's clock, but at least as late
-// as the history's newest edit and the time since then. A wrong date thus moves stamps once, and durations
-// between them stay right.
+// as the last stamp and the time since then on the steady clock. A wrong date thus moves stamps once, and
+// durations between them stay right, also if the clock is set while the server runs.
 struct StampClock {
-    std::int64_t newestMs = 0;  // stamp of the history's newest edit when the server started
-    Time startedAt{};           // first time that the server knew
+    std::function<std::int64_t()> systemMs = nowMs;  // the system's clock
+    std::int64_t newestMs = 0;                       // the last stamp, at first that of the newest edit
+    Time newestAt{};                                 // when it was given; unknown at first
+    bool isBehind = false;                           // the system's clock is; warned of it
 
-    std::int64_t at(Time now) {
-        if (startedAt == Time{}) startedAt = now;
-        const auto since = std::chrono::duration_cast<std::chrono::milliseconds>(now - startedAt);
-        return std::max(nowMs(), newestMs + since.count());
+    // Call when the server begins to run, so that time without edits counts.
+    void begin(Time now) {
+        if (newestAt == Time{}) newestAt = now;
     }
+    std::int64_t at(Time now);
+    // Takes a stamp of another server of the world, so that later ones of this server are not before it.
+    void hear(std::int64_t stampMs, Time now);
 };
 
 // The edit history, and the progress of saving its edits to the world's store. `newest` and `saved` are 0 if

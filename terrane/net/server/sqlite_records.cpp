@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/base/timing.h"
 #include "terrane/game/player_state.h"
 #include "terrane/net/server/server_records.h"
 #include "terrane/store/chunks/chunk_key.h"
@@ -20,8 +21,7 @@ std::string queryOf(const EditFilter& filter, EditOrder order) {
     std::string sql = fmt::format("SELECT number, time, player, chunk, blocks FROM edits WHERE number > {}",
                                   filter.afterNumber);
     if (filter.player) sql += fmt::format(" AND player = {}", *filter.player);
-    if (filter.sinceMs) sql += fmt::format(" AND time >= {}", *filter.sinceMs);
-    if (filter.untilMs) sql += fmt::format(" AND time < {}", *filter.untilMs);
+    if (filter.beforeMs) sql += fmt::format(" AND time < {}", *filter.beforeMs);
     if (filter.area) {
         const KeyRange keys = chunkKeys(*filter.area);
         sql += fmt::format(" AND chunk BETWEEN {} AND {}", keys.first, keys.last);
@@ -171,9 +171,20 @@ base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
 // Failed writes are kept and tried again, at the end once.
 void ServerFile::run() {
     std::vector<Write> writes;
+    base::FailureReport report(base::kQuietAfterFailure);
     std::unique_lock lock(mutex_);
+    const auto isDue = [&] { return isEnding_ || !waiting_.empty() || !writes.empty(); };
+    const auto reportIfEnded = [&] {
+        if (report.hasEnded(std::chrono::steady_clock::now()))
+            base::logInfo("{}: it works again", writer_.path());
+    };
     while (true) {
-        wake_.wait(lock, [&] { return isEnding_ || !waiting_.empty() || !writes.empty(); });
+        if (report.reportAt() == base::FailureReport::Time::max()) {
+            wake_.wait(lock, isDue);
+        } else if (!wake_.wait_until(lock, report.reportAt(), isDue)) {
+            reportIfEnded();
+            continue;
+        }
         const bool isLast = isEnding_;
         std::ranges::move(waiting_, std::back_inserter(writes));
         waiting_.clear();
@@ -186,8 +197,9 @@ void ServerFile::run() {
             writes.clear();
             durable_ = number;
             problem_.clear();
+            reportIfEnded();
         } else {
-            if (problem_.empty()) base::logError("{}", done.error().message);
+            if (report.hasBegun()) base::logError("{}", done.error().message);
             problem_ = done.error().message;
         }
         written_.notify_all();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "terrane/base/log.h"
+#include "terrane/base/text.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/server/server_view.h"
 #include "terrane/net/wire/wire.h"
@@ -63,8 +64,8 @@ void setOtherServers(SharingState& sharing, ServerClients& clients, std::vector<
         }
         if (sharing.forgotten.contains(other.number) || std::ranges::any_of(sharing.orphans, isItsOwn))
             continue;
-        base::logInfo("the server {} is gone; {} chunks that it changed are saved here", other.name,
-                      other.unsaved.size());
+        base::logInfo("the server {} is gone; saved here: {} that it changed", other.name,
+                      base::counted(other.unsaved.size(), "chunk"));
         sharing.orphans.push_back({other.number, sharing.newest, other.unsaved});
     }
     // A server without an address cannot be reached by clients.
