@@ -4,6 +4,7 @@
 #include <boost/asio/post.hpp>
 #include <chrono>
 #include <map>
+#include <random>
 #include <utility>
 
 #include "terrane/base/digest.h"
@@ -37,6 +38,12 @@ std::map<std::string, Response, std::less<>> pageAnswers() {
 }  // namespace
 
 struct MapSite::Impl {
+    // Below 2^52, since pages count in doubles.
+    static std::uint64_t firstEdit() {
+        std::random_device random;
+        return (std::uint64_t{random()} << 32 | random()) & ((std::uint64_t{1} << 52) - 1);
+    }
+
     // A timer that is due once per interval.
     class Every {
       public:
@@ -86,11 +93,9 @@ struct MapSite::Impl {
     EventHub events;
     std::unique_ptr<WebServer> server;
     VisibleChanges changes;
-    // Number of the last event of edits. Starts with the current time, so that numbers of different runs
-    // differ.
-    std::uint64_t edits = static_cast<std::uint64_t>(std::chrono::duration_cast<std::chrono::milliseconds>(
-                                                         std::chrono::system_clock::now().time_since_epoch())
-                                                         .count());
+    // Number of the last event of edits. Starts with a random number, so that numbers of different runs
+    // differ, whatever the clocks say.
+    std::uint64_t edits = firstEdit();
     Every editsEvery{kEditsEvery}, placesEvery{kPlacesEvery}, keepAliveEvery{kKeepAliveEvery},
         problemsEvery{kProblemsEvery};
     MarkerList players{parts.players}, places{parts.places};
