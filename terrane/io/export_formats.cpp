@@ -131,7 +131,7 @@ base::Result<SurfaceHeights> readHeights(const ExportSource& source, const Progr
     const world::BlockBox& box = source.box;
     const std::int64_t width = std::int64_t{box.high.x} - box.low.x + 1;
     const std::int64_t height = std::int64_t{box.high.y} - box.low.y + 1;
-    if (width * height > base::kMaxImagePixels)
+    if (width > base::kMaxImagePixels / height)  // the product may overflow
         return base::fail(base::ErrorCode::OutOfResources, "{}×{} columns are more than {}", width, height,
                           base::kMaxImagePixels);
     SurfaceHeights heights{static_cast<int>(width), static_cast<int>(height), {}};

@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "terrane/shared/constants.h"
@@ -96,12 +97,17 @@ constexpr std::int64_t chunkDistance(ChunkPos a, ChunkPos b) {
     return ax > ay ? ax : ay;
 }
 
-// All blocks from corner to corner, both included; in each coordinate low ≤ high. At most 2^63 blocks.
+// All blocks from corner to corner, both included; in each coordinate low ≤ high.
 struct BlockBox {
     BlockPos low, high;
 
+    // Of a box with more than 2^63 - 1 blocks, such as the whole world, that number.
     std::int64_t blockCount() const {
-        return (std::int64_t{high.x} - low.x + 1) * (std::int64_t{high.y} - low.y + 1) * (high.z - low.z + 1);
+        constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+        const std::int64_t width = std::int64_t{high.x} - low.x + 1, depth = std::int64_t{high.y} - low.y + 1,
+                           height = std::int64_t{high.z} - low.z + 1;
+        const bool fits = width <= 0 || depth <= 0 || height <= 0 || width <= kMost / depth / height;
+        return fits ? width * depth * height : kMost;
     }
     // Returns block `number` in the order of z, y, x; 0 ≤ number < blockCount().
     BlockPos blockAt(std::int64_t number) const {

@@ -1,20 +1,28 @@
 #include "terrane/world/pose.h"
 
+#include <algorithm>
 #include <cmath>
-#include <glm/common.hpp>
 #include <glm/trigonometric.hpp>
+#include <limits>
 
 namespace terrane::world {
 
+namespace {
+
+// The nearest 32-bit number; the conversion of others is undefined.
+std::int32_t floorToInt(double v) {
+    constexpr std::numeric_limits<std::int32_t> kRange;
+    return static_cast<std::int32_t>(std::clamp<double>(std::floor(v), kRange.min(), kRange.max()));
+}
+
+}  // namespace
+
 ChunkPos chunkOf(const glm::dvec3& position) {
-    return {static_cast<std::int32_t>(std::floor(position.x / kChunkSize)),
-            static_cast<std::int32_t>(std::floor(position.y / kChunkSize))};
+    return {floorToInt(position.x / kChunkSize), floorToInt(position.y / kChunkSize)};
 }
 
 BlockPos blockOf(const glm::dvec3& position) {
-    const glm::dvec3 corner = glm::floor(position);
-    return {static_cast<std::int32_t>(corner.x), static_cast<std::int32_t>(corner.y),
-            static_cast<std::int32_t>(corner.z)};
+    return {floorToInt(position.x), floorToInt(position.y), floorToInt(position.z)};
 }
 
 glm::vec3 lookDirection(float yaw, float pitch) {

@@ -17,8 +17,10 @@ struct Pose {
     bool operator==(const Pose&) const = default;
 };
 
+// The chunk and the block that a position lies in. Beyond the world it is the nearest one that has 32-bit
+// coordinates; such a chunk is not in the world. No coordinate is NaN.
 ChunkPos chunkOf(const glm::dvec3& position);
-BlockPos blockOf(const glm::dvec3& position);  // the block that it lies in
+BlockPos blockOf(const glm::dvec3& position);
 glm::vec3 lookDirection(float yaw, float pitch);
 glm::vec3 rightDirection(float yaw);
 

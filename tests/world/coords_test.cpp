@@ -112,6 +112,19 @@ TEST(BlockBox, HasEachBlockOnceFromBelow) {
     EXPECT_EQ(seen.size(), 24u);
 }
 
+// Corners may be anywhere: a player selects them at both ends of the world.
+TEST(BlockBox, CountsBlocksUpToTheLargestNumber) {
+    constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max(), kSide = std::int64_t{1} << 32;
+    EXPECT_EQ((BlockBox{{kLowest, kLowest, 0}, {kHighest, kHighest, 0}}.blockCount()), kMost);
+    EXPECT_EQ((BlockBox{{kLowest, kLowest, 0}, {kHighest, kHighest, 255}}.blockCount()), kMost);
+    EXPECT_EQ((BlockBox{{kLowest, 0, 0}, {kHighest, 0, 255}}.blockCount()), kSide * 256);
+    EXPECT_EQ((BlockBox{{kLowest, 0, 0}, {kHighest, kHighest, 0}}.blockCount()), kMost) << "2^63";
+    EXPECT_EQ((BlockBox{{kHighest, kLowest, 9}, {kHighest, kLowest, 9}}.blockCount()), 1);
+    const BlockBox last{{kHighest - 1, kHighest - 2, 254}, {kHighest, kHighest, 255}};
+    EXPECT_EQ(last.blockCount(), 12);
+    EXPECT_EQ(last.blockAt(11), last.high);
+}
+
 TEST(Coords, AnAreaOfALevelCoversTheChunks) {
     const ChunkArea area{-70, 0, 58, 64};
     const auto expect = [&](int level, const ChunkArea& right) {

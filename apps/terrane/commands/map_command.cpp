@@ -49,8 +49,9 @@ base::Result<void> writeMap(MapOptions& options) {
     const int level = chosenLevel(options, chosen);
     const world::ChunkArea area = world::areaOver(chosen, level);
     if (area.chunkCount() > kMaxChunksInMap) {
-        return base::fail("{} chunks, a map shows at most {}; a higher --level shows more land",
-                          area.chunkCount(), kMaxChunksInMap);
+        return base::fail(
+            "{} chunks of level {}, a map shows at most {}; {}", area.chunkCount(), level, kMaxChunksInMap,
+            level < world::kMaxLevel ? "a higher --level shows more land" : "choose a smaller --area");
     }
     const auto world = io::openMapWorld(options.world, options.save, options.resourcePack);
     if (!world) return tl::unexpected(world.error());

@@ -318,9 +318,12 @@ void drawBox(const ScreenProjection& projection, const BlockBox& box, double gro
         }
 }
 
-std::string sizeText(const Texts& tr, glm::ivec3 size) {
-    return fmt::format(fmt::runtime(tr("{} x {} x {} = {} blocks")), size.x, size.y, size.z,
-                       withCommas(std::int64_t{size.x} * size.y * size.z));
+// Of a box of any size: its corners may lie at both ends of the world.
+std::string sizeText(const Texts& tr, const BlockBox& box) {
+    const auto side = [](std::int32_t low, std::int32_t high) { return std::int64_t{high} - low + 1; };
+    return fmt::format(fmt::runtime(tr("{} x {} x {} = {} blocks")), side(box.low.x, box.high.x),
+                       side(box.low.y, box.high.y), side(box.low.z, box.high.z),
+                       withCommas(box.blockCount()));
 }
 
 }  // namespace
@@ -343,15 +346,15 @@ void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
                                              ImGuiWindowFlags_NoCollapse |
                                              ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     if (const auto box = selection_.box()) {
-        const world::BlockPos low = box->low, high = box->high;
-        ImGui::TextUnformatted(
-            sizeText(tr, {high.x - low.x + 1, high.y - low.y + 1, high.z - low.z + 1}).c_str());
+        ImGui::TextUnformatted(sizeText(tr, *box).c_str());
     } else {
         ImGui::TextUnformatted(tr("left, right button: corners"));
     }
     ImGui::Text(tr("with: %s"), tr.block(view.session.blocks().type(view.hand)).c_str());
-    if (const auto& clipboard = selection_.clipboard())
-        ImGui::Text(tr("copied: %s"), sizeText(tr, clipboard->size).c_str());
+    if (const auto& clipboard = selection_.clipboard()) {
+        const glm::ivec3 last = clipboard->size - 1;
+        ImGui::Text(tr("copied: %s"), sizeText(tr, {{}, {last.x, last.y, last.z}}).c_str());
+    }
     const ImVec2 size(130 * uiScale(), 0);
     int column = 0;
     for (const ToolButton& button : kToolButtons) {
