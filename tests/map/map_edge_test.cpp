@@ -73,7 +73,7 @@ TEST_P(MapEdgeTest, AllLayersAtAllZooms) {
 
 TEST_P(MapEdgeTest, TheIsometricViewAtAllZooms) {
     for (int zoom = kMinZoom; zoom <= kMaxZoom; ++zoom) {
-        const glm::dvec2 pixel = GetParam().isometricPixel(zoom, 40) / double{kTilePixels};
+        const glm::dvec2 pixel = GetParam().isometricPixel(zoom, 0) / double{kTilePixels};
         const MapTile tile{Layer::Isometric, zoom, static_cast<std::int32_t>(std::floor(pixel.x)),
                            static_cast<std::int32_t>(std::floor(pixel.y))};
         ASSERT_TRUE(isInWorld(tile)) << zoom;

@@ -281,11 +281,11 @@ TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
 
 // The clock is set back by an hour while the server runs: the last seconds are still the last seconds.
 TEST_F(ServerTest, ARollbackOfSecondsAfterTheClockWasSetBack) {
+    std::int64_t systemMs = nowMs();
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));
     ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
     ServerHistory& history = server.state().history;
-    std::int64_t systemMs = nowMs();
     history.stamps.systemMs = [&] { return systemMs; };
     const world::BlockPos early = above(ann), late = above(ann, 3);
     ASSERT_EQ(ann.put(early, "glass"), game::EditResult::Applied);
