@@ -7,6 +7,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/base/match.h"
+#include "terrane/game/spawn.h"
 #include "terrane/net/server/server_clients.h"
 #include "terrane/net/sharing/other_servers.h"
 #include "terrane/net/wire/security.h"
@@ -171,23 +172,35 @@ void finishPasswordCheck(ServerClients& clients, ServerPassword& password, const
     refuse(clients, found->second, Refusal::Password, "the password is wrong");
 }
 
-// On top of a random column around the spawn.
-world::Pose newcomersPose(const gen::Generator& generator, const world::Pose& spawn, int radius) {
-    if (radius == 0) return spawn;
-    std::uint64_t bits = 0;
-    fillRandom(std::as_writable_bytes(std::span(&bits, 1)));
-    const auto away = [&](std::uint64_t part) {
-        return static_cast<int>(part % static_cast<std::uint64_t>(2 * radius + 1)) - radius;
+// The bodies of all players of the world.
+std::vector<world::Aabb> bodiesOf(const ServerClients& clients) {
+    std::vector<world::Aabb> bodies;
+    const auto add = [&](const world::Pose& pose) {
+        bodies.push_back(world::characterBox(pose.position - glm::dvec3(0, 0, world::kEyeHeight)));
     };
+    for (const auto& [player, connection] : clients.playing) add(poseOf(clients.all.at(connection).pose));
+    for (const auto& [player, elsewhere] : clients.elsewhere) add(poseOf(elsewhere.at.pose));
+    return bodies;
+}
+
+// A free place at the spawn, or around a random column that is at most `radius` blocks away.
+world::Pose newcomersPose(game::Session& session, const ServerClients& clients, const world::Pose& spawn) {
     world::Pose pose = spawn;
-    pose.position.x += away(bits & 0xFFFFFFFF);
-    pose.position.y += away(bits >> 32);
-    const world::BlockPos below = world::blockOf(pose.position);
-    const world::Chunk chunk = generator.generate(world::chunkOf(below));
-    int z = world::kChunkHeight - 1;
-    while (z > 0 && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir) --z;
-    pose.position.z = z + 1 + world::kEyeHeight;
-    return pose;
+    if (const int radius = clients.settings.spawnRadius; radius > 0) {
+        std::uint64_t bits = 0;
+        fillRandom(std::as_writable_bytes(std::span(&bits, 1)));
+        const auto away = [&](std::uint64_t part) {
+            return static_cast<int>(part % static_cast<std::uint64_t>(2 * radius + 1)) - radius;
+        };
+        pose.position.x += away(bits & 0xFFFFFFFF);
+        pose.position.y += away(bits >> 32);
+        const world::BlockPos below = world::blockOf(pose.position);
+        const world::Chunk chunk = session.generator().generate(world::chunkOf(below));
+        int z = world::kChunkHeight - 1;
+        while (z > 0 && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir) --z;
+        pose.position.z = z + 1 + world::kEyeHeight;
+    }
+    return game::freePlaceNear(pose, session, bodiesOf(clients));
 }
 
 // Rate limit for new players: each adds a permanent row to the records.
@@ -233,7 +246,7 @@ void join(ServerClients& clients, ServerClient& client, game::Session& session, 
     if (!mayJoinAgain(clients, client, player.id))
         return refuse(clients, client, Refusal::TooMuch, "you join too often: try again in some seconds");
     const std::optional<world::Pose> last = lastPose(clients, player);
-    const world::Pose pose = last ? *last : newcomersPose(session.generator(), spawn, settings.spawnRadius);
+    const world::Pose pose = last ? *last : newcomersPose(session, clients, spawn);
     client.stage = Stage::Playing;
     client.player = player.id;
     client.role = player.role;
