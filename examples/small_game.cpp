@@ -131,7 +131,7 @@ base::Result<void> play(GLFWwindow* window, game::SessionParts parts) {
 
     game::Session session(std::move(parts));
     session.pipeline().setMeshOptions(graphics.mesh);
-    game::Player player(game::findSpawn(session.generator(), session.blocks()), game::Movement::Gravity);
+    game::Player player(game::findSpawn(session.generator(), session.blocks()), game::Movement::Walk);
     game::BlockInteraction hands(session.blocks());
     int collected = 0;
     const world::BlockId ore = session.blocks().find("glowing_ore")->id;

@@ -29,7 +29,7 @@ class Player:
         (data / "bookmarks.txt").write_text(POSES[name] + "\n")
         self.display, self.name = display, name
         self.game = window_support.Game(display, folder / name, (
-            "--connect", f"127.0.0.1:{server.port}", "--name", name, "--movement", "fast", "--view-distance", "6", "--preset",
+            "--connect", f"127.0.0.1:{server.port}", "--name", name, "--movement", "noclip", "--view-distance", "6", "--preset",
             "medium", "--size", f"{SIZE[0]}x{SIZE[1]}"))
         self.game.open()
         self.game.wait_for_image(SIZE)

@@ -24,7 +24,7 @@ glm::vec2 directionOf(const MoveKeys& keys) {
 }  // namespace
 
 std::optional<world::Aabb> Player::body() const {
-    if (movement_ == Movement::Fast || movement_ == Movement::Medium) return std::nullopt;
+    if (movement_ == Movement::Noclip) return std::nullopt;
     return world::characterBox(now_.feet);
 }
 
@@ -44,18 +44,14 @@ void Player::turn(double right, double down) {
 void Player::move(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
                   double seconds) {
     seconds = std::min(seconds, kLongestFrame);
-    switch (movement_) {
-        case Movement::Fast:
-            return fly(keys, seconds, kFastSpeed);
-        case Movement::Medium:
-            return fly(keys, seconds, kMediumSpeed);
-        case Movement::Walls:
-        case Movement::Gravity:
-            return walk(world, blocks, keys, seconds);
-    }
+    if (movement_ == Movement::Noclip)
+        passThrough(keys, seconds);
+    else
+        moveAmongBlocks(world, blocks, keys, seconds);
 }
 
-void Player::fly(const MoveKeys& keys, double seconds, float speed) {
+void Player::passThrough(const MoveKeys& keys, double seconds) {
+    const float speed = keys.run ? kNoclipRunSpeed : kNoclipSpeed;
     const glm::vec2 along = directionOf(keys);
     const glm::vec3 motion = world::lookDirection(pose_.yaw, pose_.pitch) * along.y +
                              world::rightDirection(pose_.yaw) * along.x +
@@ -68,8 +64,8 @@ void Player::fly(const MoveKeys& keys, double seconds, float speed) {
     pose_.position.z = std::clamp(pose_.position.z, -64.0, 1024.0);
 }
 
-void Player::walk(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
-                  double seconds) {
+void Player::moveAmongBlocks(const world::World& world, const world::BlockRegistry& blocks,
+                             const MoveKeys& keys, double seconds) {
     const double yaw = glm::radians(double{pose_.yaw});
     const glm::dvec2 ahead(std::cos(yaw), std::sin(yaw)), right(ahead.y, -ahead.x);
     const glm::vec2 along = directionOf(keys);
@@ -79,7 +75,7 @@ void Player::walk(const world::World& world, const world::BlockRegistry& blocks,
                                       .runs = keys.run,
                                       .jumps = keys.jump || keys.up,
                                       .dives = keys.down,
-                                      .hasGravity = movement_ == Movement::Gravity,
+                                      .hasGravity = movement_ == Movement::Walk,
                                       .autoJump = keys.autoJump};
     untilStep_ += seconds;
     for (; untilStep_ >= world::kStepSeconds; untilStep_ -= world::kStepSeconds) {

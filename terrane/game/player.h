@@ -1,6 +1,7 @@
 // Moves a player, flying or on foot among blocks: input goes in, the pose comes out.
 #pragma once
 
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <optional>
 
@@ -10,10 +11,9 @@
 namespace terrane::game {
 
 enum class Movement : std::uint8_t {
-    Fast,     // through everything
-    Medium,   // the same, slower
-    Walls,    // at walking speed, flying, but not through blocks
-    Gravity,  // on foot
+    Walk,    // on foot
+    Fly,     // not through blocks
+    Noclip,  // flying through everything
 };
 
 struct MoveKeys {
@@ -23,7 +23,7 @@ struct MoveKeys {
     glm::vec2 stick{0};     // of a gamepad: right, forward
 };
 
-constexpr float kFastSpeed = 60, kMediumSpeed = 16;  // blocks a second
+constexpr float kNoclipSpeed = 16, kNoclipRunSpeed = 60;  // blocks a second
 
 class Player {
   public:
@@ -43,12 +43,12 @@ class Player {
               double seconds);
 
   private:
-    void fly(const MoveKeys& keys, double seconds, float speed);
-    void walk(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
-              double seconds);
+    void passThrough(const MoveKeys& keys, double seconds);
+    void moveAmongBlocks(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
+                         double seconds);
 
     world::Pose pose_;
-    Movement movement_ = Movement::Gravity;
+    Movement movement_ = Movement::Walk;
     world::Character before_, now_;  // of the last two steps
     double untilStep_ = 0;           // seconds that are not yet a whole step
 };

@@ -35,7 +35,7 @@ class Pilot {
           view_(view),
           renderer_(renderer),
           flight_(flight),
-          player_(poseOf(flight.start), game::Movement::Fast) {}
+          player_(poseOf(flight.start), game::Movement::Noclip) {}
 
     FlightLog run() {
         log_.secondsToLoad = standUntilLoaded();
@@ -43,7 +43,7 @@ class Pilot {
         log_.flightBegin = log_.frames.size();
         lastFrame_ = flightBegin;
         do {
-            frame({.forward = true});
+            frame({.forward = true, .run = true});
             log_.secondsOfFlight = secondsSince(flightBegin);
         } while (log_.secondsOfFlight < flight_.seconds);
         log_.flightEnd = log_.frames.size();

@@ -135,8 +135,9 @@ void steer(Character& c, const CharacterInput& input, double speed, double grip)
 void accelerate(Character& c, const CharacterInput& input) {
     const double upward = (input.jumps ? 1 : 0) - (input.dives ? 1 : 0);
     if (!input.hasGravity) {
-        steer(c, input, input.runs ? kRunSpeed : kWalkSpeed, kFlightGrip);
-        c.velocity.z = approach(c.velocity.z, upward * kWalkSpeed, kFlightGrip);
+        const double speed = input.runs ? kFlyRunSpeed : kFlySpeed;
+        steer(c, input, speed, kFlightGrip);
+        c.velocity.z = approach(c.velocity.z, upward * speed, kFlightGrip);
     } else if (c.isSwimming) {
         steer(c, input, kSwimSpeed, kWaterGrip);
         c.velocity.z = approach(c.velocity.z, upward * kSwimSpeed - 0.6, kWaterGrip);  // sinks slowly

@@ -40,6 +40,7 @@ bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 poin
 constexpr double kCharacterWidth = 0.6, kCharacterHeight = 1.8, kEyeHeight = 1.62;
 constexpr double kGravity = 26, kJumpSpeed = 8.15, kFallLimit = 55;
 constexpr double kWalkSpeed = 4.5, kRunSpeed = 7.5, kSwimSpeed = 3.2, kClimbSpeed = 3;
+constexpr double kFlySpeed = 11, kFlyRunSpeed = 22;
 constexpr double kStepHeight = 0.6;  // walked up without a jump
 constexpr double kStepSeconds = 1.0 / 120;
 
@@ -56,7 +57,7 @@ struct Character {
 struct CharacterInput {
     glm::dvec2 direction{0};
     bool runs = false, jumps = false, dives = false;
-    bool hasGravity = true;  // else up and down are `jumps` and `dives`, at walking speed
+    bool hasGravity = true;  // else it flies; up and down are `jumps` and `dives`
     bool autoJump = false;   // onto a block that is in the way
 };
 

@@ -14,18 +14,26 @@ using testing::IsEmpty;
 TEST(KeyBindings, TheTableIsInTheOrderOfTheActions) {
     std::set<std::string_view> names, labels;
     std::set<Key> keys;
+    std::set<PadButton> buttons;
+    std::size_t withKey = 0, withButton = 0;
     for (std::size_t k = 0; k < kActionCount; ++k) {
         const ActionRow& row = actionTable()[k];
         EXPECT_EQ(row.action, static_cast<Action>(k));
         EXPECT_EQ(&rowOf(row.action), &row);
-        EXPECT_TRUE(canBeBound(row.key));
+        EXPECT_TRUE(row.key || row.pad) << row.name;
+        if (row.key) EXPECT_TRUE(canBeBound(*row.key));
+        if (row.pad) EXPECT_TRUE(canBeBound(*row.pad));
         names.insert(row.name);
         labels.insert(row.label);
-        keys.insert(row.key);
+        if (row.key) keys.insert(*row.key);
+        if (row.pad) buttons.insert(*row.pad);
+        withKey += row.key ? 1 : 0;
+        withButton += row.pad ? 1 : 0;
     }
     EXPECT_EQ(names.size(), kActionCount);
     EXPECT_EQ(labels.size(), kActionCount);
-    EXPECT_EQ(keys.size(), kActionCount) << "two actions have the same usual key";
+    EXPECT_EQ(keys.size(), withKey) << "two actions have the same usual key";
+    EXPECT_EQ(buttons.size(), withButton) << "two actions have the same usual button";
 }
 
 TEST(KeyBindings, EveryKeyHasOneName) {
@@ -93,6 +101,56 @@ TEST(KeyBindings, WrongTextsAreNamed) {
     EXPECT_EQ(problem("jump=Hyper"), "jump: \"Hyper\" is no key that can be chosen");
     EXPECT_EQ(problem("jump=Escape"), "jump: \"Escape\" is no key that can be chosen");
     EXPECT_EQ(problem("run=R,,jump=F"), "expected ACTION=KEY, got \"\"");
+}
+
+TEST(KeyBindings, MouseButtonsBeyondThreeAreKeys) {
+    EXPECT_EQ(keyNamed("mouse4"), Key::Mouse4);
+    const auto keys = keyBindingsFrom("break=Mouse4,chat=Mouse5");
+    ASSERT_TRUE(keys);
+    EXPECT_EQ(keys->actionOf(Key::Mouse4), Action::Break);
+    EXPECT_EQ(textOf(*keys), "chat=Mouse5,break=Mouse4");
+}
+
+TEST(PadBindings, EveryButtonHasOneNameAndOneMember) {
+    std::set<std::string_view> names, labels;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(PadButton::kCount); ++k) {
+        const PadButton button = static_cast<PadButton>(k);
+        EXPECT_EQ(rowOf(button).button, button);
+        EXPECT_EQ(padButtonNamed(nameOf(button)), button);
+        names.insert(nameOf(button));
+        labels.insert(rowOf(button).label);
+        Gamepad pad;
+        pad.*rowOf(button).member = true;
+        PadReader reader;
+        reader.read(pad);
+        EXPECT_EQ(reader.pressed(), button);
+    }
+    EXPECT_EQ(names.size(), static_cast<std::size_t>(PadButton::kCount));
+    EXPECT_EQ(labels.size(), names.size());
+    EXPECT_EQ(padButtonNamed("leftstick"), PadButton::LeftStick);
+}
+
+TEST(PadBindings, AreBoundAsKeysAre) {
+    PadBindings pad;
+    EXPECT_EQ(pad.actionOf(PadButton::South), Action::Jump);
+    EXPECT_EQ(pad.bind(Action::Break, PadButton::South), Action::Jump);
+    EXPECT_EQ(pad.keyOf(Action::Jump), std::nullopt);
+    EXPECT_EQ(pad.bind(Action::Jump, PadButton::Start), std::nullopt) << "it opens the menu";
+    EXPECT_EQ(pad.keyOf(Action::Jump), std::nullopt);
+    EXPECT_EQ(textOf(pad), "jump=none,break=South");
+    EXPECT_EQ(*padBindingsFrom(textOf(pad)), pad);
+    EXPECT_EQ(textOf(PadBindings()), "");
+}
+
+TEST(PadBindings, WrongTextsAreNamed) {
+    const auto problem = [](const char* text) {
+        const auto read = padBindingsFrom(text);
+        return read ? "none" : read.error().message;
+    };
+    EXPECT_EQ(problem("jump"), "expected ACTION=BUTTON, got \"jump\"");
+    EXPECT_EQ(problem("jump=Space"), "jump: \"Space\" is no button that can be chosen");
+    EXPECT_EQ(problem("jump=Start"), "jump: \"Start\" is no button that can be chosen");
+    EXPECT_THAT(problem("jmup=South"), HasSubstr("did you mean jump?"));
 }
 
 }  // namespace

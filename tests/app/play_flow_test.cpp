@@ -20,24 +20,31 @@ PlaySettings settingsWith(const game::SavedPlayer& saved, const GivenOptions& gi
 
 TEST(PlayFlow, AWorldBringsItsWayToMoveAndItsTextures) {
     game::SavedPlayer saved;
-    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Gravity);
+    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Walk);
     EXPECT_EQ(settingsWith(saved, {}).resourcePack, "default");
-    saved.movement = "fast";
+    for (const auto& [former, movement] : {std::pair("gravity", game::Movement::Walk),
+                                           {"walls", game::Movement::Fly},
+                                           {"medium", game::Movement::Noclip},
+                                           {"fast", game::Movement::Noclip}}) {
+        saved.movement = former;
+        EXPECT_EQ(settingsWith(saved, {}).movement, movement) << "as an earlier version saved it";
+    }
+    saved.movement = "noclip";
     saved.resourcePack = "pack";
-    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Fast);
+    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Noclip);
     EXPECT_EQ(settingsWith(saved, {}).resourcePack, "pack");
     saved.resourcePack = "";  // reset by the player
     EXPECT_EQ(settingsWith(saved, {}).resourcePack, "");
     // The command line takes precedence.
-    EXPECT_EQ(settingsWith(saved, {.movement = true}).movement, game::Movement::Gravity);
+    EXPECT_EQ(settingsWith(saved, {.movement = true}).movement, game::Movement::Walk);
     EXPECT_EQ(settingsWith(saved, {.resourcePack = true}).resourcePack, "default");
     saved.movement = "teleport\n\x1b[31m";
-    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Gravity);
+    EXPECT_EQ(settingsWith(saved, {}).movement, game::Movement::Walk);
 }
 
 TEST(PlayFlow, SettingsKeepNeither) {
     PlaySettings settings;
-    settings.movement = game::Movement::Fast;
+    settings.movement = game::Movement::Noclip;
     settings.resourcePack = "pack";
     const SettingValues values = valuesOf(settings, true);
     EXPECT_FALSE(values.contains("movement"));

@@ -39,16 +39,16 @@ class Settings : public testing::Test {
 };
 
 TEST_F(Settings, NothingIsWrittenWhereNothingChanged) {
-    ASSERT_TRUE(writeChanges(file_, {{"movement", "fast"}}, {{"movement", "fast"}}, kGraphics));
+    ASSERT_TRUE(writeChanges(file_, {{"movement", "fly"}}, {{"movement", "fly"}}, kGraphics));
     EXPECT_FALSE(std::filesystem::exists(file_));
 }
 
 TEST_F(Settings, OnlyWhatChangedIsWritten) {
     // Like `play --view-distance 40 --full-screen` and a press of M.
-    ASSERT_TRUE(writeChanges(file_, {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "walls"}},
-                             {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "gravity"}},
+    ASSERT_TRUE(writeChanges(file_, {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "fly"}},
+                             {{"view-distance", "40"}, {"full-screen", "true"}, {"movement", "walk"}},
                              kGraphics));
-    EXPECT_EQ(lines(), (Lines{"movement = 'gravity'"}));
+    EXPECT_EQ(lines(), (Lines{"movement = 'walk'"}));
 }
 
 TEST_F(Settings, WhatTheFileHasBesidesStays) {
@@ -74,7 +74,7 @@ TEST_F(Settings, CommentsAndOrderStay) {
         "# mine\n\nresource-pack = \"/ä/ö\"  # näher\n\"movement\" = 'walls' # for now\nday-minutes = 3\n"
         "clouds = 'on'  # gone\n# the end");
     ASSERT_TRUE(writeChanges(
-        file_, {{"resource-pack", "/ä/ö"}, {"movement", "walls"}, {"clouds", "on"}, {"shadows", "1024"}},
+        file_, {{"resource-pack", "/ä/ö"}, {"movement", "fly"}, {"clouds", "on"}, {"shadows", "1024"}},
         {{"resource-pack", "it's \"ü\""}, {"movement", "fast"}, {"shadows", "off"}, {"view-distance", "8"}},
         kGraphics));
     EXPECT_EQ(written(),
@@ -154,7 +154,7 @@ TEST_F(Settings, AWrongValueOfAFormerNameIsNamedWithItsLine) {
 TEST_F(Settings, AByteOrderMarkIsNoLetter) {
     std::filesystem::create_directories(file_.parent_path());
     write("\xEF\xBB\xBFmovement = 'walls'\r\nday-minutes = 3\r\n");
-    ASSERT_TRUE(writeChanges(file_, {{"movement", "walls"}}, {{"movement", "fast"}}, kGraphics));
+    ASSERT_TRUE(writeChanges(file_, {{"movement", "fly"}}, {{"movement", "fast"}}, kGraphics));
     EXPECT_EQ(written(), "\xEF\xBB\xBFmovement = 'fast'\r\nday-minutes = 3\r\n");
 }
 

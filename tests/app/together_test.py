@@ -41,7 +41,7 @@ class Together(ProgramTest):
         (data / "terrane").mkdir(parents=True)
         (data / "terrane" / "bookmarks.txt").write_text(pose + "\n")
         game = window_support.Game(display, data, (
-            "--connect", f"127.0.0.1:{self.server.port}", "--name", name, "--movement", "fast", "--view-distance", "3",
+            "--connect", f"127.0.0.1:{self.server.port}", "--name", name, "--movement", "noclip", "--view-distance", "3",
             "--samples", "1", "--horizon", "0", "--size", f"{SIZE[0]}x{SIZE[1]}"))
         self.addCleanup(game.log.close)
         self.addCleanup(game.process.kill)

@@ -41,7 +41,7 @@ class Window(ProgramTest):
 
     def test_draws_flies_resizes_and_closes(self):
         with Display() as display:
-            game = self.play(display, "--movement", "fast", "--size", f"{SIZE[0]}x{SIZE[1]}", "--world", "home", *FLAT)
+            game = self.play(display, "--movement", "noclip", "--size", f"{SIZE[0]}x{SIZE[1]}", "--world", "home", *FLAT)
             saved = game.wait_for(lambda: self.setting("camera"))
             start = tuple(map(float, saved.split()[:3]))
             display.xdotool("windowsize", game.window, *LARGER)

@@ -16,7 +16,7 @@ class BlockInteractionTest : public SessionTest {
     }
 
     // Looks straight down from 5 blocks above the ground.
-    Player player_{{.position = {5.5, 5.5, kGroundHeight + 5.0}, .pitch = -89.9f}, Movement::Medium};
+    Player player_{{.position = {5.5, 5.5, kGroundHeight + 5.0}, .pitch = -89.9f}, Movement::Noclip};
     BlockInteraction interaction_{contentBlocks()};
 };
 
@@ -48,7 +48,7 @@ TEST_F(BlockInteractionTest, GrassBesideTheFaceIsReplaced) {
     session_.edit({kNoPlayer, stone, world::SetBlock{contentBlock("stone")}, {}});
     session_.edit({kNoPlayer, grass, world::SetBlock{contentBlock("grass_tuft")}, {}});
     // Over the grass, at the stone's side.
-    player_.placeAt({.position = {8.5, 5.5, kGroundHeight + 0.9}, .yaw = 180, .pitch = 0}, Movement::Fast);
+    player_.placeAt({.position = {8.5, 5.5, kGroundHeight + 0.9}, .yaw = 180, .pitch = 0}, Movement::Noclip);
     session_.setPlayer(kLocalPlayer, player_.pose());
     selectBlock(interaction_.hotbar, contentBlock("glass"));
     act(interaction_.building);
@@ -103,7 +103,7 @@ TEST_F(BlockInteractionTest, FlowingWaterIsReplacedByASourceAndNotTaken) {
 
 TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
     player_.placeAt({.position = {5.5, 5.5, kGroundHeight + world::kEyeHeight}, .pitch = -89.9f},
-                    Movement::Walls);
+                    Movement::Fly);
     session_.setPlayer(kLocalPlayer, player_.pose());
     selectBlock(interaction_.hotbar, contentBlock("stone"));
     act(interaction_.building);
@@ -111,7 +111,7 @@ TEST_F(BlockInteractionTest, NeverBuildsIntoThePlayer) {
 }
 
 TEST_F(BlockInteractionTest, NothingWithinReachChangesNothing) {
-    player_.placeAt({.position = {5.5, 5.5, kGroundHeight + 30.0}, .pitch = -89.9f}, Movement::Medium);
+    player_.placeAt({.position = {5.5, 5.5, kGroundHeight + 30.0}, .pitch = -89.9f}, Movement::Noclip);
     session_.setPlayer(kLocalPlayer, player_.pose());
     act(interaction_.breaking);
     EXPECT_FALSE(interaction_.target());

@@ -86,7 +86,7 @@ TEST_P(WorldEdgeTest, WaterAndPlantsLiveToTheLastColumn) {
 
 TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
     for (float yaw = 0; yaw < 360; yaw += 45) {
-        Player player({.position = eyes(), .yaw = yaw, .pitch = -30}, Movement::Gravity);
+        Player player({.position = eyes(), .yaw = yaw, .pitch = -30}, Movement::Walk);
         BlockInteraction interaction{contentBlocks()};
         selectBlock(interaction.hotbar, contentBlock("sand"));
         for (int k = 0; k < 200; ++k) {
@@ -97,7 +97,7 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
             interaction.building.release();
             (void)ambienceAt(session_.world(), session_.blocks(), player.pose().position);
         }
-        player.placeAt(player.pose(), Movement::Fast);
+        player.placeAt(player.pose(), Movement::Noclip);
         for (int k = 0; k < 100; ++k)
             player.move(session_.world(), session_.blocks(), {.forward = true}, 0.25);
         EXPECT_LE(std::abs(player.pose().position.x), 2147483648.0);

@@ -1,4 +1,6 @@
 // A new player's first minutes: a world from the title, a house, a pond, undo, quit and continue.
+#include <algorithm>
+
 #include "tests/window/window_fixture.h"
 
 namespace terrane::app {
@@ -65,6 +67,7 @@ TEST_F(FirstMinutesTest, AHouseAndAPond) {
         program.click("Create");
         program.untilDrawn();
         program.tap(MouseButton::Left);  // captures the mouse
+        program.press(Key::M);           // flight
         program.press(Key::M);           // through everything
         program.press(Key::B);
         fill(program, {1, 1, kFloor - 1}, {10, 10, kFloor}, Key::Digit3);       // a floor of stone bricks
@@ -96,6 +99,47 @@ TEST_F(FirstMinutesTest, AHouseAndAPond) {
     EXPECT_EQ(program.blockAt(kLamp), "lamp_white");
     expectGood(program.quit());
     expectAllIsThere("World");
+}
+
+// Whether the hint is shown; it may not be on the crosshair.
+bool isHintShown(Program& program) {
+    program.frames(3);  // until it has its size
+    const Widget* hint = program.find("first hint");
+    if (!hint) return false;
+    const glm::vec2 middle = glm::vec2(program.window().size()) / 2.0f;
+    constexpr float kCrosshair = 8;
+    EXPECT_TRUE(hint->max.x < middle.x - kCrosshair || hint->max.y < middle.y - kCrosshair)
+        << hint->max.x << "," << hint->max.y;
+    EXPECT_GE(hint->min.x, 0);
+    EXPECT_GT(hint->max.x, hint->min.x + 50);
+    return true;
+}
+
+TEST_F(FirstMinutesTest, AHintIsShownOnTheFirstStartOnly) {
+    showsHint_ = true;
+    {
+        Program program = start({"--text-size", "1.5"});
+        program.click("New world");
+        program.click("Create");
+        program.untilDrawn();
+        EXPECT_TRUE(isHintShown(program));
+        EXPECT_LE(program.game().notices.helpSeconds, 0) << "the list of keys is long";
+        program.press(Key::F1);
+        EXPECT_GT(program.game().notices.helpSeconds, 0);
+        EXPECT_FALSE(isHintShown(program));
+        program.press(Key::F1);
+        EXPECT_TRUE(isHintShown(program));
+        program.frames(static_cast<int>(Notices::kHintSeconds / OffscreenWindow::kFrameSeconds));
+        EXPECT_FALSE(isHintShown(program));
+        expectGood(program.quit());
+    }
+    EXPECT_EQ(std::ranges::count(settingsLines(), "hint-seen = 'true'"), 1);
+    Program program = start();
+    program.click("Continue World");
+    program.untilDrawn();
+    EXPECT_FALSE(isHintShown(program));
+    EXPECT_LE(program.game().notices.helpSeconds, 0);
+    expectGood(program.quit());
 }
 
 }  // namespace

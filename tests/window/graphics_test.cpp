@@ -111,17 +111,17 @@ TEST_F(GraphicsTest, KeysDoNothingElseWhileOneTypes) {
     program.release(Key::Control);
     program.type("m9");
     program.press(Key::Enter);
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Gravity);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Walk);
     EXPECT_EQ(program.game().settings.fieldOfView, 40);  // the least
     program.press(Key::M);
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Fast);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Fly);
     program.press(Key::Escape);
     expectGood(program.quit());
     EXPECT_EQ(settingsLines(), Lines{"field-of-view = '40'"});
 }
 
 TEST_F(GraphicsTest, AResourcePackIsLoadedWhileOnePlays) {
-    makeWorld("home", {{"camera", kDown}, {"movement", "medium"}});
+    makeWorld("home", {{"camera", kDown}, {"movement", "noclip"}});
     writeGrass(folder() / "pk", 255, 0);
     {
         Program program = play("home");
@@ -158,7 +158,7 @@ TEST_F(GraphicsTest, AResourcePackIsLoadedWhileOnePlays) {
 }
 
 TEST_F(GraphicsTest, ShadersAreReadAgainWhileOnePlays) {
-    makeWorld("home", {{"camera", kDown}, {"movement", "medium"}});
+    makeWorld("home", {{"camera", kDown}, {"movement", "noclip"}});
     const std::filesystem::path shaders = folder() / "root" / "terrane" / "render";
     const std::filesystem::path shader = shaders / "shading" / "shade.frag.glsl";
     const auto fill = [&](const std::string& color) {

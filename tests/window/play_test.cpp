@@ -14,7 +14,7 @@ class PlayTest : public WindowTest {
   protected:
     // In the world `name`, above its ground; the mouse turns the player.
     Program playAbove(const std::string& name, std::vector<std::string> arguments = {}) {
-        if (!exists(worldFile(name))) makeWorld(name, {{"camera", kDown}, {"movement", "medium"}});
+        if (!exists(worldFile(name))) makeWorld(name, {{"camera", kDown}, {"movement", "noclip"}});
         return play(name, std::move(arguments));
     }
 
@@ -51,14 +51,16 @@ TEST_F(PlayTest, FramesFollowTheWindow) {
 }
 
 TEST_F(PlayTest, KeysFly) {
-    Program program = playAbove("home", {"--movement", "fast"});
+    Program program = playAbove("home", {"--movement", "noclip"});
     program.untilDrawn();
     const glm::dvec3 start = program.game().player.pose().position;
+    program.hold(Key::Shift);
     program.hold(Key::W);
     program.frames(9);  // half a second
     program.release(Key::W);
     const glm::dvec3 end = program.game().player.pose().position;
     EXPECT_NEAR(glm::distance(start, end), 30, 5);
+    program.release(Key::Shift);
     program.frames(5);
     EXPECT_EQ(program.game().player.pose().position, end);
     expectGood(program.quit());
@@ -87,6 +89,147 @@ TEST_F(PlayTest, TheGamepadPlays) {
     expectGood(program.quit());
 }
 
+TEST_F(PlayTest, TwoQuickPressesOfJumpBeginAndEndFlight) {
+    makeWorld("home", {{"camera", "8.5 8.5 82.62 0 0"}});
+    Program program = play("home");
+    program.untilDrawn();
+    const auto movement = [&] { return program.game().settings.movement; };
+    const auto height = [&] { return program.game().player.pose().position.z; };
+    const double ground = height();
+    const auto pressSlowly = [&] {
+        program.press(Key::Space);
+        program.frames(10);  // half a second
+    };
+    pressSlowly();
+    pressSlowly();
+    EXPECT_EQ(movement(), game::Movement::Walk);
+    program.press(Key::Space);
+    EXPECT_EQ(movement(), game::Movement::Walk);
+    program.press(Key::Space);
+    EXPECT_EQ(movement(), game::Movement::Fly);
+    EXPECT_EQ(program.game().notices.message, "movement: flying");
+    program.hold(Key::Space);
+    program.frames(20);
+    program.release(Key::Space);
+    EXPECT_NEAR(height(), ground + world::kFlySpeed, 3);
+    const double flies = height();
+    program.frames(20);
+    EXPECT_NEAR(height(), flies, 1) << "it stays up";
+    // Both presses within one frame.
+    for (const bool isPress : {true, false, true, false}) program.window().onKey(Key::Space, isPress, {});
+    program.frames(2);
+    EXPECT_EQ(movement(), game::Movement::Walk);
+    program.frames(60);
+    EXPECT_NEAR(height(), ground, 0.01);
+    // By a gamepad.
+    for (int k = 0; k < 2; ++k) {
+        program.setPad(Gamepad{.south = true});
+        program.setPad(Gamepad{});
+    }
+    EXPECT_EQ(movement(), game::Movement::Fly);
+    expectGood(program.quit());
+    EXPECT_EQ(setting("home", "movement"), "fly");
+}
+
+TEST_F(PlayTest, FlightThroughBlocksIsTheLastMode) {
+    Program program = play("home");
+    program.untilDrawn();
+    const auto movement = [&] { return program.game().settings.movement; };
+    EXPECT_EQ(movement(), game::Movement::Walk);
+    program.press(Key::M);
+    EXPECT_EQ(movement(), game::Movement::Fly);
+    program.press(Key::M);
+    EXPECT_EQ(movement(), game::Movement::Noclip);
+    program.press(Key::Space);
+    program.press(Key::Space);
+    EXPECT_EQ(movement(), game::Movement::Noclip) << "nobody lands in a block";
+    program.press(Key::M);
+    EXPECT_EQ(movement(), game::Movement::Walk);
+    expectGood(program.quit());
+}
+
+TEST_F(PlayTest, AnUnpluggedGamepadLetsGo) {
+    Program program = playAbove("home");
+    program.untilDrawn();
+    program.setPad(Gamepad{.leftX = 1, .leftTrigger = true, .rightTrigger = true});
+    program.frames(3);
+    EXPECT_TRUE(program.game().interaction.breaking.isDown());
+    EXPECT_TRUE(program.game().interaction.building.isDown());
+    program.setPad({});
+    EXPECT_FALSE(program.game().interaction.breaking.isDown());
+    EXPECT_FALSE(program.game().interaction.building.isDown());
+    const world::Pose pose = program.game().player.pose();
+    program.frames(10);
+    EXPECT_EQ(program.game().player.pose(), pose) << "it walks no farther";
+    // While the menu is open, too.
+    program.setPad(Gamepad{.rightTrigger = true});
+    program.setPad(Gamepad{.rightTrigger = true, .start = true});
+    program.widget("Paused");
+    program.setPad({});
+    program.setPad(Gamepad{.east = true});
+    program.setPad(Gamepad{});
+    EXPECT_FALSE(program.game().menu.isPaused);
+    EXPECT_FALSE(program.game().interaction.breaking.isDown());
+    expectGood(program.quit());
+}
+
+TEST_F(PlayTest, GamepadButtonsAreRebound) {
+    {
+        Program program = playAbove("home", {"--size", "640x480"});
+        program.untilDrawn();
+        program.press(Key::Escape);
+        program.click("Settings");
+        program.click("Controls");
+        EXPECT_EQ(program.widget("pad", "break").label, "Right trigger###pad");
+        program.click("pad", "break");
+        program.setPad(Gamepad{.south = true});  // activates nothing, though a button is in focus
+        program.frames(3);
+        program.setPad(Gamepad{});
+        program.frames(2);
+        EXPECT_EQ(program.widget("pad", "break").label, "Lower button###pad");
+        EXPECT_EQ(program.widget("pad", "jump").label, "none###pad");
+        program.click("pad", "jump");
+        program.setPad(Gamepad{.start = true});  // cancels
+        program.setPad(Gamepad{});
+        program.frames(2);
+        EXPECT_EQ(program.widget("pad", "jump").label, "none###pad");
+        EXPECT_TRUE(program.isShown("Controls")) << "it does not close the menu";
+        program.click("pad", "jump");
+        program.press(Key::Escape);  // cancels, too
+        EXPECT_TRUE(program.isShown("Controls"));
+        program.press(Key::Escape);
+        program.press(Key::Escape);
+        program.setPad(Gamepad{.south = true});
+        program.until("a block is broken", [&] { return program.blockAt(kGround) == "air"; });
+        program.setPad({});
+        expectGood(program.quit());
+    }
+    EXPECT_EQ(std::ranges::count(settingsLines(), "pad-buttons = 'jump=none,break=South'"), 1);
+    Program program = playAbove("home");
+    program.untilDrawn();
+    EXPECT_EQ(program.game().settings.padButtons.keyOf(Action::Break), PadButton::South);
+    expectGood(program.quit());
+}
+
+TEST_F(PlayTest, FurtherMouseButtonsAreKeys) {
+    Program program = playAbove("home", {"--keys", "break=Mouse4,palette=Mouse5"});
+    program.untilDrawn();
+    program.window().onMouseButton(3, true, {});
+    program.until("a block is broken", [&] { return program.blockAt(kGround) == "air"; });
+    EXPECT_TRUE(program.game().interaction.breaking.isDown());
+    program.window().onMouseButton(3, false, {});
+    program.frames();
+    EXPECT_FALSE(program.game().interaction.breaking.isDown());
+    program.window().onMouseButton(4, true, {});
+    program.window().onMouseButton(4, false, {});
+    program.frames();
+    EXPECT_TRUE(program.game().hud.palette.isOpen);
+    program.window().onMouseButton(19, true, {});  // one that no mouse has
+    program.frames();
+    program.press(Key::Escape);
+    expectGood(program.quit());
+}
+
 TEST_F(PlayTest, TheMouseTurnsThePlayerOnceItIsCaptured) {
     Program program = playAbove("home");
     program.untilDrawn();
@@ -111,7 +254,7 @@ TEST_F(PlayTest, KeysAreTakenBeforeThereIsAnImage) {
     ASSERT_FALSE(hasWorldImage(program.game().parts.renderer));
     for (const Key key : {Key::F12, Key::F3, Key::F4, Key::F2, Key::M, Key::L}) program.press(key);
     EXPECT_FALSE(exists(data() / "screenshots"));
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Walls);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Walk);
     program.untilDrawn();
     program.press(Key::F12);
     EXPECT_TRUE(exists(data() / "screenshots" / "terrane-0001.png"));
@@ -135,12 +278,11 @@ TEST_F(PlayTest, ASignalSavesAndQuits) {
         const std::string name = std::to_string(number);
         Program program = playAbove(name);
         breakGround(program);
-        program.press(Key::M);
         std::raise(number);
         expectGood(program.untilEnd());
         EXPECT_EQ(savedBlock(name, kGround), "air");
         EXPECT_EQ(setting(name, "camera"), kDown);
-        EXPECT_EQ(setting(name, "movement"), "walls");
+        EXPECT_EQ(setting(name, "movement"), "noclip");
     }
 }
 
@@ -188,7 +330,7 @@ TEST_F(PlayTest, WithoutOptionsEverythingIsSaved) {
     write(data() / "bookmarks.txt", fmt::format("{}\n", kDown));
     {
         Program program =
-            start({"--generator", "flat", "--movement", "medium", "--time", "0.6", "--bookmark", "1"});
+            start({"--generator", "flat", "--movement", "noclip", "--time", "0.6", "--bookmark", "1"});
         takeMouse(program);
         program.turnWheel(-1);
         program.tap(MouseButton::Left);
@@ -287,7 +429,7 @@ TEST_F(PlayTest, APlayerLearnsThatSavingFails) {
 
 TEST_F(PlayTest, ItemsInAChestAreSaved) {
     constexpr world::BlockPos kChest{8, 8, 81};
-    makeWorld("home", {{"camera", "8.5 8.5 85 0 -89"}, {"movement", "medium"}, {"hotbar", "0 chest"}});
+    makeWorld("home", {{"camera", "8.5 8.5 85 0 -89"}, {"movement", "noclip"}, {"hotbar", "0 chest"}});
     const auto open = [&](Program& program) {
         program.tap(MouseButton::Right);
         program.widget("Chest");
@@ -400,7 +542,7 @@ TEST_F(PlayTest, APlayerTriesEverythingAndFindsItAgain) {
     const auto image = base::readPng(data() / "screenshots" / "terrane-0001.png");
     ASSERT_TRUE(image);
     EXPECT_EQ(glm::ivec2(image->width, image->height), glm::ivec2(480, 300));
-    EXPECT_EQ(setting("home", "movement"), "medium");  // gravity, then fast
+    EXPECT_EQ(setting("home", "movement"), "noclip");  // walk, then fly
     EXPECT_EQ(written.size(), 3u);
     const std::vector<std::string> rows = linesOf(folder() / "perf.csv");
     ASSERT_GT(rows.size(), 10u);

@@ -103,7 +103,7 @@ TEST_F(ServerTest, PlayersSeeTheBlocksAndWordsOfEachOther) {
     program.until("the block is there", [&] { return program.blockAt(built) == "cobble"; });
     // The player breaks it.
     const glm::dvec3 eyes(built.x + 0.5, built.y + 0.5, built.z + 4);
-    program.game().player.placeAt({eyes, 0, -89}, game::Movement::Fast);
+    program.game().player.placeAt({eyes, 0, -89}, game::Movement::Noclip);
     program.tap(MouseButton::Left);
     program.until("it is targeted", [&] { return program.game().interaction.target().has_value(); });
     program.tap(MouseButton::Left);

@@ -27,16 +27,16 @@ TEST_F(TitleTest, ANewWorldIsCreatedLeftAndContinued) {
     program.press(Key::Enter);
     program.untilDrawn();
     EXPECT_EQ(program.session().store().identity().generator, "continents");
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Gravity);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Walk);
     program.press(Key::M);
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Fast);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Fly);
     const world::Pose left = program.game().player.pose();
     leaveForTitle(program);
     EXPECT_TRUE(exists(data() / "World.png"));
     program.click("Continue World");
     program.until("the world is played", [&] { return program.isPlaying(); });
     EXPECT_EQ(program.game().player.pose(), left);
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Fast);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Fly);
     leaveForTitle(program);
     // A new world starts with default settings.
     program.click("New world");
@@ -45,9 +45,9 @@ TEST_F(TitleTest, ANewWorldIsCreatedLeftAndContinued) {
     program.click("flat");
     program.click("Create");
     program.until("the world is played", [&] { return program.isPlaying(); });
-    EXPECT_EQ(program.game().settings.movement, game::Movement::Gravity);
+    EXPECT_EQ(program.game().settings.movement, game::Movement::Walk);
     expectGood(program.quit());
-    EXPECT_EQ(setting("World", "movement"), "fast");
+    EXPECT_EQ(setting("World", "movement"), "fly");
     EXPECT_EQ(setting("World 2", "generator"), "flat");
 }
 

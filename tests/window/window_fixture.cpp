@@ -60,6 +60,7 @@ Program WindowTest::start(std::vector<std::string> arguments) {
     const auto isGiven = [&](const std::string& name) { return std::ranges::count(arguments, name) > 0; };
     arguments.insert(arguments.begin(), usual.begin(), usual.end());
     if (!isGiven("--size")) arguments.insert(arguments.end(), {"--size", "480x300"});
+    if (!showsHint_) arguments.emplace_back("--hint-seen");
     if (!isGiven("--sound-volume")) arguments.insert(arguments.end(), {"--sound-volume", "0"});
     return Program(arguments);
 }

@@ -39,6 +39,8 @@ class WindowTest : public testing::Test {
     std::string log() const;                                  // of this test
     void expectGood(const base::Result<void>& result) const;  // and no error or warning in the log
 
+    bool showsHint_ = false;  // the hint of the first start
+
   private:
     base::TempFolder temporary_;
     std::filesystem::path before_;  // working directory

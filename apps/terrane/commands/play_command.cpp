@@ -22,11 +22,14 @@ time of day, hotbar, named places and movement mode, in $XDG_DATA_HOME/terrane/N
 terminal also saves and quits.)";
 
 base::Result<std::unique_ptr<Window>> openWindow(const PlayOptions& options, const PlayHost& host) {
-    auto window = host.openWindow({.title = "Terrane",
-                                   .width = options.graphics.size.x,
-                                   .height = options.graphics.size.y,
-                                   .fullScreen = options.settings.fullScreen,
-                                   .debug = options.graphics.debugGl});
+    const std::filesystem::path settings = options.settingsFile;
+    auto window = host.openWindow(
+        {.title = "Terrane",
+         .width = options.graphics.size.x,
+         .height = options.graphics.size.y,
+         .fullScreen = options.settings.fullScreen,
+         .padMappings = settings.empty() ? "" : settings.parent_path() / "gamecontrollerdb.txt",
+         .debug = options.graphics.debugGl});
     if (window) setTerraneIcon(**window);
     return window;
 }

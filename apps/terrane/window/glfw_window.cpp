@@ -8,10 +8,13 @@
 
 #include <cassert>
 #include <cstring>
+#include <filesystem>
 #include <optional>
 #include <utility>
 #include <vector>
 
+#include "terrane/base/files.h"
+#include "terrane/base/log.h"
 #include "terrane/content/built_in.h"
 #include "terrane/gpu/context.h"
 
@@ -101,6 +104,30 @@ GLFWwindow* openWindow(const WindowOptions& options) {
     return glfwCreateWindow(mode->width, mode->height, options.title.c_str(), monitor, nullptr);
 }
 
+// Null if there is none.
+GLFWmonitor* monitorOfWindow(const ScreenArea& window) {
+    int count = 0;
+    GLFWmonitor** monitors = glfwGetMonitors(&count);
+    std::vector<ScreenArea> areas;
+    for (int k = 0; k < count; ++k) {
+        ScreenArea area;
+        glfwGetMonitorPos(monitors[k], &area.corner.x, &area.corner.y);
+        if (const GLFWvidmode* mode = glfwGetVideoMode(monitors[k])) area.size = {mode->width, mode->height};
+        areas.push_back(area);
+    }
+    return areas.empty() ? nullptr : monitors[monitorOf(window, areas)];
+}
+
+// Adds the file's descriptions of gamepads to those that GLFW has.
+void readPadMappings(const std::string& file) {
+    std::error_code missing;
+    if (file.empty() || !std::filesystem::exists(file, missing)) return;
+    const auto text = base::readFile(file);
+    if (!text) return base::logWarning("{}", text.error().message);
+    if (glfwUpdateGamepadMappings(text->c_str()) == GLFW_FALSE)
+        base::logWarning("{}: expected lines as in SDL's gamecontrollerdb.txt: {}", file, lastError());
+}
+
 Modifiers modifiersOf(int bits) {
     return {(bits & GLFW_MOD_SHIFT) != 0, (bits & GLFW_MOD_CONTROL) != 0};
 }
@@ -132,7 +159,7 @@ class GlfwWindow final : public Window {
     gpu::DebugLog* debugLog() const override { return debugLog_.get(); }
 
   private:
-    void receiveEvents() override { glfwPollEvents(); }
+    void receiveEvents() override;
     void captureCursor(bool isCaptured) override;
     void installCallbacks();
 
@@ -140,6 +167,8 @@ class GlfwWindow final : public Window {
     GLFWcursor* textCursor_ = nullptr;
     bool isOverText_ = false;
     std::unique_ptr<gpu::DebugLog> debugLog_;
+    UnknownPads unknownPads_;
+    std::string padMappings_;                   // file
     glm::ivec4 place_{kLeft, kTop, 1280, 720};  // and size of the window, to restore after full screen
 };
 
@@ -150,6 +179,8 @@ GlfwWindow::~GlfwWindow() {
 
 base::Result<void> GlfwWindow::open(const WindowOptions& options) {
     if (glfwInit() == GLFW_FALSE) return base::fail("no display: {}", lastError());
+    padMappings_ = options.padMappings;
+    readPadMappings(padMappings_);
     window_ = openWindow(options);
     if (window_ == nullptr) return base::fail("no window with an OpenGL 4.5 core context: {}", lastError());
     glfwMakeContextCurrent(window_);
@@ -174,8 +205,7 @@ void GlfwWindow::installCallbacks() {
     glfwSetCharCallback(window_,
                         [](GLFWwindow* window, unsigned character) { of(window).onCharacter(character); });
     glfwSetMouseButtonCallback(window_, [](GLFWwindow* window, int button, int action, int modifiers) {
-        if (button > GLFW_MOUSE_BUTTON_MIDDLE) return;  // left, right, middle are 0, 1, 2 as in MouseButton
-        of(window).onButton(static_cast<MouseButton>(button), action == GLFW_PRESS, modifiersOf(modifiers));
+        of(window).onMouseButton(button, action == GLFW_PRESS, modifiersOf(modifiers));
     });
     glfwSetScrollCallback(window_, [](GLFWwindow* window, double x, double y) {
         of(window).onWheel({x, y});
@@ -227,11 +257,11 @@ void GlfwWindow::setFullScreen(bool isFullScreen) {
         glfwSetWindowMonitor(window_, nullptr, place_.x, place_.y, place_.z, place_.w, 0);
         return;
     }
-    GLFWmonitor* monitor = glfwGetPrimaryMonitor();
-    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
-    if (mode == nullptr) return;
     glfwGetWindowPos(window_, &place_.x, &place_.y);
     glfwGetWindowSize(window_, &place_.z, &place_.w);
+    GLFWmonitor* monitor = monitorOfWindow({{place_.x, place_.y}, {place_.z, place_.w}});
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    if (mode == nullptr) return;
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
 }
 
@@ -254,13 +284,26 @@ std::string GlfwWindow::clipboard() const {
     return text != nullptr ? text : "";
 }
 
+void GlfwWindow::receiveEvents() {
+    glfwPollEvents();
+    std::vector<UnknownPads::Joystick> joysticks;
+    for (int k = GLFW_JOYSTICK_1; k <= GLFW_JOYSTICK_LAST; ++k) {
+        const char* guid = glfwJoystickPresent(k) == GLFW_TRUE ? glfwGetJoystickGUID(k) : nullptr;
+        const char* name = guid != nullptr ? glfwGetJoystickName(k) : nullptr;
+        if (name != nullptr) joysticks.push_back({guid, name, glfwJoystickIsGamepad(k) == GLFW_TRUE});
+    }
+    for (const std::string& line : unknownPads_.take(joysticks, padMappings_)) base::logWarning("{}", line);
+}
+
 void GlfwWindow::captureCursor(bool isCaptured) {
     glfwSetInputMode(window_, GLFW_CURSOR, isCaptured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
 }
 
 std::optional<Gamepad> GlfwWindow::gamepad() const {
     GLFWgamepadstate state;
-    if (glfwGetGamepadState(GLFW_JOYSTICK_1, &state) == GLFW_FALSE) return std::nullopt;
+    int first = GLFW_JOYSTICK_1;  // that is a gamepad: pedals and sticks may come before it
+    while (first <= GLFW_JOYSTICK_LAST && glfwGetGamepadState(first, &state) == GLFW_FALSE) ++first;
+    if (first > GLFW_JOYSTICK_LAST) return std::nullopt;
     const auto isDown = [&](int button) { return state.buttons[button] == GLFW_PRESS; };
     const auto stick = [&](int axisX, int axisY) {
         const glm::vec2 at(state.axes[axisX], -state.axes[axisY]);
@@ -285,7 +328,10 @@ std::optional<Gamepad> GlfwWindow::gamepad() const {
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_DOWN),
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_LEFT),
                    isDown(GLFW_GAMEPAD_BUTTON_DPAD_RIGHT),
-                   isDown(GLFW_GAMEPAD_BUTTON_START)};
+                   isDown(GLFW_GAMEPAD_BUTTON_START),
+                   isDown(GLFW_GAMEPAD_BUTTON_BACK),
+                   isDown(GLFW_GAMEPAD_BUTTON_LEFT_THUMB),
+                   isDown(GLFW_GAMEPAD_BUTTON_RIGHT_THUMB)};
 }
 
 }  // namespace

@@ -166,7 +166,8 @@ void ImguiLayer::beginFrame(bool isCursorCaptured, bool isInMenu) {
     feedKeys();
     feedMouse();
     feedText();
-    const std::optional<Gamepad> pad = isInMenu ? window_.gamepad() : std::nullopt;
+    const bool usesPad = isInMenu && !isPadIgnored_;
+    const std::optional<Gamepad> pad = usesPad ? window_.gamepad() : std::nullopt;
     io.BackendFlags = pad ? io.BackendFlags | ImGuiBackendFlags_HasGamepad
                           : io.BackendFlags & ~ImGuiBackendFlags_HasGamepad;
     setPadNavigation(pad, io.NavInputs);

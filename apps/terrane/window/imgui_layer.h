@@ -28,6 +28,8 @@ class ImguiLayer {
 
     // Scale of text and user interface from the next frame on; 1 is the designed size.
     void setTextSize(float factor) { textSize_ = factor; }
+    // Whether menus leave the gamepad alone, from the next frame on.
+    void setPadIgnored(bool isIgnored) { isPadIgnored_ = isIgnored; }
     // While the cursor is captured Dear ImGui ignores the mouse; in a menu, keys and gamepad navigate.
     void beginFrame(bool isCursorCaptured, bool isInMenu);
     // The window's size in units of Dear ImGui and the cursor: framebuffer pixels on some systems, fewer on
@@ -57,6 +59,7 @@ class ImguiLayer {
 
     Window& window_;
     float textSize_ = 1;
+    bool isPadIgnored_ = false;
     Enter enter_ = Enter::Up;
     bool acceptsText_ = false;  // a key was pressed in the text field
     Scale scale_;

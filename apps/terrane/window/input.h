@@ -8,8 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
-
-#include "terrane/game/block_interaction.h"
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
 
 namespace terrane::app {
 
@@ -39,6 +42,7 @@ enum class Key : std::uint8_t {
     Shift, Control,  // either side
     Left, Right, Up, Down,
     Insert, Backspace, Home, End, PageUp, PageDown,
+    Mouse4, Mouse5, Mouse6, Mouse7, Mouse8,  // buttons of the mouse beyond the first three
     kCount
 };
 // clang-format on
@@ -56,6 +60,23 @@ struct InputEvent {
     double y = 0.0;  // the same, wheel away from the player, cursor down
     // Modifiers held with a key or button, however briefly; keyDown() may have missed them.
     bool withShift = false, withControl = false;
+    double seconds = 0;  // of the window's clock, of KeyPress
+};
+
+// Detects two presses of a key that follow each other quickly, by the time of the events.
+class DoublePress {
+  public:
+    static constexpr double kWithin = 0.3;  // seconds
+
+    // Returns whether this press is the second one. A third one begins anew.
+    bool press(double seconds) {
+        const bool isSecond = last_ && seconds - *last_ <= kWithin;
+        last_ = isSecond ? std::nullopt : std::optional(seconds);
+        return isSecond;
+    }
+
+  private:
+    std::optional<double> last_;
 };
 
 // Sticks are -1…1, right and up; 0 within the dead zone.
@@ -65,7 +86,52 @@ struct Gamepad {
     bool leftBumper = false, rightBumper = false;
     bool leftTrigger = false, rightTrigger = false;
     bool up = false, down = false, left = false, right = false;  // of the d-pad
-    bool start = false;
+    bool start = false, back = false;
+    bool leftStick = false, rightStick = false;  // pressed
+};
+
+enum class PadButton : std::uint8_t {
+    South,
+    East,
+    West,
+    North,
+    LeftBumper,
+    RightBumper,
+    LeftTrigger,
+    RightTrigger,
+    Up,
+    Down,
+    Left,
+    Right,
+    Back,
+    LeftStick,
+    RightStick,
+    Start,
+    kCount
+};
+
+struct PadButtonRow {
+    PadButton button;
+    std::string_view name;  // in settings
+    const char* label;      // for the player, in English
+    bool Gamepad::*member;
+};
+std::span<const PadButtonRow> padButtonTable();  // in the order of PadButton
+const PadButtonRow& rowOf(PadButton button);
+
+// Finds joysticks that are no known gamepad, so that the player is told why they do nothing.
+class UnknownPads {
+  public:
+    struct Joystick {
+        std::string guid, name;  // the guid is that of SDL's list of gamepads
+        bool isGamepad = false;  // its buttons are known
+    };
+    // Returns a line for each unknown one that is here for the first time. `mappings`: the file that can
+    // describe it.
+    std::vector<std::string> take(std::span<const Joystick> joysticks, std::string_view mappings);
+
+  private:
+    std::set<std::string> told_;
 };
 
 // Detects presses and releases of gamepad buttons since the last frame, from their current state.
@@ -80,18 +146,15 @@ class PadReader {
     }
     const Gamepad& now() const { return now_; }
     bool isPressed(Button button) const { return now_.*button && !(before_.*button); }
-    bool isReleased(Button button) const { return !(now_.*button) && before_.*button; }
-    // Presses and releases `held` with the button; the mouse may hold it as well.
-    void drive(game::HeldButton& held, Button button) const {
-        if (isPressed(button)) held.press();
-        if (isReleased(button)) held.release();
-    }
+    bool isPressed(PadButton button) const { return isPressed(rowOf(button).member); }
+    bool isDown(PadButton button) const { return now_.*rowOf(button).member; }
+    bool isAnyDown() const;
+    std::optional<PadButton> pressed() const;  // one of those pressed since the last frame
 
   private:
     Gamepad before_, now_;
 };
 
-// Moves through menus with a gamepad.
 // Sets Dear ImGui's inputs of a gamepad: d-pad or left stick, lower and right button. Its own back end
 // numbers the buttons as the driver does, which differs between systems and pads; GLFW's mapping of known
 // pads does not.

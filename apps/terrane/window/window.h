@@ -22,14 +22,24 @@ struct WindowOptions {
     std::string title = "Terrane";
     int width = 1280;  // screen units, larger where contentScale() is
     int height = 720;
-    bool fullScreen = false;  // on the first monitor in its current mode; ignores width and height
-    bool debug = false;       // as ContextOptions
+    bool fullScreen = false;       // on the first monitor in its current mode; ignores width and height
+    std::string padMappings = {};  // file with lines of SDL's gamecontrollerdb.txt; may be missing
+    bool debug = false;            // as ContextOptions
 };
 
 // Modifier keys held with a key or button.
 struct Modifiers {
     bool shift = false, control = false;
 };
+
+// In screen units; the first monitor's corner is often 0,0, and others may be left of it or above.
+struct ScreenArea {
+    glm::ivec2 corner{0}, size{0};
+};
+
+// The index of the monitor with the largest part of the window; the first one of equals, and if the window is
+// on none.
+std::size_t monitorOf(const ScreenArea& window, std::span<const ScreenArea> monitors);
 
 class Window {
   public:
@@ -63,7 +73,7 @@ class Window {
     [[nodiscard]] virtual glm::ivec2 framebufferSize() const = 0;  // pixels; 0 while minimised
     [[nodiscard]] virtual float contentScale() const = 0;          // scale of the user interface
     [[nodiscard]] float pixelsPerUnit() const;                     // framebuffer pixels per screen unit
-    // Full screen on the first monitor, or the former window.
+    // Full screen on the monitor that the window is on, or the former window.
     virtual void setFullScreen(bool isFullScreen) = 0;
     // `pixels`: width × height × 4 bytes, RGBA, top row first. Does nothing on systems without window icons.
     virtual void setIcon(glm::ivec2 size, std::span<const std::byte> pixels) = 0;
@@ -84,6 +94,8 @@ class Window {
     // Input, reported by the back end during pollEvents().
     void onKey(std::optional<Key> key, bool isPress, Modifiers with);  // not for repetitions of a held key
     void onCharacter(unsigned character);
+    // `number`: 0 left, 1 right, 2 middle; further ones are keys.
+    void onMouseButton(int number, bool isPress, Modifiers with);
     void onButton(MouseButton button, bool isPress, Modifiers with);
     void onWheel(glm::dvec2 steps);
     void onCursor(glm::dvec2 position);

@@ -37,7 +37,7 @@ base::Result<void> save(game::Session& session) {
 
 // Moves a player on foot below the world to the surface, since it would fall forever. Returns whether it did.
 bool liftFromBelow(game::Player& player, game::Movement movement, const game::Session& session) {
-    if (movement == game::Movement::Fast || movement == game::Movement::Medium) return false;
+    if (movement == game::Movement::Noclip) return false;
     const auto lifted = game::poseOnSurface(session.world(), session.blocks(), player.pose());
     if (lifted) player.placeAt(*lifted, movement);
     return lifted.has_value();

@@ -20,9 +20,8 @@ namespace {
 constexpr double kDayStep = 0.01;  // of a day, per press
 
 // Indexed by game::Movement.
-constexpr std::array<const char*, 4> kMovementTexts = {
-    trLater("movement: flying fast, through blocks"), trLater("movement: flying slowly, through blocks"),
-    trLater("movement: flying, with collisions"), trLater("movement: walking")};
+constexpr std::array<const char*, 3> kMovementTexts = {
+    trLater("movement: walking"), trLater("movement: flying"), trLater("movement: flying through blocks")};
 
 void flip(bool& value) {
     value = !value;
@@ -58,10 +57,20 @@ std::string nextLight(render::LightSampling& light, const Texts& tr) {
     return light == LightSampling::Smooth ? tr("smooth light") : tr("classic light");
 }
 
-std::string nextMovement(game::Movement& movement, const Texts& tr) {
-    const std::size_t next = (static_cast<std::size_t>(movement) + 1) % kMovementTexts.size();
-    movement = static_cast<game::Movement>(next);
-    return tr(kMovementTexts[next]);
+std::string setMovement(game::Movement& movement, game::Movement next, const Texts& tr) {
+    movement = next;
+    return tr(kMovementTexts[static_cast<std::size_t>(next)]);
+}
+
+game::Movement nextMovement(game::Movement movement) {
+    return static_cast<game::Movement>((static_cast<std::size_t>(movement) + 1) % kMovementTexts.size());
+}
+
+// Two quick presses begin and end flight, but not flight through blocks: the player may be inside of one.
+std::string jump(GameInput& input, game::Movement& movement, double seconds, const Texts& tr) {
+    if (!input.jump.press(seconds) || movement == game::Movement::Noclip) return {};
+    const bool flies = movement == game::Movement::Fly;
+    return setMovement(movement, flies ? game::Movement::Walk : game::Movement::Fly, tr);
 }
 
 std::string changeTime(game::DayClock& clock, Action action, const Texts& tr) {
@@ -87,11 +96,16 @@ std::string nextBookmark(const game::BookmarkFiles& files, std::size_t& next, ga
     return {};
 }
 
-std::string goToSpawn(std::optional<world::Pose>& spawn, const game::Session& session, game::Player& player,
-                      game::Movement movement, const Texts& tr) {
+// Where no other player stands, and not in blocks that were built there.
+std::string goToSpawn(GameState& game) {
+    game::Session& session = game.parts.session;
+    std::optional<world::Pose>& spawn = game.hud.spawn;
     if (!spawn) spawn = game::findSpawn(session.generator(), session.blocks());
-    player.placeAt(*spawn, movement);
-    return tr("back at the spawn");
+    std::vector<world::Aabb> others;
+    for (const world::Figure& figure : game.remote.others.figures)
+        others.push_back(world::characterBox(figure.eyes - glm::dvec3(0, 0, world::kEyeHeight)));
+    game.player.placeAt(game::freePlaceNear(*spawn, session, others), game.settings.movement);
+    return game.tr("back at the spawn");
 }
 
 std::string takeScreenshot(const render::Renderer& renderer, const std::filesystem::path& folder,
@@ -103,9 +117,34 @@ std::string takeScreenshot(const render::Renderer& renderer, const std::filesyst
     return file ? fmt::format(fmt::runtime(tr("screenshot {}")), file->string()) : file.error().message;
 }
 
+bool openContainer(GameState& game) {
+    const auto& target = game.interaction.target();
+    const game::Session& session = game.parts.session;
+    if (!target || !game::isContainer(session.world(), session.blocks(), target->block)) return false;
+    game.container = target->block;
+    captureMouse(game, false);
+    return true;
+}
+
+// Uses the targeted block, unless Shift is held: then a block is built against it.
+bool useTarget(GameState& game) {
+    if (game.input.withShift) return false;
+    if (openContainer(game)) return true;
+    const auto& target = game.interaction.target();
+    return (target && game.building.openSign(target->block, buildViewOf(game))) ||
+           game.interaction.use(game.parts.session, game::kLocalPlayer);
+}
+
+// Breaks, or uses and places, by the mouse, a key or a gamepad.
+void pressButton(GameState& game, MouseButton button) {
+    if (game.building.onButton(button, buildViewOf(game))) return;
+    if (button == MouseButton::Right && useTarget(game)) return;
+    (button == MouseButton::Left ? game.interaction.breaking : game.interaction.building).press();
+}
+
 }  // namespace
 
-void act(GameState& game, Action action) {
+void act(GameState& game, Action action, double seconds) {
     const Texts& tr = game.tr;
     game::Session& session = game.parts.session;
     const game::Movement movement = game.settings.movement;
@@ -146,13 +185,25 @@ void act(GameState& game, Action action) {
         case Action::Light:
             return say(nextLight(game.settings.graphics.render.light, tr));
         case Action::Movement:
-            return say(nextMovement(game.settings.movement, tr));
+            return say(setMovement(game.settings.movement, nextMovement(movement), tr));
+        case Action::Jump:
+            return say(jump(game.input, game.settings.movement, seconds, tr));
+        case Action::Break:
+            game.input.breaksByKey = true;
+            return pressButton(game, MouseButton::Left);
+        case Action::Place:
+            game.input.placesByKey = true;
+            return pressButton(game, MouseButton::Right);
+        case Action::PreviousSlot:
+            return game::cycleSlot(game.interaction.hotbar, -1);
+        case Action::NextSlot:
+            return game::cycleSlot(game.interaction.hotbar, 1);
         case Action::Palette:
             return openPalette(game);
         case Action::Places:
             return openPlaces(game);
         case Action::Spawn:
-            return say(goToSpawn(game.hud.spawn, session, game.player, movement, tr));
+            return say(goToSpawn(game));
         default:  // held keys
             break;
     }
@@ -208,7 +259,7 @@ bool onDialogKey(GameState& game, Key key) {
     return game.imgui.takesKeys();  // Escape ends text input
 }
 
-void onKey(GameState& game, Key key) {
+void onKey(GameState& game, Key key, double seconds) {
     if (onDialogKey(game, key)) return;
     if (key == Key::Escape) return closeOne(game);
     const bool isMenuAlone = game.menu.isPaused && !game.menu.showsSettings;
@@ -227,25 +278,7 @@ void onKey(GameState& game, Key key) {
     if (const auto slot = slotOf(key))
         game.interaction.hotbar.selected = *slot;
     else if (action)
-        act(game, *action);
-}
-
-bool openContainer(GameState& game) {
-    const auto& target = game.interaction.target();
-    const game::Session& session = game.parts.session;
-    if (!target || !game::isContainer(session.world(), session.blocks(), target->block)) return false;
-    game.container = target->block;
-    captureMouse(game, false);
-    return true;
-}
-
-// Uses the targeted block, unless Shift is held: then a block is built against it.
-bool useTarget(GameState& game) {
-    if (game.input.withShift) return false;
-    if (openContainer(game)) return true;
-    const auto& target = game.interaction.target();
-    return (target && game.building.openSign(target->block, buildViewOf(game))) ||
-           game.interaction.use(game.parts.session, game::kLocalPlayer);
+        act(game, *action, seconds);
 }
 
 void onMiddleButton(GameState& game) {
@@ -266,9 +299,7 @@ void onButton(GameState& game, MouseButton button, bool isPress) {
     game::HeldButton& held =
         button == MouseButton::Left ? game.interaction.breaking : game.interaction.building;
     if (!isPress) return held.release();
-    if (isCaptured && game.building.onButton(button, buildViewOf(game))) return;
-    if (isCaptured && button == MouseButton::Right && useTarget(game)) return;
-    if (isCaptured) return held.press();
+    if (isCaptured) return pressButton(game, button);
     if (!game.imgui.takesMouse() && !isInDialog(game)) captureMouse(game, true);
 }
 
@@ -295,7 +326,7 @@ void handleEvents(GameState& game) {
         input.withControl = event.withControl;
         switch (event.type) {
             case Type::KeyPress:
-                onKey(game, event.key);
+                onKey(game, event.key, event.seconds);
                 break;
             case Type::ButtonPress:
             case Type::ButtonRelease:
@@ -313,36 +344,57 @@ void handleEvents(GameState& game) {
     input.withControl = window.keyDown(Key::Control);
 }
 
+namespace {
+
+// Whether a key or gamepad button of the action is held.
+bool isHeld(const GameState& game, Action action) {
+    const auto button = game.settings.padButtons.keyOf(action);
+    return isKeyDown(game.parts.window, game.imgui, game.settings.keys, action) ||
+           (button && game.input.pad.isDown(*button));
+}
+
+// Also when the gamepad is unplugged.
+void releaseKeys(GameState& game) {
+    const auto release = [&](bool& isByKey, Action action, game::HeldButton& held) {
+        if (!isByKey || isHeld(game, action)) return;
+        isByKey = false;
+        held.release();
+    };
+    release(game.input.breaksByKey, Action::Break, game.interaction.breaking);
+    release(game.input.placesByKey, Action::Place, game.interaction.building);
+}
+
+}  // namespace
+
 void handlePad(GameState& game, double seconds) {
     PadReader& pad = game.input.pad;
     pad.read(game.parts.window.gamepad());
-    const bool isBack = isInDialog(game) && pad.isPressed(&Gamepad::east);
-    if (pad.isPressed(&Gamepad::start) || isBack) closeOne(game);
-    if (game.menu.showsSettings && pad.isPressed(&Gamepad::leftBumper)) game.menu.settings.turnPage(-1);
-    if (game.menu.showsSettings && pad.isPressed(&Gamepad::rightBumper)) game.menu.settings.turnPage(1);
+    releaseKeys(game);
+    SettingsDialog& dialog = game.menu.settings;
+    const bool isTaken = game.menu.showsSettings && dialog.takePad(pad, game.settings, game.tr);
+    game.imgui.setPadIgnored(isTaken);
+    if (isTaken) return;
+    const bool isBack = isInDialog(game) && pad.isPressed(PadButton::East);
+    if (pad.isPressed(PadButton::Start) || isBack) closeOne(game);
+    if (game.menu.showsSettings && pad.isPressed(PadButton::LeftBumper)) dialog.turnPage(-1);
+    if (game.menu.showsSettings && pad.isPressed(PadButton::RightBumper)) dialog.turnPage(1);
     if (isInDialog(game)) return;
     const double degrees = kStickDegrees * seconds;
     game.player.turn(double{pad.now().rightX} * degrees,
                      (game.settings.invertY ? 1.0 : -1.0) * double{pad.now().rightY} * degrees);
-    pad.drive(game.interaction.breaking, &Gamepad::rightTrigger);
-    pad.drive(game.interaction.building, &Gamepad::leftTrigger);
-    if (pad.isPressed(&Gamepad::leftBumper)) game::cycleSlot(game.interaction.hotbar, -1);
-    if (pad.isPressed(&Gamepad::rightBumper)) game::cycleSlot(game.interaction.hotbar, 1);
-    if (pad.isPressed(&Gamepad::north)) act(game, Action::Movement);
-    if (pad.isPressed(&Gamepad::up)) act(game, Action::Later);
-    if (pad.isPressed(&Gamepad::down)) act(game, Action::Earlier);
+    if (isBack) return;
+    for (const PadButtonRow& row : padButtonTable()) {
+        const auto action = game.settings.padButtons.actionOf(row.button);
+        if (action && pad.isPressed(row.button) && !isInDialog(game))
+            act(game, *action, game.parts.window.timeSeconds());
+    }
 }
 
 // A press alone is a step (act()).
 void passHeldTime(GameState& game, double seconds) {
-    const Gamepad& pad = game.input.pad.now();
-    const auto isDown = [&](Action action) {
-        return isKeyDown(game.parts.window, game.imgui, game.settings.keys, action);
-    };
-    const bool isLater = isDown(Action::Later) || pad.up;
-    const bool isEarlier = isDown(Action::Earlier) || pad.down;
-    const bool isHeld = isLater != isEarlier && !isInDialog(game) && !game.input.withControl;
-    game.input.timeHeldSeconds = isHeld ? game.input.timeHeldSeconds + seconds : 0;
+    const bool isLater = isHeld(game, Action::Later), isEarlier = isHeld(game, Action::Earlier);
+    const bool isShifted = isLater != isEarlier && !isInDialog(game) && !game.input.withControl;
+    game.input.timeHeldSeconds = isShifted ? game.input.timeHeldSeconds + seconds : 0;
     if (game.input.timeHeldSeconds > kTimePause && !game.remote.play)
         game.parts.session.clock.shift((isLater ? kHeldDays : -kHeldDays) * seconds);
 }
@@ -352,18 +404,15 @@ game::MoveKeys moveKeysOf(const GameState& game) {
     const bool isSelecting = game.building.isSelecting();
     if (isInDialog(game) || (isSelecting && window.keyDown(Key::Control))) return {};
     const Gamepad& pad = game.input.pad.now();
-    const bool walks = game.settings.movement == game::Movement::Gravity;
-    const auto isDown = [&](Action action) {
-        return isKeyDown(window, game.imgui, game.settings.keys, action);
-    };
+    const auto isDown = [&](Action action) { return isHeld(game, action); };
     return {.forward = isDown(Action::Forward),
             .back = isDown(Action::Back),
             .left = isDown(Action::Left),
             .right = isDown(Action::Right),
-            .up = isDown(Action::Up) || (!walks && !isSelecting && isDown(Action::Run)),
-            .down = isDown(Action::Down) || pad.east,
-            .jump = isDown(Action::Jump) || pad.south,
-            .run = (walks && isDown(Action::Run)) || pad.west,
+            .up = isDown(Action::Up),
+            .down = isDown(Action::Down),
+            .jump = isDown(Action::Jump),
+            .run = isDown(Action::Run),
             .autoJump = game.settings.autoJump,
             .stick = {pad.leftX, pad.leftY}};
 }

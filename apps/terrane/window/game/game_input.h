@@ -6,8 +6,9 @@
 namespace terrane::app {
 
 // Actions of the player: break and build, undo, and everything bound to keys; also the world's thumbnail.
-// Does nothing for actions of held keys: see moveKeysOf().
-void act(GameState& game, Action action);
+// Does nothing for actions of held keys: see moveKeysOf(). `seconds`: of the window's clock, when the key was
+// pressed.
+void act(GameState& game, Action action, double seconds);
 // Breaks or builds while a button is held; shows it with the arm and particles. `seconds`: since the last
 // frame. No value if nothing was tried.
 std::optional<game::EditResult> breakAndBuild(game::BlockInteraction& interaction, game::Session& session,
@@ -18,7 +19,7 @@ void writeThumbnailOf(const render::Renderer& renderer, const std::filesystem::p
 
 // Handles all events since the last frame.
 void handleEvents(GameState& game);
-// Sticks turn the view; buttons do the same as keys and mouse buttons.
+// Sticks turn the view; buttons do the actions that they are bound to. Also ends what released keys did.
 void handlePad(GameState& game, double seconds);
 // While a key of time is held, a day passes in ten seconds.
 void passHeldTime(GameState& game, double seconds);

@@ -76,7 +76,7 @@ void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& setting
     const glm::dvec3 step = player.position - hud.walkedFrom;
     hud.walkedFrom = player.position;
     hud.hand.advance(seconds, std::hypot(step.x, step.y),
-                     settings.movement == game::Movement::Gravity && !settings.reducedMotion);
+                     settings.movement == game::Movement::Walk && !settings.reducedMotion);
     hud.screenshot.advance(seconds);
     hud.particles.advance(seconds, session.world(), session.blocks());
 }

@@ -56,7 +56,7 @@ void GameSounds::update(const game::Player& player, bool isInMenu, double second
     if (!player_ || volume_ <= 0) return;
     const world::Pose& pose = player.pose();
     player_->setListener(pose.position, pose.yaw, pose.pitch);
-    if (player.movement() != game::Movement::Gravity) {
+    if (player.movement() != game::Movement::Walk) {
         footsteps_.reset();
     } else if (const auto event = footsteps_.advance(player.character())) {
         playFoot(*event, player.character());

@@ -21,6 +21,8 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
     remote.play = given.remote;
     interaction.hotbar = game::parseHotbar(chosen.hotbar, given.session.blocks());
     hud.places = game::savedPlaces(given.session.store());
+    if (!settings.hintSeen) notices.hintSeconds = Notices::kHintSeconds;
+    settings.hintSeen = applied.hintSeen = true;
 }
 
 bool isInMenu(const GameMenu& menu) {

@@ -31,6 +31,9 @@ struct GameInput {
     bool isCaptured = false;                      // the mouse turns the player, and the cursor is hidden
     bool withShift = false, withControl = false;  // of the handled event, else current
     PadReader pad;
+    DoublePress jump;
+    // Blocks are broken or placed by a key or gamepad button, which is released once none is down.
+    bool breaksByKey = false, placesByKey = false;
     double timeHeldSeconds = 0;  // a key of time is held
     Wheel wheel;
 };

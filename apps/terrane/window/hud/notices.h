@@ -1,4 +1,4 @@
-// Temporary notices in the window: a message, and the list of keys. Plain state.
+// Temporary notices in the window: a message, the list of keys, and the hint for a new player. Plain state.
 #pragma once
 
 #include <string>
@@ -11,11 +11,12 @@
 namespace terrane::app {
 
 struct Notices {
-    static constexpr double kMessageSeconds = 3, kHelpSeconds = 20;
+    static constexpr double kMessageSeconds = 3, kHelpSeconds = 20, kHintSeconds = 20;
 
     std::string message;
     double messageSeconds = 0;  // remaining
-    double helpSeconds = 12;    // remaining for the list of keys; shown at the start
+    double helpSeconds = 0;     // remaining for the list of keys
+    double hintSeconds = 0;     // remaining for the hint
 
     // Nothing if the text is empty.
     void say(std::string text, double seconds = kMessageSeconds) {
@@ -26,6 +27,7 @@ struct Notices {
     void advance(double seconds) {
         messageSeconds -= seconds;
         helpSeconds -= seconds;
+        hintSeconds -= seconds;
     }
 };
 

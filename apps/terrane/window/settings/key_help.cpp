@@ -18,9 +18,9 @@ const std::vector<Row>& rows() {
     static const std::vector<Row> kRows = {
         {trLater("click"), {}, trLater("look around with the mouse; Esc releases the cursor")},
         {nullptr, {Forward, Left, Back, Right}, trLater("walk")},
-        {nullptr, {Jump, Run}, trLater("jump; run")},
+        {nullptr, {Jump, Run}, trLater("jump, twice quickly: fly or land; run, fly faster")},
         {nullptr, {Up, Down}, trLater("fly or swim up; down")},
-        {nullptr, {Movement}, trLater("next movement mode: walk, fly through blocks, fly with collisions")},
+        {nullptr, {Movement}, trLater("next movement mode: walk, fly, fly through blocks")},
         {trLater("left, right button"),
          {},
          trLater("break a block; place one, open a door or a chest (Shift: place against it)")},
@@ -49,6 +49,19 @@ const std::vector<Row>& rows() {
 
 std::string keyText(std::optional<Key> key, const Texts& tr) {
     return key ? std::string(content::text(tr.language, nameOf(*key))) : tr("none");
+}
+
+std::string padButtonText(std::optional<PadButton> button, const Texts& tr) {
+    return button ? tr(rowOf(*button).label) : tr("none");
+}
+
+std::vector<std::string> hintLines(const KeyBindings& bindings, const Texts& tr) {
+    const auto key = [&](Action action) { return keyText(bindings.keyOf(action), tr); };
+    using enum Action;
+    return {fmt::format(fmt::runtime(tr("{} {} {} {}: walk; {}: jump, twice: fly")), key(Forward), key(Left),
+                        key(Back), key(Right), key(Jump)),
+            tr("click: look around; then left button: break, right: place"),
+            fmt::format(fmt::runtime(tr("{}: all keys; Esc: menu")), key(Help))};
 }
 
 std::vector<KeyHelpLine> keyHelpLines(const KeyBindings& bindings, const Texts& tr) {

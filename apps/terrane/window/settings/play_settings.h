@@ -22,7 +22,7 @@ struct PlaySettings {
     std::string preset = "auto";
     render::GraphicsSettings graphics;  // of the preset, with changes
     render::View view = render::View::Color;
-    game::Movement movement = game::Movement::Gravity;
+    game::Movement movement = game::Movement::Walk;
     float fieldOfView = 70;          // degrees
     float mouseSensitivity = 0.15f;  // degrees per screen unit
     double dayMinutes = 20;
@@ -32,18 +32,20 @@ struct PlaySettings {
     std::string language = "auto";  // of --language (text.h)
 
     KeyBindings keys;
+    PadBindings padButtons;
     bool invertY = false;  // pushing the mouse or stick forward looks down
     bool autoJump = false;
     float textSize = 1;         // scale of the user interface
     bool highContrast = false;  // of the outline of the targeted block
     bool reducedMotion = false;
+    bool hintSeen = false;  // the hint of the first start was shown
 
     bool operator==(const PlaySettings&) const = default;
 };
 
 EnumNames<game::Movement> movementNames();  // of the option --movement
 const std::string& nameOf(game::Movement movement);
-std::optional<game::Movement> movementNamed(std::string_view name);
+std::optional<game::Movement> movementNamed(std::string_view name);  // also by its former name
 
 // Options of `terrane play`.
 struct PlayOptions {

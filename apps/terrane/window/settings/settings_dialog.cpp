@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/settings/key_help.h"
@@ -60,49 +61,78 @@ void SettingsDialog::turnPage(int by) {
     waiting_.reset();
 }
 
-void SettingsDialog::drawKeys(KeyBindings& keys, const Texts& tr) {
+void SettingsDialog::drawBinding(const ActionRow& row, bool isPad, const std::string& shown) {
+    ImGui::TableNextColumn();
+    const bool isWaiting = waiting_ == row.action && waitsForPad_ == isPad;
+    const std::string label = (isWaiting ? "..." : shown) + (isPad ? "###pad" : "###key");
+    if (!ui::button(label.c_str(), {-1, 0}, row.name)) return;
+    waiting_ = row.action;
+    waitsForPad_ = isPad;
+}
+
+void SettingsDialog::drawKeys(PlaySettings& settings, const Texts& tr) {
     if (waiting_) {
-        ImGui::TextColored(
-            colors::kAccent, "%s",
-            fmt::format(fmt::runtime(tr("Press the new key for \"{}\", or Esc to keep the old one.")),
-                        tr(rowOf(*waiting_).label))
-                .c_str());
+        const char* asks =
+            waitsForPad_ ? tr("Press the new gamepad button for \"{}\", or Start or Esc to keep the old one.")
+                         : tr("Press the new key for \"{}\", or Esc to keep the old one.");
+        ImGui::PushStyleColor(ImGuiCol_Text, colors::kAccent);
+        ui::wrappedText(fmt::format(fmt::runtime(asks), tr(rowOf(*waiting_).label)));
+        ImGui::PopStyleColor();
     } else {
-        dimText(note_.empty() ? std::string(tr("Choose a key to change it.")) : note_);
+        dimText(note_.empty() ? std::string(tr("Choose a key or button to change it.")) : note_);
     }
-    if (!ImGui::BeginTable("keys", 2, ImGuiTableFlags_RowBg)) return;
+    if (!ImGui::BeginTable("keys", 3, ImGuiTableFlags_RowBg)) return;
     ImGui::TableSetupColumn("action", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 120 * uiScale());
+    ImGui::TableSetupColumn("key", ImGuiTableColumnFlags_WidthFixed, 90 * uiScale());
+    ImGui::TableSetupColumn("gamepad", ImGuiTableColumnFlags_WidthFixed, 120 * uiScale());
     for (const ActionRow& row : actionTable()) {
         ImGui::TableNextRow();
         ImGui::TableNextColumn();
         ImGui::AlignTextToFramePadding();
-        const auto key = keys.keyOf(row.action);
-        ImGui::TextColored(key ? colors::kText : colors::kWarning, "%s", tr(row.label));
-        ImGui::TableNextColumn();
+        const auto key = settings.keys.keyOf(row.action);
+        const auto button = settings.padButtons.keyOf(row.action);
+        ImGui::TextColored(key || button ? colors::kText : colors::kWarning, "%s", tr(row.label));
         ImGui::PushID(static_cast<int>(row.action));
-        const std::string name = waiting_ == row.action ? "..." : keyText(key, tr);
-        if (ui::button((name + "###key").c_str(), {-1, 0}, row.name)) waiting_ = row.action;
+        drawBinding(row, false, keyText(key, tr));
+        drawBinding(row, true, padButtonText(button, tr));
         ImGui::PopID();
     }
     ImGui::EndTable();
     ImGui::Spacing();
-    if (menuButton(tr("Default keys"), 140 * uiScale(), !keys.isUsual())) {
-        keys = KeyBindings();
-        note_ = tr("All keys have their defaults.");
+    if (menuButton(tr("Default keys"), 140 * uiScale(),
+                   !settings.keys.isUsual() || !settings.padButtons.isUsual())) {
+        settings.keys = {};
+        settings.padButtons = {};
+        note_ = tr("All keys and buttons have their defaults.");
     }
+}
+
+template <class Input>
+void SettingsDialog::bind(Bindings<Input>& bindings, Input input, const std::string& shown, const Texts& tr) {
+    const Action action = *std::exchange(waiting_, std::nullopt);
+    if (!canBeBound(input)) return;
+    const auto loser = bindings.bind(action, input);
+    note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has none now.")), shown,
+                                tr(rowOf(*loser).label))
+                  : fmt::format(fmt::runtime(tr("{} is \"{}\".")), shown, tr(rowOf(action).label));
 }
 
 bool SettingsDialog::takeKey(Key key, PlaySettings& settings, const Texts& tr) {
     if (!waiting_) return false;
-    const Action action = *waiting_;
-    waiting_.reset();
-    if (!canBeBound(key)) return true;
-    const auto loser = settings.keys.bind(action, key);
-    note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has no key now.")), keyText(key, tr),
-                                tr(rowOf(*loser).label))
-                  : fmt::format(fmt::runtime(tr("{} is \"{}\".")), keyText(key, tr), tr(rowOf(action).label));
+    if (waitsForPad_ && key == Key::Escape) waiting_.reset();
+    if (!waitsForPad_) bind(settings.keys, key, keyText(key, tr), tr);
     return true;
+}
+
+bool SettingsDialog::takePad(const PadReader& pad, PlaySettings& settings, const Texts& tr) {
+    const auto button = pad.pressed();
+    if (waiting_ && waitsForPad_ && button) {
+        bind(settings.padButtons, *button, padButtonText(*button, tr), tr);
+        holdsPad_ = true;
+        return true;
+    }
+    holdsPad_ = holdsPad_ && pad.isAnyDown();
+    return holdsPad_ || (waiting_ && waitsForPad_);
 }
 
 namespace {
@@ -243,8 +273,8 @@ void SettingsDialog::drawPage(PlaySettings& settings, const Input& input) {
             if (setting.section == section) drawSetting(setting, settings, &input.tr);
     }
     if (page_ != SettingsPage::Controls) return;
-    heading(input.tr("Keys"));
-    drawKeys(settings.keys, input.tr);
+    heading(input.tr("Keys and buttons"));
+    drawKeys(settings, input.tr);
 }
 
 }  // namespace terrane::app

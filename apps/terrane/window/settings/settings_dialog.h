@@ -29,6 +29,9 @@ class SettingsDialog {
 
     // Binds the key to the action that waits for one; Escape cancels. False if no action waits.
     bool takeKey(Key key, PlaySettings& settings, const Texts& tr);
+    // The same for a gamepad, once per frame; Start cancels. True while the gamepad does nothing else: until
+    // all of its buttons are released.
+    bool takePad(const PadReader& pad, PlaySettings& settings, const Texts& tr);
     // To the previous or next page, for a gamepad's bumpers.
     void turnPage(int by);
     void open() { *this = SettingsDialog(); }
@@ -36,11 +39,16 @@ class SettingsDialog {
   private:
     void drawTabs(const Texts& tr);
     void drawPage(PlaySettings& settings, const Input& input);
-    void drawKeys(KeyBindings& keys, const Texts& tr);
+    void drawKeys(PlaySettings& settings, const Texts& tr);
+    void drawBinding(const ActionRow& row, bool isPad, const std::string& shown);
+    template <class Input>
+    void bind(Bindings<Input>& bindings, Input input, const std::string& shown, const Texts& tr);
 
     SettingsPage page_ = SettingsPage::Graphics;
     std::optional<Action> waiting_;
-    std::string note_;  // which action lost its key
+    bool waitsForPad_ = false;  // for a button of the gamepad, else for a key
+    bool holdsPad_ = false;     // a button that was bound is still down
+    std::string note_;          // which action lost its key
 };
 
 // A widget of a setting. With `tr` in words for players, else by its names.

@@ -13,11 +13,8 @@
 namespace terrane::app {
 
 EnumNames<game::Movement> movementNames() {
-    static const std::array<std::pair<std::string, game::Movement>, 4> valueNames = {
-        {{"fast", game::Movement::Fast},
-         {"medium", game::Movement::Medium},
-         {"walls", game::Movement::Walls},
-         {"gravity", game::Movement::Gravity}}};
+    static const std::array<std::pair<std::string, game::Movement>, 3> valueNames = {
+        {{"walk", game::Movement::Walk}, {"fly", game::Movement::Fly}, {"noclip", game::Movement::Noclip}}};
     return valueNames;
 }
 
@@ -28,6 +25,14 @@ const std::string& nameOf(game::Movement movement) {
 std::optional<game::Movement> movementNamed(std::string_view name) {
     for (const auto& [known, movement] : movementNames())
         if (known == name) return movement;
+    // Of earlier versions, in saves and scripts.
+    constexpr std::array<std::pair<std::string_view, game::Movement>, 4> kFormer = {
+        {{"gravity", game::Movement::Walk},
+         {"walls", game::Movement::Fly},
+         {"medium", game::Movement::Noclip},
+         {"fast", game::Movement::Noclip}}};
+    for (const auto& [former, movement] : kFormer)
+        if (former == name) return movement;
     return std::nullopt;
 }
 
@@ -52,10 +57,13 @@ NumberSetting numberOf(NumberSetting number) {
 ChoiceSetting movementChoice() {
     ChoiceSetting choice;
     for (const auto& [name, movement] : movementNames()) choice.names.push_back(name);
-    choice.labels = {trLater("Fly fast, through blocks"), trLater("Fly slowly, through blocks"),
-                     trLater("Fly, with collisions"), trLater("Walk")};
+    choice.labels = {trLater("Walk"), trLater("Fly"), trLater("Fly through blocks")};
     choice.get = [](const PlaySettings& s) { return static_cast<int>(s.movement); };
     choice.set = [](PlaySettings& s, int value) { s.movement = static_cast<game::Movement>(value); };
+    choice.former = [](std::string_view name) {
+        const auto movement = movementNamed(name);
+        return movement ? std::optional(static_cast<int>(*movement)) : std::nullopt;
+    };
     return choice;
 }
 
@@ -151,6 +159,9 @@ std::vector<Setting> makeTable() {
         {"reduced-motion", "No motion of the arm and of the world behind the title", Section::Accessibility,
          trLater("Reduced motion"), trLater("The world behind the title stands still."),
          switchOf<&PlaySettings::reducedMotion>()},
+        {.name = "hint-seen",
+         .help = "Do not show the hint of the first start, which was seen",
+         .kind = switchOf<&PlaySettings::hintSeen>()},
     };
     table.insert(table.end(), others.begin(), others.end());
     return table;
@@ -161,9 +172,10 @@ void addChoiceOption(CLI::App& command, const Setting& setting, const ChoiceSett
     const std::string flag = "--" + std::string(setting.name);
     const auto take = [flag, choice, &settings](const std::string& text) {
         const auto found = std::ranges::find(choice.names, currentValue(text));
-        if (found == choice.names.end())
-            throw CLI::ValidationError(flag, base::expectedOneOf(choice.names, text));
-        choice.set(settings, static_cast<int>(found - choice.names.begin()));
+        const bool isCurrent = found != choice.names.end();
+        const std::optional<int> former = isCurrent || !choice.former ? std::nullopt : choice.former(text);
+        if (!isCurrent && !former) throw CLI::ValidationError(flag, base::expectedOneOf(choice.names, text));
+        choice.set(settings, former ? *former : static_cast<int>(found - choice.names.begin()));
     };
     command
         .add_option_function<std::string>(flag, take,
@@ -180,16 +192,15 @@ void addNumberOption(CLI::App& command, const Setting& setting, const NumberSett
         ->default_str(fmt::format("{:g}", number.get(settings)));
 }
 
-void addKeysOption(CLI::App& command, KeyBindings& keys) {
-    const auto take = [&keys](const std::string& text) {
-        auto bindings = keyBindingsFrom(text);
-        if (!bindings) throw CLI::ValidationError("--keys", bindings.error().message);
-        keys = *bindings;
+template <class Input>
+CLI::Option& addBindingsOption(CLI::App& command, const char* flag, Bindings<Input>& bindings,
+                               base::Result<Bindings<Input>> (*parse)(std::string_view), const char* help) {
+    const auto take = [flag, parse, &bindings](const std::string& text) {
+        auto parsed = parse(text);
+        if (!parsed) throw CLI::ValidationError(flag, parsed.error().message);
+        bindings = *parsed;
     };
-    command
-        .add_option_function<std::string>("--keys", take,
-                                          "Keys that differ from the defaults, such as jump=F,run=R")
-        ->type_name("ACTION=KEY,...");
+    return *command.add_option_function<std::string>(flag, take, help);
 }
 
 }  // namespace
@@ -221,7 +232,12 @@ void addSettings(CLI::App& command, PlaySettings& settings) {
         else
             addChoiceOption(command, setting, std::get<ChoiceSetting>(setting.kind), settings);
     }
-    addKeysOption(command, settings.keys);
+    addBindingsOption(command, "--keys", settings.keys, keyBindingsFrom,
+                      "Keys that differ from the defaults, such as jump=F,run=R,chat=Mouse4")
+        .type_name("ACTION=KEY,...");
+    addBindingsOption(command, "--pad-buttons", settings.padButtons, padBindingsFrom,
+                      "Gamepad buttons that differ from the defaults, such as jump=West,run=LeftStick")
+        .type_name("ACTION=BUTTON,...");
 }
 
 SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
@@ -233,6 +249,8 @@ SettingValues valuesOf(const PlaySettings& s, bool isSoftwareRenderer) {
         if (setting.isSaved && text != textOf(setting, usual)) values.emplace(setting.name, text);
     }
     if (const std::string keys = textOf(s.keys); !keys.empty()) values.emplace("keys", keys);
+    if (const std::string buttons = textOf(s.padButtons); !buttons.empty())
+        values.emplace("pad-buttons", buttons);
     return values;
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -48,6 +49,7 @@ struct ChoiceSetting {
     std::vector<const char*> labels = {};         // for the player, translated; empty: the names
     std::function<int(const PlaySettings&)> get;  // the value's index; −1: none of them
     std::function<void(PlaySettings&, int)> set;
+    std::function<std::optional<int>(std::string_view)> former = {};  // value of a name of earlier versions
 };
 
 struct Setting {

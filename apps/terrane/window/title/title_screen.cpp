@@ -97,6 +97,9 @@ void TitleScreen::onKey(Key key) {
 
 void TitleScreen::onPad() {
     pad_.read(parts_.window.gamepad());
+    const bool isTaken = pages_.back() == Page::Settings && dialog_.takePad(pad_, settings_, tr_);
+    imgui_.setPadIgnored(isTaken);
+    if (isTaken) return;
     if (pad_.isPressed(&Gamepad::east)) back();
     if (pages_.back() != Page::Settings) return;
     if (pad_.isPressed(&Gamepad::leftBumper)) dialog_.turnPage(-1);
