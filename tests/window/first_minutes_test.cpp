@@ -129,7 +129,7 @@ TEST_F(FirstMinutesTest, AHintIsShownOnTheFirstStartOnly) {
         EXPECT_FALSE(isHintShown(program));
         program.press(Key::F1);
         EXPECT_TRUE(isHintShown(program));
-        program.frames(static_cast<int>(Notices::kHintSeconds / OffscreenWindow::kFrameSeconds));
+        program.game().notices.hintSeconds = OffscreenWindow::kFrameSeconds;
         EXPECT_FALSE(isHintShown(program));
         expectGood(program.quit());
     }

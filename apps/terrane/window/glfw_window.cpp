@@ -124,8 +124,11 @@ void readPadMappings(const std::string& file) {
     if (file.empty() || !std::filesystem::exists(file, missing)) return;
     const auto text = base::readFile(file);
     if (!text) return base::logWarning("{}", text.error().message);
-    if (glfwUpdateGamepadMappings(text->c_str()) == GLFW_FALSE)
-        base::logWarning("{}: expected lines as in SDL's gamecontrollerdb.txt: {}", file, lastError());
+    // It skips wrong lines and tells them only as an error.
+    const char* problem = nullptr;
+    glfwUpdateGamepadMappings(text->c_str());
+    if (glfwGetError(&problem) != GLFW_NO_ERROR)
+        base::logWarning("{}: expected lines as in SDL's gamecontrollerdb.txt: {}", file, problem);
 }
 
 Modifiers modifiersOf(int bits) {
