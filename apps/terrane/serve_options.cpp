@@ -60,7 +60,7 @@ void addServeOptions(CLI::App& command, ServeOptions& options) {
         ->capture_default_str();
     command
         .add_option("--spawn-radius", options.server.spawnRadius,
-                    "Newcomers appear up to this many blocks from the spawn")
+                    "Newcomers appear on free ground around a column at most this many blocks from the spawn")
         ->check(numberFrom(0, 1000000))
         ->capture_default_str();
     command.add_option("--day-minutes", options.server.dayMinutes, "Length of a day in minutes")
