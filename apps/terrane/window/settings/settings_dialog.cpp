@@ -107,11 +107,12 @@ void SettingsDialog::drawKeys(PlaySettings& settings, const Texts& tr) {
     }
 }
 
-template <class Input>
-void SettingsDialog::bind(Bindings<Input>& bindings, Input input, const std::string& shown, const Texts& tr) {
+template <class Pressed>
+void SettingsDialog::bind(Bindings<Pressed>& bindings, Pressed pressed, const std::string& shown,
+                          const Texts& tr) {
     const Action action = *std::exchange(waiting_, std::nullopt);
-    if (!canBeBound(input)) return;
-    const auto loser = bindings.bind(action, input);
+    if (!canBeBound(pressed)) return;
+    const auto loser = bindings.bind(action, pressed);
     note_ = loser ? fmt::format(fmt::runtime(tr("{} was \"{}\", which has none now.")), shown,
                                 tr(rowOf(*loser).label))
                   : fmt::format(fmt::runtime(tr("{} is \"{}\".")), shown, tr(rowOf(action).label));

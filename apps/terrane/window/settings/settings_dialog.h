@@ -41,8 +41,8 @@ class SettingsDialog {
     void drawPage(PlaySettings& settings, const Input& input);
     void drawKeys(PlaySettings& settings, const Texts& tr);
     void drawBinding(const ActionRow& row, bool isPad, const std::string& shown);
-    template <class Input>
-    void bind(Bindings<Input>& bindings, Input input, const std::string& shown, const Texts& tr);
+    template <class Pressed>
+    void bind(Bindings<Pressed>& bindings, Pressed pressed, const std::string& shown, const Texts& tr);
 
     SettingsPage page_ = SettingsPage::Graphics;
     std::optional<Action> waiting_;
