@@ -67,7 +67,7 @@ class HostileTest : public testing::Test {
         return found != server_->state().clients.all.end() &&
                found->second.stage == ServerClient::Stage::Playing;
     }
-    // A block above the spawn, where all players appear.
+    // A block above the spawn, near which all players appear.
     world::BlockPos nearSpawn(int dx = 2) const {
         const world::BlockPos eyes = world::blockOf(poseOf(pose_).position);
         return {eyes.x + dx, eyes.y, eyes.z + 2};

@@ -123,6 +123,7 @@ TEST_F(HostileTestOfPlay, ManyPlayersOfAnAddressShareTheChat) {
 TEST_F(HostileTestOfPlay, MovesThatAreNotBelieved) {
     start();
     const auto bob = joined("Bob");
+    const WirePose first = clientOf(*bob).pose;
     const auto expectCorrected = [&](const WirePose& pose) {
         (void)bob->take();
         bob->say(Move{pose});
@@ -130,16 +131,16 @@ TEST_F(HostileTestOfPlay, MovesThatAreNotBelieved) {
         const auto* corrected = findMessage<Corrected>(messages);
         ASSERT_TRUE(corrected);
         EXPECT_EQ(corrected->pose, clientOf(*bob).pose);
-        EXPECT_EQ(clientOf(*bob).pose, pose_) << "it stays";
+        EXPECT_EQ(clientOf(*bob).pose, first) << "it stays";
     };
-    WirePose far = pose_;
+    WirePose far = first;
     far.x += 1000 * 64;
     expectCorrected(far);
-    far = pose_;
+    far = first;
     far.z += std::int64_t{1} << 36;
     expectCorrected(far);
     (void)runConsoleLine(server_->state(), "op Bob");
-    far = pose_;
+    far = first;
     far.x = std::int64_t{1} << 37;  // 2^31 blocks: one above the limit
     expectCorrected(far);
     far.x = -(std::int64_t{1} << 37) - 1;
