@@ -80,6 +80,7 @@ void forEachBlock(const BlockBox& box, Function function) {
 
 void planFill(Plan& plan, const world::World& world, const FillBox& fill) {
     forEachBlock(fill.box, [&](BlockPos pos) {
+        if (!contains(fill.shape, fill.box, pos)) return;
         const world::BlockId there = world.block(pos);
         if (fill.replaced && there != *fill.replaced) return;
         if (fill.state == 0 && there == fill.id) return;  // its state stays

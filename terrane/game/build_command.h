@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "terrane/game/edit_command.h"
+#include "terrane/game/fill_shape.h"
 #include "terrane/world/changes/structure.h"
 
 namespace terrane::game {
@@ -18,12 +19,13 @@ namespace terrane::game {
 // The largest distance in blocks from the eyes of a player to the nearest block of the box.
 constexpr double kBuildReach = 64;
 
-// Fills the box with one block; with `replaced`, only in place of blocks of that type.
+// Fills the shape in the box with one block; with `replaced`, only in place of blocks of that type.
 struct FillBox {
     world::BlockBox box;
     world::BlockId id = world::kAir;
     std::uint16_t state = 0;
     std::optional<world::BlockId> replaced;
+    FillShape shape = {};
 };
 // Replaces all blocks of the box that begins at `low`, by air too. Invalid texts of signs are left out, and
 // inventories get the slots of their block (world::fittedInventory()).

@@ -17,6 +17,27 @@ std::optional<BlockBox> Selection::box() const {
                     {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
+bool Selection::moveEnd(End end, int blocks) {
+    const auto before = box();
+    if (!before) return false;
+    if (!first_) first_ = second_;
+    if (!second_) second_ = first_;
+    // In a box of one layer the second corner moves.
+    const bool isFirst = end == End::Top ? first_->z > second_->z : first_->z < second_->z;
+    std::int32_t& z = isFirst ? first_->z : second_->z;
+    const std::int64_t lowest = end == End::Top ? before->low.z : 0;
+    const std::int64_t highest = end == End::Top ? world::kChunkHeight - 1 : before->high.z;
+    // A corner may be above or below the world, where the player stands: it moves only toward the world.
+    z = static_cast<std::int32_t>(std::clamp(std::int64_t{z} + blocks, std::min<std::int64_t>(lowest, z),
+                                             std::max<std::int64_t>(highest, z)));
+    return box()->low != before->low || box()->high != before->high;
+}
+
+FillShape Selection::shape() const {
+    if (shape_ != ShapeKind::Line || !first_ || !second_) return {shape_};
+    return lineBetween(*first_, *second_);
+}
+
 void Selection::setClipboard(world::Structure structure) {
     clipboard_ = std::make_shared<const world::Structure>(std::move(structure));
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "terrane/game/fill_shape.h"
 #include "terrane/world/changes/structure.h"
 
 namespace terrane::game {
@@ -15,6 +16,15 @@ class Selection {
     void setSecond(world::BlockPos corner) { second_ = corner; }
     // Returns the box from corner to corner, or of the only corner; none without corners.
     std::optional<world::BlockBox> box() const;
+    // Moves the top or the bottom of the box by blocks up (positive) or down. It passes neither the other end
+    // nor the height of the world. Returns whether the box changed.
+    enum class End : std::uint8_t { Top, Bottom };
+    bool moveEnd(End end, int blocks);
+
+    // The shape that fills take in the box. A line goes from the first corner to the second.
+    void setShape(ShapeKind shape) { shape_ = shape; }
+    ShapeKind shapeKind() const { return shape_; }
+    FillShape shape() const;
 
     // Returns the clipboard; null if nothing was copied or read.
     const std::shared_ptr<const world::Structure>& clipboard() const { return clipboard_; }
@@ -35,6 +45,7 @@ class Selection {
 
   private:
     std::optional<world::BlockPos> first_, second_;
+    ShapeKind shape_ = ShapeKind::Solid;
     std::shared_ptr<const world::Structure> clipboard_;
     bool isPasting_ = false;
 };

@@ -196,6 +196,11 @@ class FuzzServer {
         const std::uint8_t id = in.byte();
         return id == 255 ? static_cast<world::BlockId>(in.number(2)) : id;
     }
+    game::FillShape shape(FuzzInput& in) {
+        const std::uint8_t bits = in.byte();
+        return {static_cast<game::ShapeKind>(bits / 4 % static_cast<std::uint8_t>(game::ShapeKind::Count)),
+                (bits & 1) != 0, (bits & 2) != 0};
+    }
     world::BlockChange change(FuzzInput& in) {
         const std::uint8_t kind = in.byte() % 4;
         if (kind == 0) return world::UseBlock{};
@@ -219,9 +224,9 @@ class FuzzServer {
             case 1:
                 return net::Edit{number, pos(in), change(in), block(in)};
             case 2:
-                return net::Fill{number, {{pos(in), pos(in)}, block(in), in.byte(), {}}};
+                return net::Fill{number, {{pos(in), pos(in)}, block(in), in.byte(), {}, shape(in)}};
             case 3:
-                return net::Fill{number, {{pos(in), pos(in)}, block(in), 0, block(in)}};
+                return net::Fill{number, {{pos(in), pos(in)}, block(in), 0, block(in), shape(in)}};
             case 4:
                 return net::Place{number, pos(in), structure(in)};
             case 5:

@@ -82,6 +82,31 @@ TEST_F(BuildTest, OnlyBlocksOfOneTypeAreReplaced) {
     EXPECT_EQ(block({0, 0, kGroundHeight - 1}), contentBlock("stone"));
 }
 
+TEST_F(BuildTest, AShapeIsFilledReplacedAndTakenBackLikeABox) {
+    const auto build = [&](ShapeKind kind, std::string_view name,
+                           std::optional<world::BlockId> replaced = {}) {
+        return session_.build({kBuilder, FillBox{kCube, contentBlock(name), 0, replaced, {kind}}}).changed;
+    };
+    const auto undo = [&] { return session_.undoOrRedo(kBuilder, HistoryWay::Undo).blocks; };
+    EXPECT_EQ(build(ShapeKind::Hollow, "bricks"), 125u - 27);
+    EXPECT_EQ(block({4, 4, kGroundHeight + 2}), world::kAir);
+    EXPECT_EQ(build(ShapeKind::Walls, "glass", contentBlock("bricks")), 5u * 16);
+    EXPECT_EQ(block({4, 4, kGroundHeight}), contentBlock("bricks"));
+    EXPECT_EQ(undo(), 80u);
+    EXPECT_EQ(undo(), 98u);
+    EXPECT_EQ(block(kCube.low), world::kAir);
+    EXPECT_EQ(build(ShapeKind::Line, "bricks"), 5u);
+    EXPECT_EQ(block(kCube.low), contentBlock("bricks"));
+    EXPECT_EQ(block(kCube.high), contentBlock("bricks"));
+    EXPECT_EQ(undo(), 5u);
+    EXPECT_EQ(build(ShapeKind::Sphere, "bricks"), 81u);
+    EXPECT_EQ(block(kCube.low), world::kAir);
+    EXPECT_EQ(
+        session_.build({kBuilder, FillBox{{{0, 0, 0}, {199, 199, 99}}, 1, 0, {}, {ShapeKind::Line}}}).result,
+        Result::TooLarge)
+        << "a shape counts as its box";
+}
+
 TEST_F(BuildTest, RefusesWhatItShould) {
     const BlockPos low{2, 2, 70};
     EXPECT_EQ(fill({low, {1, 2, 70}}, "stone").result, Result::Empty);

@@ -54,6 +54,20 @@ TEST_F(PermissionsTest, ABoxThatReachesIntoAClaimIsNotFilled) {
     EXPECT_EQ(fill(kInClaim, kOutside, kOwner), BuildOutcome::Result::Done);
 }
 
+// The claim has columns 0 to 5.
+TEST_F(PermissionsTest, AShapeChangesOnlyItsOwnBlocks) {
+    const auto build = [&](ShapeKind kind, world::BlockPos low, world::BlockPos high) {
+        return session_.build({kNeighbor, FillBox{{low, high}, contentBlock("glass"), 0, {}, {kind}}}).result;
+    };
+    const world::BlockPos low{-1, -1, kGroundHeight}, high{6, 10, kGroundHeight + 2};
+    EXPECT_EQ(build(ShapeKind::Walls, low, high), BuildOutcome::Result::Done) << "around the claim";
+    EXPECT_EQ(at(kInClaim), world::kAir);
+    EXPECT_EQ(build(ShapeKind::Hollow, low, high), BuildOutcome::Result::NotAllowed) << "floor and ceiling";
+    EXPECT_EQ(build(ShapeKind::Sphere, low, high), BuildOutcome::Result::NotAllowed);
+    EXPECT_EQ(build(ShapeKind::Line, low, high), BuildOutcome::Result::NotAllowed);
+    EXPECT_EQ(at(kInClaim), world::kAir);
+}
+
 TEST_F(PermissionsTest, NobodyUndoesWhatBecameAClaimOfOthers) {
     ASSERT_EQ(put(kOutside, kNeighbor), EditResult::Applied);
     ASSERT_TRUE(session_.permissions.claims.add({"later", {6, 0, 9, 9}, kOwner, {}}));

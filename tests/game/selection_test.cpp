@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/world/content_blocks.h"
 
 namespace terrane::game {
@@ -27,6 +29,42 @@ TEST(Selection, ABoxGoesFromCornerToCorner) {
     selection.setSecond({-3, 4, 8});
     EXPECT_EQ(selection.box()->low, (BlockPos{-3, -2, 8}));
     EXPECT_EQ(selection.box()->high, (BlockPos{5, 4, 9}));
+}
+
+TEST(Selection, TheEndsOfTheBoxMoveUpAndDown) {
+    using End = Selection::End;
+    Selection selection;
+    EXPECT_FALSE(selection.moveEnd(End::Top, 1)) << "no box";
+    selection.setFirst({0, 0, 70});
+    EXPECT_TRUE(selection.moveEnd(End::Top, 4));
+    EXPECT_EQ(selection.box()->low.z, 70);
+    EXPECT_EQ(selection.box()->high.z, 74);
+    EXPECT_TRUE(selection.moveEnd(End::Bottom, -2));
+    EXPECT_EQ(selection.box()->low.z, 68);
+    EXPECT_TRUE(selection.moveEnd(End::Top, -99)) << "to a single layer";
+    EXPECT_EQ(selection.box()->high.z, 68);
+    EXPECT_FALSE(selection.moveEnd(End::Bottom, 1));
+    EXPECT_TRUE(selection.moveEnd(End::Top, 9999));
+    EXPECT_EQ(selection.box()->high.z, world::kChunkHeight - 1);
+    EXPECT_TRUE(selection.moveEnd(End::Bottom, std::numeric_limits<int>::min()));
+    EXPECT_EQ(selection.box()->low.z, 0);
+    EXPECT_FALSE(selection.moveEnd(End::Top, std::numeric_limits<int>::max()));
+    EXPECT_EQ(selection.box()->blockCount(), world::kChunkHeight);
+    selection.setSecond({0, 0, 400});  // a player flies there
+    EXPECT_TRUE(selection.moveEnd(End::Top, -1));
+    EXPECT_FALSE(selection.moveEnd(End::Top, 0));
+    EXPECT_EQ(selection.box()->high.z, 399);
+}
+
+TEST(Selection, ALineGoesFromTheFirstCornerToTheSecond) {
+    Selection selection;
+    selection.setShape(ShapeKind::Line);
+    selection.setFirst({5, 0, 70});
+    EXPECT_EQ(selection.shape(), (FillShape{ShapeKind::Line}));
+    selection.setSecond({0, 5, 75});
+    EXPECT_EQ(selection.shape(), (FillShape{ShapeKind::Line, true, false}));
+    selection.setShape(ShapeKind::Walls);
+    EXPECT_EQ(selection.shape(), (FillShape{ShapeKind::Walls}));
 }
 
 TEST(Selection, NothingIsPastedThatWasNotCopied) {

@@ -71,6 +71,27 @@ TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
                                                                : BuildOutcome::Result::OutOfWorld);
 }
 
+TEST_P(WorldEdgeTest, ShapesReachTheLastColumn) {
+    const BlockPos a = corner(kGroundHeight), b = inward(4, 4, kGroundHeight + 4);
+    Selection selection;
+    selection.setFirst(a);
+    selection.setSecond(b);
+    const auto count = [&](ShapeKind kind) {
+        selection.setShape(kind);
+        const FillBox fill{*selection.box(), contentBlock("glass"), 0, {}, selection.shape()};
+        const std::size_t changed = session_.build({kVisitor, fill}).changed;
+        const bool hasCorner = session_.world().block(a) == contentBlock("glass");
+        EXPECT_EQ(hasCorner, kind != ShapeKind::Sphere);
+        EXPECT_EQ(session_.undoOrRedo(kVisitor, HistoryWay::Undo).blocks, changed);
+        return changed;
+    };
+    EXPECT_EQ(count(ShapeKind::Solid), 125u);
+    EXPECT_EQ(count(ShapeKind::Hollow), 98u);
+    EXPECT_EQ(count(ShapeKind::Walls), 80u);
+    EXPECT_EQ(count(ShapeKind::Sphere), 81u);
+    EXPECT_EQ(count(ShapeKind::Line), 5u);
+}
+
 TEST_P(WorldEdgeTest, WaterAndPlantsLiveToTheLastColumn) {
     put(corner(kGroundHeight), "stone");
     put(corner(kGroundHeight + 1), "water");

@@ -19,20 +19,21 @@ std::vector<ClientMessage> clientMessages() {
     key[31] = std::byte{9};
     Signature signature{};
     signature[0] = std::byte{8};
-    return {Hello{kMagic, kProtocolVersion, "terrane 0.2"},
-            Login{"Ada", key, signature, "secret"},
-            Proof{{1, 2, 3, 4, 5, 6, 7, ~std::uint64_t{0}}},
-            View{{-5, 70000}, 16, 512},
-            Move{kPose},
-            Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}},
-            Fill{8, {{{0, -2, 3}, {4, 5, 255}}, 6, 1, world::BlockId{2}}},
-            Place{9, {1, 2, 3}, {std::byte{1}, std::byte{2}}},
-            TakeBack{10, true},
-            Say{"hello there"},
-            Pong{123456},
-            AskPlayers{},
-            Leave{},
-            AskPack{1, 65536}};
+    return {
+        Hello{kMagic, kProtocolVersion, "terrane 0.2"},
+        Login{"Ada", key, signature, "secret"},
+        Proof{{1, 2, 3, 4, 5, 6, 7, ~std::uint64_t{0}}},
+        View{{-5, 70000}, 16, 512},
+        Move{kPose},
+        Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}},
+        Fill{8, {{{0, -2, 3}, {4, 5, 255}}, 6, 1, world::BlockId{2}, {game::ShapeKind::Line, true, false}}},
+        Place{9, {1, 2, 3}, {std::byte{1}, std::byte{2}}},
+        TakeBack{10, true},
+        Say{"hello there"},
+        Pong{123456},
+        AskPlayers{},
+        Leave{},
+        AskPack{1, 65536}};
 }
 
 std::vector<ServerMessage> serverMessages() {

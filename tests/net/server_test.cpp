@@ -445,6 +445,41 @@ TEST_F(ServerTest, ARollbackTakesBackWhatAPlayerDid) {
     EXPECT_EQ(ann.block(anns), contentBlock("glass"));
 }
 
+// A shape on a server: drawn by the server's rules, counted, undone and rolled back like a fill.
+TEST_F(ServerTest, ShapesAreFilledUndoneAndRolledBack) {
+    TestServer server(folder_.path());
+    TestPlayer ann(server, testIdentity("Ann"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.isLoaded(); }));
+    const world::BlockPos low = above(ann);
+    const world::BlockBox box{low, {low.x + 4, low.y + 4, low.z + 4}};
+    const auto build = [&](game::FillShape shape) {
+        (void)ann.session->build(
+            {game::kLocalPlayer, game::FillBox{box, contentBlock("glass"), 0, {}, shape}});
+        EXPECT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+        const auto decided = ann.world->popDecided();
+        return decided.size() == 1 ? std::get<game::BuildOutcome>(decided[0]).changed : 0;
+    };
+    const auto shown = [&] {
+        std::size_t count = 0;
+        for (std::int64_t k = 0; k < box.blockCount(); ++k)
+            count += ann.block(box.blockAt(k)) == contentBlock("glass") ? 1 : 0;
+        return count;
+    };
+    EXPECT_EQ(build({game::ShapeKind::Line, true, false}), 5u);
+    EXPECT_EQ(ann.block({box.high.x, low.y, low.z}), contentBlock("glass"));
+    EXPECT_EQ(shown(), 5u);
+    (void)ann.session->undoOrRedo(game::kLocalPlayer, game::HistoryWay::Undo);
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return ann.world->undecidedCount() == 0; }));
+    EXPECT_EQ(shown(), 0u);
+    (void)ann.world->popDecided();
+    EXPECT_EQ(build({game::ShapeKind::Hollow}), 98u);
+    EXPECT_EQ(shown(), 98u);
+    EXPECT_EQ(server.state().session.world().block({low.x + 2, low.y + 2, low.z + 2}), world::kAir);
+    // With the three blocks of the line that are not in the hollow box: each block once.
+    EXPECT_TRUE(runConsoleLine(server.state(), "rollback Ann 60").starts_with("rolling back 101 blocks;"));
+    ASSERT_TRUE(stepUntil(server, {&ann}, [&] { return shown() == 0; }));
+}
+
 TEST_F(ServerTest, AFarTownIsSeen) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));

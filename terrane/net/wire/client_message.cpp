@@ -107,6 +107,9 @@ void describe(auto& wire, Of<Fill> auto& m) {
     wire.number(m.fill.id);
     wire.number(m.fill.state);
     wire.optional(m.fill.replaced, [&](auto& id) { wire.number(id); });
+    wire.choice(m.fill.shape.kind, game::ShapeKind::Count);
+    wire.flag(m.fill.shape.fromHighX);
+    wire.flag(m.fill.shape.fromHighY);
 }
 
 void describe(auto& wire, Of<Place> auto& m) {
