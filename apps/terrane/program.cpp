@@ -4,11 +4,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -85,8 +87,23 @@ std::vector<std::string> argumentsOf(int argc, char** argv) {
     return named;
 }
 
+const CommandEntry* commandNamed(std::span<const CommandEntry> commands,
+                                 const std::vector<std::string>& named) {
+    if (named.size() < 2) return nullptr;
+    const auto found = std::ranges::find_if(
+        commands, [&](const CommandEntry& command) { return command.parser->get_name() == named[1]; });
+    return found == commands.end() ? nullptr : &*found;
+}
+
+// The error that ends the program. `command`: may be null.
+void report(const CommandEntry* command, const std::string& error) {
+    base::logError("{}", error);
+    if (command && command->showError) command->showError(error);
+}
+
 // Returns an exit code if parsing ends the program: after help or an error.
-std::optional<int> parseArguments(CLI::App& parser, const std::vector<std::string>& named) {
+std::optional<int> parseArguments(CLI::App& parser, std::span<const CommandEntry> commands,
+                                  const std::vector<std::string>& named) {
     if (named.size() > 1 && !named[1].starts_with('-')) {
         if (const auto unknown = unknownCommand(parser, named[1])) {
             base::logError("{}", *unknown);
@@ -100,7 +117,7 @@ std::optional<int> parseArguments(CLI::App& parser, const std::vector<std::strin
     } catch (const CLI::Success& help) {
         return withOutputWritten(parser.exit(help));
     } catch (const CLI::ParseError& error) {
-        base::logError("{}", app::describe(parser, error));
+        report(commandNamed(commands, named), app::describe(parser, error));
         return kBadInput;
     }
     return std::nullopt;
@@ -121,13 +138,13 @@ int runProgram(int argc, char** argv) try {
     const std::vector<CommandEntry> commands = addCommands(parser);
     std::string trace;
     for (const CommandEntry& command : commands) addTraceOption(*command.parser, trace);
-    if (const auto exitCode = parseArguments(parser, argumentsOf(argc, argv))) return *exitCode;
+    if (const auto exitCode = parseArguments(parser, commands, argumentsOf(argc, argv))) return *exitCode;
     for (const CommandEntry& command : commands) {
         if (!command.parser->parsed()) continue;
         base::Result<void> result = checkOutputs(*command.parser);
         if (result) result = runTraced(command, trace);
         if (result) return withOutputWritten(command.exitCode());
-        base::logError("{}", result.error().message);
+        report(&command, result.error().message);
         return kBadInput;
     }
     return kBadInput;

@@ -1,5 +1,6 @@
 #include "apps/terrane/window/title/new_world_form.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -48,6 +49,18 @@ TEST_F(NewWorld, ASeedIsANumberOrAText) {
                                             "18446744073709551615"));
     form_.seed = "\t ";
     EXPECT_EQ(seedOf(form_)->seed, 5u);
+}
+
+TEST_F(NewWorld, ASeedSaysWhichNumberItIsOnlyIfItDoesNotShowIt) {
+    const auto note = [&](const std::string& text) {
+        form_.seed = text;
+        return seedNote(form_, seedOf(form_).value(), textsOf("en"));
+    };
+    EXPECT_EQ(note(""), "Random number 5");
+    EXPECT_EQ(note("  "), "Random number 5");
+    EXPECT_EQ(note("12"), "");
+    EXPECT_EQ(note(" -1 "), "");
+    EXPECT_EQ(note("a hill"), fmt::format("The text becomes the number {}", base::hash64("a hill")));
 }
 
 TEST_F(NewWorld, NamesThatNoFileCanHaveAreRefused) {

@@ -7,6 +7,7 @@ import contextlib
 import shutil
 import sqlite3
 import subprocess
+import tempfile
 import time
 import unittest
 
@@ -87,6 +88,44 @@ class Window(ProgramTest):
                            env=support.environment(display.name))
             game = self.play(display, "--size", f"{SIZE[0]}x{SIZE[1]}", *FLAT, size=(2 * SIZE[0], 2 * SIZE[1]))
             self.close(game)
+
+    def test_an_error_at_the_start_is_shown_to_a_player_without_a_terminal(self):
+        settings = self.folder / "terrane" / "settings.toml"
+        settings.parent.mkdir(exist_ok=True)
+        former_driver = {"MESA_GL_VERSION_OVERRIDE": "3.3", "MESA_GLSL_VERSION_OVERRIDE": "330"}
+        for name, text, driver, error in (("settings", "preset = low\n", {}, f"{settings}:1: "),
+                                          ("driver", "", former_driver, "no window with an OpenGL 4.5 core context: ")):
+            settings.write_text(text)
+            with self.subTest(name), Display() as display, tempfile.TemporaryFile(mode="w+") as log:
+                process = subprocess.Popen([support.program(), "play"], cwd=self.folder, stdin=subprocess.DEVNULL,
+                                           stdout=log, stderr=log,
+                                           env={**support.environment(display.name, self.folder), **driver})
+                self.addCleanup(process.kill)  # no effect if it has ended
+                window = self.wait_for(process, lambda: display.xdotool("search", "--onlyvisible", "--name", "^Terrane$"))
+                # A dialog with text, on a plain ground.
+                self.wait_for(process, lambda: len(display.screenshot(window).colors()) > 20)
+                display.xdotool("windowfocus", window)
+                display.xdotool("key", "q")
+                self.assertEqual(process.wait(HANG_SECONDS), 2)
+                log.seek(0)
+                self.assertIn(f"terrane: error: {error}", log.read())
+            self.assertEqual(settings.read_text(), text)
+
+    def test_without_a_display_an_error_is_a_line(self):
+        with tempfile.TemporaryFile(mode="w+") as log:
+            process = subprocess.Popen([support.program(), "play"], cwd=self.folder, stdin=subprocess.DEVNULL, stdout=log,
+                                       stderr=log, env=support.environment(None, self.folder))
+            self.assertEqual(process.wait(HANG_SECONDS), 2)
+            log.seek(0)
+            self.assertRegex(log.read(), r"\Aterrane: error: no display: [^\n]+\n\Z")
+
+    def wait_for(self, process, condition):
+        deadline = time.monotonic() + HANG_SECONDS
+        while not condition():
+            self.assertIsNone(process.poll(), "the program ended")
+            self.assertLess(time.monotonic(), deadline, "nothing happens")
+            time.sleep(0.05)
+        return condition()
 
 
 if __name__ == "__main__":

@@ -85,6 +85,66 @@ TEST_F(BuildingTest, BoxesAreFilledCopiedAndKeptInFiles) {
     EXPECT_GT(file_size(file), 40u);
 }
 
+TEST_F(BuildingTest, TheWheelChangesTheHeightOfTheBox) {
+    Program program = playWith("bricks", "8.5 -3.5 88.5 90 -35");
+    selectBox(program);  // 6 x 2 x 4 blocks
+    const std::size_t slot = program.game().interaction.hotbar.selected;
+    const auto turn = [&](double steps, bool withShift) {
+        program.hold(Key::Control);
+        if (withShift) program.hold(Key::Shift);
+        program.turnWheel(steps);
+        program.release(Key::Control);
+        if (withShift) program.release(Key::Shift);
+    };
+    turn(1, false);
+    EXPECT_EQ(program.game().notices.message, "height 5, from 81 to 85; 60 blocks");
+    turn(-3, false);
+    EXPECT_EQ(program.game().notices.message, "height 2, from 81 to 82; 24 blocks");
+    turn(1, true);
+    EXPECT_EQ(program.game().notices.message, "height 1, from 82 to 82; 12 blocks");
+    EXPECT_EQ(program.game().interaction.hotbar.selected, slot) << "the hotbar stays";
+    program.press(Key::G);
+    untilCount(program, "bricks", 12);
+    program.turnWheel(-1);
+    EXPECT_NE(program.game().interaction.hotbar.selected, slot) << "the wheel alone is the hotbar's";
+    program.press(Key::B);
+    turn(-1, false);
+    EXPECT_EQ(program.game().interaction.hotbar.selected, slot + 2) << "without the tool too";
+    expectGood(program.quit());
+}
+
+TEST_F(BuildingTest, ShapesAreFilledClearedAndTakenBack) {
+    Program program = playWith("bricks", "8.5 -3.5 88.5 90 -35");
+    selectBox(program);
+    go(program, {{10.5, 11.5, 84.5}, 0, 0});
+    program.tap(MouseButton::Right, {.shift = true});  // 6 x 4 x 4 blocks
+    go(program, {{8.5, -3.5, 88.5}, 90, -35});
+    const auto fills = [&](const std::string& shape, int count) {
+        program.press(Key::U);
+        EXPECT_EQ(program.game().notices.message, "shape: " + shape);
+        program.press(Key::G);
+        untilCount(program, "bricks", count);
+        program.press(Key::Z, {.control = true});
+        untilCount(program, "bricks", 0);
+    };
+    fills("hollow", 96 - 4 * 2 * 2);
+    fills("walls", 96 - 4 * 2 * 4);
+    program.press(Key::U);
+    EXPECT_EQ(program.game().notices.message, "shape: sphere");
+    fills("line", 6);
+    program.tap(MouseButton::Middle);
+    program.click("Shape (U)");
+    EXPECT_EQ(program.game().notices.message, "shape: box");
+    program.click("Fill (G)");
+    untilCount(program, "bricks", 96);
+    program.click("Shape (U)");
+    program.click("Clear (Del)");
+    untilCount(program, "bricks", 16);
+    program.tap(MouseButton::Middle);
+    program.press(Key::Escape);
+    expectGood(program.quit());
+}
+
 TEST_F(BuildingTest, ThePanelOfTheToolHasButtons) {
     Program program = playWith("bricks", "8.5 -3.5 88.5 90 -35");
     selectBox(program);
@@ -165,6 +225,55 @@ TEST_F(HudTest, BlocksArePickedAndChosen) {
     program.click("##block", "Stone");
     EXPECT_EQ(program.session().blocks().type(program.game().interaction.block()).name, "stone");
     EXPECT_TRUE(program.game().input.isCaptured);
+    expectGood(program.quit());
+}
+
+// Headings in the order of the groups, each above its blocks; a page of one group and a search have none.
+TEST_F(HudTest, TheBlocksOfAllGroupsHaveHeadings) {
+    Program program = playWith("bricks", kDown);
+    takeMouse(program);
+    program.press(Key::Tab);
+    program.widget("heading", "Ground");
+    const auto headings = [&] {
+        std::vector<std::string> shown;
+        float last = -1e9f;
+        for (const Widget& widget : program.window().record.widgets()) {
+            if (widget.label != "heading") continue;
+            EXPECT_GT(widget.min.y, last);
+            last = widget.min.y;
+            shown.push_back(widget.value);
+        }
+        return shown;
+    };
+    const auto blockNames = [&] {
+        std::vector<std::string> shown;
+        for (const Widget& widget : program.window().record.widgets())
+            if (widget.label == "##block") shown.push_back(widget.value);
+        return shown;
+    };
+    EXPECT_EQ(headings().size(), game::paletteGroups(program.session().blocks()).size());
+    const std::size_t all = blockNames().size();
+    EXPECT_EQ(all, game::paletteBlocks(program.session().blocks(),
+                                       {"", "", [](world::BlockId) { return std::string(); }})
+                       .size())
+        << "each block once";
+    const Widget block = program.widget("##block", "Oak log");
+    std::string above;
+    for (const Widget& widget : program.window().record.widgets())
+        if (widget.label == "heading" && widget.max.y <= block.min.y) above = widget.value;
+    EXPECT_EQ(above, "Wood");
+    program.click("##block", "Oak log");
+    EXPECT_EQ(program.session().blocks().type(program.game().interaction.block()).name, "oak_log");
+    program.press(Key::Tab);
+    program.widget("##search");
+    program.type("oak");
+    EXPECT_TRUE(headings().empty());
+    program.press(Key::Escape);
+    program.press(Key::Tab);
+    program.click("Wood");
+    EXPECT_TRUE(headings().empty());
+    EXPECT_LT(blockNames().size(), all);
+    program.press(Key::Escape);
     expectGood(program.quit());
 }
 

@@ -104,14 +104,14 @@ TEST_F(FirstMinutesTest, AHouseAndAPond) {
 // Whether the hint is shown; it may not be on the crosshair.
 bool isHintShown(Program& program) {
     program.frames(3);  // until it has its size
-    const Widget* hint = program.find("first hint");
-    if (!hint) return false;
+    if (!program.isShown("overlay", "hint")) return false;
+    const Widget& hint = program.widget("overlay", "hint");
     const glm::vec2 middle = glm::vec2(program.window().size()) / 2.0f;
     constexpr float kCrosshair = 8;
-    EXPECT_TRUE(hint->max.x < middle.x - kCrosshair || hint->max.y < middle.y - kCrosshair)
-        << hint->max.x << "," << hint->max.y;
-    EXPECT_GE(hint->min.x, 0);
-    EXPECT_GT(hint->max.x, hint->min.x + 50);
+    EXPECT_TRUE(hint.max.x < middle.x - kCrosshair || hint.max.y < middle.y - kCrosshair)
+        << hint.max.x << "," << hint.max.y;
+    EXPECT_GE(hint.min.x, 0);
+    EXPECT_GT(hint.max.x, hint.min.x + 50);
     return true;
 }
 

@@ -384,6 +384,51 @@ TEST_F(PlayTest, NotToSaveIsAChoice) {
     EXPECT_EQ(program.untilEnd().error().message, worldFile("a").string() + ": made with seed 1, not 9");
 }
 
+// A click on the program's icon: nobody sees standard error.
+TEST_F(PlayTest, AnErrorAtTheStartIsShownInAWindowWithoutATerminal) {
+    const std::string broken = "preset = low\nview-distance = \"far";
+    write(data() / "settings.toml", broken);
+    const std::string message = (data() / "settings.toml").string() + ":1: ";
+    const std::vector<std::string> arguments = {"--size", "480x300", "--language", "en"};
+    {
+        Program program(arguments, false);
+        EXPECT_FALSE(program.isPlaying());
+        program.widget("Terrane ended with an error");
+        const auto shows = [&] {
+            const auto& widgets = program.window().record.widgets();
+            return std::ranges::any_of(
+                widgets, [&](const Widget& widget) { return widget.value.starts_with(message); });
+        };
+        program.until("the error is shown", shows);
+        program.click("Copy the text");
+        EXPECT_TRUE(program.window().clipboardText.starts_with(message));
+        program.click("Quit (Q)");
+        const base::Result<void> ended = program.untilEnd();
+        ASSERT_FALSE(ended);
+        EXPECT_TRUE(ended.error().message.starts_with(message)) << ended.error().message;
+    }
+    for (const Key key : {Key::Q, Key::Escape, Key::Enter}) {
+        Program program(arguments, false);
+        program.until("the button has the focus", [&] { return program.focused() == "Quit (Q)"; });
+        program.press(key);
+        EXPECT_FALSE(program.untilEnd());
+    }
+    {
+        Program program(arguments, false);
+        program.window().isClosed = true;
+        EXPECT_FALSE(program.untilEnd());
+    }
+    EXPECT_EQ(textOf(data() / "settings.toml"), broken) << "it is kept";
+    EXPECT_FALSE(start().untilEnd()) << "with a terminal it is only a line";
+    // Every other error that ends the program.
+    std::filesystem::remove(data() / "settings.toml");
+    write(worldFile("bad"), "no save");
+    Program program({"--size", "480x300", "--language", "en", "--world", "bad"}, false);
+    program.until("the button has the focus", [&] { return program.focused() == "Quit (Q)"; });
+    program.press(Key::Q);
+    EXPECT_FALSE(program.untilEnd());
+}
+
 TEST_F(PlayTest, AWorldOfTheWorkingDirectoryIsFound) {
     makeWorld("home");
     create_directories(folder() / "save");
@@ -401,7 +446,7 @@ TEST_F(PlayTest, APlayerLearnsThatSavingFails) {
     Program program = playAbove("home", {"--size", "640x400"});
     program.untilDrawn();
     rename(worldFile("home"), away);
-    program.widget("save notice");
+    program.widget("overlay", "save notice");
     program.press(Key::Escape);
     program.press(Key::Q);
     program.widget("The world could not be saved");  // asks instead of closing
@@ -409,12 +454,12 @@ TEST_F(PlayTest, APlayerLearnsThatSavingFails) {
     EXPECT_FALSE(program.isShown("Quit without saving"));
     EXPECT_TRUE(program.isPlaying());
     program.press(Key::Escape);  // leaves the menu
-    program.widget("save notice");
+    program.widget("overlay", "save notice");
     rename(away, worldFile("home"));
-    program.until("saving works again", [&] { return !program.isShown("save notice"); });
+    program.until("saving works again", [&] { return !program.isShown("overlay", "save notice"); });
     EXPECT_NE(log().find("deleted or moved while it was open"), std::string::npos);
     rename(worldFile("home"), away);
-    program.widget("save notice");
+    program.widget("overlay", "save notice");
     program.window().isClosed = true;
     program.click("Keep playing");
     EXPECT_FALSE(program.window().isClosed);

@@ -40,7 +40,9 @@ bool isVisible(const Widget& widget, ImVec2 at) {
 
 }  // namespace
 
-Program::Program(const std::vector<std::string>& arguments) : host_(std::make_shared<PlayHost>()) {
+Program::Program(const std::vector<std::string>& arguments, bool hasTerminal)
+    : host_(std::make_shared<PlayHost>()) {
+    host_->isStandardErrorRead = [hasTerminal] { return hasTerminal; };
     host_->openWindow = [this](const WindowOptions& options) -> base::Result<std::unique_ptr<Window>> {
         auto made = OffscreenWindow::create(options, [this] {
             do {
@@ -82,6 +84,7 @@ void Program::run(const std::vector<std::string>& arguments) {
     } catch (const std::exception& error) {
         result_ = base::fail("{}", error.what());
     }
+    if (!result_) play.showError(result_.error().message);
 }
 
 void Program::step() {

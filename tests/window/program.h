@@ -22,7 +22,8 @@ namespace terrane::app {
 class Program {
   public:
     // Starts `terrane play` with these arguments; returns before its first frame, or when it has ended.
-    explicit Program(const std::vector<std::string>& arguments);
+    // Without `hasTerminal` as if by its icon: an error is shown before the program ends.
+    explicit Program(const std::vector<std::string>& arguments, bool hasTerminal = true);
     ~Program();  // ends it without saving, if it still runs
     Program(const Program&) = delete;
     Program& operator=(const Program&) = delete;

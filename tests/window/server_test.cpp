@@ -1,57 +1,9 @@
 // Playing on a server, which runs between the program's frames.
 #include "apps/terrane/window/title/join_dialog.h"
-#include "terrane/io/open_session.h"
-#include "tests/net/socket_fixture.h"
-#include "tests/window/window_fixture.h"
+#include "tests/window/server_fixture.h"
 
 namespace terrane::app {
 namespace {
-
-// A server of a flat world on a free port.
-struct FlatServer {
-    explicit FlatServer(const std::filesystem::path& folder)
-        : server(partsIn(folder),
-                 net::SqliteRecords::open(folder / "w.server.sqlite", contentBlocks()).value()),
-          sockets(net::ServerSockets::open(context, server.state(), {"127.0.0.1", 0}, folder / "key.pem")
-                      .value()) {}
-
-    static game::SessionParts partsIn(const std::filesystem::path& folder) {
-        io::WorldOptions options;
-        options.generator = "flat";
-        options.threads = 1;
-        const io::SaveOptions save{.world = (folder / "w.sqlite").string(), .storeGenerated = {}};
-        return std::move(io::openSessionParts(options, save, store::WorldAccess::ReadWrite).value().parts);
-    }
-
-    std::string address() const { return "127.0.0.1:" + std::to_string(sockets->port()); }
-
-    void update() {
-        const net::Time now = std::chrono::steady_clock::now();
-        if (now >= nextTick) {
-            nextTick = now + net::kServerTick;
-            net::tick(server.state(), now);
-            sockets->flush();
-        }
-        context.restart();
-        context.poll();
-    }
-
-    boost::asio::io_context context;
-    net::TestServer server;
-    std::unique_ptr<net::ServerSockets> sockets;
-    net::Time nextTick{};
-};
-
-class ServerTest : public WindowTest {
-  protected:
-    void SetUp() override {
-        WindowTest::SetUp();
-        create_directories(folder() / "server");
-        server_ = std::make_unique<FlatServer>(folder() / "server");
-    }
-
-    std::unique_ptr<FlatServer> server_;
-};
 
 TEST_F(ServerTest, AServerIsJoinedFromTheTitleAndRemembered) {
     const std::string address = server_->address();
@@ -118,6 +70,54 @@ TEST_F(ServerTest, PlayersSeeTheBlocksAndWordsOfEachOther) {
     EXPECT_EQ(program.game().notices.message, "the server sets the time");
     program.press(Key::Y);
     program.widget("Players");
+    expectGood(program.quit());
+}
+
+TEST_F(ServerTest, TheChatIsScrolledToOlderLines) {
+    Program program =
+        start({"--connect", server_->address(), "--name", "Ann", "--movement", "fast", "--size", "640x400"});
+    program.beforeFrame = [&] { server_->update(); };
+    program.until("the player has joined", [&] { return program.isPlaying() && program.game().remote.play; });
+    program.untilDrawn();
+    ChatView& chat = program.game().remote.chat;
+    const auto add = [&](int first, int last) {
+        for (int k = first; k <= last; ++k)
+            chat.add({"Bob", fmt::format("line {}", k)}, program.game().seconds);
+        program.frames();
+    };
+    const auto isInView = [&](const std::string& line) { return program.isShown("chat line", line); };
+    add(1, 2000);
+    EXPECT_LE(chat.lineCount(), 500u) << "memory is bounded";
+    program.press(Key::PageUp);
+    EXPECT_TRUE(isInView("Bob: line 2000")) << "nobody types";
+    program.press(Key::T);
+    program.widget("##chat");
+    program.press(Key::PageUp);
+    EXPECT_FALSE(isInView("Bob: line 2000"));
+    EXPECT_TRUE(isInView("Bob: line 1984"));
+    add(2001, 2003);
+    EXPECT_TRUE(isInView("Bob: line 1984")) << "lines that arrive do not move the page";
+    program.press(Key::PageDown);
+    program.turnWheel(-3);
+    EXPECT_TRUE(isInView("Bob: line 2003"));
+    program.turnWheel(1);
+    EXPECT_FALSE(isInView("Bob: line 2003"));
+    EXPECT_TRUE(isInView("Bob: line 2002"));
+    program.turnWheel(9999);
+    const std::string oldest = fmt::format("Bob: line {}", 2003 - chat.lineCount() + 1);
+    EXPECT_TRUE(isInView(oldest));
+    EXPECT_TRUE(isInView(fmt::format("Bob: line {}", 2003 - chat.lineCount() + 10))) << "a full page";
+    program.press(Key::PageDown);
+    EXPECT_FALSE(isInView(oldest)) << "one page down, whatever was turned too far";
+    program.press(Key::Escape);
+    program.frames();
+    EXPECT_TRUE(isInView("Bob: line 2003")) << "closed";
+    program.press(Key::T);
+    program.widget("##chat");
+    program.press(Key::PageUp);
+    program.type("hello");
+    program.press(Key::Enter);
+    program.until("the line is there", [&] { return isInView("Ann: hello"); });
     expectGood(program.quit());
 }
 

@@ -67,7 +67,7 @@ TEST_F(WatchTest, AChangeWhileSavingFailsAsksFirst) {
     Program program = playWatched();
     program.untilDrawn();
     rename(worldFile("w"), folder() / "away.sqlite");
-    program.widget("save notice");
+    program.widget("overlay", "save notice");
     writeGround("stone");
     program.click("Quit without saving");  // before the world is opened again
     const base::Result<void> ended = program.untilEnd();

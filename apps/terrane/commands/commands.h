@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "terrane/base/result.h"
@@ -19,6 +20,9 @@ struct CommandEntry {
     Command run;
     // The exit code after a run without an error.
     std::function<int()> exitCode = [] { return 0; };
+    // Shows the error that ends the program to a player who does not see standard error; empty: it is only
+    // written there.
+    std::function<void(const std::string&)> showError = {};
 };
 
 // Adds all commands of this build: all_commands.cpp, or server_commands.cpp in a build without graphics.

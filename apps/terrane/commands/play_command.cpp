@@ -5,6 +5,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
+#include "apps/terrane/window/error_window.h"
 #include "apps/terrane/window/game/play_flow.h"
 #include "apps/terrane/window/glfw_window.h"
 #include "apps/terrane/window/settings/key_help.h"
@@ -67,6 +68,15 @@ base::Result<void> play(const PlayOptions& options, CLI::App& command, PlayHost&
     return {};
 }
 
+// Without a display the error is only in standard error.
+void showPlayError(const PlayHost& host, const std::string& language, const std::string& error) {
+    if (host.isStandardErrorRead()) return;
+    const auto window = host.openWindow(errorWindowOptions());
+    if (!window) return;
+    setTerraneIcon(**window);
+    showError(**window, error, textsOf(language));
+}
+
 }  // namespace
 
 CommandEntry addPlay(CLI::App& app) {
@@ -117,7 +127,11 @@ CommandEntry addPlay(CLI::App& app, std::shared_ptr<PlayHost> host) {
     command->get_option("--connect")
         ->needs("--name")
         ->excludes("--world", "--seed", "--generator", "--watch");
-    return {command, [options, command, host] { return play(*options, *command, *host); }};
+    CommandEntry entry{command, [options, command, host] { return play(*options, *command, *host); }};
+    entry.showError = [options, host](const std::string& error) {
+        showPlayError(*host, options->settings.language, error);
+    };
+    return entry;
 }
 
 }  // namespace terrane::app

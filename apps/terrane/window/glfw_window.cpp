@@ -89,8 +89,8 @@ std::string lastError() {
 
 GLFWwindow* openWindow(const WindowOptions& options) {
     glfwWindowHint(GLFW_CLIENT_API, GLFW_OPENGL_API);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 4);
-    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 5);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, options.drawsWorlds ? 4 : 3);
+    glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, options.drawsWorlds ? 5 : 2);
     glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
     glfwWindowHint(GLFW_OPENGL_DEBUG_CONTEXT, options.debug ? GLFW_TRUE : GLFW_FALSE);
     glfwWindowHint(GLFW_DEPTH_BITS, 0);  // rendering uses its own framebuffers
@@ -185,9 +185,12 @@ base::Result<void> GlfwWindow::open(const WindowOptions& options) {
     padMappings_ = options.padMappings;
     readPadMappings(padMappings_);
     window_ = openWindow(options);
-    if (window_ == nullptr) return base::fail("no window with an OpenGL 4.5 core context: {}", lastError());
+    if (window_ == nullptr)
+        return base::fail("no window with an OpenGL {} core context: {}", options.drawsWorlds ? "4.5" : "3.2",
+                          lastError());
     glfwMakeContextCurrent(window_);
-    if (base::Result<void> fit = gpu::checkRequirements(); !fit) return fit;
+    if (options.drawsWorlds)
+        if (base::Result<void> fit = gpu::checkRequirements(); !fit) return fit;
     if (options.debug) debugLog_ = gpu::enableDebugOutput(false);
     setVsync(true);
     glfwSetTime(0.0);

@@ -147,7 +147,7 @@ ImguiLayer::ImguiLayer(Window& window) : window_(window) {
     numberKeys(io);
     if (WidgetRecord* widgets = window.widgets()) widgets->clear();
     seconds_ = window.timeSeconds();
-    ImGui_ImplOpenGL3_Init("#version 450 core");
+    ImGui_ImplOpenGL3_Init("#version 150");  // of OpenGL 3.2: error_window.h needs no more
 }
 
 ImguiLayer::~ImguiLayer() {

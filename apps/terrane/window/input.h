@@ -58,7 +58,7 @@ struct InputEvent {
     MouseButton button = MouseButton::Left;  // of the button events
     double x = 0.0;  // Wheel: steps; CursorMove: screen units since the last event, right
     double y = 0.0;  // the same, wheel away from the player, cursor down
-    // Modifiers held with a key or button, however briefly; keyDown() may have missed them.
+    // Modifiers held with a key, button or wheel, however briefly; keyDown() may have missed them.
     bool withShift = false, withControl = false;
     double seconds = 0;  // of the window's clock, of KeyPress
 };

@@ -151,6 +151,7 @@ bool tabButton(const char* label, bool isChosen, float width) {
 void heading(const char* text) {
     ImGui::Spacing();
     ImGui::TextColored(colors::kAccent, "%s", text);
+    ui::noteArea("heading", text, ImGui::GetItemRectMin(), ImGui::GetItemRectMax());
 }
 
 void dimText(std::string_view text) {

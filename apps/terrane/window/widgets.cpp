@@ -97,6 +97,10 @@ void beginWindow(const char* title, ImGuiWindowFlags flags) {
     enter(title, "", at, {at.x + size.x, at.y + size.y});
 }
 
+void noteArea(const char* label, std::string_view value, ImVec2 min, ImVec2 max) {
+    if (record()) enter(label, std::string(value), min, max);
+}
+
 void wrappedText(std::string_view text) {
     ImGui::PushTextWrapPos(0);
     ImGui::TextUnformatted(text.data(), text.data() + text.size());

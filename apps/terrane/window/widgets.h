@@ -48,6 +48,8 @@ bool textField(const char* label, const char* hint, char* text, std::size_t size
 // ImGui::Begin(); the title counts as a widget.
 void beginWindow(const char* title, ImGuiWindowFlags flags);
 void wrappedText(std::string_view text);
+// Nothing is drawn: an area of the screen that counts as a widget.
+void noteArea(const char* label, std::string_view value, ImVec2 min, ImVec2 max);
 
 }  // namespace ui
 

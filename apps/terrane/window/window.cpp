@@ -66,7 +66,11 @@ void Window::onButton(MouseButton button, bool isPress, Modifiers with) {
 }
 
 void Window::onWheel(glm::dvec2 steps) {
-    events_.push_back({.type = InputEvent::Type::Wheel, .x = steps.x, .y = steps.y});
+    events_.push_back({.type = InputEvent::Type::Wheel,
+                       .x = steps.x,
+                       .y = steps.y,
+                       .withShift = keyDown(Key::Shift),
+                       .withControl = keyDown(Key::Control)});
 }
 
 void Window::onCursor(glm::dvec2 position) {

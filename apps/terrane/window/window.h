@@ -25,6 +25,7 @@ struct WindowOptions {
     bool fullScreen = false;       // on the first monitor in its current mode; ignores width and height
     std::string padMappings = {};  // file with lines of SDL's gamecontrollerdb.txt; may be missing
     bool debug = false;            // as ContextOptions
+    bool drawsWorlds = true;       // false: only the user interface, which needs OpenGL 3.2
 };
 
 // Modifier keys held with a key or button.

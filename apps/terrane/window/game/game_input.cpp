@@ -251,6 +251,10 @@ bool onDialogKey(GameState& game, Key key) {
         captureMouse(game, true);
         return true;
     }
+    if (game.remote.chat.isTyping() && (key == Key::PageUp || key == Key::PageDown)) {
+        game.remote.chat.scrollPages(key == Key::PageUp ? 1 : -1);
+        return true;
+    }
     if (game.menu.showsSettings && game.menu.settings.takeKey(key, game.settings, game.tr)) return true;
     if (game.building.isAsking() && !isInMenu(game.menu)) {
         game.building.onKey(key, buildViewOf(game));
@@ -303,6 +307,13 @@ void onButton(GameState& game, MouseButton button, bool isPress) {
     if (!game.imgui.takesMouse() && !isInDialog(game)) captureMouse(game, true);
 }
 
+// `steps`: away from the player.
+void onWheel(GameState& game, int steps) {
+    if (game.remote.chat.isTyping() && !isInMenu(game.menu)) return game.remote.chat.scroll(steps);
+    if (game.input.isCaptured && game.building.onWheel(steps, buildViewOf(game))) return;
+    if (game.input.isCaptured || game.container) game::cycleSlot(game.interaction.hotbar, -steps);
+}
+
 // Whether a key of the action is held, unless the user interface takes keys.
 bool isKeyDown(const Window& window, const ImguiLayer& imgui, const KeyBindings& keys, Action action) {
     const auto isDown = [&](Key key) { return window.keyDown(key); };
@@ -333,8 +344,7 @@ void handleEvents(GameState& game) {
                 onButton(game, event.button, event.type == Type::ButtonPress);
                 break;
             case Type::Wheel:
-                if (input.isCaptured || game.container)
-                    game::cycleSlot(game.interaction.hotbar, -input.wheel.turn(event.y));
+                onWheel(game, input.wheel.turn(event.y));
                 break;
             case Type::CursorMove:
                 if (wasCaptured && input.isCaptured) turn(game.player, game.settings, event);

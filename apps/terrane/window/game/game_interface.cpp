@@ -81,30 +81,38 @@ void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& setting
     hud.particles.advance(seconds, session.world(), session.blocks());
 }
 
-void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds) {
-    constexpr int kImages = 2, kImagesInDialog = 8;
-    Hud& hud = game.hud;
-    game.parts.preview.beginFrame(isInDialog(game) ? kImagesInDialog : kImages);
-    if (!hud.isHidden && !game.debug.isAbove && hasWorldImage(game.parts.renderer)) {
-        game::Session& session = game.parts.session;
-        const BlockFace face = blockFaceOf(game.parts, game.tr);
-        const glm::vec3 light = lightOnHand(session, game.player.pose().position);
-        drawParticles(screen, camera, hud.particles, game.parts.renderer.topColors(), light);
-        drawCompass(screen, game.player.pose(), hud.places);
-        if (hud.showsFacts)
-            drawPlaceFacts(placeFactsOf(hud, session, game.player.pose(),
-                                        targetText(game.interaction, session, game.tr), game.meter.now()),
-                           game.tr);
-        const world::BlockId block = game.interaction.block();
-        hud.hand.draw(screen, block == world::kAir ? 0 : face.image(block), light);
-        hud.hotbar.draw(screen, game.interaction.hotbar, face, seconds);
-    }
-    hud.screenshot.draw(screen);
-    if (hud.palette.isOpen) drawPaletteDialog(game, screen);
-    if (hud.placesDialog.isOpen) drawPlacesDialog(game, screen);
+namespace {
+
+// The interface is shown: it is not hidden, and the view is the player's.
+bool showsHud(const GameState& game) {
+    return !game.hud.isHidden && !game.debug.isAbove && hasWorldImage(game.parts.renderer);
 }
 
-namespace {
+// The arm and splinters of broken blocks.
+void drawHand(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (!showsHud(game)) return;
+    const GameParts& parts = game.parts;
+    const glm::vec3 light = lightOnHand(parts.session, game.player.pose().position);
+    drawParticles(screen, camera, game.hud.particles, parts.renderer.topColors(), light);
+    const world::BlockId block = game.interaction.block();
+    game.hud.hand.draw(screen, block == world::kAir ? 0 : blockFaceOf(parts, game.tr).image(block), light);
+}
+
+// `seconds`: since the last frame.
+void drawHud(GameState& game, OverlayLayout& layout, double seconds) {
+    if (!showsHud(game)) return;
+    drawCompass(layout, game.player.pose(), game.hud.places);
+    game.hud.hotbar.draw(layout, game.interaction.hotbar, blockFaceOf(game.parts, game.tr), seconds);
+}
+
+void drawFacts(GameState& game, OverlayLayout& layout) {
+    if (!showsHud(game) || !game.hud.showsFacts) return;
+    game::Session& session = game.parts.session;
+    drawPlaceFacts(layout,
+                   placeFactsOf(game.hud, session, game.player.pose(),
+                                targetText(game.interaction, session, game.tr), game.meter.now()),
+                   game.tr);
+}
 
 // The direction to the sun or moon; none without shadows.
 std::optional<glm::vec3> shadowLightOf(const GameParts& parts) {
@@ -126,28 +134,29 @@ void drawLinesInWorld(const GameState& game, const Screen& screen, const render:
     }
 }
 
-void drawRemote(GameState& game, const Screen& screen, const render::Camera& camera) {
-    if (!game.remote.play) return;
-    if (!game.hud.isHidden && !game.debug.isAbove)
+void drawRemoteNames(GameState& game, const Screen& screen, const render::Camera& camera) {
+    if (game.remote.play && !game.hud.isHidden && !game.debug.isAbove)
         drawNames(screen, camera, game.remote.others.names,
                   {game.parts.session.world(), game.parts.session.blocks()});
-    if (drawRemoteTexts(screen, game.remote, game.seconds, game.tr)) captureMouse(game, true);
+}
+
+void drawRemote(GameState& game, OverlayLayout& layout) {
+    if (game.remote.play && drawRemoteTexts(layout, game.remote, game.seconds, game.tr))
+        captureMouse(game, true);
 }
 
 // Frees the cursor while the player types or chooses something.
-void drawBuilding(GameState& game, const Screen& screen, const render::Camera& camera) {
-    if (!game.debug.isAbove) game.building.draw(screen, camera, buildViewOf(game), game.seconds);
+void drawBuilding(GameState& game, OverlayLayout& layout) {
+    if (!game.debug.isAbove) game.building.drawPanels(layout, buildViewOf(game));
     if (auto message = game.building.takeMessage()) game.notices.say(std::move(*message));
     const bool asks = game.building.isAsking();
     if (asks != std::exchange(game.wasAsking, asks)) captureMouse(game, !asks);
 }
 
-void drawDebugPanels(GameState& game, const Screen& screen) {
-    game::Session& session = game.parts.session;
-    if (game.debug.showsLoading) drawLoadingMap(screen, session.pipeline(), session.tiles().table());
+void drawDebugPanels(GameState& game, OverlayLayout& layout) {
     if (!game.debug.showsPanel) return;
-    drawStatistics(statisticsOf(game), screen.width - panelWidth() - 30 * uiScale());
-    drawPanel(game.settings, session.clock, {game.options.isSoftwareRenderer, screen.width, screen.height});
+    drawPanel(layout, game.settings, game.parts.session.clock, game.options.isSoftwareRenderer);
+    drawStatistics(layout, statisticsOf(game));
 }
 
 // Closes the dialog if the chest is gone or out of reach.
@@ -185,7 +194,33 @@ void drawMenu(GameState& game, const Screen& screen) {
         if (const auto choice = drawPauseMenu(screen, game.settings.keys, game.tr))
             answerPauseMenu(game, *choice);
     }
-    drawSaveNotice(screen, status, game.tr);
+}
+
+// In the order of priority: what comes first has the better place (overlay_layout.h).
+void drawOverlays(GameState& game, OverlayLayout& layout, double seconds) {
+    game::Session& session = game.parts.session;
+    if (!game.menu.asksToQuit) drawSaveNotice(layout, session.store().status(), game.tr);
+    drawHud(game, layout, seconds);
+    drawFacts(game, layout);
+    drawBuilding(game, layout);
+    drawNoticeMessage(layout, game.notices);
+    const stream::Progress progress = session.pipeline().progress();
+    game.wasComplete = game.wasComplete || progress.complete();
+    if (!game.wasComplete) drawProgress(layout, progress, game.tr);
+    drawRemote(game, layout);
+    drawDebugPanels(game, layout);
+    game.hud.screenshot.draw(layout);
+    drawNoticeKeys(layout, game.notices, game.settings.keys, game.tr);
+    if (game.debug.showsLoading) drawLoadingMap(layout, session.pipeline(), session.tiles().table());
+    if (game.input.isCaptured && !game.debug.isAbove && !game.hud.isHidden) drawCrosshair(layout);
+}
+
+// Over the overlays, which keep clear of them.
+void drawDialogs(GameState& game, const Screen& screen) {
+    if (game.hud.palette.isOpen) drawPaletteDialog(game, screen);
+    if (game.hud.placesDialog.isOpen) drawPlacesDialog(game, screen);
+    if (game.container) drawContainerDialog(game, screen);
+    drawMenu(game, screen);
 }
 
 }  // namespace
@@ -196,18 +231,15 @@ void drawInterface(GameState& game, double seconds) {
                           isInMenu(game.menu) || hasOpenDialog(game.hud, game.remote.chat));
     const Screen screen{game.imgui.size().x, game.imgui.size().y};
     const render::Camera camera = cameraOf(game.player, game.settings);
-    const stream::Progress progress = game.parts.session.pipeline().progress();
+    constexpr int kImages = 2, kImagesInDialog = 8;  // of blocks, drawn per frame
+    game.parts.preview.beginFrame(isInDialog(game) ? kImagesInDialog : kImages);
     drawLinesInWorld(game, screen, camera);
-    drawRemote(game, screen, camera);
-    drawBuilding(game, screen, camera);
-    if (game.input.isCaptured && !game.debug.isAbove && !game.hud.isHidden) drawCrosshair(screen);
-    drawHud(game, screen, camera, seconds);
-    drawNotices(screen, game.notices, game.settings.keys, game.tr);
-    game.wasComplete = game.wasComplete || progress.complete();
-    if (!game.wasComplete) drawProgress(screen, progress, game.tr);
-    drawDebugPanels(game, screen);
-    if (game.container) drawContainerDialog(game, screen);
-    drawMenu(game, screen);
+    drawRemoteNames(game, screen, camera);
+    if (!game.debug.isAbove) game.building.drawInWorld(screen, camera, buildViewOf(game), game.seconds);
+    drawHand(game, screen, camera);
+    OverlayLayout layout(screen);
+    drawOverlays(game, layout, seconds);
+    drawDialogs(game, screen);
     game.imgui.endFrame();
 }
 

@@ -5,13 +5,9 @@
 
 namespace terrane::app {
 
-// Draws the HUD over the image: arm, hotbar, particles, compass, position, and the dialogs of blocks and
-// places.
 // `seconds`: since the last frame.
 void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& settings,
                 const game::Session& session, double seconds);
-void drawHud(GameState& game, const Screen& screen, const render::Camera& camera, double seconds);
-
 // Call once per frame; also handles clicks. `seconds`: since the last frame.
 void drawInterface(GameState& game, double seconds);
 

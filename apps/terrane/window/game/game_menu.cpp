@@ -17,15 +17,7 @@ namespace {
 
 const ImVec4 kWarning{0.45f, 0.05f, 0.02f, 0.9f};
 
-void beginNotice(const char* title, const Screen& screen, float height, ImGuiWindowFlags flags) {
-    const float width = std::min(520 * uiScale(), screen.width - 20 * uiScale());
-    ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0});
-    ImGui::SetNextWindowSize({width, 0});
-    ImGui::PushStyleColor(ImGuiCol_WindowBg, kWarning);
-    ui::beginWindow(
-        title, flags | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
-    ImGui::PopStyleColor();
-}
+constexpr float kNoticeWidth = 520;  // before scaling
 
 void drawProblem(const store::SaveStatus& status, const Texts& tr) {
     ui::wrappedText(status.problem);
@@ -36,11 +28,14 @@ void drawProblem(const store::SaveStatus& status, const Texts& tr) {
 
 }  // namespace
 
-void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const Texts& tr) {
+void drawSaveNotice(OverlayLayout& layout, const store::SaveStatus& status, const Texts& tr) {
     if (status.problem.empty()) return;
-    beginNotice("save notice", screen, 10 * uiScale(),
-                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                    ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, kWarning);
+    const bool isShown = layout.beginWindow(
+        {.id = "save notice", .width = kNoticeWidth * uiScale(), .flags = OverlayLayout::kBare},
+        {.alignX = 0.5f, .minHeight = ImGui::GetTextLineHeightWithSpacing()});
+    ImGui::PopStyleColor();
+    if (!isShown) return;
     ImGui::TextUnformatted(tr("The world is not being saved"));
     drawProblem(status, tr);
     ImGui::End();
@@ -49,7 +44,13 @@ void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const
 std::optional<QuitChoice> drawQuitDialog(const Screen& screen, const store::SaveStatus& status,
                                          const Texts& tr) {
     std::optional<QuitChoice> choice;
-    beginNotice(tr("The world could not be saved"), screen, screen.height * 0.35f, ImGuiWindowFlags_None);
+    const float width = std::min(kNoticeWidth * uiScale(), screen.width - 20 * uiScale());
+    ImGui::SetNextWindowPos({screen.width / 2, screen.height * 0.35f}, ImGuiCond_Always, {0.5f, 0});
+    ImGui::SetNextWindowSize({width, 0});
+    ImGui::PushStyleColor(ImGuiCol_WindowBg, kWarning);
+    ui::beginWindow(tr("The world could not be saved"),
+                    ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoCollapse);
+    ImGui::PopStyleColor();
     if (status.problem.empty()) {
         ui::wrappedText(tr("Saving works again."));
     } else {

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "apps/terrane/window/game/game_state.h"
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/settings/key_bindings.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/store/chunk_store.h"
@@ -15,7 +15,7 @@ namespace terrane::app {
 // Notices while a world cannot be saved. Immediate mode: drawn each frame.
 // Shows the error, its duration and the number of waiting chunks at the top of the screen. Draws nothing
 // while saving works.
-void drawSaveNotice(const Screen& screen, const store::SaveStatus& status, const Texts& tr);
+void drawSaveNotice(OverlayLayout& layout, const store::SaveStatus& status, const Texts& tr);
 
 enum class QuitChoice : std::uint8_t { Stay, TryAgain, QuitUnsaved };
 

@@ -77,14 +77,16 @@ void ScreenshotView::advance(double seconds) {
     if (secondsLeft_ <= 0) image_ = {};
 }
 
-void ScreenshotView::draw(const Screen& screen) const {
+void ScreenshotView::draw(OverlayLayout& layout) const {
     if (image_.id() == 0) return;
-    const float alpha = static_cast<float>(std::min(secondsLeft_, 1.0)), margin = 10 * uiScale();
-    const float width = kWidth * uiScale();
-    const ImVec2 size(width,
-                      width * static_cast<float>(image_.size().y) / static_cast<float>(image_.size().x));
-    const ImVec2 max(screen.width - margin, margin + size.y), min(max.x - size.x, margin);
+    const float alpha = static_cast<float>(std::min(secondsLeft_, 1.0));
+    const float width = std::min(kWidth * uiScale(), layout.widest());
+    const float height = width * static_cast<float>(image_.size().y) / static_cast<float>(image_.size().x);
+    const auto rect = layout.place("screenshot", {.size = {width, height}, .alignX = 1});
+    if (!rect) return;
+    const ImVec2 min = rect->min, max = rect->max;
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
+    const OverlayClip clip(draw, *rect);
     const int opacity = static_cast<int>(255 * alpha);
     draw.AddImage(reinterpret_cast<ImTextureID>(static_cast<std::uintptr_t>(image_.id())), min, max, {0, 0},
                   {1, 1}, IM_COL32(255, 255, 255, opacity));

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "terrane/base/image.h"
 #include "terrane/base/result.h"
 #include "terrane/gpu/texture.h"
@@ -23,7 +23,7 @@ class ScreenshotView {
     // Keeps a small copy.
     void show(const base::Image& screenshot);
     void advance(double seconds);
-    void draw(const Screen& screen) const;
+    void draw(OverlayLayout& layout) const;
     bool isShown() const { return secondsLeft_ > 0; }
 
   private:

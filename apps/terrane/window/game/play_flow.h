@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 
+#include "apps/terrane/window/error_window.h"
 #include "apps/terrane/window/game/world_on_screen.h"
 #include "apps/terrane/window/glfw_window.h"
 #include "apps/terrane/window/settings/play_settings.h"
@@ -36,6 +37,7 @@ struct GameState;
 // The surroundings of `terrane play`: tests open another window and look at the game.
 struct PlayHost {
     std::function<base::Result<std::unique_ptr<Window>>(const WindowOptions&)> openWindow = openGlfwWindow;
+    std::function<bool()> isStandardErrorRead = app::isStandardErrorRead;
     GameState* game = nullptr;  // that is played now
 };
 

@@ -71,16 +71,16 @@ RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const Play
     return step;
 }
 
-bool drawRemoteTexts(const Screen& screen, RemoteView& remote, double seconds, const Texts& tr) {
+bool drawRemoteTexts(OverlayLayout& layout, RemoteView& remote, double seconds, const Texts& tr) {
     constexpr double kAskEvery = 2;
-    const auto line = remote.chat.draw(screen, tr, seconds);
+    const auto line = remote.chat.draw(layout, tr, seconds);
     if (line && !line->empty()) remote.play->world().say(*line);
     if (!remote.showsPlayers) return line.has_value();
     if (seconds >= remote.nextList) {
         remote.play->askPlayers();
         remote.nextList = seconds + kAskEvery;
     }
-    if (const auto& list = remote.play->world().playerList()) drawPlayerList(screen, tr, *list);
+    if (const auto& list = remote.play->world().playerList()) drawPlayerList(layout, tr, *list);
     return line.has_value();
 }
 

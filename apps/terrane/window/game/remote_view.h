@@ -55,6 +55,6 @@ RemoteStep advanceRemote(RemoteView& remote, const world::Pose& pose, const Play
                          double seconds, Notices& notices, const Texts& tr);
 
 // Draws chat, and the list of players if it is shown. True if a line was entered or cancelled.
-bool drawRemoteTexts(const Screen& screen, RemoteView& remote, double seconds, const Texts& tr);
+bool drawRemoteTexts(OverlayLayout& layout, RemoteView& remote, double seconds, const Texts& tr);
 
 }  // namespace terrane::app

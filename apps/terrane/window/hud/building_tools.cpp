@@ -88,12 +88,16 @@ bool BuildingTools::close() {
     return true;
 }
 
-void BuildingTools::draw(const Screen& screen, const render::Camera& camera, const BuildView& view,
-                         double seconds) {
+void BuildingTools::drawInWorld(const Screen& screen, const render::Camera& camera, const BuildView& view,
+                                double seconds) {
     drawSigns(screen, camera, view.session,
               signs_.at(seconds, [&] { return signsNear(view.session, camera.position); }));
-    selection_.draw(screen, camera, view);
-    if (sign_) drawSign(screen, view);
+    selection_.drawOutlines(screen, camera, view);
+}
+
+void BuildingTools::drawPanels(OverlayLayout& layout, const BuildView& view) {
+    selection_.drawPanel(layout, view);
+    if (sign_) drawSign(layout.screen(), view);
 }
 
 // Draws the open sign; closes it if it is gone or out of reach.

@@ -53,13 +53,16 @@ class BuildingTools {
     // True if the tools handled the key or button.
     bool onKey(Key key, const BuildView& view);
     bool onButton(MouseButton button, const BuildView& view) { return selection_.onButton(button, view); }
+    bool onWheel(int steps, const BuildView& view) { return selection_.onWheel(steps, view); }
     // Opens the text of a block for editing; false if the block holds no text.
     bool openSign(world::BlockPos pos, const BuildView& view);
     // Closes one open thing per call; false if nothing is open.
     bool close();
 
-    // `seconds`: since the start.
-    void draw(const Screen& screen, const render::Camera& camera, const BuildView& view, double seconds);
+    // What is in the world: signs, and outlines of boxes. `seconds`: since the start.
+    void drawInWorld(const Screen& screen, const render::Camera& camera, const BuildView& view,
+                     double seconds);
+    void drawPanels(OverlayLayout& layout, const BuildView& view);
     std::optional<std::string> takeMessage();
 
   private:

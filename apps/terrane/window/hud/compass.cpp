@@ -32,11 +32,15 @@ std::string distanceText(double blocks) {
 
 }  // namespace
 
-void drawCompass(const Screen& screen, const world::Pose& pose, std::span<const game::Place> places) {
-    const float scale = uiScale(), half = std::min(170 * scale, screen.width * 0.35f);
-    const float middle = screen.width / 2, top = 8 * scale, height = 20 * scale;
+void drawCompass(OverlayLayout& layout, const world::Pose& pose, std::span<const game::Place> places) {
+    const float scale = uiScale(), half = std::min(170 * scale, layout.screen().width * 0.35f);
+    const float height = 20 * scale, below = places.empty() ? 0 : 9 * scale + ImGui::GetFontSize();
+    const auto rect = layout.place("compass", {.size = {2 * half, height + below}, .alignX = 0.5f});
+    if (!rect) return;
+    const float middle = (rect->min.x + rect->max.x) / 2, top = rect->min.y;
     const double ahead = game::compassDegrees(pose.yaw);
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const OverlayClip clip(draw, *rect);
     draw.AddRectFilled({middle - half, top}, {middle + half, top + height}, IM_COL32(10, 12, 16, 120),
                        6 * scale);
     constexpr const char* kNames[] = {"N", "NE", "E", "SE", "S", "SW", "W", "NW"};
@@ -95,14 +99,25 @@ ImU32 colorOf(int level) {
 
 }  // namespace
 
-void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
+void drawLoadingMap(OverlayLayout& layout, const stream::ChunkPipeline& pipeline,
                     const stream::TileTable& tiles) {
     const world::ChunkPos center = tiles.view.center;
     const int around = tiles.view.viewDistance + 3, reach = std::max(around, tiles.view.horizon);
-    const float side = std::min(screen.width, screen.height) * 0.6f;
+    constexpr const char* kLegend =
+        "red: loading   yellow: there   blue: lit and meshed now   green: visible\ndarker green: coarser";
+    const float wanted = std::min(layout.screen().width, layout.screen().height) * 0.6f, gap = 4 * uiScale();
+    const ImVec2 legend = ImGui::CalcTextSize(kLegend, nullptr, false, layout.widest());
+    const auto rect =
+        layout.place("loading map", {.size = {std::max(wanted, legend.x), wanted + gap + legend.y},
+                                     .alignX = 0.5f,
+                                     .top = (layout.screen().height - wanted) / 2,
+                                     .minHeight = wanted / 3 + gap + legend.y});
+    if (!rect) return;
+    const float side = std::min(rect->width(), rect->height() - gap - legend.y);
     const float cell = side / static_cast<float>(2 * reach + 1);
-    const float left = (screen.width - side) / 2, top = (screen.height - side) / 2;
+    const float left = (rect->min.x + rect->max.x - side) / 2, top = rect->min.y;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const OverlayClip clip(draw, *rect);
     draw.AddRectFilled({left, top}, {left + side, top + side}, IM_COL32(10, 12, 16, 170));
     // A square of chunks of level 0. As on all maps north, -y, is up, and east, -x, to the right.
     const auto square = [&](world::ChunkPos first, int width, ImU32 color) {
@@ -110,9 +125,9 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
             return static_cast<float>(std::clamp(chunks, 0, 2 * reach + 1)) * cell;
         };
         const int x = center.x - (first.x + width - 1) + reach, y = first.y - center.y + reach;
-        const float gap = cell * static_cast<float>(width) > 4 ? 1.0f : 0.0f;
+        const float line = cell * static_cast<float>(width) > 4 ? 1.0f : 0.0f;
         draw.AddRectFilled({left + at(x), top + at(y)},
-                           {left + at(x + width) - gap, top + at(y + width) - gap}, color);
+                           {left + at(x + width) - line, top + at(y + width) - line}, color);
     };
     for (const auto& [pos, record] : tiles.records) {
         if (pos.level == 0 || !record.isShown) continue;
@@ -126,9 +141,8 @@ void drawLoadingMap(const Screen& screen, const stream::ChunkPipeline& pipeline,
     }
     const float own = static_cast<float>(reach) * cell;
     draw.AddRect({left + own, top + own}, {left + own + cell, top + own + cell}, IM_COL32_WHITE);
-    draw.AddText(
-        {left + 6, top + side + 4}, IM_COL32_WHITE,
-        "red: loading   yellow: there   blue: lit and meshed now   green: visible\ndarker green: coarser");
+    draw.AddText(nullptr, 0, {rect->min.x, top + side + gap}, IM_COL32_WHITE, kLegend, nullptr,
+                 layout.widest());
 }
 
 }  // namespace terrane::app

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/ui_style.h"
 #include "apps/terrane/window/widgets.h"
 
 namespace terrane::app {
@@ -16,15 +17,19 @@ namespace {
 constexpr float kSlot = 38, kGap = 3, kMargin = 8;  // before scaling
 constexpr double kNameSeconds = 2;
 
-void drawName(const Screen& screen, const std::string& name, float share) {
+// Above the slots, if there is room. `top`: of the slots.
+void drawName(OverlayLayout& layout, float top, const std::string& name, float share) {
     const ImVec2 size = ImGui::CalcTextSize(name.c_str());
-    const float pad = 5 * uiScale(), y = screen.height - hotbarHeight() - size.y - 2 * pad;
-    const ImVec2 at((screen.width - size.x) / 2, y);
+    const float pad = 5 * uiScale(), height = size.y + pad;
+    const auto rect = layout.place(
+        "block name", {.size = {size.x + 2 * pad, height}, .alignX = 0.5f, .top = top - height - pad});
+    if (!rect) return;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const OverlayClip clip(draw, *rect);
     const auto alpha = [&](int full) { return static_cast<int>(static_cast<float>(full) * share); };
-    draw.AddRectFilled({at.x - pad, at.y - pad / 2}, {at.x + size.x + pad, at.y + size.y + pad / 2},
-                       IM_COL32(10, 12, 16, alpha(150)), pad);
-    draw.AddText(at, IM_COL32(255, 255, 255, alpha(255)), name.c_str());
+    draw.AddRectFilled(rect->min, rect->max, IM_COL32(10, 12, 16, alpha(150)), pad);
+    draw.AddText({rect->min.x + pad, rect->min.y + pad / 2}, IM_COL32(255, 255, 255, alpha(255)),
+                 name.c_str());
 }
 
 }  // namespace
@@ -39,15 +44,18 @@ void drawBlockImage(ImDrawList& draw, glm::vec2 min, float side, unsigned image)
                   {min.x + side, min.y + side}, {0, 0}, {1, 1});
 }
 
-void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const BlockFace& face,
+void HotbarView::draw(OverlayLayout& layout, const game::Hotbar& hotbar, const BlockFace& face,
                       double seconds) {
     if (hotbar.block() != shown_.block() || hotbar.selected != shown_.selected) nameSeconds_ = kNameSeconds;
     shown_ = hotbar;
     nameSeconds_ = std::max(0.0, nameSeconds_ - seconds);
     constexpr float kSlotsWidth = game::Hotbar::kSlots * (kSlot + kGap) - kGap;
-    const float scale = std::min(uiScale(), screen.width / (kSlotsWidth + 2 * kMargin));
+    const float scale = std::min(uiScale(), layout.widest() / kSlotsWidth);
     const float side = kSlot * scale, step = side + kGap * scale, edge = 3 * scale;
-    const float left = (screen.width - kSlotsWidth * scale) / 2, top = screen.height - side - kMargin * scale;
+    const auto rect = layout.place(
+        "hotbar", {.size = {kSlotsWidth * scale, side}, .alignX = 0.5f, .top = layout.screen().height});
+    if (!rect) return;
+    const float left = rect->min.x, top = rect->min.y;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     const auto corner = [&](std::size_t slot) { return ImVec2(left + step * static_cast<float>(slot), top); };
     // Grouped by texture: each change of the texture is a draw call.
@@ -65,7 +73,7 @@ void HotbarView::draw(const Screen& screen, const game::Hotbar& hotbar, const Bl
             drawBlockImage(draw, min, side - 2 * edge, face.image(hotbar.blocks[slot]));
     }
     if (nameSeconds_ > 0 && hotbar.block() != world::kAir)
-        drawName(screen, face.name(hotbar.block()), static_cast<float>(std::min(nameSeconds_, 1.0)));
+        drawName(layout, top, face.name(hotbar.block()), static_cast<float>(std::min(nameSeconds_, 1.0)));
 }
 
 namespace {
@@ -103,17 +111,17 @@ void drawGroups(PaletteState& state, const std::vector<std::string>& groups, con
     }
 }
 
+// Draws the blocks in rows. `number`: of the first one on the page.
 std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<world::BlockId>& shown,
-                                         const BlockFace& face) {
+                                         const BlockFace& face, std::size_t number) {
     std::optional<world::BlockId> choice;
     const float side = kBlockSide * uiScale(), gap = kSquareGap * uiScale();
     const auto columns =
         static_cast<std::size_t>(std::max(1.0f, (ImGui::GetContentRegionAvail().x + gap) / (side + gap)));
     ImDrawList& draw = *ImGui::GetWindowDrawList();
-    state.pointedAt = world::kAir;
     for (std::size_t k = 0; k < shown.size(); ++k) {
         if (k % columns != 0) ImGui::SameLine(0, gap);
-        ImGui::PushID(static_cast<int>(k));
+        ImGui::PushID(static_cast<int>(number + k));
         if (ui::button("##block", {side, side}, face.name(shown[k]))) choice = shown[k];
         if (ImGui::IsItemVisible()) {
             const ImVec2 min = ImGui::GetItemRectMin();
@@ -124,6 +132,21 @@ std::optional<world::BlockId> drawBlocks(PaletteState& state, const std::vector<
             state.pointedAt = shown[k];
         }
         ImGui::PopID();
+    }
+    return choice;
+}
+
+// All blocks, each group under its heading.
+std::optional<world::BlockId> drawAllGroups(PaletteState& state, const world::BlockRegistry& blocks,
+                                            const std::vector<std::string>& groups, const BlockFace& face,
+                                            const Texts& tr) {
+    std::optional<world::BlockId> choice;
+    std::size_t number = 0;
+    for (const std::string& group : groups) {
+        const auto shown = game::paletteBlocks(blocks, {group, {}, face.name});
+        heading(shownGroup(group, tr).c_str());
+        if (const auto chosen = drawBlocks(state, shown, face, number)) choice = chosen;
+        number += shown.size();
     }
     return choice;
 }
@@ -150,7 +173,11 @@ std::optional<world::BlockId> drawPalette(const Screen& screen, PaletteState& st
     const std::string group = state.group == 0 ? "" : groups[state.group - 1];
     const auto shown = game::paletteBlocks(blocks, {group, state.search.data(), face.name});
     ImGui::BeginChild("list");
-    std::optional<world::BlockId> choice = drawBlocks(state, shown, face);
+    state.pointedAt = world::kAir;
+    // What a search finds is in the order in which it fits; all else is in groups.
+    const bool isGrouped = state.group == 0 && state.search[0] == 0;
+    std::optional<world::BlockId> choice =
+        isGrouped ? drawAllGroups(state, blocks, groups, face, tr) : drawBlocks(state, shown, face, 0);
     if (shown.empty()) ImGui::TextUnformatted(tr("No block has this name"));
     ImGui::EndChild();
     ImGui::End();

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/items.h"
 
@@ -23,7 +23,8 @@ struct BlockFace {
 // Shows the chosen block's name for a moment after a change.
 class HotbarView {
   public:
-    void draw(const Screen& screen, const game::Hotbar& hotbar, const BlockFace& face, double seconds);
+    // `seconds`: since the last frame.
+    void draw(OverlayLayout& layout, const game::Hotbar& hotbar, const BlockFace& face, double seconds);
 
   private:
     game::Hotbar shown_;

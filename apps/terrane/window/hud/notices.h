@@ -31,6 +31,7 @@ struct Notices {
     }
 };
 
-void drawNotices(const Screen& screen, const Notices& notices, const KeyBindings& keys, const Texts& tr);
+void drawNoticeMessage(OverlayLayout& layout, const Notices& notices);
+void drawNoticeKeys(OverlayLayout& layout, const Notices& notices, const KeyBindings& keys, const Texts& tr);
 
 }  // namespace terrane::app

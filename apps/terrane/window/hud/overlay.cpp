@@ -9,6 +9,7 @@
 #include <array>
 #include <cmath>
 
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/ui_style.h"
 #include "terrane/base/machine.h"
@@ -50,10 +51,6 @@ std::optional<std::pair<glm::vec2, glm::vec2>> ScreenProjection::line(const glm:
 
 namespace {
 
-constexpr ImGuiWindowFlags kBare = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoInputs |
-                                   ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing |
-                                   ImGuiWindowFlags_NoNav;
-
 ImU32 withAlpha(int red, int green, int blue, float alpha) {
     return IM_COL32(red, green, blue, static_cast<int>(255 * glm::clamp(alpha, 0.0f, 1.0f)));
 }
@@ -77,12 +74,6 @@ Corners faceCorners(const Screen& screen, const render::Camera& camera, glm::dve
         corners[static_cast<std::size_t>(k)] = projected(screen, camera, p);
     }
     return corners;
-}
-
-void centered(const char* name, const Screen& screen, float height) {
-    ImGui::SetNextWindowPos({screen.width / 2, height}, ImGuiCond_Always, {0.5f, 0.5f});
-    ImGui::SetNextWindowBgAlpha(0.55f);
-    ImGui::Begin(name, nullptr, kBare);
 }
 
 }  // namespace
@@ -152,9 +143,11 @@ void drawDebugTopView(const Screen& screen, const render::Camera& above, const r
     }
 }
 
-void drawCrosshair(const Screen& screen) {
+void drawCrosshair(OverlayLayout& layout) {
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const Screen& screen = layout.screen();
     const float x = std::floor(screen.width / 2), y = std::floor(screen.height / 2), r = 8 * uiScale();
+    if (!layout.placeAt("crosshair", {{x - r, y - r}, {x + r, y + r}})) return;
     for (const auto& [color, thick] :
          {std::pair(IM_COL32(0, 0, 0, 120), 4.0f), {IM_COL32(255, 255, 255, 220), 2.0f}}) {
         draw.AddLine({x - r, y}, {x + r, y}, color, thick * uiScale());
@@ -162,11 +155,12 @@ void drawCrosshair(const Screen& screen) {
     }
 }
 
-void drawStatistics(const Statistics& f, float width) {
-    ImGui::SetNextWindowPos({10 * uiScale(), 10 * uiScale()});
+void drawStatistics(OverlayLayout& layout, const Statistics& f) {
     ImGui::SetNextWindowBgAlpha(0.5f);
-    ImGui::Begin("statistics", nullptr, kBare);
-    ImGui::PushTextWrapPos(width);
+    if (!layout.beginWindow({.id = "statistics", .flags = OverlayLayout::kBare},
+                            {.minHeight = 3 * ImGui::GetTextLineHeightWithSpacing()}))
+        return;
+    ImGui::PushTextWrapPos(std::min(400 * uiScale(), layout.widest()));
     const glm::dvec3& p = f.camera.position;
     ImGui::Text("%.1f frames/s (%.1f to %.1f), %d in the last second", f.frames->now(), f.frames->min(),
                 f.frames->max(), f.frames->lastSecond());
@@ -193,40 +187,53 @@ void drawStatistics(const Statistics& f, float width) {
     ImGui::End();
 }
 
-void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr) {
+void drawProgress(OverlayLayout& layout, const stream::Progress& progress, const Texts& tr) {
     const float share =
         static_cast<float>(progress.visible) / static_cast<float>(std::max<std::size_t>(progress.inView, 1));
-    centered("progress", screen, screen.height - 90 * uiScale());
+    ImGui::SetNextWindowBgAlpha(0.55f);
+    if (!layout.beginWindow({.id = "progress", .flags = OverlayLayout::kBare},
+                            {.alignX = 0.5f, .top = layout.screen().height - 118 * uiScale()}))
+        return;
     ImGui::TextUnformatted(tr("Loading the world"));
     ImGui::ProgressBar(share, {240 * uiScale(), 8 * uiScale()}, "");
     ImGui::End();
 }
 
-void drawKeyHelp(const Screen& screen, float share, const std::vector<KeyHelpLine>& lines) {
+void drawKeyHelp(OverlayLayout& layout, float share, const std::vector<KeyHelpLine>& lines) {
+    const float row = ImGui::GetTextLineHeightWithSpacing();
+    const float height = row * static_cast<float>(lines.size());
+    ImGui::SetNextWindowBgAlpha(0.55f * share);
+    if (!layout.beginWindow(
+            {.id = "help", .flags = OverlayLayout::kBare},
+            {.alignX = 0.5f, .top = layout.screen().height * 0.35f - height / 2, .minHeight = 3 * row}))
+        return;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
-    centered("hint", screen, screen.height * 0.35f);
     float column = 0;
     for (const KeyHelpLine& line : lines) column = std::max(column, ImGui::CalcTextSize(line.keys.c_str()).x);
-    ImGui::PushTextWrapPos(screen.width - 40 * uiScale());
+    ImGui::PushTextWrapPos(layout.widest() - 2 * layout.margin());
     for (const KeyHelpLine& line : lines) {
         ImGui::TextUnformatted(line.keys.c_str());
         ImGui::SameLine(column + 24 * uiScale());
         ImGui::TextUnformatted(line.effect.c_str());
     }
     ImGui::PopTextWrapPos();
-    ImGui::End();
     ImGui::PopStyleVar();
+    ImGui::End();
 }
 
-void drawMessage(const Screen& screen, const std::string& message, float share) {
-    const ImVec2 size = ImGui::CalcTextSize(message.c_str());
-    // Long messages start at the left edge, so that the beginning is visible.
-    const ImVec2 at(std::max(0.0f, (screen.width - size.x) / 2), screen.height * 0.75f);
-    const float margin = 6 * uiScale();
+void drawMessage(OverlayLayout& layout, const std::string& message, float share) {
+    const float pad = 6 * uiScale(), widest = std::max(1.0f, layout.widest() - 2 * pad);
+    const ImVec2 size = ImGui::CalcTextSize(message.c_str(), nullptr, false, widest);
+    const auto rect = layout.place("message", {.size = {size.x + 2 * pad, size.y + 2 * pad},
+                                               .alignX = 0.5f,
+                                               .top = layout.screen().height * 0.75f - pad,
+                                               .minHeight = ImGui::GetFontSize() + 2 * pad});
+    if (!rect) return;
     ImDrawList& draw = *ImGui::GetForegroundDrawList();
-    draw.AddRectFilled({at.x - margin, at.y - margin}, {at.x + size.x + margin, at.y + size.y + margin},
-                       withAlpha(10, 12, 16, 0.7f * share), margin);
-    draw.AddText(at, withAlpha(255, 255, 255, share), message.c_str());
+    const OverlayClip clip(draw, *rect);
+    draw.AddRectFilled(rect->min, rect->max, withAlpha(10, 12, 16, 0.7f * share), pad);
+    draw.AddText(nullptr, 0, {rect->min.x + pad, rect->min.y + pad}, withAlpha(255, 255, 255, share),
+                 message.c_str(), nullptr, widest);
 }
 
 }  // namespace terrane::app

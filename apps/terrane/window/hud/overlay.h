@@ -45,6 +45,7 @@ class ScreenProjection {
 struct Screen {
     float width = 0, height = 0;  // in Dear ImGui's units
 };
+class OverlayLayout;  // overlay_layout.h
 
 struct TargetView {
     const world::World& world;
@@ -60,7 +61,7 @@ render::Camera debugTopCamera(const render::Camera& camera, int viewDistance);
 // shadow map, as seen from above.
 void drawDebugTopView(const Screen& screen, const render::Camera& above, const render::Camera& camera,
                       float farBlocks, const std::optional<glm::vec3>& shadowLight);
-void drawCrosshair(const Screen& screen);
+void drawCrosshair(OverlayLayout& layout);  // in the middle, if nothing is there
 
 // Bytes by owner. Computing them visits all chunks.
 struct MemoryStatistics {
@@ -81,14 +82,13 @@ struct Statistics {
     std::vector<stream::TaskTime> tasks;
     const std::vector<gpu::GpuTiming>* passes = nullptr;
 };
-// `width`: of the text column at the left.
-void drawStatistics(const Statistics& statistics, float width);
+void drawStatistics(OverlayLayout& layout, const Statistics& statistics);
 
 // Shown while chunks in view are missing.
-void drawProgress(const Screen& screen, const stream::Progress& progress, const Texts& tr);
+void drawProgress(OverlayLayout& layout, const stream::Progress& progress, const Texts& tr);
 // The list of keys, shown at the start; long lines wrap. `share`: opacity, 0 to 1.
-void drawKeyHelp(const Screen& screen, float share, const std::vector<KeyHelpLine>& lines);
-// A line about the last event. `share`: opacity, 0 to 1.
-void drawMessage(const Screen& screen, const std::string& message, float share);
+void drawKeyHelp(OverlayLayout& layout, float share, const std::vector<KeyHelpLine>& lines);
+// A text about the last event; long ones wrap. `share`: opacity, 0 to 1.
+void drawMessage(OverlayLayout& layout, const std::string& message, float share);
 
 }  // namespace terrane::app

@@ -47,14 +47,18 @@ std::string factsText(const PlaceFacts& f, const Texts& tr) {
 
 }  // namespace
 
-void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr) {
+void drawPlaceFacts(OverlayLayout& layout, const PlaceFacts& facts, const Texts& tr) {
     const std::string text = factsText(facts, tr);
-    const ImVec2 size = ImGui::CalcTextSize(text.c_str());
-    const float margin = 10 * uiScale(), pad = 6 * uiScale();
+    const float pad = 6 * uiScale(), widest = std::max(1.0f, layout.widest() - 2 * pad);
+    const ImVec2 size = ImGui::CalcTextSize(text.c_str(), nullptr, false, widest);
+    const auto rect = layout.place("position", {.size = {size.x + 2 * pad, size.y + 2 * pad},
+                                                .minHeight = ImGui::GetFontSize() + 2 * pad});
+    if (!rect) return;
     ImDrawList& draw = *ImGui::GetBackgroundDrawList();
-    draw.AddRectFilled({margin, margin}, {margin + size.x + 2 * pad, margin + size.y + 2 * pad},
-                       IM_COL32(10, 12, 16, 150), pad);
-    draw.AddText({margin + pad, margin + pad}, IM_COL32(255, 255, 255, 255), text.c_str());
+    const OverlayClip clip(draw, *rect);
+    draw.AddRectFilled(rect->min, rect->max, IM_COL32(10, 12, 16, 150), pad);
+    draw.AddText(nullptr, 0, {rect->min.x + pad, rect->min.y + pad}, IM_COL32(255, 255, 255, 255),
+                 text.c_str(), nullptr, widest);
 }
 
 namespace {

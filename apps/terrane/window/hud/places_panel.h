@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/places.h"
 
@@ -23,7 +23,7 @@ struct PlaceFacts {
     double framesASecond = 0;
 };
 
-void drawPlaceFacts(const PlaceFacts& facts, const Texts& tr);
+void drawPlaceFacts(OverlayLayout& layout, const PlaceFacts& facts, const Texts& tr);
 
 struct PlacesState {
     bool isOpen = false;

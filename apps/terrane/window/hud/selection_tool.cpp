@@ -6,9 +6,10 @@
 #include <glm/vec3.hpp>
 
 #include <algorithm>
+#include <iterator>
 
-#include "apps/terrane/window/hud/overlay.h"
 #include "apps/terrane/window/imgui_layer.h"
+#include "apps/terrane/window/ui_style.h"
 #include "apps/terrane/window/widgets.h"
 #include "terrane/store/chunks/structure_file.h"
 #include "terrane/world/ray_cast.h"
@@ -22,18 +23,38 @@ using world::BlockBox;
 using world::BlockPos;
 
 constexpr double kAhead = 6;  // blocks to the cell in the air
+constexpr const char* kNoBox = "no box is selected: left and right button set its corners";
 
-struct ActionKey {
+// Each action with its key and its button of the panel, in rows of two.
+struct ToolRow {
     ToolAction action;
     Key key;
     bool withControl;
+    const char* label;
 };
-constexpr ActionKey kActionKeys[] = {
-    {ToolAction::Fill, Key::G, false},      {ToolAction::Replace, Key::X, false},
-    {ToolAction::Copy, Key::C, true},       {ToolAction::Paste, Key::V, true},
-    {ToolAction::Turn, Key::R, false},      {ToolAction::Mirror, Key::F, false},
-    {ToolAction::Save, Key::S, true},       {ToolAction::Open, Key::O, true},
-    {ToolAction::Clear, Key::Delete, false}};
+constexpr ToolRow kToolActions[] = {{ToolAction::Fill, Key::G, false, trLater("Fill (G)")},
+                                    {ToolAction::Replace, Key::X, false, trLater("Replace (X)")},
+                                    {ToolAction::Clear, Key::Delete, false, trLater("Clear (Del)")},
+                                    {ToolAction::Shape, Key::U, false, trLater("Shape (U)")},
+                                    {ToolAction::Copy, Key::C, true, trLater("Copy (Ctrl+C)")},
+                                    {ToolAction::Paste, Key::V, true, trLater("Paste (Ctrl+V)")},
+                                    {ToolAction::Turn, Key::R, false, trLater("Rotate (R)")},
+                                    {ToolAction::Mirror, Key::F, false, trLater("Mirror (F)")},
+                                    {ToolAction::Save, Key::S, true, trLater("Save (Ctrl+S)")},
+                                    {ToolAction::Open, Key::O, true, trLater("Open (Ctrl+O)")}};
+
+// Indexed by game::ShapeKind.
+constexpr const char* kShapeNames[] = {trLater("box"), trLater("hollow"), trLater("walls"), trLater("sphere"),
+                                       trLater("line")};
+static_assert(std::size(kShapeNames) == static_cast<std::size_t>(game::ShapeKind::Count));
+
+const char* nameOf(game::ShapeKind kind) {
+    return kShapeNames[static_cast<std::size_t>(kind)];
+}
+
+game::ShapeKind nextShape(game::ShapeKind kind) {
+    return static_cast<game::ShapeKind>((static_cast<std::size_t>(kind) + 1) % std::size(kShapeNames));
+}
 
 world::Ray lookRay(const BuildView& view) {
     return {view.pose.position, glm::dvec3(world::lookDirection(view.pose.yaw, view.pose.pitch))};
@@ -111,9 +132,9 @@ bool SelectionTool::onKey(Key key, const BuildView& view) {
         return true;
     }
     if (!isActive_) return false;
-    for (const ActionKey& entry : kActionKeys) {
-        if (entry.key != key || entry.withControl != view.control) continue;
-        act(entry.action, view);
+    for (const ToolRow& row : kToolActions) {
+        if (row.key != key || row.withControl != view.control) continue;
+        act(row.action, view);
         return true;
     }
     return false;
@@ -131,6 +152,19 @@ bool SelectionTool::onButton(MouseButton button, const BuildView& view) {
     const BlockBox box = *selection_.box();
     message_ = fmt::format("{} corner {}, {}, {}; {}", isLeft ? "first" : "second", corner.x, corner.y,
                            corner.z, blocksText(box.blockCount()));
+    return true;
+}
+
+bool SelectionTool::onWheel(int steps, const BuildView& view) {
+    if (!isActive_ || !view.control) return false;
+    using End = game::Selection::End;
+    if (!selection_.box()) {
+        message_ = kNoBox;
+    } else if (selection_.moveEnd(view.shift ? End::Bottom : End::Top, steps)) {
+        const BlockBox box = *selection_.box();
+        message_ = fmt::format("height {}, from {} to {}; {}", box.high.z - box.low.z + 1, box.low.z,
+                               box.high.z, blocksText(box.blockCount()));
+    }
     return true;
 }
 
@@ -155,6 +189,10 @@ void SelectionTool::act(ToolAction action, const BuildView& view) {
             return fill(view, world::kAir, std::nullopt);
         case ToolAction::Replace:
             return replace(view);
+        case ToolAction::Shape:
+            selection_.setShape(nextShape(selection_.shapeKind()));
+            message_ = fmt::format("shape: {}", nameOf(selection_.shapeKind()));
+            return;
         case ToolAction::Copy:
             return copy(view);
         case ToolAction::Paste:
@@ -181,10 +219,11 @@ void SelectionTool::act(ToolAction action, const BuildView& view) {
 void SelectionTool::fill(const BuildView& view, world::BlockId id, std::optional<world::BlockId> replaced) {
     const auto box = selection_.box();
     if (!box) {
-        message_ = "no box is selected: left and right button set its corners";
+        message_ = kNoBox;
         return;
     }
-    const auto outcome = view.session.build({game::kLocalPlayer, game::FillBox{*box, id, 0, replaced}});
+    const auto outcome =
+        view.session.build({game::kLocalPlayer, game::FillBox{*box, id, 0, replaced, selection_.shape()}});
     message_ = outcomeText(replaced ? "replaced" : id == world::kAir ? "cleared" : "filled", outcome);
 }
 
@@ -279,25 +318,21 @@ void SelectionTool::open(const std::string& name, const world::BlockRegistry& bl
     selection_.beginPaste();
 }
 
-// Draws the selection tool: its panel, and the outlines of boxes.
+// Draws the selection tool: its panel, and the outlines of boxes and lines.
 
 namespace {
-
-struct ToolButton {
-    ToolAction action;
-    const char* label;
-};
-// In rows of two.
-constexpr ToolButton kToolButtons[] = {
-    {ToolAction::Fill, trLater("Fill (G)")},        {ToolAction::Replace, trLater("Replace (X)")},
-    {ToolAction::Clear, trLater("Clear (Del)")},    {ToolAction::Copy, trLater("Copy (Ctrl+C)")},
-    {ToolAction::Paste, trLater("Paste (Ctrl+V)")}, {ToolAction::Turn, trLater("Rotate (R)")},
-    {ToolAction::Mirror, trLater("Mirror (F)")},    {ToolAction::Save, trLater("Save (Ctrl+S)")},
-    {ToolAction::Open, trLater("Open (Ctrl+O)")}};
 
 // Orange and blue, which color-blind players can distinguish.
 constexpr ImU32 kSelected = IM_COL32(255, 160, 40, 255);
 constexpr ImU32 kPasted = IM_COL32(90, 180, 255, 255);
+
+void drawEdge(const ScreenProjection& projection, const glm::dvec3& a, const glm::dvec3& b, ImU32 color) {
+    const auto line = projection.line(a, b);
+    if (!line) return;
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    draw.AddLine(imVec(line->first), imVec(line->second), IM_COL32(0, 0, 0, 140), 4 * uiScale());
+    draw.AddLine(imVec(line->first), imVec(line->second), color, 2 * uiScale());
+}
 
 void drawBox(const ScreenProjection& projection, const BlockBox& box, double grow, ImU32 color) {
     const glm::dvec3 low = glm::dvec3(box.low.x, box.low.y, box.low.z) - grow;
@@ -306,16 +341,19 @@ void drawBox(const ScreenProjection& projection, const BlockBox& box, double gro
         return glm::dvec3((k & 1) != 0 ? high.x : low.x, (k & 2) != 0 ? high.y : low.y,
                           (k & 4) != 0 ? high.z : low.z);
     };
-    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
     for (unsigned k = 0; k < 8; ++k)
-        for (const unsigned axis : {1u, 2u, 4u}) {
-            if ((k & axis) != 0) continue;
-            const auto line = projection.line(corner(k), corner(k | axis));
-            if (!line) continue;
-            const ImVec2 from(line->first.x, line->first.y), to(line->second.x, line->second.y);
-            draw.AddLine(from, to, IM_COL32(0, 0, 0, 140), 4 * uiScale());
-            draw.AddLine(from, to, color, 2 * uiScale());
-        }
+        for (const unsigned axis : {1u, 2u, 4u})
+            if ((k & axis) == 0) drawEdge(projection, corner(k), corner(k | axis), color);
+}
+
+// From the middle of the first block of a line to that of the last one.
+void drawLineOf(const ScreenProjection& projection, const game::FillShape& shape, const BlockBox& box) {
+    const auto end = [&](bool isTop) {
+        return glm::dvec3(shape.fromHighX != isTop ? box.high.x : box.low.x,
+                          shape.fromHighY != isTop ? box.high.y : box.low.y, isTop ? box.high.z : box.low.z) +
+               0.5;
+    };
+    drawEdge(projection, end(false), end(true), kSelected);
 }
 
 // Of a box of any size: its corners may lie at both ends of the world.
@@ -328,43 +366,43 @@ std::string sizeText(const Texts& tr, const BlockBox& box) {
 
 }  // namespace
 
-void SelectionTool::draw(const Screen& screen, const render::Camera& camera, const BuildView& view) {
+void SelectionTool::drawPanel(OverlayLayout& layout, const BuildView& view) {
     if (!isActive_) return;
-    drawOutlines(screen, camera, view);
     pressed_.reset();
-    drawPanel(screen, view);
+    ImGui::SetNextWindowBgAlpha(0.6f);
+    if (layout.beginWindow(
+            {.title = view.tr("Selection (B)"), .id = "selection", .flags = OverlayLayout::kPassive},
+            {.alignX = 1, .minHeight = 80 * uiScale()})) {
+        drawContents(view);
+        ImGui::End();
+    }
     if (pressed_) act(*pressed_, view);
     if (isAnswered_) answer(view);
 }
 
-void SelectionTool::drawPanel(const Screen& screen, const BuildView& view) {
+void SelectionTool::drawContents(const BuildView& view) {
     const Texts& tr = view.tr;
-    const float margin = 10 * uiScale();
-    ImGui::SetNextWindowPos({screen.width - margin, margin}, ImGuiCond_Always, {1, 0});
-    ImGui::SetNextWindowBgAlpha(0.6f);
-    ui::beginWindow(tr("Selection (B)"), ImGuiWindowFlags_NoMove | ImGuiWindowFlags_AlwaysAutoResize |
-                                             ImGuiWindowFlags_NoCollapse |
-                                             ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
     if (const auto box = selection_.box()) {
         ImGui::TextUnformatted(sizeText(tr, *box).c_str());
     } else {
         ImGui::TextUnformatted(tr("left, right button: corners"));
     }
     ImGui::Text(tr("with: %s"), tr.block(view.session.blocks().type(view.hand)).c_str());
+    ImGui::Text(tr("shape: %s"), tr(nameOf(selection_.shapeKind())));
     if (const auto& clipboard = selection_.clipboard()) {
         const glm::ivec3 last = clipboard->size - 1;
         ImGui::Text(tr("copied: %s"), sizeText(tr, {{}, {last.x, last.y, last.z}}).c_str());
     }
     const ImVec2 size(130 * uiScale(), 0);
     int column = 0;
-    for (const ToolButton& button : kToolButtons) {
+    for (const ToolRow& row : kToolActions) {
         if (column++ % 2 == 1) ImGui::SameLine();
-        if (ui::button(tr(button.label), size)) pressed_ = button.action;
+        if (ui::button(tr(row.label), size)) pressed_ = row.action;
     }
     ImGui::TextUnformatted(tr("Shift: your own position"));
+    ImGui::TextUnformatted(tr("Ctrl+wheel: height"));
     if (asks_ == Asks::Name) drawName(tr);
     if (asks_ == Asks::File) drawFiles(tr);
-    ImGui::End();
 }
 
 void SelectionTool::drawName(const Texts& tr) {
@@ -394,8 +432,12 @@ void SelectionTool::drawFiles(const Texts& tr) {
 
 void SelectionTool::drawOutlines(const Screen& screen, const render::Camera& camera,
                                  const BuildView& view) const {
+    if (!isActive_) return;
     const ScreenProjection projection({screen.width, screen.height}, camera);
-    if (const auto box = selection_.box()) drawBox(projection, *box, 1 / 64.0, kSelected);
+    if (const auto box = selection_.box()) {
+        drawBox(projection, *box, 1 / 64.0, kSelected);
+        if (selection_.shapeKind() == game::ShapeKind::Line) drawLineOf(projection, selection_.shape(), *box);
+    }
     if (!selection_.isPasting()) return;
     const auto low = selection_.pasteCorner(pointedAt(view, true));
     drawBox(projection, game::boxOf(game::PlaceStructure{selection_.clipboard(), *low}), 1 / 32.0, kPasted);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/input.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/game/selection.h"
@@ -28,7 +28,7 @@ struct BuildView {
     bool shift = false, control = false;  // keys that are held
 };
 
-enum class ToolAction : std::uint8_t { Fill, Replace, Clear, Copy, Paste, Turn, Mirror, Save, Open };
+enum class ToolAction : std::uint8_t { Fill, Replace, Clear, Shape, Copy, Paste, Turn, Mirror, Save, Open };
 
 std::string withCommas(std::int64_t number);  // 12,345
 
@@ -50,11 +50,14 @@ class SelectionTool {
     // True if the tool handled the key or button.
     bool onKey(Key key, const BuildView& view);
     bool onButton(MouseButton button, const BuildView& view);
+    // With Control the wheel moves the top of the box, with Shift too its bottom. `steps`: up if positive.
+    bool onWheel(int steps, const BuildView& view);
     // Closes the question, ends pasting or deactivates the tool, one per call; false if there is nothing to
     // end.
     bool close();
 
-    void draw(const Screen& screen, const render::Camera& camera, const BuildView& view);
+    void drawOutlines(const Screen& screen, const render::Camera& camera, const BuildView& view) const;
+    void drawPanel(OverlayLayout& layout, const BuildView& view);
     std::optional<std::string> takeMessage() { return std::exchange(message_, std::nullopt); }
 
   private:
@@ -72,10 +75,9 @@ class SelectionTool {
     void open(const std::string& name, const world::BlockRegistry& blocks);
     void onKeyWhileAsking(Key key);
     void answer(const BuildView& view);
-    void drawPanel(const Screen& screen, const BuildView& view);
+    void drawContents(const BuildView& view);
     void drawName(const Texts& tr);
     void drawFiles(const Texts& tr);
-    void drawOutlines(const Screen& screen, const render::Camera& camera, const BuildView& view) const;
 
     std::filesystem::path folder_;
     game::Selection selection_;

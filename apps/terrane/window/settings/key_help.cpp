@@ -29,7 +29,7 @@ const std::vector<Row>& rows() {
          trLater("choose a hotbar slot; middle button: pick the block under the crosshair")},
         {nullptr, {Palette}, trLater("all blocks, with search")},
         {trLater("Ctrl+Z, Ctrl+Y"), {}, trLater("undo; redo")},
-        {"B", {}, trLater("select a box: fill, replace, copy, paste, rotate, mirror, save")},
+        {"B", {}, trLater("select a box: fill, replace, shapes, copy, paste, rotate, mirror, save")},
         {nullptr, {Places, Spawn}, trLater("named places; go to the spawn")},
         {nullptr, {Chat, PlayerList}, trLater("on a server: chat; list of players")},
         {nullptr, {Earlier, Later, HoldTime}, trLater("time of day back; forward; stop or run time")},

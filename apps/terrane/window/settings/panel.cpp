@@ -74,18 +74,13 @@ void drawClock(game::DayClock& day) {
 
 }  // namespace
 
-float panelWidth() {
-    return 280 * uiScale();
-}
-
-void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input) {
-    const float scale = uiScale(), width = panelWidth(), margin = 10 * scale;
-    ImGui::SetNextWindowPos({input.width - width - margin, margin});
-    ImGui::SetNextWindowSize({width, 0});
-    ImGui::SetNextWindowSizeConstraints({width, 0}, {width, input.height - 2 * margin});
-    ui::beginWindow("Settings", ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoResize);
+void drawPanel(OverlayLayout& layout, PlaySettings& settings, game::DayClock& day, bool isSoftwareRenderer) {
+    const float scale = uiScale();
+    if (!layout.beginWindow({.title = "Settings", .id = "panel", .width = 280 * scale},
+                            {.alignX = 1, .minHeight = 80 * scale}))
+        return;
     ImGui::PushItemWidth(120 * scale);
-    drawPreset(settings, input.isSoftwareRenderer);
+    drawPreset(settings, isSoftwareRenderer);
     choice("view", settings.view, viewNames());
     ImGui::Separator();
     for (const Setting& setting : settingsTable()) drawSetting(setting, settings, nullptr);

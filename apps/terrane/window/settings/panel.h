@@ -1,17 +1,12 @@
 // The developer panel on the right side, with every setting. Immediate mode: draws and changes.
 #pragma once
 
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/settings/play_settings.h"
 #include "terrane/game/player_state.h"
 
 namespace terrane::app {
 
-struct PanelInput {
-    bool isSoftwareRenderer = false;
-    float width = 0, height = 0;  // of the window
-};
-
-float panelWidth();  // call during a frame
-void drawPanel(PlaySettings& settings, game::DayClock& day, const PanelInput& input);
+void drawPanel(OverlayLayout& layout, PlaySettings& settings, game::DayClock& day, bool isSoftwareRenderer);
 
 }  // namespace terrane::app

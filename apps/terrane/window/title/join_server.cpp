@@ -7,7 +7,7 @@
 #include <functional>
 #include <thread>
 
-#include "apps/terrane/window/hud/overlay.h"
+#include "apps/terrane/window/hud/overlay_layout.h"
 #include "apps/terrane/window/imgui_layer.h"
 #include "apps/terrane/window/text.h"
 #include "apps/terrane/window/ui_style.h"
@@ -70,7 +70,8 @@ base::Result<bool> waitForServer(const JoinWindow& join, RemotePlay& play) {
     const std::string message = fmt::format(fmt::runtime(join.tr("joining {}")), play.address());
     const bool isDone = drawUntil(join, [&](const Screen& screen) {
         play.poll();
-        drawMessage(screen, message, 1);
+        OverlayLayout layout(screen);
+        drawMessage(layout, message, 1);
         return play.stage() == Stage::Joined || play.stage() == Stage::Ended;
     });
     if (isDone && play.stage() == Stage::Ended) return base::fail("{}", play.reason());

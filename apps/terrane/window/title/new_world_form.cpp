@@ -1,6 +1,7 @@
 #include "apps/terrane/window/title/new_world_form.h"
 
 #include <epoxy/gl.h>
+#include <fmt/format.h>
 
 #include <condition_variable>
 #include <mutex>
@@ -147,6 +148,12 @@ base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form) {
     const std::string_view text = trimmed(form.seed);
     if (text.empty()) return store::WrittenSeed{form.randomSeed, ""};
     return store::seedFrom(text);
+}
+
+std::string seedNote(const NewWorldForm& form, const store::WrittenSeed& seed, const Texts& tr) {
+    if (!seed.text.empty()) return fmt::format(fmt::runtime(tr("The text becomes the number {}")), seed.seed);
+    if (trimmed(form.seed).empty()) return fmt::format(fmt::runtime(tr("Random number {}")), seed.seed);
+    return {};
 }
 
 base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesystem::path& folder) {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "apps/terrane/options.h"
+#include "apps/terrane/window/text.h"
 #include "terrane/gpu/texture.h"
 #include "terrane/pack/content.h"
 
@@ -66,6 +67,10 @@ NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSe
 
 // Ignores spaces around the seed.
 [[nodiscard]] base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form);
+
+// What the player is told about the seed of the form: the number that a text stands for, or the random one.
+// Empty for a number, which tells itself.
+std::string seedNote(const NewWorldForm& form, const store::WrittenSeed& seed, const Texts& tr);
 
 // Errors are one line for the player.
 [[nodiscard]] base::Result<ChosenWorld> worldOf(const NewWorldForm& form,

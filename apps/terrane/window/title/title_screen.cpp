@@ -326,7 +326,7 @@ void TitleScreen::drawForm() {
         form_.randomSeed = std::random_device()();
     }
     if (seed) {
-        dimText(fmt::format(fmt::runtime(tr_("is {}")), seed->seed));
+        dimText(seedNote(form_, *seed, tr_));  // an empty line too, so that nothing moves
     } else {
         warningText(seed.error().message);
     }
