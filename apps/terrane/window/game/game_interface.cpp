@@ -201,13 +201,13 @@ void drawOverlays(GameState& game, OverlayLayout& layout, double seconds) {
     game::Session& session = game.parts.session;
     if (!game.menu.asksToQuit) drawSaveNotice(layout, session.store().status(), game.tr);
     drawHud(game, layout, seconds);
+    drawRemote(game, layout);
+    drawNoticeMessage(layout, game.notices);
     drawFacts(game, layout);
     drawBuilding(game, layout);
-    drawNoticeMessage(layout, game.notices);
     const stream::Progress progress = session.pipeline().progress();
     game.wasComplete = game.wasComplete || progress.complete();
     if (!game.wasComplete) drawProgress(layout, progress, game.tr);
-    drawRemote(game, layout);
     drawDebugPanels(game, layout);
     game.hud.screenshot.draw(layout);
     drawNoticeKeys(layout, game.notices, game.settings.keys, game.tr);

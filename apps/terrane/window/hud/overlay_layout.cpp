@@ -15,12 +15,12 @@ namespace {
 constexpr float kEdge = 8, kBetween = 4;  // margins at edges and between overlays, before scaling
 constexpr std::string_view kOverlayMark = "###overlay ";
 
-// Windows of the last frame that are no overlays: dialogs and menus. Not tooltips and lists of combo boxes,
-// which belong to a window, nor Dear ImGui's own window.
+// Windows on the screen in the last frame that are no overlays: dialogs and menus. Not tooltips and lists of
+// combo boxes, which belong to a window, nor Dear ImGui's own window.
 bool isDialog(const ImGuiWindow& window) {
     constexpr ImGuiWindowFlags kParts =
         ImGuiWindowFlags_ChildWindow | ImGuiWindowFlags_Tooltip | ImGuiWindowFlags_Popup;
-    return window.WasActive && !window.IsFallbackWindow && (window.Flags & kParts) == 0 &&
+    return window.WasActive && !window.Hidden && !window.IsFallbackWindow && (window.Flags & kParts) == 0 &&
            std::string_view(window.Name).find(kOverlayMark) == std::string_view::npos;
 }
 
