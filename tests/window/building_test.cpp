@@ -261,7 +261,7 @@ TEST_F(HudTest, TheBlocksOfAllGroupsHaveHeadings) {
     std::string above;
     for (const Widget& widget : program.window().record.widgets())
         if (widget.label == "heading" && widget.max.y <= block.min.y) above = widget.value;
-    EXPECT_EQ(above, "Wood");
+    EXPECT_EQ(above, "Plants");
     program.click("##block", "Oak log");
     EXPECT_EQ(program.session().blocks().type(program.game().interaction.block()).name, "oak_log");
     program.press(Key::Tab);
