@@ -69,6 +69,7 @@ TEST_F(OverlayLayoutTest, AnOverlayMovesNoFartherThanItMust) {
     EXPECT_EQ(beside->min.y, 200) << "another column";
     EXPECT_FALSE(layout.placeAt("there", {{400, 220}, {420, 230}}));
     EXPECT_TRUE(layout.placeAt("free", {{400, 400}, {420, 430}}));
+    EXPECT_FALSE(layout.place("near", {.size = {100, 50}, .alignX = 0.5f, .top = 200, .reach = 20}));
     EXPECT_FALSE(layout.place("too high", {.size = {800, 580}})) << "it must not be cut";
     const auto cut = layout.place("cut", {.size = {100, 580}, .minHeight = 50});
     EXPECT_NEAR(cut->height(), 600 - 8 - 254, 2) << "the highest gap of the column";

@@ -113,6 +113,11 @@ TEST_F(OverlaysTest, NothingCoversAnythingInAWorld) {
     // Dialogs are over none.
     program.press(Key::Tab);
     forEachScreen(program, [&](const std::string& what) { expectApart(program, "palette, " + what); });
+    program.window().units = {800, 500};
+    program.window().unitPixels = program.window().scale = 0.8f;
+    program.game().settings.textSize = 1;
+    program.frames(3);
+    EXPECT_TRUE(overlaysOf(program).contains("hotbar")) << "digits put blocks into its slots";
     program.press(Key::Escape);
     program.press(Key::Escape);
     program.press(Key::Escape);

@@ -101,8 +101,8 @@ void drawHand(GameState& game, const Screen& screen, const render::Camera& camer
 // `seconds`: since the last frame.
 void drawHud(GameState& game, OverlayLayout& layout, double seconds) {
     if (!showsHud(game)) return;
-    drawCompass(layout, game.player.pose(), game.hud.places);
     game.hud.hotbar.draw(layout, game.interaction.hotbar, blockFaceOf(game.parts, game.tr), seconds);
+    drawCompass(layout, game.player.pose(), game.hud.places);
 }
 
 void drawFacts(GameState& game, OverlayLayout& layout) {

@@ -35,7 +35,9 @@ std::string distanceText(double blocks) {
 void drawCompass(OverlayLayout& layout, const world::Pose& pose, std::span<const game::Place> places) {
     const float scale = uiScale(), half = std::min(170 * scale, layout.screen().width * 0.35f);
     const float height = 20 * scale, below = places.empty() ? 0 : 9 * scale + ImGui::GetFontSize();
-    const auto rect = layout.place("compass", {.size = {2 * half, height + below}, .alignX = 0.5f});
+    // At the top, or below a notice there; under a dialog nowhere else.
+    const auto rect = layout.place(
+        "compass", {.size = {2 * half, height + below}, .alignX = 0.5f, .reach = layout.screen().height / 3});
     if (!rect) return;
     const float middle = (rect->min.x + rect->max.x) / 2, top = rect->min.y;
     const double ahead = game::compassDegrees(pose.yaw);

@@ -63,7 +63,8 @@ std::optional<OverlayRect> OverlayLayout::find(const OverlayPlace& wanted) const
         const float bottom = rect.min.y - between;
         if (bottom - top >= height) {
             const float y = std::floor(std::clamp(wanted.top, top, bottom - height));
-            if (!best || std::abs(y - wanted.top) < std::abs(best->min.y - wanted.top))
+            const float shift = std::abs(y - wanted.top);
+            if (shift <= wanted.reach && (!best || shift < std::abs(best->min.y - wanted.top)))
                 best = OverlayRect{{left, y}, {right, y + height}};
         }
         if (bottom > top && (!highest || bottom - top > highest->height()))

@@ -5,6 +5,7 @@
 
 #include <imgui.h>
 
+#include <cfloat>
 #include <optional>
 #include <string_view>
 #include <vector>
@@ -27,9 +28,10 @@ struct OverlayRect {
 // high enough it takes the highest one, cut; with less than `minHeight` it is not shown.
 struct OverlayPlace {
     ImVec2 size{0, 0};
-    float alignX = 0;     // 0: at the left edge, 0.5: in the middle, 1: at the right edge
-    float top = 0;        // preferred upper edge
-    float minHeight = 0;  // 0: it is not cut
+    float alignX = 0;       // 0: at the left edge, 0.5: in the middle, 1: at the right edge
+    float top = 0;          // preferred upper edge
+    float minHeight = 0;    // 0: it is not cut
+    float reach = FLT_MAX;  // it moves no farther: else it is not shown
 };
 
 class OverlayLayout {
