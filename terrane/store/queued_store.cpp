@@ -169,6 +169,13 @@ base::Result<DerivedBatch> QueuedStore::derive(const std::vector<ChunkRow>& edit
     return derived;
 }
 
+DeriveBatch QueuedStore::deriver() {
+    return [this](const std::vector<ChunkRow>& edited, const ReadRow& read) {
+        const std::lock_guard writing(writeMutex_);
+        return derive(edited, read);
+    };
+}
+
 base::Result<void> QueuedStore::write(const SaveBatch& batch) {
     const std::lock_guard writing(writeMutex_);
     std::vector<ChunkRow> derivedRows;

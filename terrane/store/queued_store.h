@@ -140,6 +140,13 @@ class QueuedStore : public ChunkStore {
     void setVersion(std::int64_t newestEdit) override { version_ = newestEdit; }
     bool isPersistent() const override { return true; }
 
+  protected:
+    const ReadableRows& rows() const { return *rows_; }
+    // See SaveQueue::unsaved().
+    SaveBatch unsaved(const std::function<void()>& look) { return queue_->unsaved(look); }
+    // Derives the rows of a batch as for this store's own. On any thread, while the store exists.
+    DeriveBatch deriver();
+
   private:
     LoadedChunk loadStored(const StoredRow& row, world::ChunkPos pos);
     void setUnread(world::ChunkPos pos, bool isUnreadable);

@@ -143,6 +143,16 @@ std::vector<std::optional<QueuedChunk>> SaveQueue::findMany(std::span<const worl
     return found;
 }
 
+SaveBatch SaveQueue::unsaved(const std::function<void()>& look) {
+    const std::lock_guard lock(mutex_);
+    look();
+    SaveBatch all = writing_;
+    for (const auto& [pos, newer] : waiting_.chunks) put(all.chunks, pos, newer);
+    for (const auto& [name, value] : waiting_.metadata) all.metadata.insert_or_assign(name, value);
+    all.damaged.insert(all.damaged.end(), waiting_.damaged.begin(), waiting_.damaged.end());
+    return all;
+}
+
 base::Result<void> SaveQueue::flush() {
     std::unique_lock lock(mutex_);
     const SaveNumber goal = queued_;

@@ -98,6 +98,10 @@ class SaveQueue {
     std::optional<QueuedChunk> find(world::ChunkPos pos);  // queued or being written
     // Returns the queued chunks in the order of `positions`, as of one moment.
     std::vector<std::optional<QueuedChunk>> findMany(std::span<const world::ChunkPos> positions);
+    // Returns all that is queued or being written at the moment at which it calls `look`. Meanwhile nothing
+    // is queued and no attempt begins or ends: what `look` finds written, with the result, is exactly what
+    // was queued so far.
+    SaveBatch unsaved(const std::function<void()>& look);
     [[nodiscard]] base::Result<void> flush();  // see ChunkStore::flush()
     SaveStatus status();
 

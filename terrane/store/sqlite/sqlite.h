@@ -101,6 +101,11 @@ enum class OpenMode {
 // Called while a database is copied, with the fraction done; false cancels the copy.
 using CopyProgress = std::function<bool(double share)>;
 
+// Writes a copy of a database into a new file, as of the moment at which it was begun, while others write. It
+// is called once, on any thread, while the database's owner exists; it blocks.
+using WriteCopy =
+    std::function<base::Result<void>(const std::filesystem::path& target, const CopyProgress& progress)>;
+
 class Database {
   public:
     [[nodiscard]] static base::Result<Database> open(const std::filesystem::path& path, OpenMode mode);

@@ -1,5 +1,6 @@
 #include "terrane/store/sqlite/sqlite_store.h"
 
+#include <optional>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -65,6 +66,33 @@ base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::p
     auto file = TERRANE_TRY(openToWrite(path, registry, access));
     auto rows = TERRANE_TRY(SqliteRows::make(std::move(file)));
     return rows;
+}
+
+// The saves that are not in the file yet are written into the copy. Those of a running attempt may be in
+// both.
+base::Result<WriteCopy> SqliteStore::copyFromNow(const world::BlockRegistry& registry) {
+    std::optional<base::Result<SaveFile>> opened;
+    auto missing = std::make_shared<SaveBatch>(unsaved([&] { opened = openToRead(path(), registry); }));
+    if (!*opened) return tl::unexpected(opened->error());
+    const auto file = std::make_shared<std::optional<SaveFile>>(std::move(**opened));
+    return [file, missing, derive = deriver(), &registry](
+               const std::filesystem::path& target, const CopyProgress& progress) -> base::Result<void> {
+        auto copied = (*file)->database.backUpTo(target, progress);
+        file->reset();  // lets the log shrink again
+        if (!copied || missing->isEmpty()) return copied;
+        const auto copy = TERRANE_TRY(openSqliteRows(target, registry, {}));
+        return copy->write(*missing, {}, derive).map([](bool) {});
+    };
+}
+
+base::Result<WriteCopy> copyFromNow(ChunkStore& store, const world::BlockRegistry& registry) {
+    if (auto* file = dynamic_cast<SqliteStore*>(&store)) return file->copyFromNow(registry);
+    return base::fail(base::ErrorCode::Unsupported, "this world is not in a file");
+}
+
+std::filesystem::path fileOfStore(const ChunkStore& store) {
+    const auto* file = dynamic_cast<const SqliteStore*>(&store);
+    return file ? std::filesystem::path(file->path()) : std::filesystem::path();
 }
 
 base::Result<std::unique_ptr<SqliteStore>> SqliteStore::open(const std::filesystem::path& path,

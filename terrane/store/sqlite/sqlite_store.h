@@ -62,9 +62,19 @@ class SqliteStore : public QueuedStore {
                                                                          const SaveAccess& access,
                                                                          SaveLimits limits = {});
 
+    const std::string& path() const { return rows().name(); }
+    // See copyFromNow().
+    [[nodiscard]] base::Result<WriteCopy> copyFromNow(const world::BlockRegistry& registry);
+
   private:
     using QueuedStore::QueuedStore;
 };
+
+// Begins a copy of a world as of now, with all queued saves and none of the later ones. It takes milliseconds
+// and waits for no write. Returns Unsupported if the world is not in a file.
+[[nodiscard]] base::Result<WriteCopy> copyFromNow(ChunkStore& store, const world::BlockRegistry& registry);
+// The file of a world; empty if it is not in a file.
+std::filesystem::path fileOfStore(const ChunkStore& store);
 
 // Opens only the rows, for a copy.
 [[nodiscard]] base::Result<std::unique_ptr<ChunkRows>> openSqliteRows(const std::filesystem::path& path,
