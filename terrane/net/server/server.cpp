@@ -188,6 +188,7 @@ void tick(ServerState& server, Time now) {
     sendKeepAlives(clients, session.clock);
     autosave(history, sharing, session, clients.now);
     updateSharing(sharing, clients, server.places, session.pipeline());
+    continueBackup(server);
     forgetHistories(clients, session);
 }
 
@@ -213,6 +214,8 @@ base::Result<void> saveEverything(ServerState& server) {
         if (!flushed) return flushed;
     }
     game::saveTimeDay(session.store(), session.clock.timeDay);
+    // Chunks are never ahead of the history, also on disk. The last flush reports errors.
+    (void)history.records.flush();
     TERRANE_TRY(session.save());
     if (sharing.shared) {
         publishSavedPlaces(server.places);
@@ -227,6 +230,7 @@ base::Result<void> saveEverything(ServerState& server) {
 }
 
 base::Result<void> stop(ServerState& server, const std::string& reason) {
+    cancelBackup(server);
     for (auto& [id, client] : server.clients.all) refuse(server.clients, client, Refusal::Stopping, reason);
     return saveEverything(server);
 }

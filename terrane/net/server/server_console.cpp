@@ -21,7 +21,7 @@ using Words = std::span<const std::string>;
 struct ConsoleCommand {
     std::string_view name, arguments, help;
     std::size_t minArguments, maxArguments;
-    std::string (*run)(ServerState&, Words);
+    std::string (*run)(ServerState&, Words, CommandFrom);
 };
 
 constexpr std::size_t kAny = 1000;
@@ -226,45 +226,57 @@ using Server = ServerState;
 
 // Each hands its function the parts of the server that it needs.
 constexpr ConsoleCommand kCommands[] = {
-    {"help", "", "this list", 0, 0, [](Server&, Words) { return consoleHelp(); }},
+    {"help", "", "this list", 0, 0, [](Server&, Words, CommandFrom) { return consoleHelp(); }},
     {"list", "", "lists players with position, latency and role", 0, 0,
-     [](Server& s, Words) { return list(s.clients); }},
+     [](Server& s, Words, CommandFrom) { return list(s.clients); }},
     {"say", "TEXT", "sends a line to all players", 1, kAny,
-     [](Server& s, Words w) { return sayLine(s.clients, w); }},
+     [](Server& s, Words w, CommandFrom) { return sayLine(s.clients, w); }},
     {"kick", "PLAYER [REASON]", "disconnects a player", 1, kAny,
-     [](Server& s, Words w) { return kick(s.clients, w); }},
+     [](Server& s, Words w, CommandFrom) { return kick(s.clients, w); }},
     {"ban", "PLAYER [REASON]", "disconnects a player and refuses further logins", 1, kAny,
-     [](Server& s, Words w) { return ban(s.clients, w); }},
+     [](Server& s, Words w, CommandFrom) { return ban(s.clients, w); }},
     {"unban", "PLAYER", "allows a banned player to log in again", 1, 1,
-     [](Server& s, Words w) { return unban(s.clients.known, w); }},
+     [](Server& s, Words w, CommandFrom) { return unban(s.clients.known, w); }},
     {"op", "PLAYER", "makes a player an operator: builds everywhere, gives commands", 1, 1,
-     [](Server& s, Words w) {
+     [](Server& s, Words w, CommandFrom) {
          return setRole(s.clients, s.session.permissions, w[0], game::Role::Operator);
      }},
     {"deop", "PLAYER", "makes an operator or guest an ordinary player", 1, 1,
-     [](Server& s, Words w) { return setRole(s.clients, s.session.permissions, w[0], game::Role::Player); }},
+     [](Server& s, Words w, CommandFrom) {
+         return setRole(s.clients, s.session.permissions, w[0], game::Role::Player);
+     }},
     {"guest", "PLAYER", "makes a player a guest: looks and chats, changes no blocks", 1, 1,
-     [](Server& s, Words w) { return setRole(s.clients, s.session.permissions, w[0], game::Role::Guest); }},
+     [](Server& s, Words w, CommandFrom) {
+         return setRole(s.clients, s.session.permissions, w[0], game::Role::Guest);
+     }},
     {"claim", "NAME X0 Y0 X1 Y1 OWNER [MEMBER…]", "columns where only these players build", 6, kAny,
-     [](Server& s, Words w) { return claim(s.clients.known, s.session.permissions.claims, w); }},
+     [](Server& s, Words w, CommandFrom) { return claim(s.clients.known, s.session.permissions.claims, w); }},
     {"unclaim", "NAME", "ends a claim", 1, 1,
-     [](Server& s, Words w) { return unclaim(s.clients.known, s.session.permissions.claims, w); }},
-    {"claims", "", "all claims", 0, 0, [](Server& s, Words) { return claimList(s.clients.known); }},
+     [](Server& s, Words w, CommandFrom) {
+         return unclaim(s.clients.known, s.session.permissions.claims, w);
+     }},
+    {"claims", "", "all claims", 0, 0,
+     [](Server& s, Words, CommandFrom) { return claimList(s.clients.known); }},
     {"rollback", "PLAYER|* MINUTES [X0 Y0 X1 Y1]", "reverts the edits of a player, or of all with *", 2, 6,
-     [](Server& s, Words w) { return rollbackLine(s.history, s.clients.known, s.clients.now, w); }},
+     [](Server& s, Words w, CommandFrom) {
+         return rollbackLine(s.history, s.clients.known, s.clients.now, w);
+     }},
     {"mark", "X Y Z NAME", "names a place on maps; players name their own position: /mark NAME", 4, kAny,
-     [](Server& s, Words w) { return mark(s.places, w); }},
+     [](Server& s, Words w, CommandFrom) { return mark(s.places, w); }},
     {"unmark", "NAME", "removes a named place", 1, kAny,
-     [](Server& s, Words w) { return unmarkPlace(s.places, joined(w)); }},
-    {"marks", "", "lists all named places", 0, 0, [](Server& s, Words) { return placeList(s.places); }},
+     [](Server& s, Words w, CommandFrom) { return unmarkPlace(s.places, joined(w)); }},
+    {"marks", "", "lists all named places", 0, 0,
+     [](Server& s, Words, CommandFrom) { return placeList(s.places); }},
     {"time", "0…1", "sets the time of day: 0 midnight, 0.5 noon", 1, 1,
-     [](Server& s, Words w) { return setTime(s.clients, s.session.clock, w); }},
+     [](Server& s, Words w, CommandFrom) { return setTime(s.clients, s.session.clock, w); }},
     {"password", "PASSWORD|off", "sets or removes the password for joining", 1, 1,
-     [](Server& s, Words w) { return setPassword(s.password.hash, s.history.records, w); }},
+     [](Server& s, Words w, CommandFrom) { return setPassword(s.password.hash, s.history.records, w); }},
     {"save", "", "saves all changes now; the server also saves every five seconds", 0, 0,
-     [](Server& s, Words) { return save(s); }},
+     [](Server& s, Words, CommandFrom) { return save(s); }},
+    {"backup", "NAME|FILE", "writes a copy of the world as of now, while the server runs", 1, 1,
+     [](Server& s, Words w, CommandFrom from) { return startBackup(s, w[0], from); }},
     {"stop", "", "saves and ends the server", 0, 0,
-     [](Server& s, Words) {
+     [](Server& s, Words, CommandFrom) {
          s.isStopping = true;
          return std::string("stopping");
      }},
@@ -285,7 +297,7 @@ std::vector<std::string> wordsOf(std::string_view line) {
 
 }  // namespace
 
-std::string runConsoleLine(ServerState& server, std::string_view line) {
+std::string runConsoleLine(ServerState& server, std::string_view line, CommandFrom from) {
     const std::vector<std::string> words = wordsOf(line);
     if (words.empty()) return {};
     for (const ConsoleCommand& command : kCommands) {
@@ -293,7 +305,7 @@ std::string runConsoleLine(ServerState& server, std::string_view line) {
         const std::size_t count = words.size() - 1;
         if (count < command.minArguments || count > command.maxArguments)
             return fmt::format("expected: {} {}", command.name, command.arguments);
-        return command.run(server, Words(words).subspan(1));
+        return command.run(server, Words(words).subspan(1), from);
     }
     return fmt::format("there is no command {}: help lists them", words[0]);
 }

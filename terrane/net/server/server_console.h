@@ -11,7 +11,8 @@ namespace terrane::net {
 
 // Runs a line and returns the answer: one or more lines without a final newline. Arguments are separated by
 // spaces; double quotes enclose arguments that contain spaces.
-std::string runConsoleLine(ServerState& server, std::string_view line);
+std::string runConsoleLine(ServerState& server, std::string_view line,
+                           CommandFrom from = CommandFrom::Console);
 
 // One line per command.
 std::string consoleHelp();

@@ -183,7 +183,7 @@ void onSay(ServerState& server, ServerClient& client, const Say& message) {
     if (!isOperator) return say(client, "only operators can give commands");
     // Without the arguments, which may contain a password.
     base::logInfo("{} gives the command {}", client.name, message.text.substr(0, message.text.find(' ')));
-    say(client, runConsoleLine(server, message.text.substr(1)));
+    say(client, runConsoleLine(server, message.text.substr(1), CommandFrom::Chat));
 }
 
 void onAskPlayers(ServerClients& clients, ServerClient& client) {

@@ -62,7 +62,7 @@ namespace {
 // Edits queued before each flush.
 constexpr std::size_t kEditsAtOnce = 2000;
 
-base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_t after) {
+base::Result<void> copyEdits(ReadableRecords& from, ServerRecords& to, std::int64_t after) {
     std::size_t waiting = 0;
     const auto take = [&](const LoggedEdit& edit) -> base::Result<void> {
         to.append({edit});
@@ -77,10 +77,10 @@ base::Result<void> copyEdits(ServerRecords& from, ServerRecords& to, std::int64_
 
 }  // namespace
 
-base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) {
+base::Result<RecordsCopied> copyRecords(ReadableRecords& from, ServerRecords& to, WorldOfCopy world) {
     const auto ends = from.historyEnds(), begun = to.historyEnds();
     if (!ends || !begun) return tl::unexpected((!ends ? ends : begun).error());
-    if (ends->saved < ends->newest)
+    if (world == WorldOfCopy::HasAllEdits && ends->saved < ends->newest)
         return base::fail(base::ErrorCode::Incompatible,
                           "its chunks lack {} edits of its history: stop its server, or start and stop it "
                           "where it was killed, "
@@ -113,13 +113,13 @@ base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to) 
         if (!places.empty()) to.setText(name, places);
     }
     TERRANE_TRY(copyEdits(from, to, begun->newest));
-    to.setSavedEdit(ends->newest);
+    to.setSavedEdit(ends->saved);
     TERRANE_TRY(to.flush());
     const auto end = TERRANE_TRY(to.historyEnds());
     if (end.newest != ends->newest)
         return base::fail(base::ErrorCode::Incompatible, "the copy's history ends with edit {}, expected {}",
                           end.newest, ends->newest);
-    if (to.shared()) to.shared()->publishState(0, ends->newest);
+    if (to.shared()) to.shared()->publishState(0, ends->saved);
     return RecordsCopied{players.size(), claims.size(), ends->newest};
 }
 

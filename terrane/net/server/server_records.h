@@ -15,6 +15,7 @@
 #include "terrane/game/permissions.h"
 #include "terrane/net/server/edit_log.h"
 #include "terrane/net/wire/security.h"
+#include "terrane/store/sqlite/sqlite.h"
 #include "terrane/world/pose.h"
 
 namespace terrane::net {
@@ -46,11 +47,11 @@ inline constexpr const char* kPasswordText = "password";
 
 class SharedWorld;  // shared_world.h
 
-class ServerRecords {
+// Read access to the durable state. Functions block; invalid rows are an error.
+class ReadableRecords {
   public:
-    virtual ~ServerRecords() = default;  // commits queued writes
+    virtual ~ReadableRecords() = default;
 
-    // Read the durable state; these block. Invalid rows are an error.
     [[nodiscard]] virtual base::Result<std::vector<KnownPlayer>> players() = 0;
     [[nodiscard]] virtual base::Result<std::vector<game::Claim>> claims() = 0;
     // Empty if there is no such text.
@@ -58,7 +59,11 @@ class ServerRecords {
     [[nodiscard]] virtual base::Result<HistoryEnds> historyEnds() = 0;
     [[nodiscard]] virtual base::Result<void> forEachEdit(const EditFilter& filter, EditOrder order,
                                                          const UseEdit& use) = 0;
+};
 
+// The destructor commits queued writes.
+class ServerRecords : public ReadableRecords {
+  public:
     // These queue a write and do not block. Writes have ascending numbers and run in this order.
     virtual void addPlayer(const KnownPlayer& player) = 0;
     virtual void changePlayer(game::PlayerId id, const PlayerChange& change) = 0;
@@ -78,6 +83,10 @@ class ServerRecords {
 
     // Null if the records are not shared between servers.
     virtual SharedWorld* shared() { return nullptr; }
+
+    // Begins a copy of all records as of now, with all queued writes and none of the later ones, without
+    // blocking. For records in a file, which are not shared.
+    virtual store::WriteCopy copyFromNow() { return {}; }
 };
 
 // Table rows of players and claims, and their conversion. Plain values and functions, for the records of
@@ -113,8 +122,11 @@ struct RecordsCopied {
     std::int64_t edits = 0;
 };
 
-// Fails if the world's store lacks edits of the history, which only a server can add, and with
-// ErrorCode::Incompatible if `to` has a different history.
-[[nodiscard]] base::Result<RecordsCopied> copyRecords(ServerRecords& from, ServerRecords& to);
+// Whether the copied world may lack edits at the end of the history, which only a server can add.
+enum class WorldOfCopy : std::uint8_t { HasAllEdits, MayLackEdits };
+// Fails if the world's store lacks edits although it must have all, and with ErrorCode::Incompatible if `to`
+// has a different history.
+[[nodiscard]] base::Result<RecordsCopied> copyRecords(ReadableRecords& from, ServerRecords& to,
+                                                      WorldOfCopy world = WorldOfCopy::HasAllEdits);
 
 }  // namespace terrane::net

@@ -25,6 +25,7 @@
 #include "terrane/net/server/edited_chunks.h"
 #include "terrane/net/server/known_players.h"
 #include "terrane/net/server/place_owners.h"
+#include "terrane/net/server/server_backup.h"
 #include "terrane/net/server/server_client.h"
 #include "terrane/net/sharing/server_sharing.h"
 
@@ -206,6 +207,7 @@ struct ServerState {
     ChangedIndices changed;  // since clients were told of changes
     ServerPlaces places;
     SharingState sharing;
+    ServerBackup backup;
     std::vector<world::ChunkPos> liveChunks;  // where plants grow and liquids flow
     bool isStopping = false;
 

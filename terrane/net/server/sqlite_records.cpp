@@ -11,6 +11,7 @@
 #include "terrane/game/player_state.h"
 #include "terrane/net/server/server_records.h"
 #include "terrane/store/chunks/chunk_key.h"
+#include "terrane/store/saves/save_file.h"
 #include "terrane/store/sqlite/schema.h"
 
 namespace terrane::net {
@@ -168,12 +169,54 @@ base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
     return transaction.commit();
 }
 
+std::future<base::Result<store::Database>> ServerFile::readFromNow() {
+    const std::lock_guard lock(mutex_);
+    moments_.push_back({queued_, {}});
+    wake_.notify_all();
+    return moments_.back().opened.get_future();
+}
+
+// Up to the next moment, so that a reader can be opened there; at the end all.
+void ServerFile::takeWaiting(std::vector<Write>& writes, bool isLast) {
+    const std::uint64_t taken = queued_ - waiting_.size();
+    const std::uint64_t end = isLast || moments_.empty() ? queued_ : moments_.front().write;
+    assert(end >= taken && "no write is taken before the moments that precede it");
+    const auto last = waiting_.begin() + static_cast<std::ptrdiff_t>(end - taken);
+    std::move(waiting_.begin(), last, std::back_inserter(writes));
+    waiting_.erase(waiting_.begin(), last);
+}
+
+namespace {
+
+// A connection whose transaction has begun.
+base::Result<store::Database> openAtMoment(const std::string& path) {
+    auto database = TERRANE_TRY(store::Database::open(path, store::OpenMode::ReadOnly));
+    TERRANE_TRY(database.execute("BEGIN"));
+    (void)TERRANE_TRY(database.queryNumber("SELECT count(*) FROM state"));
+    return database;
+}
+
+}  // namespace
+
+// Called by the thread that writes: no other transaction begins meanwhile.
+void ServerFile::answerMoments(std::unique_lock<std::mutex>& lock, const base::Result<void>& done) {
+    while (!moments_.empty() && (!done || moments_.front().write <= durable_)) {
+        Moment moment = std::move(moments_.front());
+        moments_.pop_front();
+        lock.unlock();
+        moment.opened.set_value(done ? openAtMoment(reader_.path()) : tl::unexpected(done.error()));
+        lock.lock();
+    }
+}
+
 // Failed writes are kept and tried again, at the end once.
 void ServerFile::run() {
     std::vector<Write> writes;
     base::FailureReport report(base::kQuietAfterFailure);
     std::unique_lock lock(mutex_);
-    const auto isDue = [&] { return isEnding_ || !waiting_.empty() || !writes.empty(); };
+    const auto isDue = [&] {
+        return isEnding_ || !waiting_.empty() || !writes.empty() || !moments_.empty();
+    };
     const auto reportIfEnded = [&] {
         if (report.hasEnded(std::chrono::steady_clock::now()))
             base::logInfo("{}: it works again", writer_.path());
@@ -186,9 +229,8 @@ void ServerFile::run() {
             continue;
         }
         const bool isLast = isEnding_;
-        std::ranges::move(waiting_, std::back_inserter(writes));
-        waiting_.clear();
-        const std::uint64_t number = queued_;
+        takeWaiting(writes, isLast);
+        const std::uint64_t number = queued_ - waiting_.size();
         lock.unlock();
         const auto done = writes.empty() ? base::Result<void>() : writeAll(writes);
         lock.lock();
@@ -203,6 +245,7 @@ void ServerFile::run() {
             problem_ = done.error().message;
         }
         written_.notify_all();
+        answerMoments(lock, isLast ? base::Result<void>(base::fail("the server ends")) : done);
         if (isLast) return;
         if (!done) wake_.wait_for(lock, kTryAgain, [&] { return isEnding_; });
     }
@@ -271,12 +314,19 @@ base::Result<std::string> SqliteRecords::text(const std::string& name) {
     return row ? std::string(query.text(0)) : std::string();
 }
 
-base::Result<HistoryEnds> SqliteRecords::historyEnds() {
-    const auto newest = numberOr0(file_->reader(), "SELECT max(number) FROM edits");
-    const auto saved =
-        numberOr0(file_->reader(), fmt::format("SELECT value FROM state WHERE name = '{}'", kSaved));
+namespace {
+
+base::Result<HistoryEnds> historyEndsIn(Database& database) {
+    const auto newest = numberOr0(database, "SELECT max(number) FROM edits");
+    const auto saved = numberOr0(database, fmt::format("SELECT value FROM state WHERE name = '{}'", kSaved));
     if (!newest || !saved) return tl::unexpected((!newest ? newest : saved).error());
     return HistoryEnds{*newest, *saved};
+}
+
+}  // namespace
+
+base::Result<HistoryEnds> SqliteRecords::historyEnds() {
+    return historyEndsIn(file_->reader());
 }
 
 base::Result<void> SqliteRecords::forEachEdit(const EditFilter& filter, EditOrder order, const UseEdit& use) {
@@ -377,11 +427,64 @@ std::uint64_t SqliteRecords::append(const std::vector<LoggedEdit>& edits) {
     return file_->write([rows = std::move(rows)](Database& database) { return insertEdits(database, rows); });
 }
 
+namespace {
+
+base::Result<void> writeSavedEdit(Database& database, std::int64_t number) {
+    return database.execute(
+        fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})", kSaved, number));
+}
+
+}  // namespace
+
 void SqliteRecords::setSavedEdit(std::int64_t number) {
-    file_->write([number](Database& database) {
-        return database.execute(
-            fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})", kSaved, number));
-    });
+    file_->write([number](Database& database) { return writeSavedEdit(database, number); });
+}
+
+base::Result<void> setSavedEdit(const std::filesystem::path& file, std::int64_t number) {
+    auto database = TERRANE_TRY(Database::open(file, store::OpenMode::ReadWrite));
+    return writeSavedEdit(database, number);
+}
+
+base::Result<HistoryEnds> readHistoryEnds(const std::filesystem::path& file) {
+    auto database = TERRANE_TRY(Database::open(file, store::OpenMode::ReadOnly));
+    return historyEndsIn(database);
+}
+
+store::WriteCopy SqliteRecords::copyFromNow() {
+    const auto opening = std::make_shared<std::future<base::Result<Database>>>(file_->readFromNow());
+    return [opening](const std::filesystem::path& target,
+                     const store::CopyProgress& progress) -> base::Result<void> {
+        auto database = TERRANE_TRY(opening->get());
+        return database.backUpTo(target, progress);
+    };
+}
+
+// First the number up to which the world has all edits, then the world, then the history, which is written
+// before the world: the history has all edits of the world.
+base::Result<SavedCopy> copySaved(const std::filesystem::path& world, const world::BlockRegistry& blocks) {
+    const std::filesystem::path records = serverFilePath(world);
+    std::error_code ignored;
+    const bool hasRecords = std::filesystem::exists(records, ignored);
+    HistoryEnds before;
+    if (hasRecords) {
+        auto ends = TERRANE_TRY(readHistoryEnds(records));
+        before = ends;
+    }
+    auto opened = TERRANE_TRY(store::openToRead(world, blocks));
+    const auto save = std::make_shared<store::SaveFile>(std::move(opened));
+    SavedCopy copy;
+    copy.world = [save](const std::filesystem::path& target, const store::CopyProgress& progress) {
+        return save->database.backUpTo(target, progress);
+    };
+    if (!hasRecords) return copy;
+    auto history = TERRANE_TRY(openAtMoment(records.string()));
+    const auto database = std::make_shared<Database>(std::move(history));
+    copy.records = [database, before](const std::filesystem::path& target,
+                                      const store::CopyProgress& progress) -> base::Result<void> {
+        TERRANE_TRY(database->backUpTo(target, progress));
+        return net::setSavedEdit(target, before.saved);
+    };
+    return copy;
 }
 
 }  // namespace terrane::net

@@ -3,8 +3,10 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <deque>
 #include <filesystem>
 #include <functional>
+#include <future>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -52,6 +54,10 @@ class ServerFile {
     // Blocks until all queued writes are durable, or an attempt failed.
     [[nodiscard]] base::Result<void> flush();
 
+    // Opens a connection that reads the state after all writes so far, and before later ones: a transaction
+    // of it has begun. The result comes once these writes are durable, or is the problem of writing them.
+    std::future<base::Result<store::Database>> readFromNow();
+
     // A read-only connection, which sees the durable state.
     store::Database& reader() { return reader_; }
     const store::BlockIdMap& ids() const { return ids_; }
@@ -64,7 +70,15 @@ class ServerFile {
     };
     explicit ServerFile(Parts parts);
     void run();
+    void takeWaiting(std::vector<Write>& writes, bool isLast);
+    void answerMoments(std::unique_lock<std::mutex>& lock, const base::Result<void>& done);
     base::Result<void> writeAll(const std::vector<Write>& writes);
+
+    // A request of readFromNow().
+    struct Moment {
+        std::uint64_t write = 0;  // the last write before it
+        std::promise<base::Result<store::Database>> opened;
+    };
 
     store::FileLock lock_;
     store::Database writer_;  // used by thread_
@@ -74,11 +88,28 @@ class ServerFile {
     mutable std::mutex mutex_;
     std::condition_variable wake_, written_;
     std::vector<Write> waiting_;
+    std::deque<Moment> moments_;
     std::uint64_t queued_ = 0, durable_ = 0, attempts_ = 0;
     std::string problem_;
     bool isEnding_ = false;
     std::thread thread_;
 };
+
+// Notes in a server's file that the world beside it has all edits up to this one. For a copy that nobody has
+// open.
+[[nodiscard]] base::Result<void> setSavedEdit(const std::filesystem::path& file, std::int64_t number);
+// The ends of the history in a server's file, which a server may have open.
+[[nodiscard]] base::Result<HistoryEnds> readHistoryEnds(const std::filesystem::path& file);
+
+// Begins a copy of a world in a file and of the server's file beside it, while a server may run in another
+// program. The result has all that is on disk. Its history is the newer part: the edits that its world lacks
+// are those after HistoryEnds::saved, as after a crash of a server.
+struct SavedCopy {
+    store::WriteCopy world;
+    store::WriteCopy records;  // empty: no server has run the world
+};
+[[nodiscard]] base::Result<SavedCopy> copySaved(const std::filesystem::path& world,
+                                                const world::BlockRegistry& blocks);
 
 class SqliteRecords : public ServerRecords {
   public:
@@ -105,6 +136,7 @@ class SqliteRecords : public ServerRecords {
     std::uint64_t durable() const override { return file_->durable(); }
     std::string problem() const override { return file_->problem(); }
     [[nodiscard]] base::Result<void> flush() override { return file_->flush(); }
+    store::WriteCopy copyFromNow() override;
 
     ServerFile& file() { return *file_; }
 
