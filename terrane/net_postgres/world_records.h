@@ -29,6 +29,14 @@ struct WorldRecords {
 // The history of edits, without a running server.
 [[nodiscard]] base::Result<net::History> openHistory(const store::WorldLocation& world,
                                                      const world::BlockRegistry& blocks);
+// Writes a world in a database as new files: the world and, if servers have run it, the server's file beside
+// it. Both have one moment, also while servers run. The chunks may lack edits at the end of the history,
+// which a server adds that opens the files. Any thread.
+[[nodiscard]] base::Result<void> copyDatabase(const store::WorldLocation& world,
+                                              const world::BlockRegistry& blocks,
+                                              const std::filesystem::path& save,
+                                              const store::CopyProgress& progress);
+
 // Whether the world may have records of servers: the file exists, or the world is in a database.
 [[nodiscard]] bool hasRecords(const store::WorldLocation& world);
 

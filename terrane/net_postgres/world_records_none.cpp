@@ -19,6 +19,11 @@ base::Result<net::History> openHistory(const store::WorldLocation& world,
     return openFileHistory(world, blocks);
 }
 
+base::Result<void> copyDatabase(const store::WorldLocation&, const world::BlockRegistry&,
+                                const std::filesystem::path&, const store::CopyProgress&) {
+    return base::fail(base::ErrorCode::Unsupported, "this build has no worlds in databases");
+}
+
 bool hasRecords(const store::WorldLocation& world) {
     return hasFileRecords(world);
 }
