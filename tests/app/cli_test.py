@@ -8,7 +8,7 @@ import tomllib
 import support
 from support import Image, ProgramTest, run
 
-COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "bench", "completion", "man")
+COMMANDS = ("play", "render", "record", "flight-bench", "generate", "map", "dump", "check", "copy", "backup", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "bench", "completion", "man")
 FLAT = ("--generator", "flat")
 BLOCKS_FILE = pathlib.Path(__file__).resolve().parents[2] / "assets" / "blocks.toml"
 

@@ -174,7 +174,7 @@ class Zsh(HelpTest):
 
     def test_arguments_have_places_of_their_own(self):
         text = self.script("zsh").read_text()
-        for command, count in (("copy", 2), ("import", 2), ("check", 1)):
+        for command, count in (("copy", 2), ("backup", 2), ("import", 2), ("check", 1)):
             part = re.search(rf"^ +{command}\) _arguments(.*?) ;;$", text, re.MULTILINE | re.DOTALL)[1]
             self.assertEqual(re.findall(r"^ +'(\d|\*):", part, re.MULTILINE), [str(k + 1) for k in range(count)], command)
 

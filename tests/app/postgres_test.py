@@ -161,6 +161,40 @@ class Copy(Postgres):
         again = Server(support.program(), self.folder / "again", 0, url=self.url)
         self.assertEqual(again.stop(), 0, "a server takes the copy")
 
+    def test_backups_of_a_running_server_are_files(self):
+        server = support.RunningProgram(self.folder, "serve", "--world", self.url, "--address", "127.0.0.1", "--port", "0",
+                                        "--generator", "overworld")
+        self.addCleanup(server.clean_up)
+        port = int(server.wait_for(r"on port (\d+)")[1])
+        bots = subprocess.Popen(bots_command(support.program(), port, "--count", "5", "--seconds", "600", "--behaviour", "build",
+                                             "--edits-per-second", "5"), stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        self.addCleanup(bots.wait)
+        self.addCleanup(bots.kill)
+        server.wait_for("bot4 joined")
+        wait_for(lambda: self.succeed("history", "--world", self.url), "the first edit")
+        copies = [self.folder / f"{name}.sqlite" for name in ("first", "second", "third")]
+        self.succeed("backup", self.url, copies[0])
+        server.say(f"backup {copies[1]}")
+        server.wait_for(f"the backup {copies[1]} is complete")
+        server.say("backup third")  # beside the server's key
+        copies[2] = pathlib.Path(server.wait_for(r"the backup (\S+third\.sqlite) is complete")[1])
+        self.assertTrue(copies[2].with_suffix(".server.pem").exists())
+        self.assertRefused(run("backup", self.url, copies[0]), "it exists")
+        bots.kill()
+        bots.wait()
+        server.say("stop")
+        self.assertEqual(server.process.wait(support.HANG_SECONDS), 0, server.output())
+        history = self.succeed("history", "--world", self.url, "--limit", "1000000")
+        for copy in copies:
+            self.assertTrue(self.succeed("check", copy).endswith("\ngood\n"))
+            part = self.succeed("history", "--world", copy, "--limit", "1000000")
+            self.assertTrue(part and history.endswith(part), "an older state of the same history")
+            again = support.RunningProgram(self.folder, "serve", "--world", copy, "--address", "127.0.0.1", "--port", "0")
+            self.addCleanup(again.clean_up)
+            again.wait_for(r"on port (\d+)")
+            again.say("stop")
+            self.assertEqual(again.process.wait(support.HANG_SECONDS), 0, again.output())
+
     def test_a_killed_copy_goes_on(self):
         file = self.folder / "a.sqlite"
         self.succeed("generate", "--radius", "60", "--world", file, "--generator", "flat")

@@ -4,7 +4,7 @@ import subprocess
 import support
 
 DRAWING_LIBRARIES = ("libGL", "libEGL", "libepoxy", "libglfw", "libimgui", "libX11", "libOpenGL", "libwayland")
-COMMANDS = ("generate", "map", "dump", "check", "copy", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "completion", "man")
+COMMANDS = ("generate", "map", "dump", "check", "copy", "backup", "import", "export", "work", "serve", "history", "bots", "blocks", "packs", "info", "completion", "man")
 
 
 class Server(support.ProgramTest):

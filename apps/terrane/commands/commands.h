@@ -40,6 +40,7 @@ CommandEntry addMap(CLI::App& app);
 CommandEntry addDump(CLI::App& app);
 CommandEntry addCheck(CLI::App& app);
 CommandEntry addCopy(CLI::App& app);
+CommandEntry addBackup(CLI::App& app);
 CommandEntry addImport(CLI::App& app);
 CommandEntry addExport(CLI::App& app);
 CommandEntry addWork(CLI::App& app);

@@ -8,6 +8,7 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/serve_options.h"
 #include "apps/terrane/settings.h"
+#include "apps/terrane/world_backup.h"
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/io/open_session.h"
@@ -44,6 +45,14 @@ std::string publicAddress(const ServeOptions& options, std::uint16_t port) {
                                                : fmt::format("[{}]:{}", name, port);
 }
 
+// The packs without seed and generator, which a world has itself.
+io::WorldOptions packsOfWorld(const io::WorldOptions& options) {
+    io::WorldOptions content;
+    content.content = options.content;
+    content.threads = options.threads;
+    return content;
+}
+
 base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     const store::WorldLocation world = store::worldLocation(options.save.world);
     const auto files = TERRANE_TRY(net_postgres::serverFilesOf(world, options.listen.port));
@@ -60,6 +69,12 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     auto records = TERRANE_TRY(net_postgres::openRecords(world, *parts.blocks));
     auto host = TERRANE_TRY(net::openServerHost(std::move(parts), std::move(records.records), options.server,
                                                 fmt::format("terrane {}", TERRANE_VERSION), content));
+    host.state->backup.files = files;
+    host.state->backup.ofDatabase = [world, content = packsOfWorld(options.world)](
+                                        const std::filesystem::path& save,
+                                        const store::CopyProgress& progress) {
+        return writeBackup(world, content, save, progress);
+    };
     base::raiseOpenFileLimit();
     boost::asio::io_context context;
     auto sockets = TERRANE_TRY(
