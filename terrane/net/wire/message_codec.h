@@ -8,7 +8,6 @@
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string_view>
 #include <type_traits>
 #include <utility>
@@ -84,15 +83,15 @@ void emplaceAt(Variant& message, std::size_t index, std::index_sequence<I...>) {
 }
 
 // `names`: names of the message types, for errors.
-template <class Variant, class Describe>
-base::Result<Variant> decodeVariant(ByteView bytes,
-                                    std::span<const std::string_view, std::variant_size_v<Variant>> names,
+template <class Variant, std::size_t kNames, class Describe>
+base::Result<Variant> decodeVariant(ByteView bytes, const std::string_view (&names)[kNames],
                                     Describe describe) {
+    static_assert(kNames == std::variant_size_v<Variant>, "kClientNames and kServerNames name every message");
     WireReader wire(bytes);
     std::uint8_t type = 0;
     wire.fixed(type);
     if (wire.hasFailed()) return base::fail(base::ErrorCode::Damaged, "an empty message");
-    if (type >= names.size()) return base::fail(base::ErrorCode::Damaged, "unknown message type {}", type);
+    if (type >= kNames) return base::fail(base::ErrorCode::Damaged, "unknown message type {}", type);
     Variant message;
     emplaceAt(message, type, std::make_index_sequence<std::variant_size_v<Variant>>());
     std::visit([&](auto& m) { describe(wire, m); }, message);

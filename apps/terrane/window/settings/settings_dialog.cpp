@@ -213,6 +213,8 @@ constexpr std::array<Heading, 7> kHeadings = {{{SettingsPage::Graphics, trLater(
                                                {SettingsPage::World, trLater("Movement")},
                                                {SettingsPage::General, trLater("Language and sound")},
                                                {SettingsPage::General, trLater("Accessibility")}}};
+static_assert(kHeadings.size() == static_cast<std::size_t>(SettingsSection::Hidden),
+              "a heading for each section");
 
 void drawQualityButton(PlaySettings& s, const char* preset, const char* label, bool isSoftwareRenderer,
                        float width) {
