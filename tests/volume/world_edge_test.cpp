@@ -48,7 +48,9 @@ TEST_P(AreaEdgeTest, LightReachesTheLastColumn) {
     const auto read = readLight(*world, area, levels, {});
     ASSERT_TRUE(read) << read.error().message;
     forEachBlock(area, [&](std::int64_t, std::int64_t, std::int64_t z, std::size_t place) {
-        if (z > 100) ASSERT_EQ(levels[place][0], 15) << place;
+        if (z > 100) {
+            ASSERT_EQ(levels[place][0], 15) << place;
+        }
     });
 }
 
