@@ -1,4 +1,4 @@
-// The choices of shader variants (render/frame/variants.h). Macros, because the shaders' preprocessor compares them.
+// The choices of shader variants (render/frame/variants.h): macros, for the shaders' preprocessor.
 #ifndef TERRANE_SHARED_VARIANTS_H
 #define TERRANE_SHARED_VARIANTS_H
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <thread>
 
 #include "terrane/game/places.h"
 #include "terrane/net/server/server_backup.h"
@@ -270,8 +271,9 @@ TEST_F(BackupTest, OperatorsNameFilesBesideTheWorld) {
             EXPECT_EQ(answer(start + path), "in the chat a backup is a name; the console takes a path");
     EXPECT_THAT(answer("/backup monday"), HasSubstr("/s/monday.sqlite"));
     EXPECT_THAT(answer("/backup tuesday"), StartsWith("a backup is being written: "));
+    while (!state().backup.running->isDone()) std::this_thread::yield();
+    server_->tick();
     std::string text;
-    while (state().backup.running) server_->tick();
     for (const ServerMessage& message : wire.take())
         if (const auto* said = std::get_if<Said>(&message)) text += said->text;
     EXPECT_THAT(text, HasSubstr("monday.sqlite is complete"));

@@ -131,9 +131,7 @@ def server_steps(page, console, ann):
                 raise PageError("no page with the map")
     with page.step(6):
         page.run("""cd ~/server
-            sqlite3 home.server.sqlite "VACUUM INTO 'backup.server.sqlite'"
-            sqlite3 home.sqlite "VACUUM INTO 'backup.sqlite'"
-            cp home.server.pem backup.server.pem
+            terrane backup ./home.sqlite ./backup.sqlite
             terrane check backup.sqlite""")
         page.prints("backup.sqlite: format 3, generator continents version 1, seed 7", "good")
     with page.step(7):

@@ -7,8 +7,8 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/terrane/commands/commands.h"
 #include "apps/terrane/back_ends.h"
+#include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
 #include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/generators/catalogue.h"

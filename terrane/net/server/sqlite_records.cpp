@@ -214,9 +214,7 @@ void ServerFile::run() {
     std::vector<Write> writes;
     base::FailureReport report(base::kQuietAfterFailure);
     std::unique_lock lock(mutex_);
-    const auto isDue = [&] {
-        return isEnding_ || !waiting_.empty() || !writes.empty() || !moments_.empty();
-    };
+    const auto isDue = [&] { return isEnding_ || !waiting_.empty() || !writes.empty() || !moments_.empty(); };
     const auto reportIfEnded = [&] {
         if (report.hasEnded(std::chrono::steady_clock::now()))
             base::logInfo("{}: it works again", writer_.path());

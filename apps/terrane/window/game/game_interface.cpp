@@ -99,10 +99,9 @@ void drawHand(GameState& game, const Screen& screen, const render::Camera& camer
 }
 
 // `seconds`: since the last frame.
-void drawHud(GameState& game, OverlayLayout& layout, double seconds) {
+void drawHotbar(GameState& game, OverlayLayout& layout, double seconds) {
     if (!showsHud(game)) return;
     game.hud.hotbar.draw(layout, game.interaction.hotbar, blockFaceOf(game.parts, game.tr), seconds);
-    drawCompass(layout, game.player.pose(), game.hud.places);
 }
 
 void drawFacts(GameState& game, OverlayLayout& layout) {
@@ -199,8 +198,9 @@ void drawMenu(GameState& game, const Screen& screen) {
 // In the order of priority: what comes first has the better place (overlay_layout.h).
 void drawOverlays(GameState& game, OverlayLayout& layout, double seconds) {
     game::Session& session = game.parts.session;
+    drawHotbar(game, layout, seconds);
     if (!game.menu.asksToQuit) drawSaveNotice(layout, session.store().status(), game.tr);
-    drawHud(game, layout, seconds);
+    if (showsHud(game)) drawCompass(layout, game.player.pose(), game.hud.places);
     drawRemote(game, layout);
     drawNoticeMessage(layout, game.notices);
     drawFacts(game, layout);

@@ -24,7 +24,7 @@ void drawHint(OverlayLayout& layout, float share, const std::vector<std::string>
     width = std::min(width + 2 * ImGui::GetStyle().WindowPadding.x + 1, most);
     ImGui::SetNextWindowBgAlpha(0.55f * share);
     if (!layout.beginWindow({.id = "hint", .width = width, .flags = OverlayLayout::kBare},
-                            {.top = 40 * uiScale()}))
+                            {.top = 40 * uiScale(), .minHeight = 2 * ImGui::GetTextLineHeightWithSpacing()}))
         return;
     ImGui::PushStyleVar(ImGuiStyleVar_Alpha, share);
     for (const std::string& line : lines) ui::wrappedText(line);
