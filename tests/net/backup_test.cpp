@@ -305,15 +305,26 @@ TEST_F(BackupTest, OfAServerThatStopsIsNoFile) {
     EXPECT_EQ(fs::exists(to_ / "x.sqlite"), fs::exists(to_ / "x.server.sqlite")) << "all files or none";
 }
 
-// What a killed program left is no obstacle.
-TEST_F(BackupTest, ReplacesPartialFilesOfAKilledProgram) {
-    fs::create_directories(to_ / "x.sqlite.part");
-    for (const char* name : {"x.sqlite", "x.sqlite-journal", "x.server.sqlite"})
-        std::ofstream(to_ / "x.sqlite.part" / name) << "partial";
-    EXPECT_THAT(run("backup " + (to_ / "x.sqlite").string()), StartsWith("backing up"));
-    goOn();
-    EXPECT_TRUE(fs::exists(to_ / "x.sqlite"));
-    EXPECT_FALSE(fs::exists(to_ / "x.sqlite.part"));
+// A folder or file of the name may be of a killed program or somebody's own: it may hold the world itself.
+TEST_F(BackupTest, DeletesNothingThatHasTheNameOfItsFolder) {
+    const fs::path part = to_ / "x.sqlite.part";
+    const auto refuses = [&] {
+        EXPECT_THAT(run("backup " + (to_ / "x.sqlite").string()),
+                    HasSubstr("x.sqlite.part: exists; if it is"));
+        EXPECT_FALSE(state().backup.running);
+    };
+    fs::create_directories(part);
+    std::ofstream(part / "x.sqlite") << "partial";
+    refuses();
+    EXPECT_EQ(fs::file_size(part / "x.sqlite"), 7u);
+    fs::remove_all(part);
+    std::ofstream(part) << "mine";
+    refuses();
+    EXPECT_EQ(fs::file_size(part), 4u);
+    fs::remove(part);
+    fs::create_symlink("elsewhere", part);
+    refuses();
+    EXPECT_TRUE(fs::is_symlink(part));
 }
 
 }  // namespace

@@ -85,10 +85,13 @@ base::Result<BackupFiles> BackupFiles::create(const fs::path& target, const fs::
     TERRANE_TRY(checkBackup(target, world));
     auto lock = TERRANE_TRY(FileLock::acquire(target, FileLock::Kind::Exclusive));
     fs::path folder = companionPath(target, ".part");
-    removePart(folder, target);
+    // Of a backup that was killed, or somebody's own: it may even hold the world. Nothing there is deleted.
+    if (isPresent(folder))
+        return base::fail(ErrorCode::BadInput,
+                          "{}: exists; if it is of a backup that was interrupted, delete it first",
+                          folder.string());
     std::error_code error;
-    if (isPresent(folder)) error = std::make_error_code(std::errc::file_exists);
-    if (!error) fs::create_directory(folder, error);
+    fs::create_directory(folder, error);
     if (error) return base::fail(ErrorCode::Io, "{}: cannot be made: {}", folder.string(), error.message());
     return BackupFiles(target, std::move(folder), std::move(lock));
 }

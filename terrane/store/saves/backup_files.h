@@ -17,7 +17,7 @@ namespace terrane::store {
 
 class BackupFiles {
   public:
-    // Creates the folder; files that a killed program left in it are deleted. See checkBackup(). Busy if
+    // Creates the folder, which may not exist: a killed program leaves one. See checkBackup(). Busy if
     // another backup writes the same file.
     [[nodiscard]] static base::Result<BackupFiles> create(const std::filesystem::path& target,
                                                           const std::filesystem::path& world);
