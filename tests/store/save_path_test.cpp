@@ -48,6 +48,18 @@ TEST(SavePath, NamesThatAreFiles) {
               "\"a\\nb\": the name of a save has neither slashes nor control characters");
 }
 
+// A server's password and claims are in a file that the world's file names.
+TEST(SavePath, ALinkIsTheFileThatItLeadsTo) {
+    const base::TempFolder folder;
+    const auto real = std::filesystem::canonical(folder.path()) / "real.sqlite",
+               link = folder / "link.sqlite";
+    std::filesystem::create_symlink("real.sqlite", link);
+    EXPECT_EQ(fileOf(worldLocation(link.string())).value(), link) << "it leads nowhere";
+    std::ofstream(real) << "a world";
+    EXPECT_EQ(fileOf(worldLocation(link.string())).value(), real);
+    EXPECT_EQ(fileOf(worldLocation(real.string())).value(), real);
+}
+
 TEST(SavePath, NewNamesFollowTheRule) {
     const base::TempFolder folder;
     const SaveEnvironment places{folder.path().string(), ""};

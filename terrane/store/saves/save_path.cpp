@@ -33,12 +33,25 @@ WorldLocation worldLocation(std::string text) {
     return {isUrl ? Kind::Url : isFile ? Kind::File : Kind::Name, std::move(text)};
 }
 
+namespace {
+
+// Files of a server, its lock and its log are named by the world's file. A symbolic link is not another world
+// beside which they are missing.
+std::filesystem::path behindLinks(const std::filesystem::path& path) {
+    std::error_code error;
+    if (!std::filesystem::is_symlink(path, error)) return path;
+    std::filesystem::path target = std::filesystem::canonical(path, error);
+    return error ? path : target;
+}
+
+}  // namespace
+
 base::Result<std::filesystem::path> fileOf(const WorldLocation& location) {
     switch (location.kind) {
         case WorldLocation::Kind::Name:
-            return savePath(location.text, saveEnvironment());
+            return behindLinks(TERRANE_TRY(savePath(location.text, saveEnvironment())));
         case WorldLocation::Kind::File:
-            return std::filesystem::path(location.text);
+            return behindLinks(location.text);
         case WorldLocation::Kind::Url:
             break;
     }

@@ -25,8 +25,8 @@ struct WorldLocation {
 // Parses a location: "a://b" is a URL, "a/b" and "b.sqlite" are files, everything else is a name.
 WorldLocation worldLocation(std::string text);
 
-// Returns the file of a name or path, whether it exists or not. Fails for an invalid save name, and for a
-// URL.
+// Returns the file of a name or path, whether it exists or not; of a symbolic link, the file that it leads
+// to. Fails for an invalid save name, and for a URL.
 [[nodiscard]] base::Result<std::filesystem::path> fileOf(const WorldLocation& location);
 
 // Returns the bytes on disk of the file and its log; 0 if there is none.
