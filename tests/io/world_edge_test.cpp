@@ -30,7 +30,7 @@ class ExportEdgeTest : public testing::TestWithParam<ExportCorner> {
     static world::BlockBox boxAtCorner() {
         const auto first = [](std::int32_t edge) { return edge < 0 ? edge : edge - (kBoxSide - 1); };
         const std::int32_t x = first(GetParam().x), y = first(GetParam().y);
-        return {{x, y, 0}, {x + kBoxSide - 1, y + kBoxSide - 1, world::kChunkHeight - 1}};
+        return {{x, y, 0}, {x + (kBoxSide - 1), y + (kBoxSide - 1), world::kChunkHeight - 1}};
     }
     base::TempFolder folder_;
 };
