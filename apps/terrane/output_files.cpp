@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <string_view>
 #include <system_error>
@@ -20,6 +22,15 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOutput = "output";  // name of the validators that mark an option
 
+// Worlds, servers' files and their keys, of whatever program.
+bool isDatabaseOrKey(const fs::path& path) {
+    constexpr std::string_view kStarts[] = {{"SQLite format 3\0", 16}, "-----BEGIN "};
+    std::array<char, 16> start{};
+    std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+    const std::string_view text(start.data(), start.size());
+    return std::ranges::any_of(kStarts, [&](std::string_view begin) { return text.starts_with(begin); });
+}
+
 // An error unless base::writeFile() can write the file: it writes a temporary file beside it and renames
 // that, so the folder must be writable.
 std::string isWritable(const std::string& text) {
@@ -30,6 +41,8 @@ std::string isWritable(const std::string& text) {
     const fs::file_status status = fs::status(path, ignored);
     if (fs::exists(status) && !fs::is_regular_file(status))
         return fmt::format("\"{}\" is not a regular file", text);
+    if (isDatabaseOrKey(path))
+        return fmt::format("\"{}\" is a database or a key, which no output replaces", text);
     if (::access(folder.c_str(), W_OK) == 0) return {};
     return fmt::format("\"{}\": nothing can be written in the folder {}", text, folder);
 }
@@ -75,7 +88,7 @@ std::vector<fs::path> pathsOf(const CLI::Option& option) {
     std::vector<fs::path> paths;
     for (const std::string& text : option.results()) {
         if (text.empty()) continue;
-        if (has("URL")) {
+        if (type.starts_with("NAME|FILE")) {
             const auto file = store::fileOf(store::worldLocation(text));
             if (!file) continue;
             for (fs::path& path : store::filesOf(*file)) paths.push_back(std::move(path));

@@ -49,6 +49,7 @@ struct BuildOutcome {
         NotLoaded,   // some chunk of it is not loaded
         OutOfReach,  // or the player is unknown
         NotAllowed,  // the player may not change some block of it (permissions.h)
+        TooSoon,     // a server allows the player so many blocks only after a while
         Sent,        // to the server that decides (Authority); the result comes later
     };
     Result result = Result::Empty;

@@ -160,7 +160,12 @@ UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
     if (!step) return {Outcome::NoStep};
     if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return isLoaded(world_, block.pos); }))
         return {Outcome::NotLoaded};
-    if (!mayChangeAll(permissions, player, *step)) return {Outcome::NotAllowed};
+    // The step is dropped, so that the ones before it can be undone.
+    const auto refuse = [&]() -> UndoResult {
+        found->second.history.finishStep(way, {});
+        return {Outcome::NotAllowed};
+    };
+    if (!mayChangeAll(permissions, player, *step)) return refuse();
     const std::vector<world::PlacedBlock> blocks = blocksBefore(world_, *step);
     const UndoResult result{Outcome::Done, blocks.size(), step->size() - blocks.size()};
     std::vector<world::BlockEdit> edits;
@@ -168,7 +173,7 @@ UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);
     if (breaksForeign(player, edits)) {
         takeBackAll(recorder.take(), edits, 0);
-        return {Outcome::NotAllowed};
+        return refuse();
     }
     EditStep reverse = notifyStep(player, recorder);
     found->second.history.finishStep(way, std::move(reverse));

@@ -78,6 +78,18 @@ TEST_F(OutputFilesTest, LinksAndOtherSpellingsAreSeenThrough) {
     }
 }
 
+// Whoever's: the server's file of another world has its players and passwords.
+TEST_F(OutputFilesTest, NoDatabaseOrKeyIsReplaced) {
+    using std::string_literals::operator""s;
+    for (const std::string& start : {"SQLite format 3\0"s, "-----BEGIN PRIVATE KEY-----\n"s}) {
+        std::ofstream("other.server") << start << "and the rest";
+        EXPECT_THAT(errorOf({"--world", "h.sqlite", "--trace", "other.server"}),
+                    HasSubstr("\"other.server\" is a database or a key"));
+    }
+    std::ofstream("other.server") << "SQLite";
+    EXPECT_EQ(errorOf({"--world", "h.sqlite", "--trace", "other.server"}), "");
+}
+
 TEST_F(OutputFilesTest, TwoOutputsAreTwoFiles) {
     EXPECT_THAT(errorOf({"--report", "same.json", "--trace", "./same.json"}), HasSubstr("is also a file of"));
 }

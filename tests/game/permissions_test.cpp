@@ -69,12 +69,17 @@ TEST_F(PermissionsTest, AShapeChangesOnlyItsOwnBlocks) {
 }
 
 TEST_F(PermissionsTest, NobodyUndoesWhatBecameAClaimOfOthers) {
+    const world::BlockPos elsewhere{kOutside.x, kOutside.y + 10, kOutside.z};
+    ASSERT_EQ(put(elsewhere, kNeighbor), EditResult::Applied);
     ASSERT_EQ(put(kOutside, kNeighbor), EditResult::Applied);
     ASSERT_TRUE(session_.permissions.claims.add({"later", {6, 0, 9, 9}, kOwner, {}}));
-    EXPECT_EQ(session_.undoOrRedo(kNeighbor, HistoryWay::Undo).outcome, UndoResult::Outcome::NotAllowed);
+    const auto undo = [&] { return session_.undoOrRedo(kNeighbor, HistoryWay::Undo).outcome; };
+    EXPECT_EQ(undo(), UndoResult::Outcome::NotAllowed);
     EXPECT_EQ(at(kOutside), contentBlock("glass"));
+    EXPECT_EQ(undo(), UndoResult::Outcome::Done) << "the edit before it";
+    EXPECT_EQ(at(elsewhere), world::kAir);
     session_.permissions.claims.remove("later");
-    EXPECT_EQ(session_.undoOrRedo(kNeighbor, HistoryWay::Undo).outcome, UndoResult::Outcome::Done);
+    EXPECT_EQ(undo(), UndoResult::Outcome::NoStep);
 }
 
 // Water beside a claim would wash away what its owner planted.

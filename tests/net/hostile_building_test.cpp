@@ -80,6 +80,26 @@ TEST_F(HostileBuilding, UndoOfMuchIsRationed) {
     EXPECT_TRUE(plays(*bob));
 }
 
+TEST_F(HostileBuilding, FillsOfMuchAreRationed) {
+    start();
+    const world::BlockPos low = nearSpawn();
+    loadAround(low);
+    const auto bob = joined("Bob");
+    const auto fills = [&](CommandNumber first) {
+        std::vector<BuildResult> results;
+        for (CommandNumber k = first; k < first + 40; ++k) {
+            bob->say(fill(k, low, {low.x + 15, low.y + 15, low.z + 15}));
+            results.push_back(static_cast<BuildResult>(decision(*bob, k)->result));
+        }
+        return results;
+    };
+    const std::vector<BuildResult> at = fills(1);
+    EXPECT_EQ(at.front(), BuildResult::Done);
+    EXPECT_EQ(at.back(), BuildResult::TooSoon);
+    server_->now += std::chrono::seconds(10);
+    EXPECT_EQ(fills(41).front(), BuildResult::Done);
+}
+
 TEST_F(HostileBuilding, EditsOutOfReach) {
     start();
     const auto bob = joined("Bob");
@@ -150,8 +170,8 @@ TEST_F(HostileBuilding, DataOfStructuresIsForBlocksThatKeepSome) {
     EXPECT_EQ(world::blockValue(world, pos).data, nullptr);
     EXPECT_EQ(world::blockValue(world, {pos.x + 1, pos.y, pos.z}).data, nullptr);
     EXPECT_NE(world::blockValue(world, {pos.x + 2, pos.y, pos.z}).data, nullptr);
-    // A stone with 4 MiB of data, which compresses well.
-    expectDecision(*bob, Place{2, pos, structureWith({"stone"}, {Bytes(4 << 20)})}, 2, BuildResult::Empty);
+    // A stone with 1 MiB of data, which compresses well.
+    expectDecision(*bob, Place{2, pos, structureWith({"stone"}, {Bytes(1 << 20)})}, 2, BuildResult::Empty);
 }
 
 TEST_F(HostileBuilding, DataOfAChunkIsBounded) {

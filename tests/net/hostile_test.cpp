@@ -99,6 +99,9 @@ TEST_F(HostileTestOfPlay, WhoTalksTooFastIsToldAndStays) {
     EXPECT_TRUE(plays(*bob));
     const auto answers = bob->take();
     EXPECT_EQ(std::get<Said>(answers.back()).text, "you chat too fast");
+    clientOf(*bob).role = game::Role::Operator;
+    bob->say(Say{"/marks"});
+    EXPECT_NE(std::get<Said>(bob->take().back()).text, "you chat too fast") << "commands are not chat";
 }
 
 TEST_F(HostileTestOfPlay, ManyPlayersOfAnAddressShareTheChat) {

@@ -96,6 +96,19 @@ TEST(StructureFile, ReadsThePageOfTheFormat) {
     EXPECT_EQ(*encodeStructure(*structure), framed(bytes));
 }
 
+TEST(StructureFile, UnpacksNoMoreThanTheCallerAllows) {
+    Structure structure;
+    structure.size = {100, 100, 50};
+    structure.palette = {{"stone", 0}};
+    structure.cells.assign(500'000, 0);
+    const Bytes bytes = encodeStructure(structure).value();
+    EXPECT_LT(bytes.size(), 1000u);
+    EXPECT_TRUE(decodeStructure(bytes, 510'000));
+    const auto refused = decodeStructure(bytes, 500'000);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message, testing::HasSubstr("expected at most 500000"));
+}
+
 TEST(StructureFile, EveryTruncationAndFlippedBitIsAnError) {
     std::mt19937 random(2);
     const Bytes whole = *encodeStructure(randomStructure(random));

@@ -44,7 +44,7 @@ CommandEntry addBackup(CLI::App& app) {
         app.add_subcommand("backup", "Copy a world as of one moment into a file, also while servers run it");
     addWorldArgument(*command, "from", options->from, "The world");
     addWorldArgument(*command, "to", options->to, "A new file, NAME.sqlite");
-    writesWorld(command->get_option("to"));
+    writesWorld(command->get_option("to"))->type_name("NAME|FILE");
     addContentOption(*command, options->content);
     command->footer(
         "The backup opens like any world. It has the players, claims and history of servers, in "

@@ -1,7 +1,9 @@
 // terrane history: lists who changed what in a shared world, even while its server runs.
 #include <algorithm>
 #include <ctime>
+#include <limits>
 #include <memory>
+#include <optional>
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
@@ -16,11 +18,23 @@ namespace {
 struct HistoryOptions {
     io::SaveOptions save;
     std::string player;
-    std::vector<int> area;
-    double minutes = 0;
+    std::optional<game::ColumnArea> area;
+    std::optional<double> minutes;
     std::size_t limit = 100;  // edits
     bool showsEachBlock = false;
 };
+
+// The area between two corners in any order, whose columns belong to it.
+game::ColumnArea areaBetween(const std::string& text) {
+    using Limits = std::numeric_limits<std::int32_t>;
+    const auto numbers =
+        parseWholeNumbers(text, 4, "--area: expected X0,Y0,X1,Y1 in blocks", Limits::min(), Limits::max());
+    if (!numbers) throw CLI::ValidationError(numbers.error().message);
+    const auto [x0, x1] = std::minmax((*numbers)[0], (*numbers)[2]);
+    const auto [y0, y1] = std::minmax((*numbers)[1], (*numbers)[3]);
+    const auto narrow = [](std::int64_t n) { return static_cast<std::int32_t>(n); };
+    return {narrow(x0), narrow(y0), narrow(x1), narrow(y1)};
+}
 
 std::string textOfTime(std::int64_t milliseconds) {
     const std::time_t seconds = milliseconds / 1000;
@@ -85,14 +99,11 @@ base::Result<void> printHistory(const HistoryOptions& options) {
             return base::fail(base::ErrorCode::NotFound, "no player called {} has ever joined",
                               options.player);
     }
-    if (!options.area.empty())
-        filter.area = game::ColumnArea{
-            std::min(options.area[0], options.area[2]), std::min(options.area[1], options.area[3]),
-            std::max(options.area[0], options.area[2]), std::max(options.area[1], options.area[3])};
-    if (options.minutes > 0) {
+    filter.area = options.area;
+    if (options.minutes) {
         const std::int64_t now = TERRANE_TRY(timeOfLastMinutes(history));
         TERRANE_TRY(net::selectSince(filter, history.forEachEdit,
-                                     now - static_cast<std::int64_t>(options.minutes * 60000)));
+                                     now - static_cast<std::int64_t>(*options.minutes * 60000)));
     }
     std::size_t count = 0;
     bool isCut = false;
@@ -118,10 +129,11 @@ CommandEntry addHistory(CLI::App& app) {
     addWorldOption(*command, options->save, "World of a server, which may run meanwhile");
     command->get_option("--world")->required();
     command->add_option("--player", options->player, "Only what this player changed")->type_name("NAME");
-    command->add_option("--area", options->area, "Only columns from one corner to the other, in blocks")
-        ->type_name("X0,Y0,X1,Y1")
-        ->delimiter(',')
-        ->expected(4);
+    command
+        ->add_option_function<std::string>(
+            "--area", [options](const std::string& text) { options->area = areaBetween(text); },
+            "Only columns from one corner to the other, in blocks")
+        ->type_name("X0,Y0,X1,Y1");
     command->add_option("--minutes", options->minutes, "Only the last N minutes")->check(numberFrom(0, 1e8));
     command->add_flag("--each-block", options->showsEachBlock, "Print a line for each block of an edit");
     command->add_option("--limit", options->limit, "Maximum number of edits")

@@ -6,6 +6,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/map_options.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "apps/terrane/serve_options.h"
 #include "apps/terrane/settings.h"
 #include "apps/terrane/world_backup.h"
@@ -57,6 +58,7 @@ base::Result<void> serve(ServeOptions& options, CLI::App& command) {
     const store::WorldLocation world = store::worldLocation(options.save.world);
     const auto files = TERRANE_TRY(net_postgres::serverFilesOf(world, options.listen.port));
     TERRANE_TRY(readSettings(options, files, command));
+    TERRANE_TRY(checkOutputs(command));
     if (options.isReadOnly) options.server.newcomers = game::Role::Guest;
     TERRANE_TRY(checkMapSite(options.map));
     auto statistics = TERRANE_TRY(net::ServerStatistics::open(options.statistics));

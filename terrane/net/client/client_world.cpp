@@ -274,7 +274,7 @@ void ClientWorld::onDone(const Done& done) {
     waiting_.pop_front();
     using Built = game::BuildOutcome::Result;
     using Taken = game::UndoResult::Outcome;
-    if (kind == Kind::Build && done.result <= static_cast<std::uint8_t>(Built::NotAllowed))
+    if (kind == Kind::Build && done.result < static_cast<std::uint8_t>(Built::Sent))
         decided_.push_back(game::BuildOutcome{static_cast<Built>(done.result), done.changed, done.kept});
     if ((kind == Kind::Undo || kind == Kind::Redo) &&
         done.result <= static_cast<std::uint8_t>(Taken::NotAllowed))

@@ -27,6 +27,8 @@ constexpr std::size_t kMaxUntold = 1024;
 constexpr double kEditsOfPlace = 30;
 // Block entity data in one chunk, which is saved and sent in one piece.
 constexpr std::size_t kMaxChunkData = 1 << 20;
+// Of a placed structure, unpacked in the tick: 500,000 cells of 2 bytes, a palette and data.
+constexpr std::size_t kMaxPlacedBytes = 2 << 20;
 // Block entity data of a placed structure, which the undo steps keep.
 constexpr std::size_t kMaxPlacedData = 64 << 10;
 // After an edit, the chunks around the player are loaded for this time, since more edits are likely.
@@ -147,9 +149,10 @@ Done run(game::Session& session, const ServerClients& clients, ServerClient& cli
     game::BuildOutcome outcome{game::BuildOutcome::Result::TooLarge, 0, 0};
     if (!isSensible(session, build))
         outcome.result = game::BuildOutcome::Result::Empty;
-    else if (blocks <= static_cast<double>(clients.settings.maxFillBlocks) &&
-             client.buckets.blocks.take(blocks, clients.now))
-        outcome = session.build({client.player, build.change});
+    else if (blocks <= static_cast<double>(clients.settings.maxFillBlocks))
+        outcome = client.buckets.blocks.take(blocks, clients.now)
+                      ? session.build({client.player, build.change})
+                      : game::BuildOutcome{game::BuildOutcome::Result::TooSoon, 0, 0};
     return {build.number, static_cast<std::uint8_t>(outcome.result),
             static_cast<std::uint32_t>(outcome.changed), static_cast<std::uint32_t>(outcome.skipped)};
 }
@@ -256,7 +259,7 @@ void enqueueCommand(ServerClients& clients, ServerClient& client, game::Session&
 Build buildFrom(const Place& place, ClientBuckets& buckets, const world::BlockRegistry& blocks, Time now) {
     auto structure = std::make_shared<world::Structure>();
     if (buckets.edits.take(kEditsOfPlace, now))
-        if (auto decoded = store::decodeStructure(place.structure);
+        if (auto decoded = store::decodeStructure(place.structure, kMaxPlacedBytes);
             decoded && dataBytes(*decoded) <= kMaxPlacedData)
             *structure = std::move(*decoded);
     dropOtherData(*structure, blocks);

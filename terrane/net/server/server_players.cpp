@@ -162,8 +162,10 @@ void onView(ServerClient& client, const View& view) {
 }
 
 void onSay(ServerState& server, ServerClient& client, const Say& message) {
-    if (!client.buckets.chat.take(1, server.clients.now)) return say(client, "you chat too fast");
     const bool isOperator = client.role == game::Role::Operator;
+    const bool isCommand = isOperator && message.text.starts_with('/');
+    if (!isCommand && !client.buckets.chat.take(1, server.clients.now))
+        return say(client, "you chat too fast");
     if (!isOperator &&
         !takeOfAddress(server.clients.chatOfAddress, client.address, kChatOfAddress, server.clients.now))
         return say(client, "too many lines come from your address");

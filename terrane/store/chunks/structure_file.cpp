@@ -186,7 +186,7 @@ base::Result<Bytes> encodeStructure(const Structure& structure) {
     return out;
 }
 
-base::Result<Structure> decodeStructure(ByteView bytes) {
+base::Result<Structure> decodeStructure(ByteView bytes, std::size_t maxBytes) {
     ByteReader reader(bytes);
     if (reader.number<std::uint64_t>() != kStructureMagic || bytes.size() < kStructureHeaderBytes)
         return base::fail(base::ErrorCode::BadInput, "it is not a structure");
@@ -197,9 +197,9 @@ base::Result<Structure> decodeStructure(ByteView bytes) {
         return base::fail(base::ErrorCode::Incompatible, "structure version {}, expected {}", version,
                           kStructureVersion);
     const auto plainBytes = reader.number<std::uint32_t>();
-    if (plainBytes > kMaxStructureBytes)
-        return damagedStructure(fmt::format("the structure says it has {} bytes, expected at most {}",
-                                            plainBytes, kMaxStructureBytes));
+    if (plainBytes > maxBytes)
+        return damagedStructure(
+            fmt::format("the structure says it has {} bytes, expected at most {}", plainBytes, maxBytes));
     Bytes plain(plainBytes);
     TERRANE_TRY(decompress(reader.rest(), plain));
     return readContent(plain);

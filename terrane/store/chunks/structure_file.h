@@ -23,8 +23,10 @@ constexpr std::size_t kMaxStructureBytes = 32u << 20;
 // Fails if the structure is invalid or exceeds the limits. Equal structures have equal bytes (with one
 // version of zstd).
 [[nodiscard]] base::Result<Bytes> encodeStructure(const world::Structure& structure);
-// Decodes any bytes. The error for an invalid structure gives the reason.
-[[nodiscard]] base::Result<world::Structure> decodeStructure(ByteView bytes);
+// Decodes any bytes. The error for an invalid structure gives the reason. `maxBytes`: before compression;
+// nothing larger is unpacked.
+[[nodiscard]] base::Result<world::Structure> decodeStructure(ByteView bytes,
+                                                             std::size_t maxBytes = kMaxStructureBytes);
 
 // A name has 1 to 100 bytes, no slashes or control characters, and no leading dot or space. A name that no
 // file has follows the rule of base/names.h, too.

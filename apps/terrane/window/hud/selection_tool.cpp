@@ -79,6 +79,8 @@ std::string refusal(BuildOutcome::Result result) {
             return fmt::format("it is more than {:.0f} blocks away", game::kBuildReach);
         case Result::NotAllowed:
             return "you may not change a part of it";
+        case Result::TooSoon:
+            return "too many blocks in a short time: wait a moment";
         case Result::Sent:
             return "waiting for the server";
         default:
