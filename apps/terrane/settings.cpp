@@ -27,15 +27,30 @@ std::string textOf(const toml::node& value) {
     return out.str();
 }
 
+// What the option cannot take; empty: it can.
+std::string wrongKind(const CLI::Option& option, const toml::node& value) {
+    const bool isFlag = option.get_expected_max() == 0, isList = option.get_expected_max() > 1;
+    if (value.is_array()) return isList ? "" : "expected one value, not a list";
+    if (value.is_boolean()) return isFlag ? "" : "expected a number or a text, not true or false";
+    if (isFlag && !value.is_string()) return "expected true or false";
+    return value.is_string() || value.is_number() ? "" : "expected a number or a text";
+}
+
 }  // namespace
 
 base::Result<void> setFromToml(CLI::Option& flag, const toml::node& value) {
+    if (const std::string wrong = wrongKind(flag, value); !wrong.empty()) return base::fail("{}", wrong);
+    const toml::array* list = value.as_array();
+    if (list && list->empty()) return {};
     try {
-        if (const toml::array* list = value.as_array())
+        if (list)
             for (const toml::node& element : *list) flag.add_result(textOf(element));
         else
             flag.add_result(textOf(value));
         flag.run_callback();
+    } catch (const CLI::ConversionError&) {
+        return base::fail("expected {}, got {:?}",
+                          flag.get_expected_max() == 0 ? "true or false" : "a number", flag.results().back());
     } catch (const CLI::ParseError& error) {
         std::string what = error.what();
         const std::string prefix = flag.get_name() + ": ";
@@ -94,15 +109,12 @@ struct SettingsText {
 // Empty if there is no file.
 base::Result<SettingsText> readSettings(const fs::path& file) {
     std::error_code ignored;
-    if (!fs::exists(file, ignored)) return SettingsText();
+    // A link that leads nowhere is an error.
+    if (!fs::exists(fs::symlink_status(file, ignored))) return SettingsText();
     auto text = TERRANE_TRY(base::readFile(file));
-    try {
-        toml::table table = toml::parse(text, file.string());
-        useCurrentNames(table);
-        return SettingsText{std::move(text), std::move(table)};
-    } catch (const toml::parse_error& error) {
-        return base::fail("{}:{}: {}", file.string(), error.source().begin.line, error.description());
-    }
+    toml::table table = TERRANE_TRY(base::parseToml(text, file.string()));
+    useCurrentNames(table);
+    return SettingsText{std::move(text), std::move(table)};
 }
 
 std::optional<std::string> valueOf(const SettingValues& values, const std::string& name) {

@@ -2,14 +2,13 @@
 // the same name: the file sets options that the command line does not.
 #pragma once
 
-#include <toml++/toml.h>
-
 #include <filesystem>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "terrane/base/result.h"
+#include "terrane/base/toml.h"
 
 // Sets command line flags from values of a TOML file.
 namespace CLI {

@@ -15,20 +15,21 @@ base::Result<void> copyFile(const std::filesystem::path& world, const world::Blo
     const auto copy = TERRANE_TRY(net::copySaved(world, blocks));
     TERRANE_TRY(copy.world(save, progress));
     if (!copy.records) return {};
-    return copy.records(net::serverFilePath(save), progress);
+    return copy.records(store::serverFilePath(save), progress);
 }
 
 // The chunks may lack edits at the end of the history: adds them, as a server does that opens the world.
 base::Result<void> addEndOfHistory(const io::WorldOptions& given, const std::filesystem::path& save) {
-    const std::filesystem::path file = net::serverFilePath(save);
+    const std::filesystem::path file = store::serverFilePath(save);
     std::error_code ignored;
     if (!std::filesystem::exists(file, ignored)) return {};
-    const auto ends = TERRANE_TRY(net::readHistoryEnds(file));
+    const auto ends = TERRANE_TRY(store::readHistoryEnds(file));
     if (ends.saved >= ends.newest) return {};
     io::WorldOptions options = given;
     io::SaveOptions saved;
     saved.world = save.string();
-    auto opened = TERRANE_TRY(io::openSessionParts(options, saved, store::WorldAccess::ReadWrite));
+    auto opened = TERRANE_TRY(
+        io::openSessionParts(options, saved, store::WorldAccess::ReadWrite, store::WorldSharing::Servers));
     opened.parts.storesGenerated = false;
     auto records = TERRANE_TRY(net::SqliteRecords::open(file, *opened.parts.blocks));
     const auto host = TERRANE_TRY(net::openServerHost(std::move(opened.parts), std::move(records), {},

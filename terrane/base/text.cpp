@@ -76,6 +76,12 @@ std::string printable(std::string_view text) {
     return line;
 }
 
+std::string inOneLine(std::string message) {
+    std::replace_if(
+        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
+    return message;
+}
+
 namespace detail {
 
 void printLine(fmt::string_view format, fmt::format_args args) {

@@ -43,6 +43,9 @@ struct CodePoint {
 // that reorder or break lines) and bytes that are not UTF-8 become \xNN for each byte.
 [[nodiscard]] std::string printable(std::string_view text);
 
+// Returns the message without line breaks, which texts of a file may have: an error is one line.
+[[nodiscard]] std::string inOneLine(std::string message);
+
 // Returns "1 block", "2 blocks": `what` is a noun whose plural has an s.
 [[nodiscard]] inline std::string counted(std::uint64_t count, std::string_view what) {
     return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");

@@ -4,6 +4,7 @@
 #include <initializer_list>
 #include <optional>
 
+#include "terrane/base/text.h"
 #include "terrane/content/content_files_internal.h"
 #include "terrane/world/blocks/content_table.h"
 
@@ -98,20 +99,14 @@ base::Result<Language> readLanguage(const toml::table& root, std::string_view fi
     Language language;
     language.blocks = readTexts(top, {"blocks", kMaxBlockNameText, false}, file, error);
     language.texts = readTexts(top, {"text", kMaxLanguageText, true}, file, error);
-    if (error) return base::fail(base::ErrorCode::BadInput, "{}", world::inOneLine(std::move(*error)));
+    if (error) return base::fail(base::ErrorCode::BadInput, "{}", base::inOneLine(std::move(*error)));
     return language;
 }
 
 }  // namespace
 
 base::Result<Language> parseLanguage(std::string_view toml, std::string_view file) {
-    try {
-        return readLanguage(toml::parse(toml), file);
-    } catch (const toml::parse_error& error) {  // the library reports syntax errors only by exceptions
-        return base::fail(base::ErrorCode::BadInput, "{}",
-                          world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
-                                                       error.description())));
-    }
+    return readLanguage(TERRANE_TRY(base::parseToml(toml, file)), file);
 }
 
 base::Result<Language> loadLanguage(std::string_view code) {

@@ -1,7 +1,6 @@
 #include "terrane/formats/block_mapping.h"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "terrane/base/files.h"
+#include "terrane/base/toml.h"
 #include "terrane/world/blocks/block_behavior.h"
 #include "terrane/world/blocks/block_model.h"
 #include "terrane/world/changes/liquid_flow.h"
@@ -96,13 +96,7 @@ std::vector<NamedState> statesOf(const toml::node& node) {
 }  // namespace
 
 base::Result<LegacyIds> LegacyIds::parse(std::string_view toml, std::string_view name) {
-    toml::table table;
-    try {
-        table = toml::parse(toml, name);
-    } catch (const toml::parse_error& error) {
-        return base::fail(base::ErrorCode::BadInput, "{}:{}: {}", name, error.source().begin.line,
-                          error.description());
-    }
+    const toml::table table = TERRANE_TRY(base::parseToml(toml, name));
     LegacyIds ids;
     const toml::table* entries = table["ids"].as_table();
     if (!entries) return base::fail(base::ErrorCode::BadInput, "{}:1: ids: required", name);
@@ -385,13 +379,7 @@ class BlockMapping::Reader {
     Reader(BlockMapping& mapping, const MappingFile& file) : mapping_(mapping), file_(file) {}
 
     base::Result<void> read() {
-        toml::table table;
-        try {
-            table = toml::parse(file_.toml, file_.name);
-        } catch (const toml::parse_error& error) {
-            return base::fail(base::ErrorCode::BadInput, "{}:{}: {}", file_.name, error.source().begin.line,
-                              error.description());
-        }
+        const toml::table table = TERRANE_TRY(base::parseToml(file_.toml, file_.name));
         for (const auto& [key, value] : table) {
             if (key == "opposite")
                 readOpposite(value);

@@ -80,7 +80,7 @@ base::Result<void> copyDatabase(const store::WorldLocation& world, const world::
     RecordsOfMoment records(from);
     const auto players = TERRANE_TRY(records.players());
     if (players.empty()) return {};  // no server has run
-    const auto to = TERRANE_TRY(net::SqliteRecords::open(net::serverFilePath(save), blocks));
+    const auto to = TERRANE_TRY(net::SqliteRecords::open(store::serverFilePath(save), blocks));
     return net::copyRecords(records, *to, net::WorldOfCopy::MayLackEdits).map([](const net::RecordsCopied&) {
     });
 }

@@ -7,20 +7,20 @@ namespace terrane::net_postgres {
 base::Result<WorldRecords> openFileRecords(const store::WorldLocation& world,
                                            const world::BlockRegistry& blocks) {
     const auto path = TERRANE_TRY(store::fileOf(world));
-    auto records = TERRANE_TRY(net::SqliteRecords::open(net::serverFilePath(path), blocks));
+    auto records = TERRANE_TRY(net::SqliteRecords::open(store::serverFilePath(path), blocks));
     return WorldRecords{std::move(records), {}};
 }
 
 base::Result<net::History> openFileHistory(const store::WorldLocation& world,
                                            const world::BlockRegistry& blocks) {
     const auto path = TERRANE_TRY(store::fileOf(world));
-    return net::readHistoryFile(net::serverFilePath(path), blocks);
+    return net::readHistoryFile(store::serverFilePath(path), blocks);
 }
 
 bool hasFileRecords(const store::WorldLocation& world) {
     const auto path = store::fileOf(world);
     std::error_code ignored;
-    return path && std::filesystem::exists(net::serverFilePath(*path), ignored);
+    return path && std::filesystem::exists(store::serverFilePath(*path), ignored);
 }
 
 base::Result<std::filesystem::path> filesBeside(const store::WorldLocation& world) {

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "terrane/base/files.h"
+#include "terrane/base/text.h"
 #include "terrane/content/built_in.h"
 #include "terrane/world/blocks/content_table.h"
 
@@ -81,7 +82,7 @@ base::Result<PackInfo> readInfo(const toml::table& root, std::string_view file) 
     info.requiredPacks = textsOf(table, "requires");
     for (const std::string& name : info.requiredPacks)
         if (!isPackName(name)) table.expected(*table.node("requires"), "requires", "names of packs");
-    if (error) return base::fail(base::ErrorCode::BadInput, "{}", world::inOneLine(*error));
+    if (error) return base::fail(base::ErrorCode::BadInput, "{}", base::inOneLine(*error));
     return info;
 }
 
@@ -122,15 +123,7 @@ base::Result<Pack> makePack(PackFiles files, std::string where) {
     TERRANE_TRY(checkSizes(files, where));
     Pack pack{{}, {}, std::move(where)};
     const std::string file = pack.where + "/pack.toml";
-    try {
-        auto read = readInfo(toml::parse(info->second), file);
-        if (!read) return tl::unexpected(read.error());
-        pack.info = std::move(*read);
-    } catch (const toml::parse_error& error) {  // the library reports syntax errors only by exceptions
-        return base::fail(base::ErrorCode::BadInput, "{}",
-                          world::inOneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line,
-                                                       error.description())));
-    }
+    pack.info = TERRANE_TRY(readInfo(TERRANE_TRY(base::parseToml(info->second, file)), file));
     pack.files = std::move(files);
     return pack;
 }

@@ -121,6 +121,40 @@ TEST_F(Settings, OptionsOfTheCommandLineAloneAreRefused) {
     EXPECT_EQ(trace, "");
 }
 
+TEST_F(Settings, AnOptionTakesItsKindOfValue) {
+    std::filesystem::create_directories(file_.parent_path());
+    const auto errorOf = [&](const std::string& text) -> std::string {
+        write(text);
+        CLI::App command;
+        int days = 0;
+        std::string name;
+        bool isQuiet = false;
+        std::vector<std::string> packs;
+        command.add_option("--days", days);
+        command.add_option("--name", name);
+        command.add_flag("--quiet", isQuiet);
+        command.add_option("--packs", packs);
+        const auto done = applySettings(file_, command, {});
+        return done ? "" : done.error().message.substr(file_.string().size());
+    };
+    EXPECT_EQ(errorOf("days = 1\nname = 'a'\nquiet = true\npacks = []\n"), "");
+    EXPECT_EQ(errorOf("days = '1'\nname = 5\nquiet = 'true'\n"), "") << "as they are written";
+    EXPECT_EQ(errorOf("name = true\n"), ":1: name: expected a number or a text, not true or false");
+    EXPECT_EQ(errorOf("days = [1]\n"), ":1: days: expected one value, not a list");
+    EXPECT_EQ(errorOf("quiet = 1\n"), ":1: quiet: expected true or false");
+    EXPECT_EQ(errorOf("name = 1979-05-27\n"), ":1: name: expected a number or a text");
+    EXPECT_EQ(errorOf("\ndays = 'x'\n"), ":2: days: expected a number, got \"x\"");
+}
+
+TEST_F(Settings, ALinkThatLeadsNowhereIsAnError) {
+    std::filesystem::create_directories(file_.parent_path());
+    std::filesystem::create_symlink("nowhere", file_);
+    CLI::App command;
+    const auto done = applySettings(file_, command, {});
+    ASSERT_FALSE(done);
+    EXPECT_NE(done.error().message.find("settings.toml"), std::string::npos) << done.error().message;
+}
+
 TEST_F(Settings, AnOptionOfSeveralValuesTakesAList) {
     std::filesystem::create_directories(file_.parent_path());
     CLI::App command;

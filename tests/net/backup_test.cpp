@@ -81,7 +81,7 @@ Moment momentOf(ServerState& server, const std::vector<std::unique_ptr<Builder>>
 }
 
 void expectRecords(const fs::path& save, const Moment& moment) {
-    auto records = SqliteRecords::open(serverFilePath(save), contentBlocks()).value();
+    auto records = SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value();
     std::map<std::string, world::Pose> poses;
     const auto players = records->players().value();
     for (const KnownPlayer& player : players) {
@@ -99,7 +99,8 @@ void expectOpens(const fs::path& save, const Moment& moment) {
     const auto checked = store::checkSave(save, contentBlocks());
     ASSERT_TRUE(checked) << checked.error().message;
     EXPECT_FALSE(checked->isDamaged());
-    TestServer server(serverParts(save), SqliteRecords::open(serverFilePath(save), contentBlocks()).value());
+    TestServer server(serverParts(save),
+                      SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value());
     EXPECT_EQ(server.state().history.newest, moment.newest);
     EXPECT_NEAR(server.state().session.clock.timeDay, moment.timeDay, 1e-4) << "saves store a few digits";
     std::vector<std::string> places;
@@ -198,12 +199,13 @@ TEST_F(BackupTest, OfAnotherProgramHasWhatIsOnDisk) {
         auto copy = copySaved(folder_ / "s" / "w.sqlite", contentBlocks());
         ASSERT_TRUE(copy) << copy.error().message;
         for (int ticks = 0; ticks < 3; ++ticks) buildTick();
-        ASSERT_TRUE(copy->records(serverFilePath(save), {}));
+        ASSERT_TRUE(copy->records(store::serverFilePath(save), {}));
         ASSERT_TRUE(copy->world(save, {}));
-        const std::int64_t newest = readHistoryEnds(serverFilePath(save))->newest;
+        const std::int64_t newest = store::readHistoryEnds(store::serverFilePath(save))->newest;
         EXPECT_GE(newest, durable);
         // A server adds the end of the history to the chunks.
-        TestServer(serverParts(save), SqliteRecords::open(serverFilePath(save), contentBlocks()).value());
+        TestServer(serverParts(save),
+                   SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value());
         expectChunksAreHistory(save, newest);
     }
 }

@@ -11,7 +11,7 @@ namespace terrane::net {
 namespace {
 
 TEST(ServerFilePath, IsBesideTheWorld) {
-    EXPECT_EQ(serverFilePath("a/home.sqlite"), "a/home.server.sqlite");
+    EXPECT_EQ(store::serverFilePath("a/home.sqlite"), "a/home.server.sqlite");
 }
 
 ServerFile::Write setState(int value) {

@@ -34,6 +34,7 @@ inline game::SessionParts serverParts(const std::filesystem::path& world) {
     store::WorldRequest request;
     request.create = store::WorldIdentity{1, generator, gen::versionOf(gen::builtInGenerators(), generator)};
     request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
+    request.sharing = store::WorldSharing::Servers;
     auto store = store::openWorld(store::worldLocation(world.string()), *blocks, request).value();
     auto generators = gen::makeLevelGenerators(generator, *blocks, 1).value();
     return {std::move(blocks), std::move(generators), std::move(store), 0};

@@ -252,6 +252,38 @@ TEST_F(ServerTest, ARollbackThatHasBegunEndsBeforeTheServerDoes) {
 }
 
 // After a server ran with a date of the future, the last minute is still the last minute.
+// Another program's edits would be replaced when the next server brings back the killed one's.
+TEST_F(ServerTest, OnlyAServerOpensAWorldWithEditsInTheHistoryAlone) {
+    const auto file = folder_ / "w.sqlite", records = folder_ / "w.server.sqlite";
+    const auto open = [&](store::WorldSharing sharing) {
+        store::WorldRequest request;
+        request.versionOf = [](std::string_view name) {
+            return gen::versionOf(gen::builtInGenerators(), name);
+        };
+        request.sharing = sharing;
+        const auto opened = store::openWorld(store::worldLocation(file.string()), contentBlocks(), request);
+        return opened ? "" : opened.error().message;
+    };
+    {
+        TestServer server(folder_.path());
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    EXPECT_EQ(open(store::WorldSharing::Alone), "");
+    {
+        const auto history = SqliteRecords::open(records, contentBlocks()).value();
+        const std::vector<game::ChangedBlock> changes{{{0, 0, 60}, {}, {contentBlock("glass"), 0, nullptr}}};
+        (void)history->append(loggedEdits(1, 1, nowMs(), changes));
+        ASSERT_TRUE(history->flush());
+    }
+    EXPECT_THAT(open(store::WorldSharing::Alone), testing::HasSubstr("start and stop `terrane serve`"));
+    EXPECT_EQ(open(store::WorldSharing::Servers), "");
+    {
+        TestServer server(folder_.path());
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    EXPECT_EQ(open(store::WorldSharing::Alone), "");
+}
+
 TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));

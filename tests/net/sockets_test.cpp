@@ -1,5 +1,6 @@
 // A server on a real port: players over TLS, and clients that send something else or nothing.
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
@@ -95,6 +96,15 @@ TEST_F(SocketsTest, APortInUseIsRefused) {
     ASSERT_FALSE(second);
     EXPECT_EQ(second.error().message,
               fmt::format("127.0.0.1 port {}: cannot listen: Address already in use", port));
+}
+
+// OpenSSL would wait for somebody to write into it.
+TEST_F(SocketsTest, AKeyFileThatIsAPipeIsRefused) {
+    const auto pipe = folder_ / "pipe.pem";
+    ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+    const auto context = serverContext(pipe);
+    ASSERT_FALSE(context);
+    EXPECT_EQ(context.error().message, pipe.string() + ": not a regular file");
 }
 
 TEST_F(SocketsTest, ALinkThatLeavesWhileItConnectsAsksForNoTrust) {

@@ -44,14 +44,14 @@ TEST_F(SharedServersTest, ACopyIsOneMomentOfAllServers) {
         while (!isCopied) build();
         copying.join();
         const std::int64_t after = newest();
-        const std::int64_t end = net::readHistoryEnds(net::serverFilePath(save))->newest;
+        const std::int64_t end = store::readHistoryEnds(store::serverFilePath(save))->newest;
         EXPECT_GE(end, before);
         EXPECT_LE(end, after);
         // A server adds the end of the history to the chunks.
         TestServer(net::serverParts(save),
-                   net::SqliteRecords::open(net::serverFilePath(save), contentBlocks()).value());
+                   net::SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value());
         net::expectChunksAreHistory(save, end);
-        const auto records = net::SqliteRecords::open(net::serverFilePath(save), contentBlocks()).value();
+        const auto records = net::SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value();
         EXPECT_EQ(records->players()->size(), guests.size());
     }
     EXPECT_GT(newest(), 50);

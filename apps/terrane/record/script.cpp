@@ -332,12 +332,7 @@ base::Result<Script> ScriptReader::read(const toml::table& root) {
 
 base::Result<Script> parseScript(std::string_view toml, std::string_view name, const ScriptDefaults& defaults,
                                  const world::BlockRegistry& blocks) {
-    toml::table root;
-    try {
-        root = toml::parse(toml, name);
-    } catch (const toml::parse_error& error) {
-        return base::fail("{}:{}: {}", name, error.source().begin.line, error.description());
-    }
+    toml::table root = TERRANE_TRY(base::parseToml(toml, name));
     useCurrentNames(root);
     return ScriptReader(name, defaults, blocks).read(root);
 }

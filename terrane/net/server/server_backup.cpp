@@ -48,7 +48,7 @@ struct BackupOfFile {
 
 base::Result<void> writeFiles(store::BackupFiles& files, const BackupOfFile& moment,
                               const store::CopyProgress& progress) {
-    const fs::path records = serverFilePath(files.save());
+    const fs::path records = store::serverFilePath(files.save());
     TERRANE_TRY(moment.records(records, progress));
     TERRANE_TRY(setSavedEdit(records, moment.newest));
     TERRANE_TRY(moment.world(files.save(), progress));

@@ -15,6 +15,7 @@
 #include "terrane/game/permissions.h"
 #include "terrane/net/server/edit_log.h"
 #include "terrane/net/wire/security.h"
+#include "terrane/store/saves/server_file.h"
 #include "terrane/store/sqlite/sqlite.h"
 #include "terrane/world/pose.h"
 
@@ -37,10 +38,7 @@ struct PlayerChange {
     std::optional<std::string> ban = {};
 };
 
-struct HistoryEnds {
-    std::int64_t newest = 0;  // number of the newest edit that is durable; 0: none
-    std::int64_t saved = 0;   // all edits up to this one are in the world's own store
-};
+using store::HistoryEnds;
 
 // Name of the text with the hash of the server's password; empty: no password.
 inline constexpr const char* kPasswordText = "password";

@@ -105,11 +105,6 @@ base::Result<store::BlockIdMap> mapBlocks(store::Database& database, const world
 
 }  // namespace
 
-std::filesystem::path serverFilePath(const std::filesystem::path& world) {
-    std::filesystem::path path = world;
-    return path.replace_extension(".server.sqlite");
-}
-
 base::Result<std::unique_ptr<ServerFile>> ServerFile::open(const std::filesystem::path& path,
                                                            const world::BlockRegistry& blocks) {
     auto lock = TERRANE_TRY(store::FileLock::acquire(path, store::FileLock::Kind::Exclusive));
@@ -254,15 +249,8 @@ namespace {
 using store::Database;
 using store::Statement;
 
-constexpr const char* kSaved = "saved";  // a name in the table `state`
-
 tl::unexpected<base::Error> damaged(const Database& database, std::string_view what) {
     return base::fail(base::ErrorCode::Damaged, "{}: damaged: {}", database.path(), what);
-}
-
-base::Result<std::int64_t> numberOr0(Database& database, const std::string& sql) {
-    const auto number = TERRANE_TRY(database.queryNumber(sql));
-    return number.value_or(0);
 }
 
 }  // namespace
@@ -312,19 +300,8 @@ base::Result<std::string> SqliteRecords::text(const std::string& name) {
     return row ? std::string(query.text(0)) : std::string();
 }
 
-namespace {
-
-base::Result<HistoryEnds> historyEndsIn(Database& database) {
-    const auto newest = numberOr0(database, "SELECT max(number) FROM edits");
-    const auto saved = numberOr0(database, fmt::format("SELECT value FROM state WHERE name = '{}'", kSaved));
-    if (!newest || !saved) return tl::unexpected((!newest ? newest : saved).error());
-    return HistoryEnds{*newest, *saved};
-}
-
-}  // namespace
-
 base::Result<HistoryEnds> SqliteRecords::historyEnds() {
-    return historyEndsIn(file_->reader());
+    return store::historyEnds(file_->reader());
 }
 
 base::Result<void> SqliteRecords::forEachEdit(const EditFilter& filter, EditOrder order, const UseEdit& use) {
@@ -428,8 +405,8 @@ std::uint64_t SqliteRecords::append(const std::vector<LoggedEdit>& edits) {
 namespace {
 
 base::Result<void> writeSavedEdit(Database& database, std::int64_t number) {
-    return database.execute(
-        fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})", kSaved, number));
+    return database.execute(fmt::format("INSERT OR REPLACE INTO state (name, value) VALUES ('{}', {})",
+                                        store::kSavedEdit, number));
 }
 
 }  // namespace
@@ -441,11 +418,6 @@ void SqliteRecords::setSavedEdit(std::int64_t number) {
 base::Result<void> setSavedEdit(const std::filesystem::path& file, std::int64_t number) {
     auto database = TERRANE_TRY(Database::open(file, store::OpenMode::ReadWrite));
     return writeSavedEdit(database, number);
-}
-
-base::Result<HistoryEnds> readHistoryEnds(const std::filesystem::path& file) {
-    auto database = TERRANE_TRY(Database::open(file, store::OpenMode::ReadOnly));
-    return historyEndsIn(database);
 }
 
 store::WriteCopy SqliteRecords::copyFromNow() {
@@ -460,12 +432,12 @@ store::WriteCopy SqliteRecords::copyFromNow() {
 // First the number up to which the world has all edits, then the world, then the history, which is written
 // before the world: the history has all edits of the world.
 base::Result<SavedCopy> copySaved(const std::filesystem::path& world, const world::BlockRegistry& blocks) {
-    const std::filesystem::path records = serverFilePath(world);
+    const std::filesystem::path records = store::serverFilePath(world);
     std::error_code ignored;
     const bool hasRecords = std::filesystem::exists(records, ignored);
     HistoryEnds before;
     if (hasRecords) {
-        auto ends = TERRANE_TRY(readHistoryEnds(records));
+        auto ends = TERRANE_TRY(store::readHistoryEnds(records));
         before = ends;
     }
     auto opened = TERRANE_TRY(store::openToRead(world, blocks));

@@ -31,9 +31,6 @@ namespace terrane::net {
 //
 // Writes are collected and committed together by a thread of this class, about as fast as the disk allows: a
 // command is acknowledged when it is durable. Functions are for the server's thread unless stated otherwise.
-// The file's path for a world's path: "a/home.sqlite" gives "a/home.server.sqlite".
-std::filesystem::path serverFilePath(const std::filesystem::path& world);
-
 class ServerFile {
   public:
     // Opens the file, creating it if needed. Errors name the file.
@@ -98,8 +95,6 @@ class ServerFile {
 // Notes in a server's file that the world beside it has all edits up to this one. For a copy that nobody has
 // open.
 [[nodiscard]] base::Result<void> setSavedEdit(const std::filesystem::path& file, std::int64_t number);
-// The ends of the history in a server's file, which a server may have open.
-[[nodiscard]] base::Result<HistoryEnds> readHistoryEnds(const std::filesystem::path& file);
 
 // Begins a copy of a world in a file and of the server's file beside it, while a server may run in another
 // program. The result has all that is on disk. Its history is the newer part: the edits that its world lacks

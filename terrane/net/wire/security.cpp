@@ -205,6 +205,8 @@ void prepareContext(ssl::context& context) {
 base::Result<ssl::context> serverContext(const std::filesystem::path& keyFile) {
     std::error_code error;
     if (!std::filesystem::exists(keyFile, error)) TERRANE_TRY(makeKeyFile(keyFile));
+    if (!std::filesystem::is_regular_file(keyFile, error))  // OpenSSL would wait for the writer of a pipe
+        return base::fail("{}: not a regular file", keyFile.string());
     ssl::context context(ssl::context::tls_server);
     prepareContext(context);
     boost::system::error_code failed;

@@ -5,6 +5,7 @@
 #include "terrane/base/log.h"
 #include "terrane/store/overlay_store.h"
 #include "terrane/store/saves/save_path.h"
+#include "terrane/store/saves/server_file.h"
 #include "terrane/store/saves/world_copy.h"
 #include "terrane/store/sqlite/sqlite_store.h"
 
@@ -17,7 +18,8 @@ using StoreResult = base::Result<std::unique_ptr<ChunkStore>>;
 StoreResult openFile(const fs::path& path, const world::BlockRegistry& blocks, const WorldRequest& request) {
     SaveAccess access;
     access.create = request.create;
-    access.decide = [&](const WorldIdentity& saved) {
+    access.decide = [&](const WorldIdentity& saved) -> base::Result<Regeneration> {
+        if (request.sharing == WorldSharing::Alone) TERRANE_TRY(requireSavedHistory(path));
         return compareWorld(saved, request.world, request.versionOf, path.string());
     };
     auto store = TERRANE_TRY(SqliteStore::open(path, blocks, access, request.limits));

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "terrane/base/text.h"
 #include "terrane/world/blocks/content_table.h"
 
 namespace terrane::world {
@@ -510,10 +511,6 @@ BlockDescription readBlock(ContentTable& table, const BehaviorTable& behaviors,
     return block;
 }
 
-base::Error oneLine(std::string message) {
-    return {base::ErrorCode::BadInput, inOneLine(std::move(message))};
-}
-
 // The tables of a kind; null if there are none.
 const toml::array* tablesOf(ContentTable& top, std::string_view kind) {
     const toml::node* found = top.node(kind);
@@ -564,7 +561,7 @@ base::Result<BlockFile> readBlocks(const toml::table& root, std::string_view fil
         if (!tablesOfBlock.emplace(blocks.back().type.name, std::move(like)).second && !error)
             table.expected(*table.own("name"), "name", "a name not used before");
     }
-    if (error) return tl::unexpected(oneLine(std::move(*error)));
+    if (error) return base::fail(base::ErrorCode::BadInput, "{}", base::inOneLine(std::move(*error)));
     return read;
 }
 
@@ -572,12 +569,7 @@ base::Result<BlockFile> readBlocks(const toml::table& root, std::string_view fil
 
 base::Result<BlockFile> parseBlocks(std::string_view toml, std::string_view file,
                                     const BehaviorTable& behaviors, std::span<const ShapePtr> shapes) {
-    try {
-        return readBlocks(toml::parse(toml), file, behaviors, shapes);
-    } catch (const toml::parse_error& error) {  // the only way this library tells of wrong syntax
-        return tl::unexpected(
-            oneLine(fmt::format("{}:{}: syntax: {}", file, error.source().begin.line, error.description())));
-    }
+    return readBlocks(TERRANE_TRY(base::parseToml(toml, file)), file, behaviors, shapes);
 }
 
 bool isOpaqueCube(const BlockDescription& block) {

@@ -28,12 +28,6 @@ std::string shown(const toml::node& node) {
 
 }  // namespace
 
-std::string inOneLine(std::string message) {
-    std::replace_if(
-        message.begin(), message.end(), [](char c) { return static_cast<unsigned char>(c) < ' '; }, ' ');
-    return message;
-}
-
 const toml::node* ContentTable::firstOf(std::initializer_list<std::string_view> keys) const {
     const auto find = [&](const toml::table& table) -> const toml::node* {
         for (const std::string_view key : keys)

@@ -3,8 +3,6 @@
 #pragma once
 
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
-
 #include <algorithm>
 #include <array>
 #include <initializer_list>
@@ -12,6 +10,8 @@
 #include <span>
 #include <string>
 #include <string_view>
+
+#include "terrane/base/toml.h"
 
 namespace terrane::world {
 
@@ -31,9 +31,6 @@ std::string listed(const Names& names) {
     }
     return text;
 }
-
-// Returns the message without line breaks, which texts of a file may have: an error is one line.
-std::string inOneLine(std::string message);
 
 // Readers return the key's value, or `fallback` if it is absent; a wrong value gives an error and an
 // arbitrary result. All tables of a file share one error, the first.
