@@ -8,6 +8,7 @@
 #include "terrane/io/open_session.h"
 #include "terrane/light_gpu/gpu_batch_lighter.h"
 #include "terrane/mesh_gpu/gpu_mesher.h"
+#include "terrane/render/quads/draw_check.h"
 
 namespace terrane::app {
 namespace {
@@ -80,7 +81,7 @@ base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
 nlohmann::json graphicsInfo() {
     const auto context = gpu::HeadlessContext::create({});
     if (!context) return {{"error", context.error().message}};
-    const gpu::DeviceInfo d = gpu::queryDevice();
+    const gpu::DeviceInfo d = render::checkedDevice(gpu::builtInShaders(""));
     return {{"vendor", d.vendor},
             {"renderer", d.renderer},
             {"version", d.version},
@@ -90,7 +91,10 @@ nlohmann::json graphicsInfo() {
             {"max_storage_block_bytes", d.maxStorageBlockBytes},
             {"max_texture_size", d.maxTextureSize},
             {"max_texture_3d_size", d.maxTexture3dSize},
-            {"max_anisotropy", d.maxAnisotropy}};
+            {"max_anisotropy", d.maxAnisotropy},
+            {"subpixel_bits", d.subpixelBits},
+            {"indirect_draws", d.indirectDraws},
+            {"indirect_counts", d.indirectCount}};
 }
 
 }  // namespace terrane::app

@@ -13,6 +13,7 @@
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/render/frame/graphics_table.h"
 #include "terrane/render/frame/renderer.h"
+#include "terrane/render/quads/draw_check.h"
 #include "terrane/view/camera_path.h"
 #include "terrane/view/gpu_back_ends.h"
 #include "terrane/view/world_view.h"
@@ -89,7 +90,7 @@ struct Canvas {
 base::Result<std::unique_ptr<Canvas>> makeCanvas(const DrawnWorld& world) {
     auto context = TERRANE_TRY(gpu::HeadlessContext::create({}));
     auto shaders = std::make_unique<gpu::ShaderLoader>(gpu::builtInShaders(""));
-    const gpu::DeviceInfo device = gpu::queryDevice();
+    const gpu::DeviceInfo device = render::checkedDevice(*shaders);
     auto renderer = TERRANE_TRY(
         render::Renderer::create(*shaders, *world.content.blocks, world.content.textures, device));
     renderer.setMemoryBudget(view::gpuMemoryBudget(device, {}));

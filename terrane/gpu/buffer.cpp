@@ -1,6 +1,9 @@
 #include "terrane/gpu/buffer.h"
 
+#include <algorithm>
 #include <cassert>
+
+#include "terrane/base/result.h"
 
 namespace terrane::gpu {
 
@@ -16,15 +19,30 @@ Handle<ObjectKind::Buffer> createBuffer(std::string_view label) {
 
 }  // namespace
 
+std::size_t maxBufferBytes() {
+    GLint64 blockBytes = 0;
+    glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
+    return static_cast<std::size_t>(std::clamp<GLint64>(blockBytes, 1, kMaxBufferBytes));
+}
+
+std::size_t grownBytes(std::size_t sizeBytes, std::size_t neededBytes, std::size_t maxBytes) {
+    if (neededBytes <= sizeBytes) return 0;
+    const std::size_t most = maxBytes > 0 ? maxBytes : maxBufferBytes();
+    assert(neededBytes <= most && "the caller keeps to what a buffer holds");
+    return std::max(neededBytes, std::min(2 * neededBytes, most));
+}
+
 Buffer::Buffer(std::size_t sizeBytes, GLbitfield flags, std::string_view label)
     : handle_(createBuffer(label)), sizeBytes_(sizeBytes) {
     assert(sizeBytes > 0 && "OpenGL has no buffers of size zero");
+    base::require(sizeBytes <= kMaxBufferBytes, "gpu::Buffer: no buffer has 2 GiB");
     glNamedBufferStorage(id(), static_cast<GLsizeiptr>(sizeBytes), nullptr, flags);
 }
 
 Buffer::Buffer(std::span<const std::byte> data, GLbitfield flags, std::string_view label)
     : handle_(createBuffer(label)), sizeBytes_(data.size()) {
     assert(!data.empty() && "OpenGL has no buffers of size zero");
+    base::require(data.size() <= kMaxBufferBytes, "gpu::Buffer: no buffer has 2 GiB");
     glNamedBufferStorage(id(), static_cast<GLsizeiptr>(data.size()), data.data(), flags);
 }
 

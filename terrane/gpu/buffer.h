@@ -10,6 +10,18 @@
 
 namespace terrane::gpu {
 
+// No buffer is larger: some drivers keep sizes and offsets in signed 32 bits.
+constexpr std::size_t kMaxBufferBytes = (std::size_t{1} << 31) - 256;
+
+// Returns the largest buffer that shaders of the current context reach as a whole, at most kMaxBufferBytes.
+[[nodiscard]] std::size_t maxBufferBytes();
+
+// A buffer that is too small is replaced by one of twice the needed size, as far as that is possible. Returns
+// the size of the buffer that replaces one of `sizeBytes`; 0 if that is large enough. `maxBytes`: 0 for
+// maxBufferBytes(); `neededBytes` are within.
+[[nodiscard]] std::size_t grownBytes(std::size_t sizeBytes, std::size_t neededBytes,
+                                     std::size_t maxBytes = 0);
+
 class Buffer {
   public:
     Buffer() = default;

@@ -20,6 +20,7 @@ struct DeviceInfo {
     std::string glsl;
     bool software = false;       // drawn by the CPU: the CPU back ends are faster then
     bool indirectCount = false;  // glMultiDraw*IndirectCount: draw counts written by the GPU
+    bool indirectDraws = true;   // glMultiDraw*Indirect works: see render::checkedDevice()
     int maxSamples = 0;          // of color and depth textures that are drawn into
     int maxTextureSize = 0;
     int maxTexture3dSize = 0;

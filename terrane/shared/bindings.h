@@ -26,6 +26,7 @@ const uint kVisibleLastFrameBinding = 5u;
 const uint kTestedMeshSectionsBinding = 6u;
 const uint kQuadsBinding = 7u;
 const uint kListedQuadsBinding = 2u;  // not with kVisibleBinding, which has the same number
+const uint kDrawRecordsBinding = 6u;  // not with kTestedMeshSectionsBinding: OpenGL guarantees 8 bindings
 
 // Texture units
 const uint kBlockTexturesUnit = 0u;
@@ -56,7 +57,7 @@ const uint kMilkyWayUnit = 29u;
 const uint kListedQuadsUnit = 30u;  // a buffer as a texture
 
 // Vertex attributes
-const uint kMeshSectionChunkAttribute = 0u;  // chunk and level of a draw's mesh section, by the base instance
+const uint kDrawRecordAttribute = 0u;  // DrawRecord, by the base instance
 
 // Image units
 const uint kHiZFromImage = 0u;

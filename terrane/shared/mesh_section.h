@@ -42,20 +42,32 @@ struct DrawCommand {
     uint indexCount;
     uint instanceCount;
     uint firstIndex;
-    int baseVertex;     // 4 × first quad in its arena, or see kFirstListedQuad
-    uint baseInstance;  // number of the mesh section
+    int baseVertex;     // 0: see DrawRecord
+    uint baseInstance;  // number of its DrawRecord
+};
+
+// What the vertex shader knows of a draw, as an instance attribute. The first quad is not in the base vertex,
+// so that vertex ids stay below 2¹⁶: some drivers have wrong ones from 2²³ on.
+struct DrawRecord {
+    ivec2 chunk;  // of the mesh section, with its level
+    uint level;
+    uint firstQuad;  // in its arena, or see kFirstListedQuad
 };
 
 // Quads that a command can draw: four vertices each within 16-bit indices.
 const uint kMaxQuadsPerCommand = 16384u;
 
+// Commands of all lists: base instances are exact in a float too. 2²³ × 36 bytes (DrawCommand, DrawRecord).
+const uint kMaxDrawCommands = 1u << 23;
+
 // Lists of commands, one for each draw bucket.
 const uint kDrawLists = 6u;
 
-// The first lists, of opaque and tested faces, draw lists of quads (render/cull/quad_list.h): their base
-// vertex is 4 × (kFirstListedQuad + place in the list). No arena has as many quads.
+// The first lists, of opaque and tested faces, draw lists of quads (render/cull/quad_list.h): their first
+// quad is kFirstListedQuad + place in the list. No arena has as many quads.
 const uint kListedDrawLists = 4u;
 const uint kFirstListedQuad = 1u << 28;
+const uint kMaxListedQuads = (1u << 28) - 1u;
 
 // Quads lie in several buffers (arenas). Each arena has commands and counts of its own, since a draw call
 // reads one buffer. 32 × 2²⁷ quads (1 GiB) are all that 32 bits can name.
@@ -111,14 +123,21 @@ struct CullFrame {
     float edgeExpansion;  // pixels, as in Frame
     float blockPixels;    // pixels that a block takes, one block ahead
     uint samples;         // a pixel
+    uint commandsEnd;     // of the last list
+    uint maxTestGroups;   // of quad_cull.comp.glsl
+    uint unused0, unused1;
 };
 
-// Mesh sections whose quads are to be tested: their number, as glDispatchComputeIndirect reads it, and their
-// places in the order, which follow.
+// Mesh sections whose quads are to be tested: work groups, as glDispatchComputeIndirect reads them, and their
+// number; their places in the order follow. A work group tests every groups-th of them.
 struct TestedMeshSections {
-    uint count;
+    uint groups;
     uint one1, one2;
+    uint count;
 };
+
+// Work groups that OpenGL guarantees.
+const uint kMaxTestGroups = 65535u;
 
 SHARED_END
 
@@ -126,7 +145,8 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(MeshSectionRecord) == 16 + 8 * kRangesPerMeshSection);
 static_assert(sizeof(DrawCommand) == 20);
-static_assert(sizeof(CullFrame) == (13 + kFirstCommandVectors) * 16);
+static_assert(sizeof(DrawRecord) == 16);
+static_assert(sizeof(CullFrame) == (14 + kFirstCommandVectors) * 16);
 static_assert(4 * kFirstCommandVectors == kMaxArenas * kDrawLists);
 }  // namespace terrane::shared
 #endif

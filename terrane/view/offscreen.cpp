@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "terrane/render/quads/draw_check.h"
+
 namespace terrane::view {
 
 base::Result<std::unique_ptr<Offscreen>> Offscreen::create(game::SessionParts parts,
@@ -9,14 +11,10 @@ base::Result<std::unique_ptr<Offscreen>> Offscreen::create(game::SessionParts pa
                                                            const world::TextureSource& textures,
                                                            const OffscreenSettings& settings) {
     auto context = TERRANE_TRY(gpu::HeadlessContext::create({.debug = settings.debugGl}));
-    std::unique_ptr<Offscreen> made(new Offscreen{std::move(context),
-                                                  gpu::builtInShaders(settings.shaderRoot),
-                                                  gpu::queryDevice(),
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {},
-                                                  {}});
+    gpu::ShaderLoader shaders = gpu::builtInShaders(settings.shaderRoot);
+    gpu::DeviceInfo device = render::checkedDevice(shaders);
+    std::unique_ptr<Offscreen> made(
+        new Offscreen{std::move(context), std::move(shaders), std::move(device), {}, {}, {}, {}, {}});
     if (settings.usesGpu) {
         auto backEnds = TERRANE_TRY(useGpuBackEnds(parts, generators));
         made->backEnds = std::move(backEnds);

@@ -199,6 +199,8 @@ class Info(ProgramTest):
         self.assertGreaterEqual(info["processors"], 1)
         self.assertTrue(info["graphics"]["version"].startswith("4."))
         self.assertGreaterEqual(info["graphics"]["max_samples"], 4)
+        self.assertTrue(info["graphics"]["indirect_draws"], "the driver of the tests passes the check of drivers")
+        self.assertIn(info["graphics"]["subpixel_bits"], range(4, 17))
 
     def test_text(self):
         self.assertIn("generators", self.succeed("info"))

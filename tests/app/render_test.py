@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Images and flights from the command line: render, flight-bench. Usage: render_test.py PROGRAM"""
 import json
+import os
 import re
+from unittest import mock
 
 import support
 from support import Image, ProgramTest, run
@@ -146,6 +148,19 @@ class Render(ProgramTest):
             for backend in ("cpu", "gpu"):
                 self.succeed("render", *arguments, "--backend", backend, "-o", self.folder / (backend + ".png"))
             self.assertEqual(Image(self.folder / "cpu.png").rows, Image(self.folder / "gpu.png").rows, scene)
+
+    def test_the_image_does_not_depend_on_the_way_of_drawing(self):
+        """Nor on the driver's ability to read counts from a buffer."""
+        arguments = ("--scene", "landscape", "--view-distance", "4", "--horizon", "128", "--preset", "medium", "--debug-gl")
+        def draw(name, *more):
+            self.assertEqual(self.succeed("render", *arguments, "--size", "160x90", *more, "-o", self.folder / name), "")
+            return Image(self.folder / name).rows
+        lists = draw("lists.png")
+        self.assertEqual(lists, draw("indirect.png", "--draw", "indirect"))
+        self.assertEqual(lists, draw("loop.png", "--draw", "loop"))
+        with mock.patch.dict(os.environ, MESA_EXTENSION_OVERRIDE="-GL_ARB_indirect_parameters", MESA_GL_VERSION_OVERRIDE="4.5"):
+            self.assertFalse(json.loads(self.succeed("info", "--json"))["graphics"]["indirect_counts"])
+            self.assertEqual(lists, draw("whole.png"))
 
     def test_views_show_something_else(self):
         images = [self.render("v.png", "--scene", "landscape", "--view", view)[0].rows

@@ -44,7 +44,7 @@ class Figures : public GoldenTest {
     base::Image imageOf(const std::vector<world::Figure>& figures, float time = kDay) {
         render::FrameInput input{kYard, world::environmentAt(time), 200, 0, render::View::Color};
         input.figures = figures;
-        return draw(*renderer_, input);
+        return drawBothWays(*renderer_, input);
     }
 
     render::Renderer* renderer_ = nullptr;

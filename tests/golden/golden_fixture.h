@@ -55,10 +55,34 @@ class GoldenTest : public gpu::GlTest {
         return renderer.readImage();
     }
 
+    // Draws by lists and by a loop, which must be the same. The second and the third frame are compared:
+    // quads that the frame before showed are drawn first.
+    static base::Image drawBothWays(render::Renderer& renderer, const render::FrameInput& input) {
+        const base::Image image = draw(renderer, input);
+        const render::RenderOptions options = renderer.options();
+        const auto drawBy = [&](render::DrawMethod method) {
+            render::RenderOptions changed = options;
+            changed.draw = method;
+            changed.shadows = render::ShadowReach::Off;  // the next frame draws all shadows again
+            EXPECT_TRUE(renderer.configure(renderer.size(), changed));
+            changed.shadows = options.shadows;
+            EXPECT_TRUE(renderer.configure(renderer.size(), changed));
+            return draw(renderer, input);
+        };
+        const base::Image lists = drawBy(render::DrawMethod::Indirect);
+        EXPECT_TRUE(lists.rgba == drawBy(render::DrawMethod::Loop).rgba) << "a loop draws another image";
+        EXPECT_TRUE(renderer.configure(renderer.size(), options));
+        return image;
+    }
+
+    static render::FrameInput galleryFrame(const render::Camera& camera) {
+        return {camera, world::environmentAt(0.34f), 400, 0, render::View::Color};
+    }
+
     static base::Image drawGallery(render::Renderer& renderer, const Meshes& meshes,
                                    const render::Camera& camera) {
         for (const auto& [pos, mesh] : meshes) renderer.setChunk(pos, mesh);
-        return draw(renderer, {camera, world::environmentAt(0.34f), 400, 0, render::View::Color});
+        return draw(renderer, galleryFrame(camera));
     }
 
     static Meshes galleryOnGround() {

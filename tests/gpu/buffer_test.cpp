@@ -68,5 +68,23 @@ TEST_F(BufferTest, movesAndLeavesAnEmptyOne) {
     EXPECT_EQ(third.id(), id);
 }
 
+TEST_F(BufferTest, growsToTwiceTheNeedWithinTheLimit) {
+    EXPECT_EQ(grownBytes(100, 0), 0U);
+    EXPECT_EQ(grownBytes(100, 100), 0U) << "large enough";
+    EXPECT_EQ(grownBytes(100, 101), 202U);
+    EXPECT_EQ(grownBytes(100, 101, 150), 150U);
+    EXPECT_EQ(grownBytes(100, 150, 150), 150U) << "all that there is";
+    EXPECT_LE(maxBufferBytes(), kMaxBufferBytes);
+    EXPECT_GE(maxBufferBytes(), std::size_t{1} << 24) << "OpenGL 4.5 guarantees it";
+    EXPECT_EQ(grownBytes(0, maxBufferBytes()), maxBufferBytes());
+}
+
+// Sizes of 2 GiB are negative in 32 bits.
+TEST_F(BufferTest, hasNoTwoGibibytes) {
+    static_assert(static_cast<std::int32_t>(kMaxBufferBytes) > 0);
+    EXPECT_THROW(Buffer(std::size_t{1} << 31, 0, "test"), std::invalid_argument);
+    EXPECT_THROW(Buffer((std::size_t{1} << 32) + 16, 0, "test"), std::invalid_argument) << "16 in 32 bits";
+}
+
 }  // namespace
 }  // namespace terrane::gpu

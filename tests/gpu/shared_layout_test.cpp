@@ -94,8 +94,8 @@ std::vector<StructLayout> frameLayouts() {
 }
 
 std::vector<StructLayout> meshSectionLayouts() {
-    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawCounts, shared::CullFrame,
-        shared::TestedMeshSections;
+    using shared::MeshSectionRecord, shared::DrawCommand, shared::DrawRecord, shared::DrawCounts,
+        shared::CullFrame, shared::TestedMeshSections;
     return {{"MeshSectionRecord",
              "mesh_section.h",
              false,
@@ -113,6 +113,13 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"firstIndex", offsetof(DrawCommand, firstIndex)},
               {"baseVertex", offsetof(DrawCommand, baseVertex)},
               {"baseInstance", offsetof(DrawCommand, baseInstance)}}},
+            {"DrawRecord",
+             "mesh_section.h",
+             false,
+             sizeof(DrawRecord),
+             {{"chunk", offsetof(DrawRecord, chunk)},
+              {"level", offsetof(DrawRecord, level)},
+              {"firstQuad", offsetof(DrawRecord, firstQuad)}}},
             {"DrawCounts",
              "mesh_section.h",
              false,
@@ -124,9 +131,10 @@ std::vector<StructLayout> meshSectionLayouts() {
              "mesh_section.h",
              false,
              sizeof(TestedMeshSections),
-             {{"count", offsetof(TestedMeshSections, count)},
+             {{"groups", offsetof(TestedMeshSections, groups)},
               {"one1", offsetof(TestedMeshSections, one1)},
-              {"one2", offsetof(TestedMeshSections, one2)}}},
+              {"one2", offsetof(TestedMeshSections, one2)},
+              {"count", offsetof(TestedMeshSections, count)}}},
             {"CullFrame",
              "mesh_section.h",
              true,
@@ -144,7 +152,11 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"arenaQuads", offsetof(CullFrame, arenaQuads)},
               {"edgeExpansion", offsetof(CullFrame, edgeExpansion)},
               {"blockPixels", offsetof(CullFrame, blockPixels)},
-              {"samples", offsetof(CullFrame, samples)}}}};
+              {"samples", offsetof(CullFrame, samples)},
+              {"commandsEnd", offsetof(CullFrame, commandsEnd)},
+              {"maxTestGroups", offsetof(CullFrame, maxTestGroups)},
+              {"unused0", offsetof(CullFrame, unused0)},
+              {"unused1", offsetof(CullFrame, unused1)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {

@@ -49,7 +49,7 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
 
 // The selection of the GPU, read back.
 struct Drawn {
-    std::array<std::vector<shared::DrawCommand>, mesh::kDrawBucketCount> commands;
+    std::array<std::vector<CullPass::Draw>, mesh::kDrawBucketCount> commands;
     std::size_t quadCount = 0, meshSectionCount = 0;
 };
 
@@ -94,8 +94,8 @@ class CullPassTest : public gpu::GlTest {
         list_ = {};
         list_.meshSectionCount = counts.meshSections;
         for (shared::uint list = 0; list < shared::kDrawLists; ++list) {
-            list_.commands[list] = pass_->readCommands(list);
-            EXPECT_EQ(counts.commands[list], pass_->readCommands(list).size());
+            list_.commands[list] = pass_->readDraws(list);
+            EXPECT_EQ(counts.commands[list], list_.commands[list].size());
             list_.quadCount += counts.quads[list];
         }
         return list_;
@@ -103,15 +103,15 @@ class CullPassTest : public gpu::GlTest {
 
     // Numbers of the quads drawn in a draw bucket, by place in the buffer; none may be drawn twice.
     std::set<std::uint32_t> drawn(int bucket) const {
-        std::set<std::uint32_t> numbers;
-        for (const shared::DrawCommand& command : list_.commands[static_cast<std::size_t>(bucket)]) {
+        std::set<std::uint32_t> numbers, instances;
+        for (const auto& [command, record] : list_.commands[static_cast<std::size_t>(bucket)]) {
             EXPECT_EQ(command.instanceCount, 1u);
             EXPECT_EQ(command.firstIndex, 0u);
             EXPECT_EQ(command.indexCount % 6, 0u);
             EXPECT_LE(command.indexCount, 6 * shared::kMaxQuadsPerCommand);
-            EXPECT_LT(command.baseInstance, meshSections_->slots());
+            EXPECT_TRUE(instances.insert(command.baseInstance).second) << "each has its record";
             for (std::uint32_t k = 0; k < command.indexCount / 6; ++k) {
-                EXPECT_TRUE(numbers.insert(static_cast<std::uint32_t>(command.baseVertex) / 4 + k).second);
+                EXPECT_TRUE(numbers.insert(record.firstQuad + k).second);
             }
         }
         return numbers;
@@ -223,19 +223,19 @@ TEST_F(CullPassTest, LongRangesAreSplit) {
     set({1, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, kCount}}));
     const auto& commands = build({.position = {8, 8, 100}}).commands[kOpaque];
     ASSERT_EQ(commands.size(), 3u);
-    EXPECT_EQ(commands[0].indexCount, 6 * shared::kMaxQuadsPerCommand);
-    EXPECT_EQ(commands[2].indexCount, 6 * 100u);
+    EXPECT_EQ(commands[0].command.indexCount, 6 * shared::kMaxQuadsPerCommand);
+    EXPECT_EQ(commands[2].command.indexCount, 6 * 100u);
     EXPECT_EQ(drawn(kOpaque), stored({1, 0}, 1, kOpaque, mesh::kAnyDirection));
 }
 
 // Squared horizontal distances in chunks of the commands of a list, in their order.
-std::vector<int> distances(const std::vector<shared::DrawCommand>& commands,
+std::vector<int> distances(const std::vector<CullPass::Draw>& draws,
                            const std::map<std::uint32_t, world::ChunkPos>& chunkOfQuad,
                            world::ChunkPos from) {
     std::vector<int> result;
-    for (const shared::DrawCommand& command : commands) {
-        const auto after = chunkOfQuad.upper_bound(static_cast<std::uint32_t>(command.baseVertex) / 4);
-        const world::ChunkPos chunk = std::prev(after)->second;
+    for (const auto& [command, record] : draws) {
+        const world::ChunkPos chunk = std::prev(chunkOfQuad.upper_bound(record.firstQuad))->second;
+        EXPECT_EQ(glm::ivec2(chunk.x, chunk.y), record.chunk);
         const int x = chunk.x - from.x, y = chunk.y - from.y;
         result.push_back(x * x + y * y);
     }
@@ -271,8 +271,8 @@ TEST_F(CullPassTest, OrderDependsOnPlacesOnly) {
             set({at % 9 - 4, at / 9 - 4}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, count}}));
         }
         std::vector<std::uint32_t> counts;
-        for (const auto& command : build({.position = {8, 8, 120}}).commands[kOpaque]) {
-            counts.push_back(command.indexCount);
+        for (const auto& draw : build({.position = {8, 8, 120}}).commands[kOpaque]) {
+            counts.push_back(draw.command.indexCount);
         }
         if (round == 0) first = counts;
         EXPECT_EQ(counts, first);
@@ -332,6 +332,38 @@ TEST_F(CullPassTest, BoxesOfHigherLevelsAreWider) {
         }
         EXPECT_EQ(build(camera).meshSectionCount, expected);
     }
+}
+
+// gl_VertexID is wrong from 2^23 on with some drivers, which convert it through a float.
+TEST_F(CullPassTest, VertexIdsStayBelowTwoToThe23) {
+    constexpr std::uint32_t kQuadsBefore = (1u << 23) / 4;
+    quads_.emplace(QuadStoreSizes{.firstQuads = kQuadsBefore + 1024});
+    set({9, 9}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, kQuadsBefore}}));
+    set({3, 0}, meshOfParts({{1, kOpaque, mesh::kAnyDirection, 5}, {1, kBlended, mesh::kAnyDirection, 7}}));
+    std::size_t commands = 0;
+    for (const auto& list : build({.position = {8, 8, 100}}).commands) {
+        for (const auto& [command, record] : list) {
+            ++commands;
+            EXPECT_LE(command.baseVertex + 4 * static_cast<std::int64_t>(command.indexCount / 6), 1 << 23);
+        }
+    }
+    EXPECT_GE(commands, 2u);
+}
+
+// QuadStore keeps within the limit. If a list has no room all the same, the rest is left out, and nothing is
+// written past its end.
+TEST_F(CullPassTest, CommandsWithoutRoomAreLeftOut) {
+    constexpr std::uint32_t kRoom = 50;
+    auto limited = CullPass::create(contentShaders(), gpu::queryDevice(), {.commands = kRoom});
+    ASSERT_TRUE(limited) << limited.error().message;
+    pass_.emplace(std::move(*limited));
+    for (int k = 0; k < 81; ++k)
+        set({k % 9 - 4, k / 9 - 4},
+            meshOfParts({{1, kOpaque, mesh::kAnyDirection, 3}, {1, kBlended, mesh::kAnyDirection, 2}}));
+    const Drawn& list = build({.position = {-80, 8, 120}});
+    EXPECT_EQ(list.commands[kOpaque].size(), kRoom) << "the nearest";
+    EXPECT_EQ(drawn(kOpaque).size(), 3 * kRoom);
+    EXPECT_TRUE(list.commands[kBlended].empty());
 }
 
 TEST_F(CullPassTest, BlendedFacesInViewAreKnown) {

@@ -265,5 +265,29 @@ TEST_F(QuadStoreTest, MeshSectionsNameEachQuadOnce) {
     EXPECT_TRUE(store.chunks().empty());
 }
 
+// Refused mesh sections have no quads, and others stay.
+TEST_F(QuadStoreTest, ListsOfDrawsHaveLimits) {
+    for (const DrawLimits limits : {DrawLimits{.meshSections = 3}, DrawLimits{.commands = 3}}) {
+        QuadStore store({.limits = limits});
+        for (int k = 0; k < 3; ++k) EXPECT_TRUE(store.set({k, 0}, numberedMesh(1, 10)));
+        EXPECT_FALSE(store.set({3, 0}, numberedMesh(1, 10)));
+        EXPECT_TRUE(store.meshSectionsOf({3, 0}).empty());
+        EXPECT_TRUE(store.set({4, 0}, numberedMesh(1, 0))) << "nothing takes nothing";
+        EXPECT_TRUE(store.set({1, 0}, numberedMesh(2, 20))) << "in place of the old one";
+        expectStored(store, {1, 0}, numberedMesh(2, 20));
+        store.remove({0, 0});
+        EXPECT_TRUE(store.set({3, 0}, numberedMesh(3, 10)));
+        EXPECT_FALSE(store.reserve({0, 0}, numberedMesh(3, 10).meshSections));
+        EXPECT_EQ(store.usedBytes(), 40u * shared::kQuadBytes);
+    }
+}
+
+TEST_F(QuadStoreTest, LongMeshSectionsTakeSeveralCommands) {
+    QuadStore store({.limits = {.commands = 3}});
+    EXPECT_TRUE(store.set({0, 0}, numberedMesh(1, shared::kMaxQuadsPerCommand)));  // a command more than used
+    EXPECT_FALSE(store.set({1, 0}, numberedMesh(1, shared::kMaxQuadsPerCommand)));
+    EXPECT_TRUE(store.set({1, 0}, numberedMesh(1, 1)));
+}
+
 }  // namespace
 }  // namespace terrane::render

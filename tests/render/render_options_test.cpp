@@ -46,6 +46,15 @@ TEST(RenderOptions, UltraHasMoreThanHigh) {
     EXPECT_EQ(withPreset(ultra, "high", false), high) << "no detail stays behind";
 }
 
+// How draws reach the driver is a matter of the driver.
+TEST(RenderOptions, PresetsKeepTheWayOfDrawing) {
+    GraphicsSettings settings;
+    EXPECT_EQ(withPreset(settings, "low", true).render.draw, DrawMethod::Indirect);
+    settings.render.draw = DrawMethod::Loop;
+    for (const Preset& preset : presets())
+        EXPECT_EQ(withPreset(settings, preset.name, true).render.draw, DrawMethod::Loop) << preset.name;
+}
+
 TEST(RenderOptions, LowHasNoEffects) {
     const RenderOptions o = findPreset("low", false)->options;
     EXPECT_EQ(o.msaaSamples, 1);

@@ -8,7 +8,7 @@ namespace terrane::render {
 namespace {
 
 const glm::vec3 kLight = glm::normalize(glm::vec3(-0.5f, 0.3f, 0.8f));
-constexpr std::size_t kAll = ShadowClipmap::kAllTiles;
+constexpr std::size_t kAllTiles = ShadowClipmap::kAllTiles;
 constexpr int kSide = static_cast<int>(shared::kShadowTiles);
 
 int tilesOf(const std::vector<ShadowTiles>& tiles) {
@@ -24,13 +24,13 @@ int tilesOf(const std::vector<ShadowTiles>& tiles) {
 TEST(ShadowClipmap, OnlyWhatComesIntoReachIsDrawn) {
     ShadowClipmap clipmap(3);
     Camera camera{.position = {500, 500, 100}};
-    EXPECT_EQ(tilesOf(clipmap.update(camera, kLight, kAll)), 3 * kSide * kSide);
+    EXPECT_EQ(tilesOf(clipmap.update(camera, kLight, kAllTiles)), 3 * kSide * kSide);
     camera.yaw = 90;
-    EXPECT_EQ(tilesOf(clipmap.update(camera, kLight, kAll)), 0) << "it turns";
+    EXPECT_EQ(tilesOf(clipmap.update(camera, kLight, kAllTiles)), 0) << "it turns";
     int drawn = 0;
     for (int step = 0; step < 290; ++step) {
         camera.position.x += 0.1;
-        drawn += tilesOf(clipmap.update(camera, kLight, kAll));
+        drawn += tilesOf(clipmap.update(camera, kLight, kAllTiles));
     }
     EXPECT_GT(drawn, 0);
     EXPECT_LE(drawn, 5 * kSide)
@@ -52,7 +52,7 @@ TEST(ShadowClipmap, AllIsDrawnWithinTheLimitNearTilesFirst) {
     EXPECT_LT(firstReach, 0.5f / clipmap.frame(camera, 1024).reach[0]);
     EXPECT_EQ(clipmap.frame(camera, 1024).toMap[0], [&] {
         ShadowClipmap other(3);
-        other.update(camera, kLight, kAll);
+        other.update(camera, kLight, kAllTiles);
         return other.frame(camera, 1024).toMap[0];
     }());
 }
@@ -61,7 +61,7 @@ TEST(ShadowClipmap, AllIsDrawnWithinTheLimitNearTilesFirst) {
 TEST(ShadowClipmap, NoMapMixesTwoDirections) {
     ShadowClipmap clipmap(2);
     const Camera camera{.position = {500, 500, 100}};
-    clipmap.update(camera, kLight, kAll);
+    clipmap.update(camera, kLight, kAllTiles);
     const shared::ShadowFrame before = clipmap.frame(camera, 1024);
     const glm::vec3 later = glm::normalize(kLight + glm::vec3(0.05f, 0, 0));
     for (int frame = 0; frame < 15; ++frame) {
@@ -78,13 +78,13 @@ TEST(ShadowClipmap, NoMapMixesTwoDirections) {
 TEST(ShadowClipmap, ChangesAreDrawnWhereTheyCast) {
     ShadowClipmap clipmap(1);
     const Camera camera{.position = {500, 500, 100}};
-    clipmap.update(camera, {0, 0, 1}, kAll);
+    clipmap.update(camera, {0, 0, 1}, kAllTiles);
     clipmap.markChanged({{31, 31}, 90, 100});
-    const int drawn = tilesOf(clipmap.update(camera, {0, 0, 1}, kAll));
+    const int drawn = tilesOf(clipmap.update(camera, {0, 0, 1}, kAllTiles));
     EXPECT_GE(drawn, 1);
     EXPECT_LE(drawn, 9) << "16 blocks touch at most three tiles of 14.5 along a side";
     clipmap.markChanged({{51, 31}, 90, 100});
-    EXPECT_EQ(tilesOf(clipmap.update(camera, {0, 0, 1}, kAll)), 0) << "too far away";
+    EXPECT_EQ(tilesOf(clipmap.update(camera, {0, 0, 1}, kAllTiles)), 0) << "too far away";
 }
 
 }  // namespace

@@ -30,6 +30,7 @@ struct DrawnSessionOptions {
     int viewDistance = 4;
     render::RenderOptions render = render::plainOptions(1);
     std::size_t memoryBudget = SIZE_MAX;
+    render::QuadStoreSizes quads = {};
     std::unique_ptr<store::ChunkStore> store = nullptr;   // null: one in memory
     gen::LevelGenerators::MakeGraph makeGraph = nullptr;  // null: the overworld
     bool generatesOnGpu = false;                          // and lights
@@ -52,7 +53,7 @@ inline std::unique_ptr<DrawnSession> makeDrawnSession(DrawnSessionOptions option
     if (options.meshesOnGpu) parts.meshing = stream::MeshPolicy::Caller;
     made->session = std::make_unique<game::Session>(std::move(parts));
     made->renderer = render::Renderer::create(render::contentShaders(), contentBlocks(),
-                                              render::contentTexture, gpu::queryDevice())
+                                              render::contentTexture, gpu::queryDevice(), options.quads)
                          .value();
     made->renderer.setMemoryBudget(options.memoryBudget);
     EXPECT_TRUE(made->renderer.configure(options.size, options.render));

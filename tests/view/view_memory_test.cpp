@@ -105,6 +105,21 @@ TEST_F(ViewMemoryTest, AlsoWhereTheGpuMeshes) {
     EXPECT_LE(largestDifference(draw(*small, kCamera), draw(*large, kCamera)), 4);
 }
 
+TEST_F(ViewMemoryTest, LimitsOfDrawsShortenItToo) {
+    constexpr int kDistance = 8;
+    const auto small = makeDrawnSession({.size = kImageSize,
+                                         .viewDistance = kDistance,
+                                         .render = options(),
+                                         .quads = {.limits = {.meshSections = 400}}});
+    loadAll(*small->session, *small->view, kCamera, kDistance, std::chrono::steady_clock::now());
+    const int reached = small->view->viewDistance();
+    EXPECT_LT(reached, kDistance);
+    EXPECT_GE(reached, 3) << "most of the lists are of use";
+    const auto large = makePlayer(SIZE_MAX, reached, false);
+    loadAll(*large->session, *large->view, kCamera, reached, std::chrono::steady_clock::now());
+    EXPECT_EQ(draw(*small, kCamera).rgba, draw(*large, kCamera).rgba);
+}
+
 // The budget counts the targets too.
 TEST_F(ViewMemoryTest, ALargerImageTakesMemoryFromTheWorld) {
     const auto player = makePlayer(kBudgetBytes, kRequested, false);

@@ -22,12 +22,19 @@ layout(std430, binding = kVisibleBinding) readonly buffer Visible {
 layout(std430, binding = kCommandsBinding) writeonly buffer Commands {
     DrawCommand commands[];
 };
+layout(std430, binding = kDrawRecordsBinding) writeonly buffer Records {
+    DrawRecord records[];  // of the commands
+};
 layout(std430, binding = kCountsBinding) writeonly buffer Counts {
     DrawCounts counts[];  // two for each arena: of the early and the late pass
 };
 
 shared uint sums[kThreads];
 shared uint quadSum, meshSectionSum;
+
+uint firstCommandOf(uint number) {
+    return number < 4u * kFirstCommandVectors ? cull.firstCommand[number >> 2][number & 3u] : cull.commandsEnd;
+}
 
 uint commandsFor(uint quads) {
     return (quads + kMaxQuadsPerCommand - 1u) / kMaxQuadsPerCommand;
@@ -39,19 +46,24 @@ uint directionsOf(uint place, uint shift) {
     return word >> kArenaBits == gl_WorkGroupID.y ? word >> shift & 127u : 0u;
 }
 
-uint writeCommands(uvec2 quads, uint slot, uint at) {
+// The CPU reserves room for all commands; without it, some are left out.
+uint writeCommands(uvec2 quads, uint slot, uint at, uint end) {
     quads.x -= gl_WorkGroupID.y * cull.arenaQuads;
     while (quads.y > 0u) {
         uint part = min(quads.y, kMaxQuadsPerCommand);
-        commands[at++] = DrawCommand(6u * part, 1u, 0u, int(4u * quads.x), slot);
+        if (at < end) {
+            commands[at] = DrawCommand(6u * part, 1u, 0u, 0, at);
+            records[at] = DrawRecord(meshSections[slot].chunk, meshSections[slot].level, quads.x);
+        }
+        ++at;
         quads += uvec2(part, -part);
     }
     return at;
 }
 
-// Commands for the face directions of a mesh section, adjacent ranges together; written from `at` on if `isWriting`.
-// Returns the place after them. Adds the quads to `quads`.
-uint visit(uint slot, uint bucket, uint directions, uint at, bool isWriting, inout uint quads) {
+// Commands for the face directions of a mesh section, adjacent ranges together; written from `at` on, up to `end`, if
+// `isWriting`. Returns the place after them. Adds the quads to `quads`.
+uint visit(uint slot, uint bucket, uint directions, uint at, uint end, bool isWriting, inout uint quads) {
     uint isTwoSided = bucket & 1u;
     uvec2 pending = uvec2(0u);
     for (uint k = 0u; k < kFaceDirections; ++k) {
@@ -64,10 +76,10 @@ uint visit(uint slot, uint bucket, uint directions, uint at, bool isWriting, ino
             pending.y += range.y;
             continue;
         }
-        at = isWriting ? writeCommands(pending, slot, at) : at + commandsFor(pending.y);
+        at = isWriting ? writeCommands(pending, slot, at, end) : at + commandsFor(pending.y);
         pending = range;
     }
-    return isWriting ? writeCommands(pending, slot, at) : at + commandsFor(pending.y);
+    return isWriting ? writeCommands(pending, slot, at, end) : at + commandsFor(pending.y);
 }
 
 // Inclusive prefix sum over the threads.
@@ -96,21 +108,21 @@ void main() {
         uint directions = directionsOf(k, shift);
         if (directions == 0u) continue;
         ++meshSectionCount;
-        own = visit(order[k], list, directions, own, false, quads);
+        own = visit(order[k], list, directions, own, 0u, false, quads);
     }
     atomicAdd(quadSum, quads);
     atomicAdd(meshSectionSum, meshSectionCount);
     uint last = scan(thread, own);
     uint number = arena * kDrawLists + list;
-    uint at = cull.firstCommand[number >> 2][number & 3u] + last - own;
+    uint first = firstCommandOf(number), endOfList = firstCommandOf(number + 1u), at = first + last - own;
     uint ignored = 0u;
     for (uint k = begin; k < end; ++k) {
         uint directions = directionsOf(k, shift);
-        if (directions != 0u) at = visit(order[k], list, directions, at, true, ignored);
+        if (directions != 0u) at = visit(order[k], list, directions, at, endOfList, true, ignored);
     }
     if (thread == kThreads - 1u) {
         uint into = 2u * arena + (cull.phase == kCullLate ? 1u : 0u);
-        counts[into].commands[list] = last;
+        counts[into].commands[list] = min(last, endOfList - first);
         counts[into].quads[list] = quadSum;
         if (list == 0u) counts[into].meshSections = meshSectionSum;
     }

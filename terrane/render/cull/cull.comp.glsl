@@ -101,7 +101,9 @@ void main() {
         if (directions != 0u && !isHidden(wavingLow, wavingHigh)) {
             // The test of its quads adds the directions of visible quads.
             word |= directions << kBlendedDirectionBits | drawnEarly << kDrawnEarlyBits;
-            testedNumbers[atomicAdd(tested.count, 1u)] = number;
+            uint place = atomicAdd(tested.count, 1u);
+            testedNumbers[place] = number;
+            if (place < cull.maxTestGroups) atomicAdd(tested.groups, 1u);
         }
     }
     visible[number] = word;

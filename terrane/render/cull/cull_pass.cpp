@@ -24,7 +24,7 @@ void QuadCull::begin(std::uint32_t meshSections) {
     const std::size_t needed = sizeof(shared::TestedMeshSections) + meshSections * sizeof(shared::uint);
     if (const std::size_t bytes = grownBytes(list_, needed); bytes > 0)
         list_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "mesh sections to test");
-    const shared::TestedMeshSections none{0, 1, 1};
+    const shared::TestedMeshSections none{0, 1, 1, 0};
     list_.upload(0, std::as_bytes(std::span(&none, 1)));
     list_.bindStorage(shared::kTestedMeshSectionsBinding);
 }
@@ -82,23 +82,17 @@ void add(shared::DrawCounts& sum, const shared::DrawCounts& counts) {
     sum.meshSections += counts.meshSections;
 }
 
-// Room for all faces of each list's draw bucket, so that no list can overflow.
-std::size_t commandBytesOf(const MeshSectionTable& meshSections) {
-    std::size_t sum = 0;
-    for (const MeshSectionTable::BucketCommands& buckets : meshSections.maxCommands())
-        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) sum += buckets[list];
-    return std::max<std::size_t>(sum, 1) * sizeof(shared::DrawCommand);
-}
-
 }  // namespace
 
-base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device) {
+base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device,
+                                        const DrawLimits& limits) {
     CullPass pass;
+    pass.limits_ = limits.ofDriver();
     auto cull = TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/cull/cull.comp.glsl", {}, "cull"));
     auto compact =
         TERRANE_TRY(gpu::Program::compute(shaders, "terrane/render/cull/compact.comp.glsl", {}, "compact"));
     auto quadCull = TERRANE_TRY(QuadCull::create(shaders));
-    auto quadList = TERRANE_TRY(QuadList::create(shaders));
+    auto quadList = TERRANE_TRY(QuadList::create(shaders, limits));
     pass.quadCull_ = std::move(quadCull);
     pass.quadList_ = std::move(quadList);
     pass.cull_ = std::move(cull);
@@ -112,22 +106,34 @@ base::Result<CullPass> CullPass::create(const gpu::ShaderLoader& shaders, const 
     return pass;
 }
 
+// Room for all faces of each list's draw bucket, so that no list can overflow.
+std::size_t CullPass::commandBytes(const MeshSectionTable& meshSections, std::size_t bytesEach) const {
+    std::size_t sum = 0;
+    for (const BucketCommands& buckets : meshSections.maxCommands())
+        for (const std::uint32_t commands : buckets) sum += commands;
+    return std::clamp<std::size_t>(sum, 1, limits_.commands) * bytesEach;
+}
+
+// QuadStore refuses mesh sections whose commands would pass the limit. Beyond it, lists are cut.
 void CullPass::reserve(const MeshSectionTable& meshSections) {
     std::uint32_t sum = 0;
     lists_.resize(meshSections.maxCommands().size());
     assert(lists_.size() <= shared::kMaxArenas && "the store has no more arenas");
     for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
         for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-            lists_[arena][list] = {sum, meshSections.maxCommands()[arena][list]};
+            const std::uint32_t room = limits_.commands - sum;
+            lists_[arena][list] = {sum, std::min(meshSections.maxCommands()[arena][list], room)};
             sum += lists_[arena][list].max;
         }
     }
+    commandsEnd_ = sum;
     const auto grow = [](gpu::Buffer& buffer, std::size_t neededBytes, std::string_view label) {
         const std::size_t bytes = grownBytes(buffer, neededBytes);
         if (bytes > 0) buffer = gpuOnly(bytes, label);
         return bytes > 0;
     };
-    grow(commands_, commandBytesOf(meshSections), "draw commands");
+    grow(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand)), "draw commands");
+    grow(records_, commandBytes(meshSections, sizeof(shared::DrawRecord)), "draw records");
     grow(visible_, meshSections.count() * sizeof(std::uint32_t), "visible mesh sections");
     if (!grow(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t),
               "mesh sections visible last frame"))
@@ -137,7 +143,8 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
 }
 
 std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
-    return bytesWhileGrowing(commands_, commandBytesOf(meshSections)) +
+    return bytesWhileGrowing(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand))) +
+           bytesWhileGrowing(records_, commandBytes(meshSections, sizeof(shared::DrawRecord))) +
            bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
            bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
            countBuffer_.sizeBytes() + quadCull_.gpuBytes() + quadList_.gpuBytes();
@@ -146,10 +153,13 @@ std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
 // Mesh sections not tested before count as hidden: the late pass draws them.
 void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring) {
     shared::CullFrame frame = frameOf(phase_, input, meshSections.count());
-    for (std::uint32_t number = 0; number < lists_.size() * shared::kDrawLists; ++number) {
-        const ListCommands& list = lists_[number / shared::kDrawLists][number % shared::kDrawLists];
-        frame.firstCommand[number / 4][static_cast<int>(number % 4)] = list.first;
+    for (std::uint32_t number = 0; number < shared::kMaxArenas * shared::kDrawLists; ++number) {
+        const bool isUsed = number < lists_.size() * shared::kDrawLists;
+        frame.firstCommand[number / 4][static_cast<int>(number % 4)] =
+            isUsed ? lists_[number / shared::kDrawLists][number % shared::kDrawLists].first : commandsEnd_;
     }
+    frame.commandsEnd = commandsEnd_;
+    frame.maxTestGroups = limits_.testGroups;
     frame.arenaQuads = meshSections.arenaQuads();
     ring.writeUniform(shared::kCullBinding, frame);
     if (input.hiZ) gpu::TextureSet().add(shared::kHiZUnit, input.hiZ->id()).bind();
@@ -164,28 +174,49 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
     glDispatchCompute((meshSections.count() + shared::kCullThreads - 1) / shared::kCullThreads, 1, 1);
     glMemoryBarrier(GL_SHADER_STORAGE_BARRIER_BIT);
     if (phase_ == CullPhase::Late) quadCull_.run(*input.quads, *input.resources);
+    records_.bindStorage(shared::kDrawRecordsBinding);
     compact_.use();
     glDispatchCompute(shared::kDrawLists, static_cast<GLuint>(lists_.size()), 1);
     if (phase_ != CullPhase::All)
         quadList_.run(*input.quads, phase_ == CullPhase::Early ? shared::kQuadSeen : shared::kQuadNew);
     // The late pass overwrites what the early one read.
-    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    glMemoryBarrier(GL_COMMAND_BARRIER_BIT | GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT |
+                    GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+}
+
+// Waits for the GPU: draws of the CPU need the selection of the GPU.
+void CullPass::readCommands() {
+    std::vector<TwoCounts> counts(lists_.size());
+    countBuffer_.download(0, std::as_writable_bytes(std::span(counts)));
+    onCpu_.resize(lists_.size());
+    for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
+        const shared::DrawCounts& ofPass = counts[arena][phase_ == CullPhase::Late ? 1 : 0];
+        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
+            const ListCommands& commands = lists_[arena][list];
+            onCpu_[arena][list].resize(std::min(ofPass.commands[list], commands.max));
+            commands_.download(commands.first * sizeof(shared::DrawCommand),
+                               std::as_writable_bytes(std::span(onCpu_[arena][list])));
+        }
+    }
 }
 
 void CullPass::run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
                    gpu::MappedRing& ring) {
     const gpu::DebugGroup group("cull");
     phase_ = phase;
+    method_ = input.method;
+    onCpu_.clear();
     const GLuint zero = 0;
     if (phase != CullPhase::Late) {
         reserve(meshSections);
         glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
     if (meshSections.count() == 0) return;
-    if (!hasIndirectCount_) {
+    if (!hasIndirectCount_ && method_ == DrawMethod::Indirect) {
         glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
     dispatch(input, meshSections, ring);
+    if (method_ == DrawMethod::Loop) readCommands();
 }
 
 std::size_t CullPass::countsOffset(std::size_t arena) const {
@@ -193,19 +224,13 @@ std::size_t CullPass::countsOffset(std::size_t arena) const {
 }
 
 void CullPass::drawList(shared::uint list, std::size_t arena) const {
-    const ListCommands& commands = lists_[arena][list];
-    glBindBuffer(GL_DRAW_INDIRECT_BUFFER, commands_.id());
-    const auto offset =
-        reinterpret_cast<const void*>(std::size_t{commands.first} * sizeof(shared::DrawCommand));
-    const auto maxCommands = static_cast<GLsizei>(commands.max);
-    if (hasIndirectCount_) {
-        glBindBuffer(GL_PARAMETER_BUFFER_ARB, countBuffer_.id());
-        const auto countOffset = static_cast<GLintptr>(countsOffset(arena) + list * sizeof(shared::uint));
-        glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, countOffset, maxCommands,
-                                            0);
-    } else {
-        glMultiDrawElementsIndirect(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset, maxCommands, 0);
-    }
+    CommandList commands{.commands = &commands_,
+                         .first = lists_[arena][list].first,
+                         .count = lists_[arena][list].max,
+                         .counts = hasIndirectCount_ ? &countBuffer_ : nullptr,
+                         .countOffsetBytes = countsOffset(arena) + list * sizeof(shared::uint)};
+    if (arena < onCpu_.size()) commands.onCpu = onCpu_[arena][list];
+    drawCommands(method_, commands);
 }
 
 void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
@@ -250,16 +275,19 @@ const shared::DrawCounts& CullPass::counts() {
     return counts_;
 }
 
-std::vector<shared::DrawCommand> CullPass::readCommands(shared::uint list, std::size_t arena) const {
+std::vector<CullPass::Draw> CullPass::readDraws(shared::uint list, std::size_t arena) const {
     shared::DrawCounts counts{};
     countBuffer_.download(countsOffset(arena), std::as_writable_bytes(std::span(&counts, 1)));
-    std::vector<shared::DrawCommand> commands(counts.commands[list]);
-    assert(commands.size() <= lists_[arena][list].max && "each list has room for all commands");
-    if (!commands.empty()) {
-        commands_.download(lists_[arena][list].first * sizeof(shared::DrawCommand),
-                           std::as_writable_bytes(std::span(commands)));
+    std::vector<Draw> draws(counts.commands[list]);
+    assert(draws.size() <= lists_[arena][list].max && "each list has room for all commands");
+    for (std::size_t k = 0; k < draws.size(); ++k) {
+        const std::size_t number = lists_[arena][list].first + k;
+        commands_.download(number * sizeof(shared::DrawCommand),
+                           std::as_writable_bytes(std::span(&draws[k].command, 1)));
+        records_.download(number * sizeof(shared::DrawRecord),
+                          std::as_writable_bytes(std::span(&draws[k].record, 1)));
     }
-    return commands;
+    return draws;
 }
 
 // Culling within a frame: everything in view at once, or with occlusion culling what was visible in the frame

@@ -53,6 +53,7 @@ struct CullInput {
     float edgeExpansion = 0;  // pixels that edges of quads move
     float blockPixels = 0;    // pixels of a block, one block ahead
     int samples = 1;          // a pixel
+    DrawMethod method = DrawMethod::Indirect;
 };
 
 // All: everything in view. Early: everything that was visible in the frame before. Late: everything that the
@@ -61,7 +62,8 @@ enum class CullPhase : std::uint8_t { All, Early, Late };
 
 class CullPass {
   public:
-    static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
+    static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device,
+                                         const DrawLimits& limits = {});
 
     // Call this after all mesh sections were removed: new ones count as not visible in the last frame.
     void invalidate() { visibleLastFrame_ = {}; }
@@ -69,18 +71,26 @@ class CullPass {
     // with drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
              gpu::MappedRing& ring);
-    // Draws the quads that the last pass selected, one draw call for each draw bucket and arena of `quads`.
-    // The shader and its other inputs are bound. Culls the back faces of one-sided quads.
+    // Draws the quads that the last pass selected, one draw call for each draw bucket and arena of `quads`,
+    // or with DrawMethod::Loop for each command. The shader and its other inputs are bound, also the records
+    // of draws. Culls the back faces of one-sided quads.
     void drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
                      mesh::AlphaClass alphaClass) const;
+
+    const DrawLimits& limits() const { return limits_; }
+    const gpu::Buffer& drawRecords() const { return records_; }  // shared::DrawRecord by command
 
     // Ends the frame: queues a read-back of its counts.
     void queueCounts();
     // Counts of the newest finished frame, summed over its passes; does not wait.
     const shared::DrawCounts& counts();
 
-    // Returns the commands of the last run, for tests: waits for the GPU.
-    std::vector<shared::DrawCommand> readCommands(shared::uint list, std::size_t arena = 0) const;
+    struct Draw {
+        shared::DrawCommand command;
+        shared::DrawRecord record;
+    };
+    // Returns the draws of the last run, for tests: waits for the GPU.
+    std::vector<Draw> readDraws(shared::uint list, std::size_t arena = 0) const;
 
     // Returns the GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList
     // count with their present size.
@@ -90,6 +100,8 @@ class CullPass {
     void reserve(const MeshSectionTable& meshSections);
     void dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring);
     void drawList(shared::uint list, std::size_t arena) const;
+    void readCommands();
+    std::size_t commandBytes(const MeshSectionTable& meshSections, std::size_t bytesEach) const;
     std::size_t countsOffset(std::size_t arena) const;
 
     struct Readback {
@@ -108,9 +120,14 @@ class CullPass {
     gpu::Program cull_, compact_;
     QuadCull quadCull_;
     QuadList quadList_;
-    gpu::Buffer visible_, visibleLastFrame_, commands_, countBuffer_;
+    gpu::Buffer visible_, visibleLastFrame_, commands_, records_, countBuffer_;
     CullPhase phase_ = CullPhase::All;
+    DrawMethod method_ = DrawMethod::Indirect;
+    DrawLimits limits_;
     std::vector<ArenaLists> lists_;  // by arena
+    std::uint32_t commandsEnd_ = 0;  // of the last list
+    // Commands of the last run by arena and list, for DrawMethod::Loop.
+    std::vector<std::array<std::vector<shared::DrawCommand>, shared::kDrawLists>> onCpu_;
     std::array<Readback, kReadbacks> readbacks_;
     std::size_t nextReadback_ = 0;
     shared::DrawCounts counts_{};
@@ -122,11 +139,10 @@ class CullPass {
 struct QuadDraw {
     QuadResources& resources;
     const QuadStore& quads;
-    const MeshSectionTable& meshSections;
     const CullPass& culled;  // draws the selection of its last run
     bool isSmooth = false;   // textures are filtered
 
-    void bind() const { resources.bind(meshSections, isSmooth); }
+    void bind() const { resources.bind(culled.drawRecords(), isSmooth); }
     // Draws with the shader and the bindings of bind().
     void draw(gpu::Pipeline& pipeline, const gpu::PipelineState& state, mesh::AlphaClass alphaClass) const {
         culled.drawBuckets(pipeline, state, quads, alphaClass);

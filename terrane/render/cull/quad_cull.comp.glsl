@@ -1,4 +1,5 @@
-// Tests the quads of a mesh section for visibility against Hi-Z: a work group for a mesh section, a thread for a quad.
+// Tests the quads of mesh sections for visibility against Hi-Z: a work group for a mesh section (or for several, if
+// there are more than work groups), a thread for a quad.
 // Writes two bits of each quad (cull_pass.h), and the directions of the mesh section that have quads with them.
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/material.h"
@@ -127,8 +128,8 @@ bvec2 isVisible(Quad quad, vec2 chunkCorner, float columnWidth) {
     return bvec2(isInView(print, 0.0) && hasSample(print) && !behind.x, isInView(print, kSoonPixels) && !behind.y);
 }
 
-void main() {
-    uint number = testedNumbers[gl_WorkGroupID.x], word = visible[number], slot = order[number];
+void testMeshSection(uint number) {
+    uint word = visible[number], slot = order[number];
     if (word >> kArenaBits != arena) return;
     uint level = meshSections[slot].level;
     vec2 corner = chunkCorner(meshSections[slot].chunk, level, cull.cameraChunk);
@@ -150,4 +151,8 @@ void main() {
         if (isAnySeen) atomicOr(visibleLastFrame[slot], 1u << direction);
         if (isAnyNew) atomicOr(visible[number], 1u << (kOpaqueDirectionBits + direction));
     }
+}
+
+void main() {
+    for (uint k = gl_WorkGroupID.x; k < tested.count; k += gl_NumWorkGroups.x) testMeshSection(testedNumbers[k]);
 }

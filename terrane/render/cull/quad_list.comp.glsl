@@ -16,6 +16,9 @@ layout(std140, binding = kCullBinding) uniform CullBlock {
 layout(std430, binding = kCommandsBinding) buffer Commands {
     DrawCommand commands[];
 };
+layout(std430, binding = kDrawRecordsBinding) buffer Records {
+    DrawRecord records[];  // of the commands
+};
 layout(std430, binding = kCountsBinding) buffer Counts {
     DrawCounts counts[];
 };
@@ -36,7 +39,7 @@ bool isDrawn(uint quad) {
 
 void listCommand(uint at, uint into) {
     uint thread = gl_LocalInvocationID.x;
-    uint first = uint(commands[at].baseVertex) / 4u, count = commands[at].indexCount / 6u;
+    uint first = records[at].firstQuad, count = commands[at].indexCount / 6u;
     uint each = (count + kQuadCullThreads - 1u) / kQuadCullThreads;
     uint begin = first + min(thread * each, count), end = first + min((thread + 1u) * each, count), own = 0u;
     for (uint quad = begin; quad < end; ++quad) own += isDrawn(quad) ? 1u : 0u;
@@ -57,7 +60,7 @@ void listCommand(uint at, uint into) {
     if (thread == 0u) {
         atomicAdd(counts[into].quads[gl_WorkGroupID.y], all - count);
         commands[at].indexCount = 6u * all;
-        commands[at].baseVertex = int(4u * (kFirstListedQuad + place));
+        records[at].firstQuad = kFirstListedQuad + place;
     }
 }
 

@@ -1,5 +1,6 @@
 #include "terrane/render/cull/quad_list.h"
 
+#include <algorithm>
 #include <span>
 
 #include "terrane/gpu/debug.h"
@@ -16,8 +17,9 @@ constexpr GLuint kGroups = 16;  // a list's commands are distributed over them
 
 }  // namespace
 
-base::Result<QuadList> QuadList::create(const gpu::ShaderLoader& shaders) {
+base::Result<QuadList> QuadList::create(const gpu::ShaderLoader& shaders, const DrawLimits& limits) {
     QuadList list;
+    list.maxQuads_ = limits.ofDriver().listedQuads;
     auto program = TERRANE_TRY(
         gpu::Program::compute(shaders, "terrane/render/cull/quad_list.comp.glsl", {}, "list quads"));
     list.program_ = std::move(program);
@@ -26,7 +28,9 @@ base::Result<QuadList> QuadList::create(const gpu::ShaderLoader& shaders) {
 }
 
 void QuadList::reserve(std::size_t quads) {
-    const std::size_t bytes = grownBytes(list_, (1 + quads / kQuadsForOneListed) * sizeof(shared::uint));
+    const std::size_t listed = std::min(quads / kQuadsForOneListed, maxQuads_);
+    const std::size_t bytes = gpu::grownBytes(list_.sizeBytes(), (1 + listed) * sizeof(shared::uint),
+                                              (1 + maxQuads_) * sizeof(shared::uint));
     if (bytes == 0) return;
     list_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "listed quads");
     texels_ = gpu::BufferTexture(list_, GL_R32UI, "listed quads");

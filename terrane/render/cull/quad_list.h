@@ -14,7 +14,7 @@ namespace terrane::render {
 
 class QuadList {
   public:
-    static base::Result<QuadList> create(const gpu::ShaderLoader& shaders);
+    static base::Result<QuadList> create(const gpu::ShaderLoader& shaders, const DrawLimits& limits);
 
     // Changes the commands of opaque and tested faces from compact.comp.glsl, with its inputs bound: they
     // draw the quads with `bit` in word 1. A command without room in the list stays as it is, and draws more.
@@ -29,6 +29,7 @@ class QuadList {
     gpu::Program program_;
     gpu::Buffer list_;  // number of words in use, this one included, then numbers of quads
     gpu::BufferTexture texels_;
+    std::size_t maxQuads_ = 0;
 };
 
 }  // namespace terrane::render

@@ -77,7 +77,7 @@ gpu::TextureSet FrameContext::shadingTextures() const {
 }
 
 QuadDraw FrameContext::quadDraw() const {
-    return {resources, quads, meshSections, cull, frame.spec.options.sharpFiltering};
+    return {resources, quads, cull, frame.spec.options.sharpFiltering};
 }
 
 bool Frame::isDirect() const {

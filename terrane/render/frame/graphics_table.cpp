@@ -157,6 +157,13 @@ std::vector<GraphicsRow> makeTable() {
          .valueNames = {"8", "12", "16", "20", "24", "28", "32"},
          .get = [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
          .set = [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
+        {.name = "draw",
+         .description =
+             "Draw calls: by indirect lists on the GPU, or one by one, for drivers that draw lists wrongly",
+         .valueNames = {"indirect", "loop"},
+         .get = getMember<&RenderOptions::draw>,
+         .set = setMember<&RenderOptions::draw>,
+         .isOfPreset = false},
     };
 }
 

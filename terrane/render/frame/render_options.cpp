@@ -100,8 +100,11 @@ const Preset* findPreset(std::string_view name, bool isSoftwareRenderer) {
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer) {
     const Preset* preset = findPreset(name, isSoftwareRenderer);
     base::require(preset != nullptr, "withPreset: no preset has this name");
-    return {preset->options, preset->mesh, preset->viewDistance.value_or(before.viewDistance),
-            preset->horizon.value_or(before.horizon), preset->detail};
+    GraphicsSettings settings{preset->options, preset->mesh,
+                              preset->viewDistance.value_or(before.viewDistance),
+                              preset->horizon.value_or(before.horizon), preset->detail};
+    settings.render.draw = before.render.draw;
+    return settings;
 }
 
 PresetChoice choosePreset(double lowMilliseconds) {

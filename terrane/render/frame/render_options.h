@@ -39,6 +39,12 @@ enum class ShadowReach : std::uint8_t {
     Horizon,  // as far as land is visible
 };
 
+// How lists of draws reach the driver: docs/rendering.md, Drawing.
+enum class DrawMethod : std::uint8_t {
+    Indirect,  // one call draws a list that the GPU wrote
+    Loop,      // the CPU reads the list back and calls once for each command: for drivers with errors
+};
+
 struct RenderOptions {
     int msaaSamples = 2;  // a pixel: 1, 2, 4, 8; the driver may take the next number it has
     Shading shading = Shading::Sample;
@@ -58,7 +64,8 @@ struct RenderOptions {
     int transparencyLayers = 3;       // of blended faces, 0 to 3
     int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
     TJunctions tJunctions = TJunctions::Covered;
-    bool occlusionCulling = true;  // of mesh sections behind others
+    bool occlusionCulling = true;            // of mesh sections behind others
+    DrawMethod draw = DrawMethod::Indirect;  // no preset sets it
 
     bool operator==(const RenderOptions&) const = default;
 };

@@ -40,7 +40,7 @@ base::Result<Renderer> Renderer::create(const gpu::ShaderLoader& shaders, const 
     const TextureLimits limits{device.maxArrayLayers, maxTextureSide};
     auto blockTextures = TERRANE_TRY(loadBlockTextures(blocks, textures, limits));
     auto topColors = TERRANE_TRY(world::topColors(blocks, textures));
-    auto cull = TERRANE_TRY(CullPass::create(shaders, device));
+    auto cull = TERRANE_TRY(CullPass::create(shaders, device, quads.limits));
 
     Renderer renderer;
     renderer.topColors_ = std::move(topColors);
@@ -103,7 +103,7 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
 
 base::Result<void> Renderer::reloadShaders() {
     auto programs = std::make_unique<Programs>(*shaders_);
-    auto cull = TERRANE_TRY(CullPass::create(*shaders_, device_));
+    auto cull = TERRANE_TRY(CullPass::create(*shaders_, device_, quadSizes_.limits));
     if (frame_.isBuilt()) frame_ = TERRANE_TRY(buildFrame(frame_.spec, *programs, frame_));
     programs_ = std::move(programs);
     cull_ = std::move(cull);
@@ -157,6 +157,7 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
     cull.edgeExpansion = edgeExpansion(device_.subpixelBits, size());
     cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
     cull.samples = frame_.samples;
+    cull.method = device_.indirectDraws ? options().draw : DrawMethod::Loop;
     if (input.cullingCamera)
         cull.camera = frustumOf(viewMatrices(*input.cullingCamera, aspectOf(size())).viewProjection);
     else if (frame_.targets.hiZ)

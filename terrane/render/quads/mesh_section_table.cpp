@@ -59,22 +59,16 @@ std::uint32_t MeshSectionTable::allocateSlot() {
     return slots() - 1;
 }
 
-// Adjacent directions share a command: seven directions take at most four commands, or as many as there are
-// directions.
 void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std::int32_t sign) {
     const std::size_t arena = record.ranges[0].x / arenaQuads_;
     if (arena >= maxCommands_.size()) maxCommands_.resize(arena + 1);
-    for (std::uint32_t bucket = 0; bucket < shared::kDrawBuckets; ++bucket) {
-        const std::uint32_t ranges = bucket % 2 == 0 ? shared::kFaceDirections : 1;
-        std::uint32_t directions = 0, quads = 0;
-        for (std::uint32_t k = 0; k < ranges; ++k) {
-            const std::uint32_t count = record.ranges[shared::firstRange(bucket) + k].y;
-            directions += count > 0;
-            quads += count;
-        }
-        const std::uint32_t max = std::min(directions, 4u) + quads / shared::kMaxQuadsPerCommand;
-        maxCommands_[arena][bucket] += static_cast<std::uint32_t>(sign) * max;
-    }
+    std::array<mesh::QuadRange, shared::kRangesPerMeshSection> ranges;
+    std::ranges::transform(record.ranges, ranges.begin(), [](glm::uvec2 range) {
+        return mesh::QuadRange{range.x, range.y};
+    });
+    const BucketCommands most = mostCommands(ranges);
+    for (std::uint32_t bucket = 0; bucket < shared::kDrawBuckets; ++bucket)
+        maxCommands_[arena][bucket] += static_cast<std::uint32_t>(sign) * most[bucket];
 }
 
 void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,

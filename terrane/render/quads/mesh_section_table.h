@@ -50,7 +50,6 @@ class MeshSectionTable {
     // Returns the number of slots, free ones included.
     std::uint32_t slots() const { return static_cast<std::uint32_t>(cpuRecords_.size()); }
     // Most commands that drawing all faces of a draw bucket can take, by arena. There is at least one arena.
-    using BucketCommands = std::array<std::uint32_t, shared::kDrawBuckets>;
     const std::vector<BucketCommands>& maxCommands() const { return maxCommands_; }
     std::uint32_t arenaQuads() const { return arenaQuads_; }
     // Returns the GPU memory as of the next update(), including buffers that it replaces.

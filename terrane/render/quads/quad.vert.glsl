@@ -1,6 +1,6 @@
 // PASS, ALPHA_CLASS: see shared/variants.h. FACE_SAMPLING: see block_texture.glsl. TINT: see block_tint.glsl.
-// Pulls a quad's corner from the quad buffer. A quad has four vertices; the base vertex of a draw is four times its
-// first quad, its base instance the number of its mesh section.
+// Pulls a quad's corner from the quad buffer. A quad has four vertices, counted from 0 in each draw; its base instance
+// selects its record.
 #include "terrane/render/frame/edge_expansion.glsl"
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/quads/waves.glsl"
@@ -24,7 +24,7 @@ layout(binding = kQuadsUnit) uniform usamplerBuffer quads;
 layout(binding = kShapeFacesUnit) uniform samplerBuffer shapeFaces;  // four texels a face
 layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
-layout(location = kMeshSectionChunkAttribute) in ivec3 meshSectionChunk;  // of the draw's mesh section; z: its level
+layout(location = kDrawRecordAttribute) in ivec4 drawRecord;  // DrawRecord
 
 #if PASS == PASS_SURFACES
 layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
@@ -52,7 +52,7 @@ layout(location = 2) flat out uint outSampling;
 
 // Quad by its number in the arena, or from a list of those to draw.
 Quad quadOf(int vertex) {
-    int number = vertex >> 2;
+    int number = drawRecord.w + (vertex >> 2);
 #if PASS == PASS_SURFACES
     int place = number - int(kFirstListedQuad);
     if (place >= 0) number = int(texelFetch(listedQuads, place).r);
@@ -106,8 +106,8 @@ void main() {
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
     MaterialRecord material = materialOf(quad);
     ShapeFace face = shapeFaceOf(quad, material);
-    ivec2 chunk = meshSectionChunk.xy;
-    uint level = uint(meshSectionChunk.z);
+    ivec2 chunk = drawRecord.xy;
+    uint level = uint(drawRecord.z);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
 #if PASS == PASS_SHADOWS

@@ -93,12 +93,10 @@ void QuadResources::bindTables() const {
     materialTexels_.bind(shared::kMaterialsUnit);
 }
 
-void QuadResources::bind(const MeshSectionTable& meshSections, bool isSmooth) {
+void QuadResources::bind(const gpu::Buffer& drawRecords, bool isSmooth) {
     bindTables();
-    constexpr GLint kChunkAndLevel = 3;
-    static_assert(offsetof(shared::MeshSectionRecord, level) == 2 * sizeof(GLint));
-    vertexArray_.setInstanceIntegers(shared::kMeshSectionChunkAttribute, meshSections.records(),
-                                     kChunkAndLevel, sizeof(shared::MeshSectionRecord));
+    vertexArray_.setInstanceIntegers(shared::kDrawRecordAttribute, drawRecords,
+                                     sizeof(shared::DrawRecord) / sizeof(GLint), sizeof(shared::DrawRecord));
     textures_.array.bind(shared::kBlockTexturesUnit);
     (isSmooth ? smooth_ : nearest_).bind(shared::kBlockTexturesUnit);
     if (hasFaceSampling_) {

@@ -7,7 +7,6 @@
 #include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
 #include "terrane/render/quads/block_textures.h"
-#include "terrane/render/quads/mesh_section_table.h"
 #include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::render {
@@ -22,8 +21,9 @@ class QuadResources {
     void setTextures(const world::BlockRegistry& blocks, BlockTextures textures);
     bool hasFaceSampling() const { return hasFaceSampling_; }
 
-    // Binds all resources. With `isSmooth` textures are filtered.
-    void bind(const MeshSectionTable& meshSections, bool isSmooth);
+    // Binds all resources, and the records of the draws to come (shared::DrawRecord). With `isSmooth`
+    // textures are filtered.
+    void bind(const gpu::Buffer& drawRecords, bool isSmooth);
     // Binds only shapes and materials.
     void bindTables() const;
     std::size_t gpuBytes() const;

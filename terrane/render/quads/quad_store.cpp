@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <numeric>
 
 #include "terrane/base/result.h"
 #include "terrane/mesh/mesh_section_quads.h"
@@ -12,6 +13,8 @@ namespace {
 // Largest arena. Growing copies at most half of it, and at most this much is unused.
 constexpr std::int64_t kArenaBytes = std::int64_t{1} << 28;
 static_assert(kArenaBytes <= std::int64_t{1} << 30, "no buffer is larger than 1 GiB");
+static_assert(kArenaBytes / shared::kQuadBytes <= shared::kFirstListedQuad,
+              "numbers of quads and of places differ");
 static_assert(kArenaBytes / shared::kQuadBytes * shared::kMaxArenas <= std::int64_t{1} << 32);
 
 std::uint32_t reachableQuads() {
@@ -34,7 +37,34 @@ std::uint32_t quadsOf(std::span<const mesh::MeshSection> meshSections) {
 
 }  // namespace
 
-QuadStore::QuadStore(const QuadStoreSizes& sizes) : ranges_(arenaSizes(sizes)) {
+// Adjacent directions share a command: seven directions take at most four commands, or as many as there are
+// directions.
+BucketCommands mostCommands(std::span<const mesh::QuadRange, shared::kRangesPerMeshSection> ranges) {
+    BucketCommands most{};
+    for (std::uint32_t bucket = 0; bucket < shared::kDrawBuckets; ++bucket) {
+        const std::uint32_t directions = bucket % 2 == 0 ? shared::kFaceDirections : 1;
+        std::uint32_t used = 0, quads = 0;
+        for (std::uint32_t k = 0; k < directions; ++k) {
+            const std::uint32_t count = ranges[shared::firstRange(bucket) + k].count;
+            used += count > 0;
+            quads += count;
+        }
+        most[bucket] = std::min(used, 4u) + quads / shared::kMaxQuadsPerCommand;
+    }
+    return most;
+}
+
+namespace {
+
+DrawnSections drawnOf(const mesh::MeshSection& meshSection) {
+    const BucketCommands most = mostCommands(mesh::rangesOf(meshSection));
+    return {mesh::quadCount(meshSection) > 0 ? 1u : 0u, std::accumulate(most.begin(), most.end(), 0u)};
+}
+
+}  // namespace
+
+QuadStore::QuadStore(const QuadStoreSizes& sizes)
+    : ranges_(arenaSizes(sizes)), limits_(sizes.limits.ofDriver()) {
     assert(sizes.maxArenas <= shared::kMaxArenas && "culling has lists for no more");
     arenas_.push_back(makeArena(ranges_.arenas().front().capacity()));
 }
@@ -73,12 +103,16 @@ bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> 
     }
     free(chunk, meshSections);
     const std::uint32_t count = quadsOf(meshes);
-    const std::optional<std::uint32_t> first = count > 0 ? allocate(count) : 0;
+    std::optional<std::uint32_t> first = 0;
+    if (count > 0) first = hasRoomFor(meshes) ? allocate(count) : std::nullopt;
     std::uint32_t next = first.value_or(0);
     for (std::size_t r = 0; first && r < meshes.size(); ++r) {
         if (!mesh::hasMeshSection(meshSections, r)) continue;
         chunk[r] = mesh::movedTo(next, meshes[r]);
         next += mesh::quadCount(meshes[r]);
+        const DrawnSections added = drawnOf(meshes[r]);
+        drawn_.meshSections += added.meshSections;
+        drawn_.commands += added.commands;
     }
     const auto isEmpty = [](const mesh::MeshSection& meshSection) {
         return mesh::quadCount(meshSection) == 0;
@@ -99,8 +133,21 @@ void QuadStore::free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections
         if (!mesh::hasMeshSection(meshSections, r)) continue;
         const std::uint32_t count = mesh::quadCount(chunk[r]);
         if (count > 0) ranges_.free(mesh::firstQuad(chunk[r]), count);
+        const DrawnSections removed = drawnOf(chunk[r]);
+        drawn_.meshSections -= removed.meshSections;
+        drawn_.commands -= removed.commands;
         chunk[r] = {};
     }
+}
+
+bool QuadStore::hasRoomFor(std::span<const mesh::MeshSection> meshes) const {
+    std::uint64_t meshSections = drawn_.meshSections, commands = drawn_.commands;
+    for (const mesh::MeshSection& meshSection : meshes) {
+        const DrawnSections added = drawnOf(meshSection);
+        meshSections += added.meshSections;
+        commands += added.commands;
+    }
+    return meshSections <= limits_.meshSections && commands <= limits_.commands;
 }
 
 std::span<const mesh::MeshSection> QuadStore::meshSectionsOf(world::ChunkPos pos) const {

@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -23,15 +24,15 @@
 #include "terrane/gpu/arena_allocator.h"
 #include "terrane/gpu/buffer.h"
 #include "terrane/mesh/remesh.h"
+#include "terrane/render/quads/draw_commands.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::render {
 
-// A buffer that is too small is replaced by one of twice the needed size. Returns the size of the buffer that
-// replaces `buffer`; 0 if `buffer` is large enough.
+// Returns the size of the buffer that replaces `buffer`; 0 if it is large enough.
 inline std::size_t grownBytes(const gpu::Buffer& buffer, std::size_t neededBytes) {
-    return neededBytes > buffer.sizeBytes() ? 2 * neededBytes : 0;
+    return gpu::grownBytes(buffer.sizeBytes(), neededBytes);
 }
 
 // Returns the bytes of the buffer and of its replacement: both exist until the GPU has used the old one.
@@ -42,11 +43,22 @@ inline std::size_t bytesWhileGrowing(const gpu::Buffer& buffer, std::size_t need
 // The mesh sections of a chunk, lowest first. Their ranges are addresses: see gpu::ArenaAllocator.
 using ChunkMeshSections = std::vector<mesh::MeshSection>;
 
+// Returns the most commands that drawing all faces of each draw bucket takes. `ranges`: as in
+// shared::MeshSectionRecord; quads that lie together.
+using BucketCommands = std::array<std::uint32_t, shared::kDrawBuckets>;
+BucketCommands mostCommands(std::span<const mesh::QuadRange, shared::kRangesPerMeshSection> ranges);
+
+// Mesh sections with quads, and the most commands that they take.
+struct DrawnSections {
+    std::uint32_t meshSections = 0, commands = 0;
+};
+
 struct QuadStoreSizes {
     std::uint32_t arenaQuads = 0;  // of an arena; 0: 256 MiB, or as many as a shader can reach
     std::uint32_t maxArenas = shared::kMaxArenas;
     std::uint32_t firstQuads =
         1u << 20;  // the first arena begins with 8 MiB, a landscape at view distance 16
+    DrawLimits limits = {};
 };
 
 class QuadStore {
@@ -57,8 +69,8 @@ class QuadStore {
     void setMaxBytes(std::size_t bytes) { maxBytes_ = bytes; }
 
     // Replaces the quads of these mesh sections; `mesh` has none of others. Grows when the arenas are full.
-    // Returns false if they cannot grow further: the mesh sections then have no quads, since the old ones are
-    // wrong.
+    // Returns false if they cannot grow further, or lists of draws would be too long: the mesh sections then
+    // have no quads, since the old ones are wrong.
     bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
              mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
     // Does the same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
@@ -90,6 +102,7 @@ class QuadStore {
         gpu::BufferTexture texels;
     };
 
+    bool hasRoomFor(std::span<const mesh::MeshSection> meshes) const;
     void free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections);
     std::optional<std::uint32_t> allocate(std::uint32_t count);
     bool grow(std::uint32_t count);
@@ -100,6 +113,8 @@ class QuadStore {
     std::size_t maxBytes_ = SIZE_MAX, peakBytes_ = 0;
     std::unordered_map<world::ChunkPos, ChunkMeshSections, world::ChunkPosHash> chunks_;
     std::uint64_t uploadedBytes_ = 0;
+    DrawLimits limits_;
+    DrawnSections drawn_;  // of all chunks
 };
 
 }  // namespace terrane::render

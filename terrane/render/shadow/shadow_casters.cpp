@@ -11,14 +11,14 @@ class CasterWriter {
         : lists_(lists), arenaQuads_(arenaQuads) {}
 
     // Contiguous ranges share a command.
-    void add(std::uint32_t slot, std::uint32_t bucket, glm::uvec2 range) {
+    void add(const shared::MeshSectionRecord& record, std::uint32_t bucket, glm::uvec2 range) {
         if (range.y == 0) return;
-        if (pending_.y > 0 && pending_.x + pending_.y == range.x && bucket == bucket_ && slot == slot_) {
+        if (pending_.y > 0 && pending_.x + pending_.y == range.x && bucket == bucket_ && record_ == &record) {
             pending_.y += range.y;
             return;
         }
         flush();
-        slot_ = slot;
+        record_ = &record;
         bucket_ = bucket;
         pending_ = range;
     }
@@ -30,7 +30,9 @@ class CasterWriter {
         list.quads += pending_.y;
         for (std::uint32_t first = pending_.x - arena * arenaQuads_; pending_.y > 0;) {
             const std::uint32_t part = std::min(pending_.y, shared::kMaxQuadsPerCommand);
-            list.commands.push_back({6 * part, 1, 0, static_cast<std::int32_t>(4 * first), slot_});
+            const auto number = static_cast<std::uint32_t>(list.commands.size());
+            list.commands.push_back({6 * part, 1, 0, 0, number});
+            list.records.push_back({record_->chunk, record_->level, first});
             first += part;
             pending_.y -= part;
         }
@@ -39,19 +41,19 @@ class CasterWriter {
   private:
     std::vector<CasterList>& lists_;
     std::uint32_t arenaQuads_;
-    std::uint32_t slot_ = 0, bucket_ = 0;
+    const shared::MeshSectionRecord* record_ = nullptr;
+    std::uint32_t bucket_ = 0;
     glm::uvec2 pending_{0};
 };
 
-void addCasters(CasterWriter& writer, std::uint32_t slot, const shared::MeshSectionRecord& record,
-                glm::vec3 light) {
+void addCasters(CasterWriter& writer, const shared::MeshSectionRecord& record, glm::vec3 light) {
     for (std::uint32_t bucket = 0; bucket < kCasterBuckets; ++bucket) {
         const bool isTwoSided = mesh::bucketTwoSided(static_cast<int>(bucket));
         const std::uint32_t count = isTwoSided ? 1 : shared::kFaceDirections;
         for (std::uint32_t k = 0; k < count; ++k) {
             const int direction = isTwoSided ? mesh::kAnyDirection : static_cast<int>(k);
             if (facesLight(direction, light))
-                writer.add(slot, bucket, record.ranges[shared::firstRange(bucket) + k]);
+                writer.add(record, bucket, record.ranges[shared::firstRange(bucket) + k]);
         }
     }
     writer.flush();
@@ -79,12 +81,11 @@ std::vector<CasterList> castersOf(const ShadowTiles& tiles,
     const glm::dmat3 axes = glm::transpose(tiles.plane.toLight);
     std::vector<CasterList> lists;
     CasterWriter writer(lists, arenaQuads);
-    for (std::uint32_t slot = 0; slot < records.size(); ++slot) {
-        const shared::MeshSectionRecord& record = records[slot];
+    for (const shared::MeshSectionRecord& record : records) {
         if (record.heights == 0) continue;
         const PlaneBox box = onPlane(tiles.plane, casterBoxOf(record));
         if (box.min.x > max.x || box.max.x < min.x || box.min.y > max.y || box.max.y < min.y) continue;
-        addCasters(writer, slot, record, glm::vec3(axes[2]));
+        addCasters(writer, record, glm::vec3(axes[2]));
     }
     return lists;
 }

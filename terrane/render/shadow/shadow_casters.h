@@ -20,9 +20,10 @@ constexpr int kCasterBuckets = 4;
 // Returns whether faces of a direction may be lit. `direction`: see mesh::kAnyDirection.
 bool facesLight(int direction, glm::vec3 light);
 
-// Commands of a draw bucket whose quads lie in one arena.
+// Commands of a draw bucket whose quads lie in one arena, each with its record. Base instances count from 0.
 struct CasterList {
     std::vector<shared::DrawCommand> commands;
+    std::vector<shared::DrawRecord> records;
     std::size_t quads = 0;
 };
 

@@ -51,12 +51,12 @@ base::Result<std::vector<gpu::Framebuffer>> layersOf(const gpu::Texture2DArray& 
     return layers;
 }
 
-// One draw call for each command: Mesa 22.3.6 (llvmpipe) loses some commands of long indirect draws, and
-// tiles are drawn seldom.
-void drawQuads(const shared::DrawCommand& command) {
-    glDrawElementsInstancedBaseVertexBaseInstance(GL_TRIANGLES, static_cast<GLsizei>(command.indexCount),
-                                                  GL_UNSIGNED_SHORT, nullptr, 1, command.baseVertex,
-                                                  command.baseInstance);
+// Replaces the buffer if it is too small.
+template <class T>
+void uploadTo(gpu::Buffer& buffer, const std::vector<T>& values, std::string_view label) {
+    if (const std::size_t grown = grownBytes(buffer, values.size() * sizeof(T)))
+        buffer = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, label);
+    buffer.uploadVector(0, values);
 }
 
 }  // namespace
@@ -90,11 +90,36 @@ std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles
         uniforms.push_back({uniformsOf(rectangle)});
         for (const CasterList& list : drawings.back().lists) drawnTriangles_ += 2 * list.quads;
     }
-    const auto bytes = std::as_bytes(std::span(uniforms));
-    if (const std::size_t grown = grownBytes(uniforms_, bytes.size()))
-        uniforms_ = gpu::Buffer(grown, GL_DYNAMIC_STORAGE_BIT, "shadow tiles");
-    uniforms_.upload(0, bytes);
+    uploadTo(uniforms_, uniforms, "shadow tiles");
     return drawings;
+}
+
+// Uploads the commands of the first drawing and of others as long as they fit: their lists follow each other.
+// Returns the number of drawings.
+std::size_t ShadowMap::uploadCommands(std::span<Drawing> drawings, std::uint32_t most) {
+    std::vector<shared::DrawCommand> commands;
+    std::vector<shared::DrawRecord> records;
+    std::size_t count = 0;
+    for (Drawing& drawing : drawings) {
+        std::size_t added = 0;
+        for (const CasterList& list : drawing.lists) added += list.commands.size();
+        if (count > 0 && commands.size() + added > most) break;
+        ++count;
+        drawing.firstCommand = static_cast<std::uint32_t>(commands.size());
+        for (CasterList& list : drawing.lists) {
+            const auto first = static_cast<std::uint32_t>(commands.size());
+            for (shared::DrawCommand& command : list.commands) command.baseInstance += first;
+            commands.insert(commands.end(), list.commands.begin(), list.commands.end());
+            records.insert(records.end(), list.records.begin(), list.records.end());
+        }
+    }
+    if (commands.empty()) {  // tiles without casters are cleared; no buffer is empty
+        commands.emplace_back();
+        records.emplace_back();
+    }
+    uploadTo(commands_, commands, "shadow commands");
+    uploadTo(records_, records, "shadow draw records");
+    return count;
 }
 
 // Draws go only into the tiles while the result lives.
@@ -109,21 +134,26 @@ gpu::Scissor ShadowMap::bindTiles(const ShadowTiles& tiles, std::size_t layer) c
 // Depth grows toward the light. Casters beyond the range are drawn too: their depth is clamped. The scissor
 // test stays on, so that no triangle leaves its tiles, whatever the driver clips to.
 void ShadowMap::draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, const Drawing& drawing,
-                     const QuadStore& quads) const {
+                     const Casters& casters) const {
     pipeline.set(kNearestToLight);
     const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
     const gpu::Scissor scissor = bindTiles(drawing.tiles, layer);
     layers_[layer].clearDepth(0.0f);
+    std::uint32_t first = drawing.firstCommand;
     for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
-        if (drawing.lists[k].commands.empty()) continue;
+        const std::vector<shared::DrawCommand>& commands = drawing.lists[k].commands;
+        if (commands.empty()) continue;
         const int bucket = static_cast<int>(k) % kCasterBuckets;
         gpu::PipelineState state = kNearestToLight;
         state.cullsBackFaces = !mesh::bucketTwoSided(bucket);
         pipeline.set(state);
         (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? programs.opaque : programs.tested)
             ->use();
-        quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
-        for (const shared::DrawCommand& command : drawing.lists[k].commands) drawQuads(command);
+        casters.quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
+        const auto count = static_cast<std::uint32_t>(commands.size());
+        drawCommands(casters.method,
+                     {.commands = &commands_, .first = first, .count = count, .onCpu = commands});
+        first += count;
     }
 }
 
@@ -132,12 +162,16 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Sh
     const std::vector<ShadowTiles> tiles = clipmap_.update(camera, lightDirection, maxTiles);
     drawnTriangles_ = 0;
     if (tiles.empty()) return;
-    const std::vector<Drawing> drawings = prepare(tiles, casters.meshSections);
-    casters.resources.bind(casters.meshSections, false);
+    std::vector<Drawing> drawings = prepare(tiles, casters.meshSections);
+    std::size_t end = 0;
     for (std::size_t k = 0; k < drawings.size(); ++k) {
+        if (k == end) {
+            end += uploadCommands(std::span(drawings).subspan(k), casters.maxCommands);
+            casters.resources.bind(records_, false);
+        }
         uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
                               sizeof(shared::ShadowDraw));
-        draw(pipeline, programs, drawings[k], casters.quads);
+        draw(pipeline, programs, drawings[k], casters);
     }
 }
 
@@ -219,7 +253,9 @@ MaybePass makeShadowMap(FrameBuilder& build) {
             [programs](FrameContext& context) {
                 const FrameInput& input = context.input;
                 ShadowMap& map = *context.frame.shadowMap;
-                map.update(context.pipeline, {context.resources, context.quads, context.meshSections},
+                map.update(context.pipeline,
+                           {context.resources, context.quads, context.meshSections, context.culling.method,
+                            context.cull.limits().commands},
                            programs, input.camera, input.environment.lightDirection, input.maxShadowTiles);
                 const auto figures = figureRecords(input.figures, input.camera, {}, kFigureShadowReach);
                 map.drawFigures(context.pipeline, context.figures, programs,

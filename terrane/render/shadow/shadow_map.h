@@ -41,6 +41,8 @@ class ShadowMap {
         QuadResources& resources;
         const QuadStore& quads;
         const MeshSectionTable& meshSections;  // up to date
+        DrawMethod method = DrawMethod::Indirect;
+        std::uint32_t maxCommands = shared::kMaxDrawCommands;  // that are uploaded at once
     };
     // Draws up to `maxTiles` missing or changed tiles.
     void update(gpu::Pipeline& pipeline, const Casters& casters, const ShadowPrograms& programs,
@@ -68,10 +70,12 @@ class ShadowMap {
     struct Drawing {
         ShadowTiles tiles;
         std::vector<CasterList> lists;
+        std::uint32_t firstCommand = 0;  // of the first list, in commands_
     };
     std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
+    std::size_t uploadCommands(std::span<Drawing> drawings, std::uint32_t most);
     void draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, const Drawing& drawing,
-              const QuadStore& quads) const;
+              const Casters& casters) const;
     bool addFigureLayer();
     void copyToFigureLayer(int layer, std::span<const glm::ivec2> slots) const;
     [[nodiscard]] gpu::Scissor bindTiles(const ShadowTiles& tiles, std::size_t layer) const;
@@ -85,7 +89,7 @@ class ShadowMap {
     bool hasFigures_ = false;     // the nearest map is read from figureLayer()
     bool canHaveFigures_ = true;  // until there is no memory for their layer
     gpu::Sampler compared_, plain_;
-    gpu::Buffer uniforms_;
+    gpu::Buffer uniforms_, commands_, records_;
     std::size_t drawnTriangles_ = 0;
 };
 

@@ -21,6 +21,7 @@
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/io/open_session.h"
 #include "terrane/pack/installed_packs.h"
+#include "terrane/render/quads/draw_check.h"
 #include "terrane/store/saves/save_path.h"
 #include "terrane/store/saves/world_list.h"
 
@@ -112,8 +113,8 @@ PlayFlow::PlayFlow(const PlayOptions& options, const GivenOptions& given, Window
       window_(window),
       host_(host),
       shaders_(gpu::builtInShaders(options.graphics.shaderRoot)),
-      screen_{&shaders_, gpu::queryDevice(), options.graphics.gpuMemory, options.graphics.resourcePack,
-              options.backend},
+      screen_{&shaders_, render::checkedDevice(shaders_), options.graphics.gpuMemory,
+              options.graphics.resourcePack, options.backend},
       settings_(settingsOf(options, screen_.device.software)),
       written_(settings_),
       measuresPreset_(!given.graphics && !options.settingsFile.empty()) {}
