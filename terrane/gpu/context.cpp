@@ -16,6 +16,7 @@ namespace {
 
 // OpenGL 4.5, Implementation Dependent Values. (Mesa 22.3.6's zink says 4 on lavapipe, whose grid has 8.)
 constexpr int kMinSubpixelBits = 4;
+constexpr int kMaxSubpixelBits = 16;  // nothing needs more, and floats tell these apart
 
 std::string glText(GLenum name) {
     const GLubyte* text = glGetString(name);
@@ -71,7 +72,7 @@ DeviceInfo queryDevice() {
     info.maxTexture3dSize = glInt(GL_MAX_3D_TEXTURE_SIZE);
     info.maxArrayLayers = glInt(GL_MAX_ARRAY_TEXTURE_LAYERS);
     info.maxAnisotropy = anisotropyLimit();
-    info.subpixelBits = std::max(kMinSubpixelBits, glInt(GL_SUBPIXEL_BITS));
+    info.subpixelBits = std::clamp(glInt(GL_SUBPIXEL_BITS), kMinSubpixelBits, kMaxSubpixelBits);
     GLint64 blockBytes = 0;
     glGetInteger64v(GL_MAX_SHADER_STORAGE_BLOCK_SIZE, &blockBytes);
     info.maxStorageBlockBytes = blockBytes;

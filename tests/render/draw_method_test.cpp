@@ -1,6 +1,7 @@
 // Images are the same by either way of drawing, within each limit.
 #include "terrane/render/quads/draw_commands.h"
 
+#include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
 #include "tests/gpu/gl_fixture.h"
@@ -106,10 +107,13 @@ TEST_F(DrawMethodTest, LimitsChangeNoImage) {
     RenderOptions options = withEverything(1);
     options.tJunctions = TJunctions::Open;
     Renderer whole = makeRenderer();
-    const std::uint32_t sections = 16 * static_cast<std::uint32_t>(meshes_.size());
+    std::uint32_t commands = 0;  // the least with which all chunks are shown
+    for (const auto& [pos, mesh] : meshes_)
+        for (const mesh::MeshSection& meshSection : mesh.meshSections)
+            for (const std::uint32_t most : mostCommands(mesh::rangesOf(meshSection))) commands += most;
     for (const DrawLimits limits :
          {DrawLimits{.listedQuads = 1}, DrawLimits{.listedQuads = 300}, DrawLimits{.testGroups = 1},
-          DrawLimits{.testGroups = 7}, DrawLimits{.commands = 15 * sections}}) {
+          DrawLimits{.testGroups = 7}, DrawLimits{.commands = commands}}) {
         Renderer limited = makeRenderer({.limits = limits});
         whole.clearChunks();
         for (const auto& [pos, mesh] : meshes_) EXPECT_TRUE(whole.setChunk(pos, mesh));

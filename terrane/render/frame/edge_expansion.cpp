@@ -1,6 +1,7 @@
 #include "terrane/render/frame/edge_expansion.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 namespace terrane::render {
@@ -18,6 +19,7 @@ constexpr float kArithmeticError = 1e-5f;
 }  // namespace
 
 float edgeExpansion(int subpixelBits, glm::ivec2 imageSize) {
+    assert(subpixelBits >= 0 && subpixelBits <= 24 && "a grid that floats can tell apart");
     const auto longerSide = static_cast<float>(std::max(imageSize.x, imageSize.y));
     return std::ldexp(1.0f, -subpixelBits) + kArithmeticError * longerSide;
 }

@@ -94,30 +94,23 @@ std::vector<ShadowMap::Drawing> ShadowMap::prepare(const std::vector<ShadowTiles
     return drawings;
 }
 
-// Uploads the commands of the first drawing and of others as long as they fit: their lists follow each other.
-// Returns the number of drawings.
-std::size_t ShadowMap::uploadCommands(std::span<Drawing> drawings, std::uint32_t most) {
-    std::vector<shared::DrawCommand> commands;
+// Uploads the records of the first drawing and of others as long as they fit, one after the other. Returns
+// the number of drawings.
+std::size_t ShadowMap::uploadRecords(std::span<Drawing> drawings, std::uint32_t most) {
     std::vector<shared::DrawRecord> records;
     std::size_t count = 0;
     for (Drawing& drawing : drawings) {
         std::size_t added = 0;
-        for (const CasterList& list : drawing.lists) added += list.commands.size();
-        if (count > 0 && commands.size() + added > most) break;
+        for (const CasterList& list : drawing.lists) added += list.records.size();
+        if (count > 0 && records.size() + added > most) break;
         ++count;
-        drawing.firstCommand = static_cast<std::uint32_t>(commands.size());
         for (CasterList& list : drawing.lists) {
-            const auto first = static_cast<std::uint32_t>(commands.size());
+            const auto first = static_cast<std::uint32_t>(records.size());
             for (shared::DrawCommand& command : list.commands) command.baseInstance += first;
-            commands.insert(commands.end(), list.commands.begin(), list.commands.end());
             records.insert(records.end(), list.records.begin(), list.records.end());
         }
     }
-    if (commands.empty()) {  // tiles without casters are cleared; no buffer is empty
-        commands.emplace_back();
-        records.emplace_back();
-    }
-    uploadTo(commands_, commands, "shadow commands");
+    if (records.empty()) records.emplace_back();  // tiles without casters are cleared; no buffer is empty
     uploadTo(records_, records, "shadow draw records");
     return count;
 }
@@ -139,7 +132,6 @@ void ShadowMap::draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, co
     const auto layer = static_cast<std::size_t>(drawing.tiles.layer);
     const gpu::Scissor scissor = bindTiles(drawing.tiles, layer);
     layers_[layer].clearDepth(0.0f);
-    std::uint32_t first = drawing.firstCommand;
     for (std::size_t k = 0; k < drawing.lists.size(); ++k) {
         const std::vector<shared::DrawCommand>& commands = drawing.lists[k].commands;
         if (commands.empty()) continue;
@@ -150,10 +142,9 @@ void ShadowMap::draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, co
         (mesh::bucketAlphaClass(bucket) == mesh::AlphaClass::Opaque ? programs.opaque : programs.tested)
             ->use();
         casters.quads.texels(k / kCasterBuckets).bind(shared::kQuadsUnit);
-        const auto count = static_cast<std::uint32_t>(commands.size());
-        drawCommands(casters.method,
-                     {.commands = &commands_, .first = first, .count = count, .onCpu = commands});
-        first += count;
+        // The CPU has the commands, and tiles are drawn seldom. Mesa 22.3.6 (llvmpipe) lost some commands of
+        // indirect draws here.
+        drawCommands(DrawMethod::Loop, {.onCpu = commands});
     }
 }
 
@@ -166,7 +157,7 @@ void ShadowMap::update(gpu::Pipeline& pipeline, const Casters& casters, const Sh
     std::size_t end = 0;
     for (std::size_t k = 0; k < drawings.size(); ++k) {
         if (k == end) {
-            end += uploadCommands(std::span(drawings).subspan(k), casters.maxCommands);
+            end += uploadRecords(std::span(drawings).subspan(k), casters.maxCommands);
             casters.resources.bind(records_, false);
         }
         uniforms_.bindUniform(shared::kShadowDrawBinding, k * sizeof(AlignedDraw),
@@ -253,10 +244,10 @@ MaybePass makeShadowMap(FrameBuilder& build) {
             [programs](FrameContext& context) {
                 const FrameInput& input = context.input;
                 ShadowMap& map = *context.frame.shadowMap;
-                map.update(context.pipeline,
-                           {context.resources, context.quads, context.meshSections, context.culling.method,
-                            context.cull.limits().commands},
-                           programs, input.camera, input.environment.lightDirection, input.maxShadowTiles);
+                map.update(
+                    context.pipeline,
+                    {context.resources, context.quads, context.meshSections, context.cull.limits().commands},
+                    programs, input.camera, input.environment.lightDirection, input.maxShadowTiles);
                 const auto figures = figureRecords(input.figures, input.camera, {}, kFigureShadowReach);
                 map.drawFigures(context.pipeline, context.figures, programs,
                                 {figures, cameraChunk(input.camera)}, context.ring);

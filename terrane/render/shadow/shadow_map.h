@@ -9,6 +9,7 @@
 #include "terrane/gpu/texture.h"
 #include "terrane/render/figures/figure_pass.h"
 #include "terrane/render/figures/figure_shadows.h"
+#include "terrane/render/quads/mesh_section_table.h"
 #include "terrane/render/quads/quad_resources.h"
 #include "terrane/render/shadow/shadow_casters.h"
 
@@ -40,8 +41,7 @@ class ShadowMap {
     struct Casters {
         QuadResources& resources;
         const QuadStore& quads;
-        const MeshSectionTable& meshSections;  // up to date
-        DrawMethod method = DrawMethod::Indirect;
+        const MeshSectionTable& meshSections;                  // up to date
         std::uint32_t maxCommands = shared::kMaxDrawCommands;  // that are uploaded at once
     };
     // Draws up to `maxTiles` missing or changed tiles.
@@ -70,10 +70,9 @@ class ShadowMap {
     struct Drawing {
         ShadowTiles tiles;
         std::vector<CasterList> lists;
-        std::uint32_t firstCommand = 0;  // of the first list, in commands_
     };
     std::vector<Drawing> prepare(const std::vector<ShadowTiles>& tiles, const MeshSectionTable& meshSections);
-    std::size_t uploadCommands(std::span<Drawing> drawings, std::uint32_t most);
+    std::size_t uploadRecords(std::span<Drawing> drawings, std::uint32_t most);
     void draw(gpu::Pipeline& pipeline, const ShadowPrograms& programs, const Drawing& drawing,
               const Casters& casters) const;
     bool addFigureLayer();
@@ -89,7 +88,7 @@ class ShadowMap {
     bool hasFigures_ = false;     // the nearest map is read from figureLayer()
     bool canHaveFigures_ = true;  // until there is no memory for their layer
     gpu::Sampler compared_, plain_;
-    gpu::Buffer uniforms_, commands_, records_;
+    gpu::Buffer uniforms_, records_;
     std::size_t drawnTriangles_ = 0;
 };
 
