@@ -334,7 +334,7 @@ TEST_F(CullPassTest, BoxesOfHigherLevelsAreWider) {
     }
 }
 
-// gl_VertexID is wrong from 2^23 on with some drivers, which convert it through a float.
+// Some drivers were reported to have a wrong gl_VertexID from 2^23 on.
 TEST_F(CullPassTest, VertexIdsStayBelowTwoToThe23) {
     constexpr std::uint32_t kQuadsBefore = (1u << 23) / 4;
     quads_.emplace(QuadStoreSizes{.firstQuads = kQuadsBefore + 1024});

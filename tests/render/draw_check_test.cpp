@@ -2,6 +2,8 @@
 // others that make known errors.
 #include "terrane/render/quads/draw_check.h"
 
+#include <epoxy/egl.h>
+
 #include <algorithm>
 #include <functional>
 #include <utility>
@@ -28,6 +30,8 @@ class FaultyDriver {
     explicit FaultyDriver(DriverError error, bool ignoresCounts = false) {
         error_ = std::move(error);
         ignoresCounts_ = ignoresCounts;
+        // The variables point to functions that set them at the first call.
+        real_ = reinterpret_cast<decltype(real_)>(eglGetProcAddress("glMultiDrawElementsIndirect"));
         list_ = epoxy_glMultiDrawElementsIndirect;
         countedList_ = epoxy_glMultiDrawElementsIndirectCountARB;
         epoxy_glMultiDrawElementsIndirect = &drawList;
@@ -57,7 +61,7 @@ class FaultyDriver {
         if (commands.empty()) return;
         const gpu::Buffer wrong(std::as_bytes(std::span(commands)), 0, "wrong commands");
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, wrong.id());
-        list_(mode, type, nullptr, static_cast<GLsizei>(commands.size()), 0);
+        real_(mode, type, nullptr, static_cast<GLsizei>(commands.size()), 0);
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
     }
     static void EPOXY_CALLSPEC drawList(GLenum mode, GLenum type, const void* offset, GLsizei count,
@@ -73,13 +77,13 @@ class FaultyDriver {
 
     inline static DriverError error_;
     inline static bool ignoresCounts_ = false;
-    inline static decltype(epoxy_glMultiDrawElementsIndirect) list_ = nullptr;
+    inline static decltype(epoxy_glMultiDrawElementsIndirect) list_ = nullptr, real_ = nullptr;
     inline static decltype(epoxy_glMultiDrawElementsIndirectCountARB) countedList_ = nullptr;
 };
 
 void nothingWrong(Commands&) {}
-void loseTheEnd(Commands& commands) {
-    if (commands.size() > 1) commands.resize(commands.size() - 1);
+void loseHalf(Commands& commands) {
+    commands.resize(commands.size() / 2);
 }
 void ignoreBaseInstances(Commands& commands) {
     for (shared::DrawCommand& command : commands) command.baseInstance = 0;
@@ -135,7 +139,7 @@ TEST_F(DrawCheckTest, AGridCoarserThanReportedIsFound) {
 }
 
 TEST_F(DrawCheckTest, ErrorsOfDriversAreFound) {
-    for (const auto& [name, error] : {std::pair<const char*, DriverError>("lost draws", loseTheEnd),
+    for (const auto& [name, error] : {std::pair<const char*, DriverError>("lost draws", loseHalf),
                                       {"ignored base instances", ignoreBaseInstances},
                                       {"nothing drawn", drawNothing}}) {
         const FaultyDriver driver(error);
@@ -164,7 +168,7 @@ TEST_F(DrawCheckTest, ImagesAreRightOnFaultyDrivers) {
         const FaultyDriver driver(std::move(error), ignoresCounts);
         return imageOn(checkedDevice(contentShaders())).rgba == expected.rgba;
     };
-    EXPECT_TRUE(isRight(loseTheEnd, false));
+    EXPECT_TRUE(isRight(loseHalf, false));
     EXPECT_TRUE(isRight(ignoreBaseInstances, false));
     EXPECT_TRUE(isRight(drawNothing, false));
     EXPECT_TRUE(isRight(nothingWrong, true));

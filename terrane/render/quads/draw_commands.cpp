@@ -6,8 +6,8 @@
 namespace terrane::render {
 namespace {
 
-// gl_VertexID is wrong from 2^23 on in some drivers (AMD's for Windows skips that number, others convert it
-// through a float), and base instances reach the attribute fetch in the same way.
+// Drivers of AMD were reported to have a wrong gl_VertexID from 2^23 on, as if it went through a float
+// (Sodium, pull request 1072). Base instances stay below too.
 constexpr std::uint32_t kExactNumbers = 1u << 23;
 static_assert(4 * shared::kMaxQuadsPerCommand <= kExactNumbers, "vertex ids begin at 0 in each command");
 static_assert(shared::kMaxDrawCommands <= kExactNumbers);
