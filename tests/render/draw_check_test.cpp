@@ -51,7 +51,7 @@ class FaultyDriver {
         return static_cast<GLuint>(id);
     }
     static void drawWrongly(GLenum mode, GLenum type, const void* offset, GLsizei count) {
-        const GLuint buffer = bound(GL_DRAW_INDIRECT_BUFFER);
+        const GLuint buffer = bound(GL_DRAW_INDIRECT_BUFFER_BINDING);
         Commands commands(static_cast<std::size_t>(count));
         if (count > 0)
             glGetNamedBufferSubData(buffer, reinterpret_cast<GLintptr>(offset),
