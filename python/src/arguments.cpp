@@ -246,7 +246,8 @@ std::string textFrom(const Argument& argument) {
 }
 
 std::vector<std::string> textsFrom(const Argument& argument) {
-    const auto elements = itemsOf(argument.value, std::numeric_limits<std::size_t>::max());
+    constexpr std::size_t kMaxTexts = 10'000;  // a sequence without an end is none
+    const auto elements = itemsOf(argument.value, kMaxTexts);
     if (!elements) refuse(argument, "a sequence of str");
     std::vector<std::string> texts;
     for (const py::object& element : *elements) texts.push_back(textFrom({argument.name, element}));

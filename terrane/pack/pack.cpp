@@ -164,15 +164,10 @@ std::string withName(std::string_view text, const std::string& name) {
 
 }  // namespace
 
-base::Result<void> writeSkeleton(const fs::path& folder) {
-    const std::string name = folder.filename().string();
-    if (!isPackName(name))
-        return base::fail(base::ErrorCode::BadInput,
-                          "{}: a pack's name has 1 to {} characters of a-z, 0-9 and _", folder.string(),
-                          kMaxPackName);
+namespace {
+
+base::Result<void> writeFiles(const fs::path& folder, const std::string& name) {
     std::error_code error;
-    if (fs::exists(fs::symlink_status(folder, error)))
-        return base::fail(base::ErrorCode::BadInput, "{}: exists already", folder.string());
     for (const char* inside : kSubfolders) {
         fs::create_directories(folder / inside, error);
         if (error) return base::fail("{}: cannot be made: {}", (folder / inside).string(), error.message());
@@ -184,6 +179,22 @@ base::Result<void> writeSkeleton(const fs::path& folder) {
         TERRANE_TRY(base::writeFile(path, isText ? withName(file.data, name) : std::string(file.data)));
     }
     return {};
+}
+
+}  // namespace
+
+base::Result<void> writeSkeleton(const fs::path& folder) {
+    const std::string name = folder.filename().string();
+    if (!isPackName(name))
+        return base::fail(base::ErrorCode::BadInput,
+                          "{}: a pack's name has 1 to {} characters of a-z, 0-9 and _", folder.string(),
+                          kMaxPackName);
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(folder, error)))
+        return base::fail(base::ErrorCode::BadInput, "{}: exists already", folder.string());
+    const base::Result<void> written = writeFiles(folder, name);
+    if (!written) fs::remove_all(folder, error);
+    return written;
 }
 
 }  // namespace terrane::pack

@@ -284,6 +284,29 @@ TEST_F(ServerTest, OnlyAServerOpensAWorldWithEditsInTheHistoryAlone) {
     EXPECT_EQ(open(store::WorldSharing::Alone), "");
 }
 
+TEST_F(ServerTest, TheRecordsOfAnotherWorldAreRefused) {
+    {
+        TestServer server(folder_.path());
+        ASSERT_TRUE(stop(server.state(), "the test ends"));
+    }
+    const auto file = folder_ / "w.server.sqlite";
+    const auto open = [&] {
+        return openServerHost(serverParts(folder_ / "w.sqlite"),
+                              SqliteRecords::open(file, contentBlocks()).value(), {}, "test");
+    };
+    EXPECT_TRUE(open());
+    {
+        const auto records = SqliteRecords::open(file, contentBlocks()).value();
+        EXPECT_EQ(records->text(kWorldText).value(), fmt::format("1 {}", kTestGenerator));
+        records->setText(kWorldText, "99 hills3d");
+        ASSERT_TRUE(records->flush());
+    }
+    const auto refused = open();
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(refused.error().message,
+                testing::HasSubstr("is of another world (seed and generator 99 hills3d)"));
+}
+
 TEST_F(ServerTest, ARollbackOfAMinuteLeavesWhatHasALaterDate) {
     TestServer server(folder_.path());
     TestPlayer ann(server, testIdentity("Ann"));

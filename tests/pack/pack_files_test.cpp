@@ -7,6 +7,7 @@
 #include "terrane/base/files.h"
 #include "terrane/pack/content.h"
 #include "terrane/pack/pack.h"
+#include "tests/base/file_size_limit.h"
 #include "tests/base/temp_folder.h"
 #include "tests/pack/pack_fixture.h"
 
@@ -126,6 +127,15 @@ TEST_F(PackFilesTest, TheSkeletonWorks) {
     EXPECT_GT(gen::versionOf(content->generators, "mine:" + std::string(kSkeletonGenerator)), 0);
     EXPECT_FALSE(writeSkeleton(folder_ / "mine"));  // never over what is there
     EXPECT_FALSE(writeSkeleton(folder_ / "No Name"));
+}
+
+TEST_F(PackFilesTest, NoHalfOfASkeletonStays) {
+    {
+        const base::FileSizeLimit full(100);
+        EXPECT_FALSE(writeSkeleton(folder_ / "mine"));
+    }
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "mine"));
+    EXPECT_TRUE(writeSkeleton(folder_ / "mine"));
 }
 
 }  // namespace

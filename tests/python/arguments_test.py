@@ -29,6 +29,16 @@ class Nameless:
         return "two\nlines"
 
 
+class Endless:
+    """A sequence that says it is long, and always has one more element."""
+
+    def __len__(self):
+        return 2**62
+
+    def __getitem__(self, k):
+        return "isles"
+
+
 class Broken:
     """A value that cannot be shown."""
 
@@ -50,7 +60,7 @@ NO_BOOLS = [None, 0, 1, 2, 0.0, 1.0, NAN, "", "True", b"", [], [1], (), {}, np.i
 NO_TEXTS = [0, 1.5, NAN, True, b"flat", bytearray(b"flat"), [], ["flat"], ("flat",), {}, np.array(["flat"]), np.int64(1),
             pathlib.Path("flat"), object(), Nameless(), Broken(), "\ud800", "a\0b"]
 NO_LISTS_OF_TEXTS = [None, 1, 1.5, NAN, True, "isles", b"isles", object(), {}, {"isles"}, [1], [None], [b"isles"], ["isles", 1.5],
-                     [["isles"]], [pathlib.Path("isles")], np.array([1]), ("a\0b",), ["\ud800"], iter(["isles"])]
+                     [["isles"]], [pathlib.Path("isles")], np.array([1]), ("a\0b",), ["\ud800"], iter(["isles"]), Endless()]
 
 
 def no_sequences(*good):

@@ -96,6 +96,23 @@ ServerClient* clientAt(ServerClients& clients, ConnectionId id, Time now) {
 
 }  // namespace
 
+namespace {
+
+// Fails for the records of another world, whose file has been deleted: their history would change this one.
+base::Result<void> checkWorldOf(ServerRecords& records, const store::WorldIdentity& world) {
+    const std::string own = fmt::format("{} {}", world.seed, world.generator);
+    const std::string known = TERRANE_TRY(records.text(kWorldText));
+    if (known.empty()) records.setText(kWorldText, own);
+    if (known.empty() || known == own) return {};
+    return base::fail(
+        base::ErrorCode::Incompatible,
+        "the server's file beside the world is of another world (seed and generator {}): move it "
+        "away, or the world",
+        known);
+}
+
+}  // namespace
+
 base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
                                                       const ServerSettings& settings) {
     auto server = std::make_unique<ServerState>(parts, settings);
@@ -110,6 +127,7 @@ base::Result<std::unique_ptr<ServerState>> openServer(const ServerParts& parts,
             logChanges(state.history, state.sharing, player, state.clients.now, changes);
         },
         parts.records.shared() != nullptr);
+    TERRANE_TRY(checkWorldOf(parts.records, session.store().identity()));
     startStamps(server->history);
     const bool isRestored = TERRANE_TRY(restoreEdits(server->history, session));
     if (isRestored) TERRANE_TRY(saveEverything(*server));

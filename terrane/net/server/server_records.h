@@ -42,6 +42,8 @@ using store::HistoryEnds;
 
 // Name of the text with the hash of the server's password; empty: no password.
 inline constexpr const char* kPasswordText = "password";
+// Name of the text with seed and generator of the world; empty before a server opened it.
+inline constexpr const char* kWorldText = "world";
 
 class SharedWorld;  // shared_world.h
 
