@@ -1,7 +1,8 @@
 // Handles every alternative of a variant: one that is forgotten does not compile. Any thread may use it.
 #pragma once
 
-#include <utility>
+#include <concepts>
+#include <type_traits>
 
 namespace terrane::base {
 
@@ -13,10 +14,8 @@ struct Match : Functions... {
 template <class... Functions>
 Match(Functions...) -> Match<Functions...>;
 
-// Makes one function of a Match for several alternatives, without their values: on<C, D>([] { … }).
-template <class... Alternatives, class Function>
-auto on(Function function) {
-    return Match{[function](const Alternatives&) { return function(); }...};
-}
+// Also for a function of several alternatives: [](const base::OneOf<C, D> auto&) { … }.
+template <class T, class... Alternatives>
+concept OneOf = (std::same_as<std::remove_cvref_t<T>, Alternatives> || ...);
 
 }  // namespace terrane::base

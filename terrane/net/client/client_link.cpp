@@ -113,11 +113,9 @@ void ClientLink::onMessage(ByteView bytes) {
                    [this](const Joined& joined) { onJoined(joined); },
                    [this](const Ping& ping) { say(Pong{ping.time}); },
                    [this](const Servers& servers) { learnServers(servers); },
-                   // Of the world.
-                   base::on<ChunkEdits, BlocksChanged, ViewComplete, Done, Appears, Disappears, Poses, Said,
-                            Clock, Corrected, PlayerList, RoleChanged>([&] {
+                   [&](const OfWorld auto&) {
                        if (stage_ == Stage::Joined) events_.message(*message);
-                   }),
+                   },
                },
                *message);
 }

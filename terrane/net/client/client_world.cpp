@@ -69,8 +69,7 @@ void ClientWorld::onMessage(const ServerMessage& message) {
                    [this](const Joined& joined) { onJoined(joined); },
                    [this](const ChunkEdits& edits) { onChunkEdits(edits); },
                    [this](const BlocksChanged& changed) { onBlocksChanged(changed); },
-                   [this](const Done& done) { onDone(done); },
-                   [this](const Poses& poses) { onPoses(poses); },
+                   [this](const Done& done) { onDone(done); }, [this](const Poses& poses) { onPoses(poses); },
                    [this](const Clock& clock) {
                        session_.clock.timeDay = clock.timeDay;
                        session_.clock.isRunning = clock.daysASecond > 0;
@@ -96,8 +95,7 @@ void ClientWorld::onMessage(const ServerMessage& message) {
                        session_.permissions.roles[game::kLocalPlayer] = changed.role;
                    },
                    [this](const PlayerList& list) { playerList_ = list; },
-                   // Of the connection: ClientLink handles them.
-                   base::on<Greeting, WorldOffer, PackPart, Refused, Ping, Servers>([] {}),
+                   [](const OfConnection auto&) {},  // ClientLink handles them
                },
                message);
 }

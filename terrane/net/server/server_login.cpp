@@ -311,8 +311,7 @@ void onLoginMessage(ServerState& server, ServerClient& client, const ClientMessa
                            if (clients.shared) server.places.owners.forget(client.player);
                        });
                    },
-                   base::on<View, Move, Edit, Fill, Place, TakeBack, Say, Pong, AskPlayers, Leave>(
-                       [&] { refuseUnexpected(clients, client, message); }),
+                   [&](const OfPlay auto&) { refuseUnexpected(clients, client, message); },
                },
                message);
 }

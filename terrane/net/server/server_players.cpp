@@ -228,27 +228,26 @@ void onPlayerMessage(ServerState& server, ServerClient& client, ClientMessage me
     const auto enqueue = [&](auto command) {
         enqueueCommand(clients, client, session, {std::move(command), clients.tick});
     };
-    std::visit(
-        base::Match{
-            [&](const Move& move) { onMove(session, client, move, clients.now); },
-            [&](const View& view) { onView(client, view); },
-            [&](Edit& edit) { enqueue(std::move(edit)); },
-            [&](const Fill& fill) {
-                enqueue(Build{fill.number, fill.fill});
-            },
-            [&](const Place& place) {
-                enqueue(buildFrom(place, client.buckets, session.blocks(), clients.now));
-            },
-            [&](const TakeBack& takeBack) { enqueue(takeBack); },
-            [&](const Say& text) { onSay(server, client, text); },
-            [&](const AskPlayers&) { onAskPlayers(clients, client); },
-            [&](const Pong& pong) {
-                client.latency = std::chrono::milliseconds(pingTime(clients.now) - pong.time);
-            },
-            [&](const Leave&) { leave(clients, client); },
-            base::on<Hello, Login, Proof, AskPack>([&] { refuseUnexpected(clients, client, message); }),
-        },
-        message);
+    std::visit(base::Match{
+                   [&](const Move& move) { onMove(session, client, move, clients.now); },
+                   [&](const View& view) { onView(client, view); },
+                   [&](Edit& edit) { enqueue(std::move(edit)); },
+                   [&](const Fill& fill) {
+                       enqueue(Build{fill.number, fill.fill});
+                   },
+                   [&](const Place& place) {
+                       enqueue(buildFrom(place, client.buckets, session.blocks(), clients.now));
+                   },
+                   [&](const TakeBack& takeBack) { enqueue(takeBack); },
+                   [&](const Say& text) { onSay(server, client, text); },
+                   [&](const AskPlayers&) { onAskPlayers(clients, client); },
+                   [&](const Pong& pong) {
+                       client.latency = std::chrono::milliseconds(pingTime(clients.now) - pong.time);
+                   },
+                   [&](const Leave&) { leave(clients, client); },
+                   [&](const OfLogin auto&) { refuseUnexpected(clients, client, message); },
+               },
+               message);
 }
 
 void broadcastVisibility(ServerClients& clients) {

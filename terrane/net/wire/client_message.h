@@ -10,6 +10,7 @@
 #include <string_view>
 #include <variant>
 
+#include "terrane/base/match.h"
 #include "terrane/base/result.h"
 #include "terrane/game/build_command.h"
 #include "terrane/net/wire/message_codec.h"
@@ -82,6 +83,12 @@ struct AskPack {
 
 using ClientMessage = std::variant<Hello, Login, Proof, View, Move, Edit, Fill, Place, TakeBack, Say, Pong,
                                    AskPlayers, Leave, AskPack>;
+
+// Messages of a client before it plays, and while it plays.
+template <class Message>
+concept OfLogin = base::OneOf<Message, Hello, Login, Proof, AskPack>;
+template <class Message>
+concept OfPlay = !OfLogin<Message>;
 
 Bytes encode(const ClientMessage& message);
 // Accepts any bytes. The error for an invalid message names the type that it claims to be.

@@ -9,6 +9,7 @@
 #include <variant>
 #include <vector>
 
+#include "terrane/base/match.h"
 #include "terrane/base/result.h"
 #include "terrane/game/permissions.h"
 #include "terrane/net/server/known_players.h"
@@ -130,6 +131,12 @@ struct PackPart {
 using ServerMessage = std::variant<Greeting, WorldOffer, Joined, Refused, ChunkEdits, BlocksChanged,
                                    ViewComplete, Done, Appears, Disappears, Poses, Said, Clock, Corrected,
                                    Ping, PlayerList, RoleChanged, Servers, PackPart>;
+
+// Messages about the connection, and about the world and who plays in it.
+template <class Message>
+concept OfConnection = base::OneOf<Message, Greeting, WorldOffer, PackPart, Refused, Ping, Servers>;
+template <class Message>
+concept OfWorld = !OfConnection<Message>;
 
 Bytes encode(const ServerMessage& message);
 // Accepts any bytes. The error for an invalid message names the type that it claims to be.
