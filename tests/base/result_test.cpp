@@ -92,7 +92,7 @@ TEST(Match, CallsTheFunctionOfTheAlternative) {
     using Event = std::variant<int, std::string, Closed>;
     const auto said = [](const Event& event) {
         return std::visit(Match{[](int number) { return std::to_string(number); },
-                                on<std::string, Closed>([] { return std::string("other"); })},
+                                [](const OneOf<std::string, Closed> auto&) { return std::string("other"); }},
                           event);
     };
     EXPECT_EQ(said(7), "7");
