@@ -5,6 +5,8 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
 #include <optional>
 #include <unordered_map>
 #include <unordered_set>
@@ -250,18 +252,17 @@ std::string_view valueOf(const VoxDictionary& entries, std::string_view key) {
     return found == entries.end() ? std::string_view() : found->second;
 }
 
-// Reads "x y z", 0 for missing numbers. Steps are clamped to 2^20 blocks, so that sums of nested ones fit an
-// int.
-glm::ivec3 stepOf(std::string_view text) {
+// Reads "x y z", 0 for missing numbers; none for other text, and for steps of more than 2^20 blocks: sums of
+// nested ones must fit an int.
+std::optional<glm::ivec3> stepOf(std::string_view text) {
     constexpr int kFarthest = 1 << 20;
     glm::ivec3 step(0);
     const char *at = text.data(), *end = text.data() + text.size();
     for (int axis = 0; axis < 3; ++axis) {
         while (at != end && *at == ' ') ++at;
-        int value = 0;
-        const auto [after, bad] = std::from_chars(at, end, value);
-        if (bad != std::errc()) break;
-        step[axis] = value < -kFarthest ? -kFarthest : value > kFarthest ? kFarthest : value;
+        if (at == end) break;
+        const auto [after, bad] = std::from_chars(at, end, step[axis]);
+        if (bad != std::errc() || std::abs(std::int64_t{step[axis]}) > kFarthest) return std::nullopt;
         at = after;
     }
     return step;
@@ -380,7 +381,9 @@ class VoxPartsReader {
                 const auto rotation = rotationOf(valueOf(frame, "_r"));
                 if (!rotation) problem_ = "a rotation is wrong";
                 if (rotation) node.transform = *rotation;
-                node.transform.step = stepOf(valueOf(frame, "_t"));
+                const auto step = stepOf(valueOf(frame, "_t"));
+                if (!step) problem_ = "a translation is no position within 2^20 blocks";
+                if (step) node.transform.step = *step;
             }
         } else {
             node.kind = kind == "nGRP" ? VoxNode::Kind::Group : VoxNode::Kind::Shape;

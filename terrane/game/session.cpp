@@ -278,7 +278,8 @@ void Session::advance(double seconds, std::span<const world::ChunkPos> chunks) {
     }
 }
 
-// Liquid does not flow into a claim from outside: it would wash away what others may not break.
+// Liquid does not flow into a claim from outside, and changes nothing in it from there: it would wash away
+// what others may not break.
 void Session::flow(std::span<const world::ChunkPos> chunks) {
     // A thousand cells ask for their neighbors: only the claims near them are searched.
     std::vector<const Claim*> near;
@@ -290,14 +291,13 @@ void Session::flow(std::span<const world::ChunkPos> chunks) {
             std::ranges::find_if(near, [&](const Claim* claim) { return claim->area.contains(pos); });
         return found == near.end() ? nullptr : *found;
     };
-    const std::function<bool(world::BlockPos, world::BlockPos)> mayFlow = [&](world::BlockPos from,
-                                                                              world::BlockPos to) {
+    const world::MayReach mayReach = [&](world::BlockPos from, world::BlockPos to) {
         const Claim* claim = claimAt(to);
         return !claim || claim == claimAt(from);
     };
     std::vector<world::BlockEdit> edits;
     world::flowLiquids(world_, *blocks_, chunks, edits,
-                       {near.empty() ? nullptr : &mayFlow, changeListener_ ? &flow_ : nullptr});
+                       {near.empty() ? nullptr : &mayReach, changeListener_ ? &flow_ : nullptr});
     for (auto& [cause, changes] : flow_.changes) notifyStep(static_cast<PlayerId>(cause), changes);
     flow_.changes.clear();
     notifyEdits(kNoPlayer, edits);

@@ -157,8 +157,9 @@ base::Result<std::string> readExternalChunk(const RegionSource& region, int numb
 
 namespace {
 
-// Chunks decoded at a time, and durable before the next ones: 128 × about 1 MiB of NBT.
-constexpr std::size_t kImportBatch = 128;
+// Chunks decoded before the import looks whether it was stopped: NBT of up to 30 MB each takes half a second.
+// And those saved in a transaction.
+constexpr std::size_t kDecodedAtOnce = 16, kSavedAtOnce = 128;
 
 struct DecodedChunk {
     world::ChunkPos pos;
@@ -203,20 +204,23 @@ class MinecraftImporter {
             return {};
         }
         std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
-        std::size_t done = 0;
-        for (std::size_t first = 0; first < wanted.size(); first += kImportBatch) {
-            if (!shouldContinue(done))
+        std::size_t unsaved = 0;
+        for (std::size_t first = 0; first < wanted.size(); first += kDecodedAtOnce) {
+            const auto part =
+                std::span(wanted).subspan(first, std::min(kDecodedAtOnce, wanted.size() - first));
+            TERRANE_TRY(importChunks(region, *bytes, part));
+            unsaved += part.size();
+            const bool isStopped = !shouldContinue(static_cast<std::size_t>(part.back()) + 1);
+            if (isStopped || unsaved >= kSavedAtOnce) TERRANE_TRY(world_.store->flush());
+            if (unsaved >= kSavedAtOnce) unsaved = 0;
+            if (isStopped)
                 return base::fail("stopped after {} chunks; the same command continues", report_.chunks);
-            const auto part = std::span(wanted).subspan(first, std::min(kImportBatch, wanted.size() - first));
-            TERRANE_TRY(importBatch(region, *bytes, part));
-            done = static_cast<std::size_t>(part.back()) + 1;
-            (void)shouldContinue(done);
         }
-        return {};
+        return world_.store->flush();
     }
 
-    base::Result<void> importBatch(const RegionSource& region, std::string_view bytes,
-                                   std::span<const int> numbers) {
+    base::Result<void> importChunks(const RegionSource& region, std::string_view bytes,
+                                    std::span<const int> numbers) {
         std::vector<DecodedChunk> decoded(numbers.size());
         TERRANE_TRY(base::parallelFor(
             jobs_, numbers.size(), [&](std::size_t k) { decoded[k] = decode(region, bytes, numbers[k]); }));
@@ -232,7 +236,7 @@ class MinecraftImporter {
             addTo(report_.counts, chunk.counts);
             world_.store->save(chunk.pos, std::move(chunk.chunk), store::Provenance::Edited);
         }
-        return world_.store->flush();
+        return {};
     }
 
     DecodedChunk decode(const RegionSource& region, std::string_view bytes, int number) const {

@@ -179,6 +179,13 @@ TEST(VoxFile, TellsWhatIsWrong) {
     EXPECT_THAT(voxError(voxFile(model() +
                                  transform(0, 1, voxNumber(0), voxNumber(1) + voxText("_r") + voxText("5")))),
                 HasSubstr("rotation"));
+    for (const char* step : {"99999999999 0 0", "0 2147483647", "0 0 -1048577", "nan", "1 x", "1.5 0 0"})
+        EXPECT_THAT(
+            voxError(voxFile(model() +
+                             transform(0, 1, voxNumber(0), voxNumber(1) + voxText("_t") + voxText(step)) +
+                             shape(1, 0))),
+            HasSubstr("translation"))
+            << step;
     const std::string far = voxNumber(1) + voxText("_t") + voxText("1000000 0 0");
     EXPECT_THAT(voxError(voxFile(model() +
                                  voxPart("nGRP", voxNumber(0) + voxNumber(0) + voxNumber(2) + voxNumber(1) +
@@ -186,7 +193,7 @@ TEST(VoxFile, TellsWhatIsWrong) {
                                  transform(1, 2, voxNumber(0), far) + shape(2, 0) +
                                  transform(3, 4, voxNumber(0), voxNumber(0)) + shape(4, 0))),
                 "");
-    const std::string farUp = voxNumber(1) + voxText("_t") + voxText("1000000 0 99999999999");
+    const std::string farUp = voxNumber(1) + voxText("_t") + voxText("1000000 0 1000000");
     EXPECT_THAT(
         voxError(voxFile(
             model() +

@@ -57,6 +57,22 @@ TEST_F(BlockEditTest, APlantFallsWithItsGround) {
     EXPECT_EQ(world_.block({1, 2, 4}), kAir);
 }
 
+TEST_F(BlockEditTest, AChangeHasNoConsequencesWhereItMayNotReach) {
+    put({1, 2, 3}, "grass");
+    put({1, 2, 4}, "poppy");
+    std::vector<std::pair<BlockPos, BlockPos>> asked;
+    const MayReach never = [&](BlockPos from, BlockPos to) {
+        asked.emplace_back(from, to);
+        return false;
+    };
+    Edits edits;
+    applyChange(world_, contentBlocks(), {1, 2, 3}, SetBlock{}, edits, nullptr, &never);
+    EXPECT_EQ(edits.size(), 1u);
+    EXPECT_EQ(world_.block({1, 2, 4}), contentBlock("poppy"));
+    EXPECT_EQ(asked.size(), 6u);
+    for (const auto& [from, to] : asked) EXPECT_EQ(from, (BlockPos{1, 2, 3}));
+}
+
 TEST_F(BlockEditTest, AColumnOfCactusFallsAndWhatStandsByItselfStays) {
     put({1, 2, 2}, "stone");
     put({1, 2, 3}, "sand");

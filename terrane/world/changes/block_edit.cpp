@@ -132,7 +132,10 @@ void BlockUpdate::record(BlockPos pos) {
 }
 
 void BlockUpdate::noteNeighbors(BlockPos pos) {
-    for (const Face face : kAllFaces) noteChangedSide(adjacent(pos, face), static_cast<Face>(face ^ 1));
+    for (const Face face : kAllFaces) {
+        const BlockPos next = adjacent(pos, face);
+        if (!mayReach_ || (*mayReach_)(pos, next)) noteChangedSide(next, static_cast<Face>(face ^ 1));
+    }
 }
 
 void BlockUpdate::noteChangedSide(BlockPos pos, Face side) {
@@ -163,8 +166,8 @@ void BlockUpdate::runCall(const Call& call) {
 }
 
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
-                 std::vector<BlockEdit>& edits, BlockRecorder* recorder) {
-    BlockUpdate update(world, registry, edits, recorder);
+                 std::vector<BlockEdit>& edits, BlockRecorder* recorder, const MayReach* mayReach) {
+    BlockUpdate update(world, registry, edits, recorder, mayReach);
     update.change(pos, change);
     update.run();
 }

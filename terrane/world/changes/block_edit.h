@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <unordered_map>
 #include <variant>
@@ -63,6 +64,9 @@ struct BlockEdit {
     bool operator==(const BlockEdit&) const = default;
 };
 
+// Whether a change at `from` may have consequences at `to`, a block beside it.
+using MayReach = std::function<bool(BlockPos from, BlockPos to)>;
+
 // The limit of functions of behaviors that run in one change; further calls are omitted. A column of 255
 // falling blocks needs 255 × 14.
 constexpr std::size_t kMaxBehaviorCalls = 16384;
@@ -79,10 +83,15 @@ enum class RestoreScope : std::uint8_t {
 // below the world. It is used on the world's thread.
 class BlockUpdate {
   public:
-    // `recorder` may be null.
+    // `recorder` and `mayReach` may be null. Neighbors that a change may not reach are not told of it.
     BlockUpdate(World& world, const BlockRegistry& blocks, std::vector<BlockEdit>& edits,
-                BlockRecorder* recorder = nullptr)
-        : world_(world), blocks_(blocks), edits_(edits), recorder_(recorder), firstEdit_(edits.size()) {}
+                BlockRecorder* recorder = nullptr, const MayReach* mayReach = nullptr)
+        : world_(world),
+          blocks_(blocks),
+          edits_(edits),
+          recorder_(recorder),
+          mayReach_(mayReach),
+          firstEdit_(edits.size()) {}
 
     const World& world() const { return world_; }
     const BlockRegistry& blocks() const { return blocks_; }
@@ -123,6 +132,7 @@ class BlockUpdate {
     const BlockRegistry& blocks_;
     std::vector<BlockEdit>& edits_;
     BlockRecorder* recorder_;
+    const MayReach* mayReach_;
     std::size_t firstEdit_;
     BlockSet edited_;  // blocks of the first inSet_ edits since firstEdit_
     std::size_t inSet_ = 0;
@@ -134,7 +144,8 @@ class BlockUpdate {
 // first; none if it cannot be applied or changes nothing. `recorder`, if given, gets the old values of
 // blocks.
 void applyChange(World& world, const BlockRegistry& registry, BlockPos pos, const BlockChange& change,
-                 std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);
+                 std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr,
+                 const MayReach* mayReach = nullptr);
 // Does the same for BlockUpdate::restore(), for undo.
 void restoreBlocks(World& world, const BlockRegistry& registry, std::span<const PlacedBlock> blocks,
                    std::vector<BlockEdit>& edits, BlockRecorder* recorder = nullptr);

@@ -61,8 +61,8 @@ class FlowCells {
         : world_(world), rules_(rules), options_(options) {}
 
     const FlowRules& rules() const { return rules_; }
-    bool mayFlow(BlockPos from, BlockPos to) const {
-        return !options_.mayFlow || (*options_.mayFlow)(from, to);
+    bool mayReach(BlockPos from, BlockPos to) const {
+        return !options_.mayReach || (*options_.mayReach)(from, to);
     }
     const Chunk* chunk(ChunkPos pos) {
         if (last_ && lastPos_ == pos) return last_;
@@ -110,7 +110,7 @@ FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
     for (const Face side : kFlowSides) {
         const BlockPos next = adjacent(pos, side);
         const FlowCell cell = cells.at(next);
-        if (!cell.is(liquid) || !cells.mayFlow(next, pos)) continue;
+        if (!cell.is(liquid) || !cells.mayReach(next, pos)) continue;
         sources += cell.form == 0;
         if (cell.form == 0 || cells.at(adjacent(next, kFaceNegZ)).isGroundFor(liquid))
             level = std::min(level, (cell.form & kLiquidLevel) + 1);
@@ -268,7 +268,8 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
     };
     const auto apply = [&](BlockPos pos, const BlockChange& change, FlowCause cause) {
         const std::size_t before = edits.size();
-        applyChange(world, blocks, pos, change, edits, record ? &record->changes[cause] : nullptr);
+        applyChange(world, blocks, pos, change, edits, record ? &record->changes[cause] : nullptr,
+                    options.mayReach);
         if (record) record->note(world, blocks, std::span(edits).subspan(before), cause);
     };
     for (const BlockPos pos : unsettled.former) BlockUpdate(world, blocks, edits).compactState(pos);

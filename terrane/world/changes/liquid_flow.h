@@ -67,8 +67,7 @@ struct FlowRecord {
 
 // Limits of a tick, and what is recorded of it. Plain values; the pointers may be null.
 struct FlowOptions {
-    // Whether liquid may flow from a column to the one beside it.
-    const std::function<bool(BlockPos from, BlockPos to)>* mayFlow = nullptr;
+    const MayReach* mayReach = nullptr;  // for the liquid itself, and for what its flow changes
     FlowRecord* record = nullptr;
 };
 
