@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "terrane/base/files.h"
+#include "terrane/base/log.h"
 #include "terrane/base/job_system.h"
 #include "terrane/formats/file_kind.h"
 #include "terrane/io/import_world.h"
