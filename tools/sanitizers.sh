@@ -16,10 +16,10 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 # generated land, searches of numbers, whole meshes and maps, images compared pixel by pixel,
 # long ways through menus.
 readonly LONG_ADDRESS=(
-    'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'ArenasTest*' 'BatchLighter.DoesWhat*'
+    'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'ArenasTest*' 'BackgroundCompilerTest*' 'BatchLighter.DoesWhat*'
     'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'ClosedRoomTest*' 'CollisionTest.NeverTunnels*'
     'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*' 'EdgeExpansion*'
-    'Examples.HaveTheirBlocks*' 'ExprMath*' 'FaceSampling*' 'FarSamenessTest*' 'FarViewTest*' 'FarWalkTest*'
+    'Effects*' 'Examples.HaveTheirBlocks*' 'ExprMath*' 'FaceSampling*' 'FarSamenessTest*' 'FarViewTest*' 'FarWalkTest*' 'FirstMinutesTest*' 'Flight*'
     'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*' 'GpuGeneratorTest.LevelsEqualCpu*'
     'GpuGeneratorTest.Overworld*' 'GoldenProof*' 'GraphicsTest*' 'HudTest*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
     'MapPainter.AnEditChangesTheTiles*' 'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*'

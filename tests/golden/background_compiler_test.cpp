@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "tests/base/temp_folder.h"
+#include "tests/base/wait_until.h"
 #include "tests/golden/effect_scenes.h"
 
 namespace terrane::golden {
@@ -47,14 +48,8 @@ class BackgroundCompilerTest : public GoldenTest {
         return count;
     }
 
-    // False on timeout.
     static bool waitFor(render::BackgroundCompiler& compiler, const RenderOptions& options) {
-        const auto end = std::chrono::steady_clock::now() + 120s;
-        while (!compiler.isReady(kImageSize, options, kWorld)) {
-            if (std::chrono::steady_clock::now() > end) return false;
-            std::this_thread::sleep_for(5ms);
-        }
-        return true;
+        return base::waitUntil([&] { return compiler.isReady(kImageSize, options, kWorld); });
     }
 
     static void configure(render::Renderer& renderer, const RenderOptions& options) {
