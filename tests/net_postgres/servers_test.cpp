@@ -258,7 +258,7 @@ TEST_F(SharedServersTest, OfTwoServersTheOneJoinedLastKeepsThePlayer) {
     const auto b = PostgresRecords::open(servers_.address(), *blocks, {"b", "", ""}).value();
     const game::PlayerId player = 7;
     const auto hearsLine = [](PostgresRecords& records, net::SharedChanges& news) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        const auto end = std::chrono::steady_clock::now() + base::kHangs;
         while (news.lines.empty() && std::chrono::steady_clock::now() < end) {
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
             net::SharedChanges next = records.popChanges();

@@ -37,7 +37,7 @@ class SharedServers {
         auto parts = sharedParts(address_);
         auto records = PostgresRecords::open(address_, *parts.blocks, {"test", "", ""}).value();
         // Another thread reserves player numbers: wait, so that guests can join at once.
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        const auto end = std::chrono::steady_clock::now() + base::kHangs;
         while (records->allocatePlayerId() == game::kNoPlayer && std::chrono::steady_clock::now() < end)
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
         servers_.push_back(
@@ -63,7 +63,7 @@ class SharedServers {
     // Ticks until the condition holds, at most half a minute.
     template <class Condition>
     bool tickUntil(Condition condition) {
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+        const auto end = std::chrono::steady_clock::now() + base::kHangs;
         while (std::chrono::steady_clock::now() < end) {
             tick();
             if (condition()) return true;

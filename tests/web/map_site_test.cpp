@@ -102,7 +102,7 @@ TEST_F(MapSiteTest, TellsOfTheWorld) {
     EXPECT_EQ(getJson("/api/players").size(), 0u);
     players_ = {{"Ada", 1.5, -2, 80}};
     // The list changes within a second, however often it is requested.
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + base::kHangs;
     while (getJson("/api/players").empty() && std::chrono::steady_clock::now() < end)
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
     EXPECT_EQ(getJson("/api/players")[0]["name"], "Ada");

@@ -382,7 +382,7 @@ TEST(TileService, WorkersPaintWhileItIsUsed) {
             if (random() % 4 == 0) change(tiles, chunk);
             if (random() % 2 == 0) run();
         }
-        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+        const auto end = std::chrono::steady_clock::now() + base::kHangs;
         while (tiles.statistics().waiting > 0 && std::chrono::steady_clock::now() < end) run();
         jobs.waitIdle();
         run();

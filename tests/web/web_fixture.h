@@ -107,7 +107,7 @@ class Browser {
 // Runs the context until the condition holds; false on timeout.
 template <class Condition>
 bool runContextUntil(boost::asio::io_context& context, Condition isSo) {
-    const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+    const auto end = std::chrono::steady_clock::now() + base::kHangs;
     while (std::chrono::steady_clock::now() < end) {
         context.restart();
         context.run_for(std::chrono::milliseconds(2));
