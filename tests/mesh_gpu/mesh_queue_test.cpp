@@ -7,6 +7,7 @@
 
 #include "terrane/gpu/readback_buffer.h"
 #include "terrane/shared/hash.h"
+#include "tests/base/wait_until.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/mesh/test_blocks.h"
 #include "tests/mesh_gpu/mesh_comparison.h"

@@ -10,6 +10,7 @@
 
 #include "terrane/net_postgres/postgres_records.h"
 #include "terrane/store_postgres/postgres_store.h"
+#include "tests/base/wait_until.h"
 #include "tests/net/server_fixture.h"
 #include "tests/store_postgres/postgres_server.h"
 

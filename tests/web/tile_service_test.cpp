@@ -9,6 +9,7 @@
 
 #include "terrane/content/built_in.h"
 #include "terrane/store/overlay_store.h"
+#include "tests/base/wait_until.h"
 #include "tests/map/map_fixture.h"
 
 namespace terrane::web {

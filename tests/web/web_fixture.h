@@ -19,6 +19,7 @@
 #include <vector>
 
 #include "terrane/web/web_server.h"
+#include "tests/base/wait_until.h"
 
 namespace terrane::web {
 
