@@ -13,7 +13,7 @@
 #include "terrane/io/map_world.h"
 #include "terrane/web/host_check.h"
 #include "terrane/web/static_map.h"
-#include "terrane/web/world_map.h"
+#include "terrane/web/map_site.h"
 
 namespace terrane::app {
 namespace {

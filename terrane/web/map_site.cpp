@@ -22,6 +22,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr std::chrono::milliseconds kEditsEvery{250}, kPlacesEvery{1000}, kKeepAliveEvery{15000};
+constexpr std::chrono::milliseconds kWorldMapTick{50};
 // Minimum interval between logged problems of painting.
 constexpr std::chrono::milliseconds kProblemsEvery{10000};
 
@@ -293,6 +294,28 @@ void MapSite::tick() {
         site.server->tick();
     }
     if (site.keepAliveEvery.isDue(now)) site.events.sendKeepAlive();
+}
+
+base::Result<void> serveWorldMap(io::MapWorld& world, const MapSettings& settings, const WorldMapLoop& loop) {
+    const game::SessionParts& opened = world.parts;
+    const auto spawn = TERRANE_TRY(spawnOf(world));
+    const auto cache = openMapCache(settings, originOf(opened.store->identity(), *opened.blocks));
+    MapSiteParts parts{opened.generators, *opened.blocks, world.textures,
+                       *opened.store,     settings.title, spawn};
+    parts.threads = opened.threads;
+    parts.cache = cache.get();
+    parts.tileBytes = static_cast<std::size_t>(settings.memoryMegabytes) * 1'000'000;
+    parts.edited = world.edited;
+    parts.places = [all = allPlaces(*opened.store, settings.places)] { return all; };
+    boost::asio::io_context context;
+    auto site = TERRANE_TRY(MapSite::open(context, std::move(parts), settings.address));
+    if (loop.onOpened) loop.onOpened(site->port());
+    while (!loop.stopRequested()) {
+        context.restart();
+        context.run_for(kWorldMapTick);
+        site->tick();
+    }
+    return {};
 }
 
 }  // namespace terrane::web

@@ -13,8 +13,10 @@
 
 #include "terrane/base/result.h"
 #include "terrane/gen/level_generators.h"
+#include "terrane/io/map_world.h"
 #include "terrane/map/surface_cache.h"
 #include "terrane/store/chunk_store.h"
+#include "terrane/web/map_parts.h"
 #include "terrane/web/metrics.h"
 #include "terrane/web/page.h"
 #include "terrane/web/web_server.h"
@@ -64,5 +66,15 @@ class MapSite {
     explicit MapSite(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> impl_;
 };
+
+// Serves the map of a world to browsers, without a game server, on one thread.
+struct WorldMapLoop {
+    std::function<void(std::uint16_t port)> onOpened = {};  // may be empty
+    std::function<bool()> stopRequested;                    // called a few times per second
+};
+
+// Uses the world's threads in place of those of `settings`. Runs until stopRequested().
+[[nodiscard]] base::Result<void> serveWorldMap(io::MapWorld& world, const MapSettings& settings,
+                                               const WorldMapLoop& loop);
 
 }  // namespace terrane::web

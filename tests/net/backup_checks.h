@@ -30,7 +30,7 @@ inline void expectChunksAreHistory(const std::filesystem::path& save, std::int64
     std::int64_t end = 0;
     Chunks history;
     {
-        auto records = SqliteRecords::open(serverFilePath(save), contentBlocks()).value();
+        auto records = SqliteRecords::open(store::serverFilePath(save), contentBlocks()).value();
         history = chunksOfHistory(*records, end);
         EXPECT_EQ(records->historyEnds()->saved, newest) << "nothing is left to be added to the chunks";
     }

@@ -11,3 +11,6 @@ layout(std140, binding = kFrameBinding) uniform FrameBlock {
 vec3 rayAt(vec2 screen) {
     return frame.rayAhead.xyz + screen.x * frame.rayAcross.xyz + screen.y * frame.rayUp.xyz;
 }
+
+// Wind of clouds and waves in blocks a second, added to texture coordinates: patterns move the other way.
+const vec2 kWind = vec2(5.0, 2.0);

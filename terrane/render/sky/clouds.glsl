@@ -1,5 +1,4 @@
 // Clouds on a plane high above the world. Needs frame_uniforms.glsl; the texture of SkyNoise is bound.
-#include "terrane/render/quads/wind.glsl"
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D cloudNoise;
 

@@ -1,6 +1,5 @@
 // Waves in the normals of water: moving patterns of noise, and at sea a swell in the direction of the wind. Needs
 // frame_uniforms.glsl. WATER_DETAIL: 1 adds the swell.
-#include "terrane/render/quads/wind.glsl"
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D noiseTexture;
 

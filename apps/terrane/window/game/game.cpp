@@ -6,7 +6,6 @@
 #include "apps/terrane/window/game/game_input.h"
 #include "apps/terrane/window/game/game_interface.h"
 #include "apps/terrane/window/game/game_menu.h"
-#include "apps/terrane/window/game/game_statistics.h"
 #include "apps/terrane/window/text.h"
 #include "terrane/base/log.h"
 #include "terrane/game/spawn.h"

@@ -1,23 +1,58 @@
 #include "apps/terrane/window/game/game_interface.h"
 
 #include <fmt/format.h>
+#include <imgui.h>
 
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 #include <utility>
 
 #include "apps/terrane/window/game/game_menu.h"
-#include "apps/terrane/window/game/game_statistics.h"
 #include "apps/terrane/window/hud/compass.h"
 #include "apps/terrane/window/hud/container_dialog.h"
 #include "apps/terrane/window/hud/hand_view.h"
-#include "apps/terrane/window/hud/particle_view.h"
+#include "apps/terrane/window/hud/overlay.h"
 #include "apps/terrane/window/hud/places_panel.h"
 #include "apps/terrane/window/settings/panel.h"
+#include "terrane/base/machine.h"
+#include "terrane/view/block_particles.h"
 #include "terrane/view/camera_path.h"
+#include "terrane/world/tint.h"
 
 namespace terrane::app {
 
 namespace {
+
+MemoryStatistics memoryOf(const GameParts& parts) {
+    return {.blocks = parts.session.world().memoryBytes(),
+            .light = parts.session.pipeline().lightBytes(),
+            .quads = parts.renderer.quadBytes(),
+            .lightOnGpu = parts.renderer.lightBytes(),
+            .onGpu = parts.renderer.memory().total(),
+            .gpuBudget = parts.renderer.memoryBudget(),
+            .resident = base::residentBytes()};
+}
+
+// Particles of broken blocks, as squares in the color of their block. `light`: on them, 0…1.
+void drawParticles(const Screen& screen, const render::Camera& camera, const view::BlockParticles& particles,
+                   const world::TopColors& colors, const glm::vec3& light) {
+    ImDrawList& draw = *ImGui::GetBackgroundDrawList();
+    const float perBlock = screen.height / (2 * std::tan(glm::radians(camera.fieldOfView) / 2));
+    const ScreenProjection projection({screen.width, screen.height}, camera);
+    for (const view::Particle& p : particles.particles()) {
+        const auto at = projection.at(p.position);
+        const double distance = glm::distance(p.position, camera.position);
+        if (!at || distance < 0.3 || p.block >= colors.size()) continue;
+        const float half = p.side / 2 * perBlock / static_cast<float>(distance);
+        const float shade = 0.7f + 0.3f * static_cast<float>(p.shade) / 255;
+        const glm::vec3 color = glm::clamp(colors[p.block].mean * light * shade, 0.0f, 255.0f);
+        draw.AddRectFilled(
+            {at->x - half, at->y - half}, {at->x + half, at->y + half},
+            IM_COL32(static_cast<int>(color.x), static_cast<int>(color.y), static_cast<int>(color.z), 255));
+    }
+}
 
 // Refers to the parts and the texts.
 BlockFace blockFaceOf(const GameParts& parts, const Texts& tr) {
@@ -70,6 +105,22 @@ void drawPlacesDialog(GameState& game, const Screen& screen) {
 }
 
 }  // namespace
+
+Statistics statisticsOf(GameState& game) {
+    const GameParts& parts = game.parts;
+    const game::Session& session = parts.session;
+    return {.frames = &game.meter,
+            .camera = cameraOf(game.player, game.settings),
+            .timeDay = session.clock.timeDay,
+            .progress = session.pipeline().progress(),
+            .tiles = &session.tiles().table(),
+            .activeChunks = session.world().chunkCount(),
+            .queuedChunks = session.pipeline().queuedCount() + parts.view.waiting(),
+            .frame = parts.renderer.statistics(),
+            .memory = game.memory.at(game.seconds, [&] { return memoryOf(parts); }),
+            .tasks = session.taskTimes(),
+            .passes = &parts.renderer.passTimes()};
+}
 
 void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& settings,
                 const game::Session& session, double seconds) {

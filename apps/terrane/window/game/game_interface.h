@@ -11,4 +11,8 @@ void advanceHud(Hud& hud, const world::Pose& player, const PlaySettings& setting
 // Call once per frame; also handles clicks. `seconds`: since the last frame.
 void drawInterface(GameState& game, double seconds);
 
+// Statistics of a frame, for the panel and for the file of --collect-perf-data. Memory is measured twice a
+// second, since that visits all chunks. The result points into `game`.
+Statistics statisticsOf(GameState& game);
+
 }  // namespace terrane::app

@@ -1,5 +1,5 @@
 // The state of the window's loop, by subject. Free functions work on it, in one file per subject:
-// game_input.h, game_menu.h, game_image.h, game_interface.h, game_statistics.h.
+// game_input.h, game_menu.h, game_image.h, game_interface.h.
 // They pass to other code only the parts that it needs.
 #pragma once
 
