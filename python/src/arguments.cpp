@@ -292,7 +292,14 @@ std::array<double, 3> positionFrom(const Argument& argument) {
     const auto along = [&](std::size_t axis, double low, double high) {
         return numberFrom({argument.name, (*elements)[axis]}, low, high);
     };
-    return {along(0, -kEdge, kEdge - 1), along(1, -kEdge, kEdge - 1), along(2, -kFarUp, kFarUp)};
+    const auto inWorld = [&](std::size_t axis) {
+        const double number = along(axis, -kAnyNumber, kAnyNumber);
+        if (number < -kEdge || number >= kEdge)  // the last column ends before kEdge
+            refuse({argument.name, (*elements)[axis]},
+                   fmt::format("a number from {} to less than {}", -kEdge, kEdge));
+        return number;
+    };
+    return {inWorld(0), inWorld(1), along(2, -kFarUp, kFarUp)};
 }
 
 std::array<std::int64_t, 4> rectangleFrom(const Argument& argument) {

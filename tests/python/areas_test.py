@@ -1,4 +1,5 @@
 """Blocks, chunks, light and digests of areas."""
+import itertools
 import sys
 import threading
 import time
@@ -73,10 +74,13 @@ def test_a_digest_is_one_of_the_blocks(land):
     assert land.digest((0, 0, 3, 2)) == digest.hexdigest()
 
 
-def test_blocks_and_light_are_those_that_the_program_dumps(program, land, tmp_path):
-    area = (-32, 16, 16, 48)
+# Beyond the ends of the world it is dark, also for the program.
+@pytest.mark.parametrize("cx,cy", [(-2, 1), *itertools.product((-EDGE // 16, EDGE // 16 - 3), repeat=2)])
+def test_blocks_and_light_are_those_that_the_program_dumps(program, land, tmp_path, cx, cy):
+    area = (16 * cx, 16 * cy, 16 * cx + 48, 16 * cy + 48)
+    chunks = f"--area={cx},{cy},{cx + 3},{cy + 3}"
     for what in ("blocks", "light"):
-        program("dump", "--generator", "overworld", "--area=-2,1,1,3", "--what", what, "-o", tmp_path / "a.npy")
+        program("dump", "--generator", "overworld", chunks, "--what", what, "-o", tmp_path / "a.npy")
         dumped = np.load(tmp_path / "a.npy").transpose(2, 1, 0)  # dump writes x, y, z
         if what == "blocks":
             assert (land.blocks(area) == dumped).all()

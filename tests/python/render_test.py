@@ -1,4 +1,5 @@
 """Images, in builds with graphics."""
+import math
 import subprocess
 import sys
 import textwrap
@@ -36,6 +37,29 @@ def test_an_image_shows_ground_sky_and_edits():
 
 
 SMALL = {"size": (96, 64), "view_distance": 2, "preset": "low"}
+EDGE = 2.0**31
+
+
+@needs_graphics
+@pytest.mark.parametrize("x,y,yaw", [(0.5 - EDGE, 0.5 - EDGE, 45), (EDGE - 0.5, EDGE - 0.5, 225),
+                                     (-EDGE, math.nextafter(EDGE, 0), 315), (math.nextafter(EDGE, 0), -EDGE, 135)])
+def test_an_image_from_the_last_column(x, y, yaw):
+    with terrane.World(generator="flat", threads=2) as world:
+        inward = world.render((x, y, 100), yaw, -30, **SMALL)
+        ground = inward[-8:].mean((0, 1))
+        assert ground[1] > ground[0] and ground[1] > ground[2]
+        assert difference(inward, world.render((x, y, 100), yaw + 180, -30, **SMALL))[0] > 10, "nothing lies beyond"
+
+
+@needs_graphics
+def test_nothing_is_drawn_from_beyond_the_world():
+    with terrane.World(generator="flat", threads=2) as world:
+        for beyond in (EDGE, math.nextafter(-EDGE, -math.inf), 1e300):
+            for position in ((beyond, 0, 100), (0, beyond, 100)):
+                text = fails("bad_input", world.render, position, **SMALL)
+                assert text.startswith("position: expected a number from -2147483648 to less than 2147483648"), text
+
+
 HIGH = {"size": (120, 80), "view_distance": 3, "preset": "high"}
 
 

@@ -72,11 +72,25 @@ base::Result<void> dumpBlocks(const DumpOptions& options, const Sources& sources
     return written ? file.finish() : written;
 }
 
-std::vector<light::ChunkLight> lightOf(const io::LoadedSquare& square, light::AreaSolver& solver) {
-    light::LightArea around{square.chunksX() + 2, square.chunksY() + 2, {}};
-    for (int y = -1; y <= square.chunksY(); ++y)
-        for (int x = -1; x <= square.chunksX(); ++x) around.chunks.push_back(&square.chunk(x, y));
-    return solver.solve(around);
+// The light of a square and of a border of one chunk, which ends at the end of the world: beyond it is dark.
+struct SquareLight {
+    int west = 0, south = 0;  // chunks before the square's first one
+    int width = 0;            // chunks
+    std::vector<light::ChunkLight> chunks;
+
+    const light::ChunkLight& chunk(int x, int y) const {
+        return chunks[static_cast<std::size_t>(x + west + width * (y + south))];
+    }
+};
+
+SquareLight lightOf(const io::LoadedSquare& square, light::AreaSolver& solver) {
+    const world::ChunkArea& area = square.area();
+    const int west = area.x0 > world::kMinChunk ? 1 : 0, east = area.x1 <= world::kMaxChunk ? 1 : 0;
+    const int south = area.y0 > world::kMinChunk ? 1 : 0, north = area.y1 <= world::kMaxChunk ? 1 : 0;
+    light::LightArea around{west + square.chunksX() + east, south + square.chunksY() + north, {}};
+    for (int y = -south; y < square.chunksY() + north; ++y)
+        for (int x = -west; x < square.chunksX() + east; ++x) around.chunks.push_back(&square.chunk(x, y));
+    return {west, south, around.chunksX, solver.solve(around)};
 }
 
 base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources) {
@@ -84,11 +98,9 @@ base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources)
     const auto solver = TERRANE_TRY(makeLightSolver(options.backend, table));
     auto file = TERRANE_TRY(io::VolumeFile::create(options.output, *options.area));
     const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
-        const std::vector<light::ChunkLight> lights = lightOf(square, *solver.worker);
-        const int width = square.chunksX() + 2;
+        const SquareLight lights = lightOf(square, *solver.worker);
         return file.write(square.area(), [&](int x, int y, auto values) {
-            const int chunk = x / world::kChunkSize + 1 + width * (y / world::kChunkSize + 1);
-            const light::ChunkLight& light = lights[static_cast<std::size_t>(chunk)];
+            const light::ChunkLight& light = lights.chunk(x / world::kChunkSize, y / world::kChunkSize);
             for (int z = 0; z < world::kChunkHeight; ++z)
                 values[static_cast<std::size_t>(z)] = light.get(x & 15, y & 15, z);
         });
