@@ -272,6 +272,24 @@ class Layouts(ProgramTest):
         self.assertRegex(self.assertImports(4), r"Home/region: also has chunks, of an older version; not imported")
         self.assertIn("--dimension overworld", self.assertNothing("--dimension", "nether"))
 
+    def test_chunks_come_to_both_ends_of_the_world(self):
+        """Minecraft's chunk 0 is the last one before --at."""
+        self.put("region", 2)
+        volumes = []
+        for at, x, y in (("0,0", -32, 0), (f"{2**31},{2**31 - 16}", 2**31 - 32, 2**31 - 16),
+                         (f"{32 - 2**31},{-2**31}", -2**31, -2**31)):
+            self.assertImports(2, f"--at={at}")
+            self.succeed("export", "npy", "--world", self.folder / "w.sqlite", f"--box={x},{y},0,{x + 32},{y + 16},256",
+                         "-o", self.folder / "v.npy")
+            volumes.append(numpy.load(self.folder / "v.npy"))
+            self.assertTrue((volumes[-1] == volumes[0]).all(), at)
+            self.assertEqual(len(numpy.unique(volumes[0])), 2)
+        done, imported = self.import_home(f"--at={16 - 2**31},0")
+        self.assertEqual((done.returncode, imported), (1, 1), done.stderr)
+        self.assertIn("1 chunks or files could not be read", done.stderr)
+        for at in (f"{2**31 + 16},0", f"0,{-2**31 - 16}", f"{2**31 - 8},0", "0.5,0"):
+            self.assertIn("--at: expected multiples of 16 within the world", self.assertNothing(f"--at={at}"))
+
     def test_importing_nothing_is_an_error(self):
         self.assertIn("no such file or folder", self.assertNothing())
         (self.folder / "Home").mkdir()
@@ -570,6 +588,14 @@ class Volumes(ProgramTest):
         self.assertEqual(gzip.decompress(copies[0].read_bytes()), gzip.decompress(copies[1].read_bytes()))
         self.succeed("import", "schem", source, "-o", self.folder / "house.structure")
         self.assertTrue((self.folder / "house.structure").read_bytes().startswith(b"TerrStru"))
+
+    def test_layers_outside_the_heights_are_told(self):
+        source, world = self.folder / "a.schem", self.folder / "w.sqlite"
+        self.succeed("export", "schem", "--generator", "flat", "--box", "0,0,78,4,4,80", "-o", source)
+        for z, message in ((-1, "16 blocks below and 0 above"), (255, "0 blocks below and 16 above")):
+            done = run("import", "schem", source, "--world", world, "--generator", "flat", f"--at={2**31 - 4},0,{z}")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn(f"{message} the world's heights are left out (see --at)", done.stderr)
 
     def test_a_schematic_with_numbers_is_read(self):
         source = fixtures("prismarine-schematic") / "schematics" / "viking-house1.schematic"

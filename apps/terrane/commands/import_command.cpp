@@ -1,5 +1,6 @@
 // terrane import: imports worlds, schematics and models of other programs.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <memory>
@@ -45,7 +46,8 @@ std::string mostOf(const std::map<std::string, std::uint64_t>& counts) {
     return text;
 }
 
-void logReport(const io::ImportReport& report) {
+// `moving` is the option that moves the source up and down.
+void logReport(const io::ImportReport& report, std::string_view moving) {
     const formats::ImportCounts& counts = report.counts;
     base::logInfo("{} chunks with {} blocks imported; {} had edits in the world and stay as they are",
                   report.chunks, sumOf(counts.blocks), report.skipped);
@@ -56,8 +58,8 @@ void logReport(const io::ImportReport& report) {
         base::logWarning("{} blocks are unknown and became \"missing\": {}", sumOf(counts.unknown),
                          mostOf(counts.unknown));
     if (counts.below + counts.above > 0)
-        base::logWarning("{} blocks below and {} above the world's heights are left out (see --shift)",
-                         counts.below, counts.above);
+        base::logWarning("{} blocks below and {} above the world's heights are left out (see {})",
+                         counts.below, counts.above, moving);
     if (!counts.blockEntities.empty())
         base::logInfo("contents of {} blocks are left out: {}", sumOf(counts.blockEntities),
                       mostOf(counts.blockEntities));
@@ -74,8 +76,9 @@ std::string jsonOf(const io::ImportReport& report) {
     return root.dump(2, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
-base::Result<void> finish(ImportCommand& command, const io::ImportReport& report) {
-    logReport(report);
+base::Result<void> finish(const ImportCommand& command, const io::ImportReport& report,
+                          std::string_view moving) {
+    logReport(report, moving);
     return command.report.empty() ? base::Result<void>() : base::writeFile(command.report, jsonOf(report));
 }
 
@@ -90,7 +93,8 @@ base::Result<world::ChunkPos> movedBy(const std::string& at) {
     const auto numbers = parseNumbers(at, 2, "--at: expected X,Y in blocks");
     for (const double number : numbers) {
         const double chunks = number / world::kChunkSize;
-        if (chunks != static_cast<double>(static_cast<std::int32_t>(std::clamp(chunks, -1e8, 1e8))))
+        // The end itself too: Minecraft's first chunk is the one before it.
+        if (chunks != std::floor(chunks) || chunks < world::kMinChunk || chunks > world::kMaxChunk + 1.0)
             return base::fail(base::ErrorCode::BadInput,
                               "--at: expected multiples of {} within the world, got \"{}\"",
                               world::kChunkSize, at);
@@ -106,7 +110,7 @@ base::Result<void> importMinecraft(ImportCommand& command) {
     const auto report =
         TERRANE_TRY(io::importMinecraft(command.source, command.minecraft, progressBar("importing")));
     command.exitCode = report.damageCount > 0 ? 1 : 0;
-    TERRANE_TRY(finish(command, report));
+    TERRANE_TRY(finish(command, report, "--shift"));
     if (report.chunks > 0 || report.skipped > 0) return {};
     return base::fail(base::ErrorCode::Damaged,
                       "{}: nothing is imported: {} chunks or files cannot be read, {} chunks have no blocks",
@@ -130,7 +134,7 @@ base::Result<void> writeStructure(const ImportCommand& command, const io::Import
     std::error_code ignored;  // writeFiles() reports the error
     std::filesystem::create_directories(std::filesystem::path(command.output).parent_path(), ignored);
     TERRANE_TRY(base::writeFiles(files));
-    logReport(imported.report);
+    logReport(imported.report, "--at");
     return {};
 }
 
@@ -145,7 +149,7 @@ base::Result<void> importVolume(ImportCommand& command, io::VolumeFormat format)
     TERRANE_TRY(checkTarget(command));
     const auto report = TERRANE_TRY(
         io::importVolume(command.source, {format, corner, command.skipsAir}, progressBar("importing")));
-    return finish(command, report);
+    return finish(command, report, "--at");
 }
 
 base::Result<void> importSchematic(ImportCommand& command) {
