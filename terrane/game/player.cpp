@@ -8,8 +8,8 @@
 namespace terrane::game {
 namespace {
 
-// Two chunks before the last one on each side: keeps flying players in the world.
-constexpr double kEdge = 2147483600.0;
+// The ends of the world. Messages round positions to 1/64 block, which may not lie beyond.
+constexpr double kWorldStart = -2147483648.0, kWorldEnd = 2147483648.0 - 1.0 / 64;
 // Seconds; a longer stall moves a player no farther.
 constexpr double kLongestFrame = 0.25;
 
@@ -59,8 +59,8 @@ void Player::passThrough(const MoveKeys& keys, double seconds) {
     const float length = glm::length(motion);
     if (length < 1e-3f) return;
     pose_.position += glm::dvec3(motion / std::max(length, 1.0f)) * (speed * seconds);
-    pose_.position.x = std::clamp(pose_.position.x, -kEdge, kEdge);
-    pose_.position.y = std::clamp(pose_.position.y, -kEdge, kEdge);
+    pose_.position.x = std::clamp(pose_.position.x, kWorldStart, kWorldEnd);
+    pose_.position.y = std::clamp(pose_.position.y, kWorldStart, kWorldEnd);
     pose_.position.z = std::clamp(pose_.position.z, -64.0, 1024.0);
 }
 

@@ -126,6 +126,21 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
     }
 }
 
+// Nothing stops a player outside of the world, nor moves one away from its last column.
+TEST_P(WorldEdgeTest, FlightThroughBlocksReachesTheLastColumn) {
+    const BlockPos at = corner(100), before = inward(40, 40, 100);
+    const float outward = at.x < 0 ? (at.y < 0 ? 225.0f : 135.0f) : at.y < 0 ? 315.0f : 45.0f;
+    for (const BlockPos start : {at, before}) {
+        Player player({.position = {start.x + 0.5, start.y + 0.5, start.z}, .yaw = outward},
+                      Movement::Noclip);
+        for (int k = 0; k < 40; ++k)
+            player.move(session_.world(), session_.blocks(), {.forward = true}, 0.25);
+        const glm::dvec3 end = player.pose().position;
+        EXPECT_EQ(world::blockOf(end), at);
+        EXPECT_EQ(world::blockOf(glm::round(end * 64.0) / 64.0), at) << "messages round to 1/64 block";
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(Corners, WorldEdgeTest,
                          testing::Values(WorldCorner{kFirstColumn, kFirstColumn},
                                          WorldCorner{kFirstColumn, kLastColumn},
