@@ -1,5 +1,6 @@
 #include "apps/terrane/record/script.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -197,6 +198,21 @@ struct WrongFile {
     std::string text, error;
 };
 
+TEST(ScriptFile, PlacesReachBothEndsOfTheWorld) {
+    const std::string edit = "[[shot.edit]]\nblock = \"stone\"\nat = [-2147483648, 2147483647, 0]\n";
+    for (const auto& [text, position] :
+         {std::pair("-2147483648, -2147483648.0", glm::dvec2(-2147483648.0)),
+          std::pair("2147483647, 2147483647.9", glm::dvec2(2147483647, 2147483647.9))}) {
+        const auto script =
+            parse(fmt::format("[[shot]]\nseconds = 1\n[[shot.key]]\nat = [{}, 9]\nlook-at = [3e9, -3e9, 0]\n",
+                              text) +
+                  edit);
+        ASSERT_TRUE(script) << script.error().message;
+        EXPECT_EQ(glm::dvec2(script->shots[0].path.at(0).camera.position), position);
+        EXPECT_EQ(script->shots[0].edits[0].box.low, (world::BlockPos{-2147483647 - 1, 2147483647, 0}));
+    }
+}
+
 TEST(ScriptFile, ErrorsNameFileLineAndKey) {
     const std::string edit = "[[shot.edit]]\nblock = \"stone\"\n";
     const std::vector<WrongFile> cases = {
@@ -217,7 +233,11 @@ TEST(ScriptFile, ErrorsNameFileLineAndKey) {
         {"[[shot]]\n[[shot.key]]\nat = [0, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
         {"[[shot]]\n[[shot.key]]\nat = [0, \"a\", 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
         {"[[shot]]\n[[shot.key]]\nat = [0, nan, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
-        {"[[shot]]\n[[shot.key]]\nat = [0, 3e9, 0]\nlook = [0, 0]\n", "p.toml:3: at: expected [x, y, z]"},
+        {"[[shot]]\n[[shot.key]]\nat = [0, 3e9, 0]\nlook = [0, 0]\n", "p.toml:2: at: outside the world"},
+        {"[[shot]]\n[[shot.key]]\nat = [2147483648, 0, 0]\nlook = [0, 0]\n",
+         "p.toml:2: at: outside the world"},
+        {"[[shot]]\n[[shot.key]]\nat = [-2147483648.1, 0, 0]\nlook = [0, 0]\n",
+         "p.toml:2: at: outside the world"},
         {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook = [0, 91]\n", "p.toml:4: look: "},
         {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook-at = [0, 0, 0]\n", "p.toml:2: look-at: is where"},
         {"[[shot]]\n[[shot.key]]\nat = [0, 0, 0]\nlook-at = [0, 0, 1]\nlook = [0, 0]\n", "only one of"},
@@ -240,6 +260,8 @@ TEST(ScriptFile, ErrorsNameFileLineAndKey) {
         {shotOf(edit + "from = [0, 0, 0]\n"), "p.toml:6: at: needs either"},
         {shotOf(edit + "at = [0, 0, 256]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
         {shotOf(edit + "at = [0, 0.5, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
+        {shotOf(edit + "at = [2147483648, 0, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
+        {shotOf(edit + "at = [0, -2147483649, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
         {shotOf(edit + "from = [0, 0, 0]\nto = [2000, 2000, 9]\n"), "p.toml:6: to: more than 262144 blocks"},
         {shotOf("[[shot.edit]]\nat = [0, 0, 0]\nblock = \"cheese\"\n"), "p.toml:8: block: expected a name"},
         {shotOf("[[shot.edit]]\nat = [0, 0, 0]\n"), "p.toml:6: block: missing"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <span>
 
@@ -15,7 +16,7 @@ namespace terrane::app {
 
 namespace {
 
-constexpr double kMaxBlocks = 2147483647;  // from the origin
+constexpr double kMaxNumber = 1e15;  // of a place or an angle: floats of it are finite
 
 }  // namespace
 
@@ -36,7 +37,7 @@ std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::st
     if (const toml::array* array = node->as_array()) {
         for (const toml::node& element : *array) {
             const auto value = element.is_number() ? element.value<double>() : std::nullopt;
-            if (value && std::abs(*value) <= kMaxBlocks) numbers.push_back(*value);
+            if (value && std::abs(*value) <= kMaxNumber) numbers.push_back(*value);
         }
         if (numbers.size() == count && array->size() == count) return numbers;
     }
@@ -48,9 +49,12 @@ std::optional<world::BlockPos> blockPosOf(world::ContentTable& table, std::strin
     constexpr std::string_view kForm = "[x, y, z] of a block in the world, whole numbers, z from 0 to 255";
     const auto n = numbersOf(table, key, 3, kForm);
     if (!n) return std::nullopt;
-    const bool isWhole = std::ranges::all_of(*n, [](double v) { return v == std::floor(v); });
-    if (!isWhole || (*n)[2] < 0 || (*n)[2] >= world::kChunkHeight)
+    const bool areBlocks = std::ranges::all_of(
+        *n, [](double v) { return v == std::floor(v) && v >= INT32_MIN && v <= INT32_MAX; });
+    if (!areBlocks || (*n)[2] < 0 || (*n)[2] >= world::kChunkHeight) {
         table.expected(*table.node(key), key, kForm);
+        return world::BlockPos{};
+    }
     return world::BlockPos{static_cast<std::int32_t>((*n)[0]), static_cast<std::int32_t>((*n)[1]),
                            static_cast<std::int32_t>((*n)[2])};
 }
