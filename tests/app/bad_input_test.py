@@ -79,6 +79,11 @@ CASES = [
     ((*GENERATE, "--threads", "0"), '"0"'),
     ((*GENERATE, "--threads", "-1"), '"-1"'),
     ((*GENERATE, "--threads", "9999"), '"9999"'),
+    # The history of a server
+    (("history", "--world", "{folder}/none.sqlite", "--area", "1,2,3"), '--area: expected X0,Y0,X1,Y1 in blocks, got "1,2,3"'),
+    *(((("history", "--world", "{folder}/none.sqlite", f"--area={area}")),
+       f'--area: expected whole numbers within the world, got "{area}"') for area in
+      ("2147483648,0,0,0", "0,-2147483649,0,0", "0,0,0.5,0")),
     # Measurements
     (("bench",), "--output"),
     (("bench", "-o", "{folder}/bench", "nothing"), '"nothing"'),
