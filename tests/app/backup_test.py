@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """Backups of worlds that servers run: terrane backup, and the console command. Usage: backup_test.py PROGRAM"""
+import contextlib
 import os
 import pathlib
+import sqlite3
 import subprocess
 import sys
 
@@ -101,6 +103,27 @@ class OfAServer(support.ProgramTest):
         self.assertRefused(run("backup", self.folder / "none.sqlite", self.to / "x.sqlite"), "no such world")
         self.assertEqual(self.world.read_bytes(), before)
         self.assertEqual(sorted(file.name for file in self.to.iterdir()), ["other.server.sqlite", "there.sqlite"])
+
+    def test_a_backup_that_no_server_opens_is_none(self):
+        self.stop(self.serve(self.world, *GENERATOR))
+        records = self.folder / "w.server.sqlite"
+        with contextlib.closing(sqlite3.connect(records)) as database:
+            database.execute("DROP TABLE claims")
+            database.commit()
+        done = run("backup", self.world, self.to / "x.sqlite")
+        self.assertRefused(done, "claims")
+        self.assertEqual(list(self.to.iterdir()), [])
+
+    def test_damaged_chunks_are_told(self):
+        self.succeed("generate", "--radius", "1", "--world", self.world, *GENERATOR)
+        with contextlib.closing(sqlite3.connect(self.world)) as database:
+            database.execute("UPDATE chunks SET data = x'00' WHERE rowid = (SELECT min(rowid) FROM chunks)")
+            database.commit()
+        done = run("backup", self.world, self.to / "x.sqlite")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("damaged chunks, as in the world: 1", done.stderr)
+        self.assertIn("is complete", done.stdout)
+        self.assertEqual(run("check", self.to / "x.sqlite").returncode, 1)
 
     def test_a_folder_that_cannot_be_written(self):
         self.succeed("generate", "--radius", "0", "--world", self.world, *GENERATOR)

@@ -252,6 +252,7 @@ TEST_F(BackupTest, RefusesFilesThatExistOrBelongToTheWorld) {
         fs::remove(to_ / name);
     }
     expectNoFiles();
+    EXPECT_THAT(refused("\u051d"), HasSubstr("looks like the name of the world \"w\"")) << "Cyrillic";
     EXPECT_THAT(refused("/proc/x.sqlite"), HasSubstr("/proc/x.sqlite"));
     EXPECT_EQ(run("backup"), "expected: backup NAME|FILE");
 }

@@ -1,7 +1,7 @@
 // A server's file in a temporary folder.
 #pragma once
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <memory>
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "terrane/base/files.h"
+#include "tests/base/wait_until.h"
 #include "tests/net/server_file_fixture.h"
 
 namespace terrane::net {
@@ -22,6 +23,24 @@ ServerFile::Write setState(int value) {
 
 std::int64_t state(ServerFile& file) {
     return file.reader().queryNumber("SELECT value FROM state WHERE name = 'x'").value().value_or(-1);
+}
+
+// What is written into a file that is gone is lost: it is not durable until the file is back.
+TEST_F(ServerFileTest, NothingIsDurableInAFileThatIsGone) {
+    (void)file_->write(setState(1));
+    flush();
+    for (const char* name : {"w.server.sqlite", "w.server.sqlite-wal"}) {
+        const auto path = folder_ / name, away = folder_ / "away";
+        std::filesystem::rename(path, away);
+        const std::uint64_t number = file_->write(setState(2));
+        const auto flushed = file_->flush();
+        ASSERT_FALSE(flushed) << name;
+        EXPECT_THAT(flushed.error().message, testing::HasSubstr("deleted or moved while it was open"));
+        EXPECT_LT(file_->durable(), number);
+        std::filesystem::rename(away, path);
+        EXPECT_TRUE(base::waitUntil([&] { return file_->durable() >= number; }));
+    }
+    EXPECT_EQ(state(*file_), 2);
 }
 
 TEST_F(ServerFileTest, WritesAreMadeInTheirOrder) {

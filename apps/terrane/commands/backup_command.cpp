@@ -5,9 +5,14 @@
 #include "apps/terrane/options.h"
 #include "apps/terrane/output_files.h"
 #include "apps/terrane/world_backup.h"
+#include "terrane/base/log.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"
+#include "terrane/io/open_session.h"
+#include "terrane/net/server/sqlite_records.h"
 #include "terrane/store/saves/backup_files.h"
+#include "terrane/store/saves/save_check.h"
+#include "terrane/store/saves/server_file.h"
 
 namespace terrane::app {
 namespace {
@@ -15,9 +20,28 @@ namespace {
 struct BackupOptions {
     io::WorldOptions content;
     std::string from, to;
+    bool foundDamage = false;  // result of the run
 };
 
-base::Result<void> backUp(const BackupOptions& options) {
+// Reads all of the copy, as a server does that opens it. Damaged chunks of the world stay what they are.
+base::Result<void> checkFiles(BackupOptions& options, const std::filesystem::path& save) {
+    const auto content =
+        TERRANE_TRY(io::loadContent(options.content, {.world = save.string(), .storeGenerated = {}}));
+    const auto report = TERRANE_TRY(store::checkSave(save, *content.blocks));
+    for (const std::string& problem : report.fileProblems) base::logWarning("damage: {}", problem);
+    if (!report.damaged.empty())
+        base::logWarning("damaged chunks, as in the world: {}, the first is {}: {}",
+                         report.damaged.size() + report.unlisted, store::nameOf(report.damaged.front().pos),
+                         report.damaged.front().problem);
+    options.foundDamage = report.isDamaged();
+    const std::filesystem::path records = store::serverFilePath(save);
+    std::error_code ignored;
+    if (!std::filesystem::exists(records, ignored)) return {};
+    const auto opened = TERRANE_TRY(net::SqliteRecords::open(records, *content.blocks));
+    return net::checkRecords(*opened);
+}
+
+base::Result<void> backUp(BackupOptions& options) {
     const store::WorldLocation from = store::worldLocation(options.from),
                                to = store::worldLocation(options.to);
     if (to.kind == store::WorldLocation::Kind::Url)
@@ -30,6 +54,7 @@ base::Result<void> backUp(const BackupOptions& options) {
     const base::StopSignals signals;
     const auto progress = [&](double) { return !signals.stopRequested(); };
     TERRANE_TRY(writeBackup(from, options.content, files.save(), progress));
+    TERRANE_TRY(checkFiles(options, files.save()));
     if (!world.empty()) TERRANE_TRY(files.copyServerFiles(world.replace_extension()));
     TERRANE_TRY(files.finish());
     base::printLine("the backup {} is complete", target.string());
@@ -49,8 +74,9 @@ CommandEntry addBackup(CLI::App& app) {
     command->footer(
         "The backup opens like any world. It has the players, claims and history of servers, in "
         "NAME.server.sqlite, and the server's\nkey and settings. It replaces no file. The console command "
-        "`backup` of a server does the same.");
-    return {command, [options] { return backUp(*options); }};
+        "`backup` of a server does the same. Exit code 1: the world has damaged chunks.");
+    return {command, [options] { return backUp(*options); },
+            [options] { return options->foundDamage ? 1 : 0; }};
 }
 
 }  // namespace terrane::app

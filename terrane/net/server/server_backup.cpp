@@ -67,6 +67,9 @@ base::Result<fs::path> targetFrom(const std::string& name, const fs::path& folde
     const store::WorldLocation location = store::worldLocation(name);
     if (location.kind == store::WorldLocation::Kind::Name) {
         TERRANE_TRY(store::checkWorldName(name));
+        if (const std::string like = store::saveLike(folder, name); !like.empty() && like != name)
+            return base::fail(base::ErrorCode::BadInput, "\"{}\" looks like the name of the world \"{}\"",
+                              name, like);
         return store::worldFile(folder, name);
     }
     if (location.kind == store::WorldLocation::Kind::Url)

@@ -77,6 +77,14 @@ base::Result<void> copyEdits(ReadableRecords& from, ServerRecords& to, std::int6
 
 }  // namespace
 
+base::Result<void> checkRecords(ReadableRecords& records) {
+    (void)TERRANE_TRY(records.players());
+    (void)TERRANE_TRY(records.claims());
+    (void)TERRANE_TRY(records.text(kPasswordText));
+    return records.forEachEdit({}, EditOrder::OldestFirst,
+                               [](const LoggedEdit&) { return base::Result<void>(); });
+}
+
 base::Result<RecordsCopied> copyRecords(ReadableRecords& from, ServerRecords& to, WorldOfCopy world) {
     const auto ends = from.historyEnds(), begun = to.historyEnds();
     if (!ends || !begun) return tl::unexpected((!ends ? ends : begun).error());

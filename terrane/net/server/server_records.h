@@ -115,6 +115,9 @@ std::string membersText(const std::vector<game::PlayerId>& members);
 // First id of a server's player; kNoPlayer and kLocalPlayer are reserved.
 constexpr game::PlayerId kFirstPlayer = game::kLocalPlayer + 1;
 
+// Reads all records; fails if a server could not.
+[[nodiscard]] base::Result<void> checkRecords(ReadableRecords& records);
+
 // Copies a server's records, keeping the numbers of players and edits, into records that are empty or hold
 // the beginning of the same history. Blocks until all is durable.
 struct RecordsCopied {

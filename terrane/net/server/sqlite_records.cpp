@@ -121,6 +121,7 @@ ServerFile::ServerFile(Parts parts)
     : lock_(std::move(parts.lock)),
       writer_(std::move(parts.writer)),
       reader_(std::move(parts.reader)),
+      files_(writer_.path()),
       ids_(std::move(parts.ids)),
       thread_([this] { run(); }) {}
 
@@ -161,6 +162,7 @@ base::Result<void> ServerFile::flush() {
 base::Result<void> ServerFile::writeAll(const std::vector<Write>& writes) {
     auto transaction = TERRANE_TRY(store::Transaction::begin(writer_));
     for (const Write& write : writes) TERRANE_TRY(write(writer_));
+    TERRANE_TRY(files_.check());
     return transaction.commit();
 }
 

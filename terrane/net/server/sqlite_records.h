@@ -80,6 +80,7 @@ class ServerFile {
     store::FileLock lock_;
     store::Database writer_;  // used by thread_
     store::Database reader_;
+    store::OpenFiles files_;  // used by thread_
     store::BlockIdMap ids_;
 
     mutable std::mutex mutex_;

@@ -1,6 +1,7 @@
 #include "terrane/store/sqlite/sqlite.h"
 
 #include <sqlite3.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cassert>
@@ -49,8 +50,9 @@ namespace {
 // only a program without it, such as sqlite3, can still block.
 constexpr int kBusyMilliseconds = 10000;
 
-// Plain messages for errors that a user can act on; SQLite's messages for the rest.
-std::string describe(int code, const char* message) {
+// Plain messages for errors that a user can act on; SQLite's messages for the rest. `systemError`: the number
+// of the system's last one, or 0.
+std::string describe(int code, const char* message, int systemError) {
     switch (code & 0xFF) {
         case SQLITE_FULL:
             return "the disk is full";
@@ -73,6 +75,8 @@ std::string describe(int code, const char* message) {
             // The index of the log is memory-mapped: an error there means that address space or memory is
             // short; SQLite does not say which.
             if (code == SQLITE_IOERR_SHMMAP || code == SQLITE_IOERR_NOMEM) return "out of memory";
+            if (systemError != 0)
+                return fmt::format("reading or writing failed: {}", base::systemReason(systemError));
             return fmt::format("reading or writing failed (SQLite code {})", code);
         default:
             return message;
@@ -104,7 +108,8 @@ base::ErrorCode codeOf(int code) {
 
 tl::unexpected<base::Error> failure(const std::string& path, sqlite3* database) {
     const int code = sqlite3_extended_errcode(database);
-    return base::fail(codeOf(code), "{}: {}", path, describe(code, sqlite3_errmsg(database)));
+    return base::fail(codeOf(code), "{}: {}", path,
+                      describe(code, sqlite3_errmsg(database), sqlite3_system_errno(database)));
 }
 
 // "file:" and the path, with characters that are special in a URI escaped.
@@ -306,6 +311,32 @@ base::Result<void> Transaction::commit() {
     auto done = database_->execute("COMMIT");
     if (done) database_ = nullptr;
     return done;
+}
+
+namespace {
+
+std::optional<std::pair<dev_t, ino_t>> fileIdentity(const std::filesystem::path& path) {
+    struct stat found {};
+    if (::stat(path.c_str(), &found) != 0) return std::nullopt;
+    return std::pair(found.st_dev, found.st_ino);
+}
+
+}  // namespace
+
+OpenFiles::OpenFiles(const std::filesystem::path& path) {
+    const std::filesystem::path log = path.string() + "-wal";
+    files_ = {Opened{path, fileIdentity(path)}, Opened{log, fileIdentity(log)}};
+}
+
+base::Result<void> OpenFiles::check() const {
+    for (const Opened& opened : files_) {
+        const auto now = fileIdentity(opened.path);
+        if (now == opened.identity) continue;
+        return base::fail(base::ErrorCode::NotFound,
+                          "{}: {} while it was open; nothing is written until the file that was open is back",
+                          opened.path.string(), now ? "replaced" : "deleted or moved");
+    }
+    return {};
 }
 
 }  // namespace terrane::store

@@ -2,6 +2,9 @@
 // its statements are used by one thread at a time, and trust nothing in the file.
 #pragma once
 
+#include <sys/types.h>
+
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -14,7 +17,6 @@
 #include "terrane/base/result.h"
 #include "terrane/store/chunks/bytes.h"
 
-struct sqlite3;
 struct sqlite3;
 struct sqlite3_stmt;
 
@@ -160,6 +162,25 @@ class Transaction {
   private:
     explicit Transaction(Database& database) : database_(&database) {}
     Database* database_;  // null: nothing to roll back
+};
+
+// The identities of an open database and its log. A writing connection checks with it that the files are
+// still at their paths: data written into a deleted or replaced file is lost.
+class OpenFiles {
+  public:
+    // `path`: an open database whose log exists.
+    explicit OpenFiles(const std::filesystem::path& path);
+
+    // Checks the files. Returns NotFound, with advice, if a file was deleted, moved or replaced. Succeeds
+    // again once it is back.
+    [[nodiscard]] base::Result<void> check() const;
+
+  private:
+    struct Opened {
+        std::filesystem::path path;
+        std::optional<std::pair<dev_t, ino_t>> identity;  // none: there is no file
+    };
+    std::array<Opened, 2> files_;
 };
 
 }  // namespace terrane::store

@@ -1,7 +1,5 @@
 #include "terrane/store/sqlite/sqlite_writer.h"
 
-#include <sys/stat.h>
-
 #include <utility>
 
 #include "terrane/base/profile.h"
@@ -9,35 +7,6 @@
 #include "terrane/store/chunks/chunk_key.h"
 
 namespace terrane::store {
-
-namespace {
-
-base::Result<void> checkSame(const std::filesystem::path& path, const std::optional<FileIdentity>& opened) {
-    const auto now = identityOf(path);
-    if (now == opened) return {};
-    return base::fail(base::ErrorCode::NotFound,
-                      "{}: {} while it was open; nothing is written until the file that was open is back",
-                      path.string(), now ? "replaced" : "deleted or moved");
-}
-
-}  // namespace
-
-std::optional<FileIdentity> identityOf(const std::filesystem::path& path) {
-    struct stat found {};
-    if (::stat(path.c_str(), &found) != 0) return std::nullopt;
-    return FileIdentity{found.st_dev, found.st_ino};
-}
-
-OpenFiles::OpenFiles(const std::filesystem::path& path)
-    : save_(path),
-      log_(path.string() + "-wal"),
-      saveIdentity_(identityOf(save_)),
-      logIdentity_(identityOf(log_)) {}
-
-base::Result<void> OpenFiles::check() const {
-    TERRANE_TRY(checkSame(save_, saveIdentity_));
-    return checkSame(log_, logIdentity_);
-}
 
 base::Result<std::unique_ptr<SqliteWriter>> SqliteWriter::make(SaveFile& file) {
     constexpr const char* kStatements[] = {

@@ -2,8 +2,6 @@
 // at a time.
 #pragma once
 
-#include <sys/types.h>
-
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -16,33 +14,6 @@
 #include "terrane/store/sqlite/metadata_table.h"
 
 namespace terrane::store {
-
-// The identity of a file. The writing connection checks with it that the files of an open save are still at
-// their paths: data written into a deleted or replaced file is lost.
-struct FileIdentity {
-    dev_t device = 0;
-    ino_t inode = 0;
-
-    bool operator==(const FileIdentity&) const = default;
-};
-
-// Returns the identity of a file, or no value if it does not exist.
-std::optional<FileIdentity> identityOf(const std::filesystem::path& path);
-
-// The identities of the save and its log at construction.
-class OpenFiles {
-  public:
-    // `path`: an open save whose log exists.
-    explicit OpenFiles(const std::filesystem::path& path);
-
-    // Checks the files. Returns NotFound, with advice, if a file was deleted, moved or replaced. Succeeds
-    // again once it is back.
-    [[nodiscard]] base::Result<void> check() const;
-
-  private:
-    std::filesystem::path save_, log_;
-    std::optional<FileIdentity> saveIdentity_, logIdentity_;
-};
 
 class SqliteWriter {
   public:
