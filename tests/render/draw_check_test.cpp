@@ -61,6 +61,7 @@ class FaultyDriver {
         if (commands.empty()) return;
         const gpu::Buffer wrong(std::as_bytes(std::span(commands)), 0, "wrong commands");
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, wrong.id());
+        glBindBuffer(GL_PARAMETER_BUFFER_ARB, 0);  // see draw_commands.cpp
         real_(mode, type, nullptr, static_cast<GLsizei>(commands.size()), 0);
         glBindBuffer(GL_DRAW_INDIRECT_BUFFER, buffer);
     }

@@ -24,8 +24,9 @@ namespace {
 
 constexpr int kCheckPixelsOfSide = static_cast<int>(shared::kCheckSide);
 constexpr std::uint32_t kPixels = shared::kCheckSide * shared::kCheckSide;
-constexpr std::uint32_t kQuadsOfCommand = 2, kPatternCommands = kPixels / kQuadsOfCommand;
-constexpr std::uint32_t kBeyond = 32;  // commands after the counted ones
+constexpr std::uint32_t kQuadsOfCommand = 2;
+// The last pixels are of the commands after the counted ones.
+constexpr std::uint32_t kPatternCommands = kPixels / kQuadsOfCommand - 1, kBeyond = 32;
 constexpr int kFinestBits = 8;
 
 using CheckPixels = std::vector<std::uint32_t>;
@@ -57,8 +58,9 @@ CheckList patternList() {
 
 CheckPixels expectedPattern() {
     CheckPixels pixels;
-    for (std::uint32_t k = 0; k < kPixels; ++k)
+    for (std::uint32_t k = 0; k < kPatternCommands * kQuadsOfCommand; ++k)
         pixels.push_back(shared::checkValue(numbersOf(k / kQuadsOfCommand), k % kQuadsOfCommand));
+    pixels.resize(kPixels);
     return pixels;
 }
 
@@ -114,7 +116,7 @@ class Checker {
         std::vector<shared::DrawRecord> records = list.records;
         const std::uint32_t quads = isCounted ? 1 : 0;
         commands.insert(commands.end(), kBeyond, {6 * quads, quads, 0, 0, count});
-        records.push_back({numbersOf(count), shared::kWholePixel, shared::kFirstListedQuad});
+        records.push_back({numbersOf(count), shared::kWholePixel, shared::kFirstListedQuad + kPixels - 1});
         const gpu::Buffer commandBuffer(std::as_bytes(std::span(commands)), 0, "check draws"),
             recordBuffer(std::as_bytes(std::span(records)), 0, "check draws"),
             countBuffer(std::as_bytes(std::span(&count, 1)), 0, "check draws");

@@ -19,7 +19,7 @@ struct DrawCheck {
     std::string fault;           // for a warning; empty if nothing is wrong
 };
 
-// Draws a known pattern, reads it back and compares: 4,096 pixels in 2,048 commands.
+// Draws a known pattern, reads it back and compares: 4,096 pixels in 2,047 commands.
 base::Result<DrawCheck> checkDraws(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device);
 
 // Returns the properties of the current context's driver without those that do not work. Warns of them in

@@ -28,6 +28,8 @@ void drawIndirect(const CommandList& list) {
     glBindBuffer(GL_PARAMETER_BUFFER_ARB, list.counts->id());
     glMultiDrawElementsIndirectCountARB(GL_TRIANGLES, GL_UNSIGNED_SHORT, offset,
                                         static_cast<GLintptr>(list.countOffsetBytes), count, 0);
+    // Mesa 22.3 limits draws without a count, too, by the buffer that is bound here.
+    glBindBuffer(GL_PARAMETER_BUFFER_ARB, 0);
 }
 
 // A member that OpenGL would ignore or refuse is wrong data: the GPU wrote some of these commands.
