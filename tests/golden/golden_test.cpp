@@ -80,13 +80,13 @@ TEST_F(Golden, Landscape) {
                              render::View::Color};
     EXPECT_TRUE(matchesGolden("landscape_color", drawBothWays(renderer, input)));
     input.view = render::View::Normal;
-    EXPECT_TRUE(matchesGolden("landscape_normal", drawBothWays(renderer, input)));
+    EXPECT_TRUE(matchesGolden("landscape_normal", draw(renderer, input)));
     input.view = render::View::Depth;
-    EXPECT_TRUE(matchesGolden("landscape_depth", drawBothWays(renderer, input)));
+    EXPECT_TRUE(matchesGolden("landscape_depth", draw(renderer, input)));
     input.view = render::View::Light;
-    EXPECT_TRUE(matchesGolden("landscape_light", drawBothWays(renderer, input)));
+    EXPECT_TRUE(matchesGolden("landscape_light", draw(renderer, input)));
     input.view = render::View::Merging;
-    EXPECT_TRUE(matchesGolden("landscape_merging", drawBothWays(renderer, input)));
+    EXPECT_TRUE(matchesGolden("landscape_merging", draw(renderer, input)));
 }
 
 // All merge methods and mesh section heights give the image of single faces. Normals are compared in the
@@ -98,7 +98,7 @@ TEST_F(Golden, MergeMethodsDrawTheSameImage) {
         const render::Camera camera = view::cameraOf(content::findScene(scene)->pose);
         render::Renderer& renderer = emptyRenderer();
         loadOverworld(renderer, camera, kViewDistance, options);
-        return drawBothWays(renderer, {camera, world::environmentAt(0.4f), 16.0f * kViewDistance, 0, view});
+        return draw(renderer, {camera, world::environmentAt(0.4f), 16.0f * kViewDistance, 0, view});
     };
     for (const auto& [scene, view] :
          {std::pair("landscape", render::View::Color), {"desert", render::View::Normal}}) {
