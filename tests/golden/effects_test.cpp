@@ -26,7 +26,7 @@ class Effects : public GoldenTest {
         change(options);
         const auto configured = renderer_->configure(kImageSize, options);
         EXPECT_TRUE(configured) << (configured ? "" : configured.error().message);
-        return drawBothWays(*renderer_, input);
+        return draw(*renderer_, input);
     }
 
     template <class Change>
