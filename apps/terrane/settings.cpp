@@ -109,8 +109,7 @@ struct SettingsText {
 // Empty if there is no file.
 base::Result<SettingsText> readSettings(const fs::path& file) {
     std::error_code ignored;
-    // A link that leads nowhere is an error.
-    if (!fs::exists(fs::symlink_status(file, ignored))) return SettingsText();
+    if (!fs::exists(file, ignored)) return SettingsText();
     auto text = TERRANE_TRY(base::readFile(file));
     toml::table table = TERRANE_TRY(base::parseToml(text, file.string()));
     useCurrentNames(table);

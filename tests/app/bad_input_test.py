@@ -291,6 +291,12 @@ class BadInput(ProgramTest):
             self.assertEqual(done.returncode, 141, f"{arguments}: {done.stderr}")
             self.assertNotIn("error", done.stderr, arguments)
 
+    def test_settings_of_a_server_that_lead_nowhere(self):
+        world, settings = self.folder / "linked.sqlite", self.folder / "linked.server.toml"
+        settings.symlink_to("nowhere")
+        done = run("serve", "--world", world, "--generator", "flat", "--address", "127.0.0.1", "--port", "0")
+        self.assertRefused(done, "linked.server.toml: there is no such file")
+
     # A server goes on without readers of its output and its messages, answers its console, and saves.
     def test_a_server_whose_readers_end(self):
         world = self.folder / "served.sqlite"

@@ -146,15 +146,6 @@ TEST_F(Settings, AnOptionTakesItsKindOfValue) {
     EXPECT_EQ(errorOf("\ndays = 'x'\n"), ":2: days: expected a number, got \"x\"");
 }
 
-TEST_F(Settings, ALinkThatLeadsNowhereIsAnError) {
-    std::filesystem::create_directories(file_.parent_path());
-    std::filesystem::create_symlink("nowhere", file_);
-    CLI::App command;
-    const auto done = applySettings(file_, command, {});
-    ASSERT_FALSE(done);
-    EXPECT_NE(done.error().message.find("settings.toml"), std::string::npos) << done.error().message;
-}
-
 TEST_F(Settings, AnOptionOfSeveralValuesTakesAList) {
     std::filesystem::create_directories(file_.parent_path());
     CLI::App command;

@@ -69,7 +69,7 @@ TEST_F(PermissionsTest, AShapeChangesOnlyItsOwnBlocks) {
 }
 
 TEST_F(PermissionsTest, NobodyUndoesWhatBecameAClaimOfOthers) {
-    const world::BlockPos elsewhere{kOutside.x, kOutside.y + 10, kOutside.z};
+    const world::BlockPos elsewhere{10, 5, kGroundHeight};
     ASSERT_EQ(put(elsewhere, kNeighbor), EditResult::Applied);
     ASSERT_EQ(put(kOutside, kNeighbor), EditResult::Applied);
     ASSERT_TRUE(session_.permissions.claims.add({"later", {6, 0, 9, 9}, kOwner, {}}));

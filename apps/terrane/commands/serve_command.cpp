@@ -30,10 +30,13 @@ std::filesystem::path withEnding(const std::filesystem::path& files, const std::
 base::Result<void> readSettings(ServeOptions& options, const std::filesystem::path& files,
                                 CLI::App& command) {
     std::error_code ignored;
-    if (options.settingsFile.empty()) return applySettings(withEnding(files, ".server.toml"), command, {});
-    if (!std::filesystem::exists(options.settingsFile, ignored))
-        return base::fail(base::ErrorCode::NotFound, "{}: there is no such file", options.settingsFile);
-    return applySettings(options.settingsFile, command, {});
+    const bool isNamed = !options.settingsFile.empty();
+    const std::filesystem::path file = isNamed ? options.settingsFile : withEnding(files, ".server.toml");
+    // A link to nothing is none that was meant to be without settings.
+    const bool isExpected = isNamed || std::filesystem::is_symlink(file, ignored);
+    if (isExpected && !std::filesystem::exists(file, ignored))
+        return base::fail(base::ErrorCode::NotFound, "{}: there is no such file", file.string());
+    return applySettings(file, command, {});
 }
 
 // The address by which players of other servers reach this one.
