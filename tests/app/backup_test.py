@@ -111,7 +111,8 @@ class OfAServer(support.ProgramTest):
             database.execute("DROP TABLE claims")
             database.commit()
         done = run("backup", self.world, self.to / "x.sqlite")
-        self.assertRefused(done, "claims")
+        self.assertRefused(done, records)
+        self.assertIn("claims", done.stderr)
         self.assertEqual(list(self.to.iterdir()), [])
 
     def test_damaged_chunks_are_told(self):

@@ -295,7 +295,8 @@ class BadInput(ProgramTest):
         world, settings = self.folder / "linked.sqlite", self.folder / "linked.server.toml"
         settings.symlink_to("nowhere")
         done = run("serve", "--world", world, "--generator", "flat", "--address", "127.0.0.1", "--port", "0")
-        self.assertRefused(done, "linked.server.toml: there is no such file")
+        self.assertRefused(done, settings)
+        self.assertIn("linked.server.toml: there is no such file", done.stderr)
 
     # A server goes on without readers of its output and its messages, answers its console, and saves.
     def test_a_server_whose_readers_end(self):

@@ -31,7 +31,8 @@ base::Result<void> readSettings(ServeOptions& options, const std::filesystem::pa
                                 CLI::App& command) {
     std::error_code ignored;
     const bool isNamed = !options.settingsFile.empty();
-    const std::filesystem::path file = isNamed ? options.settingsFile : withEnding(files, ".server.toml");
+    const std::filesystem::path file =
+        isNamed ? std::filesystem::path(options.settingsFile) : withEnding(files, ".server.toml");
     // A link to nothing is none that was meant to be without settings.
     const bool isExpected = isNamed || std::filesystem::is_symlink(file, ignored);
     if (isExpected && !std::filesystem::exists(file, ignored))
