@@ -12,8 +12,8 @@
 #include "terrane/base/process.h"
 #include "terrane/io/map_world.h"
 #include "terrane/web/host_check.h"
-#include "terrane/web/static_map.h"
 #include "terrane/web/map_site.h"
+#include "terrane/web/static_map.h"
 
 namespace terrane::app {
 namespace {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "terrane/base/files.h"
-#include "terrane/base/log.h"
 #include "terrane/base/job_system.h"
+#include "terrane/base/log.h"
 #include "terrane/formats/file_kind.h"
 #include "terrane/io/import_world.h"
 #include "terrane/io/open_session.h"
