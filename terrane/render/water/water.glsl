@@ -1,7 +1,6 @@
 // Water: waves in its normals, reflections of sky and shore, glitter toward the sun or moon, darker and bluer with
-// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, caustics.glsl,
-// gbuffer_read.glsl. WATER_DETAIL: 1 adds reflections
-// of the shore, foam and caustics.
+// depth. Needs frame_uniforms.glsl, sky_color.glsl, lighting.glsl, caustics.glsl, gbuffer_read.glsl. WATER_DETAIL: 1
+// adds reflections of the shore, foam and caustics.
 #include "terrane/render/water/water_waves.glsl"
 #if WATER_DETAIL == 1
 #include "terrane/render/water/water_reflection.glsl"
