@@ -109,7 +109,7 @@ class DrawCheckTest : public gpu::GlTest {
         golden::placePool(world);
         for (const auto& [pos, mesh] : golden::meshWorld(world)) renderer->setChunk(pos, mesh);
         RenderOptions options;
-        options.msaaSamples = 1;
+        options.msaaSamples = 2;
         EXPECT_TRUE(renderer->configure({160, 90}, options));
         const FrameInput input{{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color};
         for (int frame = 0; frame < 3; ++frame) renderer->draw(input);

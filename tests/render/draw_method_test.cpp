@@ -44,8 +44,11 @@ class DrawMethodTest : public gpu::GlTest {
             FrameInput input{camera, world::environmentAt(0.4f), 100, 1.5f, View::Color};
             input.figures = std::span(&figure, 1);
             a.draw(input);
+            // Read before `b` draws: lavapipe of Mesa 22.3 limits draws without a count by the count of an
+            // earlier draw in the same batch.
+            const base::Image image = a.readImage();
             b.draw(input);
-            ASSERT_EQ(a.readImage().rgba, b.readImage().rgba) << name << ", yaw " << camera.yaw;
+            ASSERT_EQ(image.rgba, b.readImage().rgba) << name << ", yaw " << camera.yaw;
         }
         glFinish();
         EXPECT_EQ(a.statistics().shadowTriangles, b.statistics().shadowTriangles) << name;
@@ -78,7 +81,7 @@ TEST_F(DrawMethodTest, TheLoopDrawsTheSameImages) {
     const QuadStoreSizes tiny{.arenaQuads = largest_ + 8, .firstQuads = largest_ + 8};
     for (const QuadStoreSizes& sizes : {QuadStoreSizes{}, tiny}) {
         Renderer lists = makeRenderer(sizes), loop = makeRenderer(sizes);
-        for (const int samples : {1, 4}) {
+        for (const int samples : {2, 4}) {
             RenderOptions options = withEverything(samples);
             ASSERT_TRUE(lists.configure(kWalkSize, options) && loop.configure(kWalkSize, looped(options)));
             expectSameWalk(lists, loop, "occlusion culling");
@@ -95,7 +98,7 @@ TEST_F(DrawMethodTest, DriversWithoutCountsOrListsDrawTheSame) {
     Renderer best = makeRenderer(), withoutCounts = makeRenderer({}, device);
     device.indirectDraws = false;
     Renderer withoutLists = makeRenderer({}, device);
-    const RenderOptions options = withEverything(1);
+    const RenderOptions options = withEverything(2);
     for (Renderer* renderer : {&best, &withoutCounts, &withoutLists})
         ASSERT_TRUE(renderer->configure(kWalkSize, options));
     expectSameWalk(best, withoutCounts, "no counts");
@@ -106,7 +109,7 @@ TEST_F(DrawMethodTest, DriversWithoutCountsOrListsDrawTheSame) {
 
 // Short lists of quads, few work groups, shadows in small uploads.
 TEST_F(DrawMethodTest, LimitsChangeNoImage) {
-    const RenderOptions options = withEverything(1);
+    const RenderOptions options = withEverything(2);
     Renderer whole = makeRenderer();
     std::uint32_t commands = 0;  // the least with which all chunks are shown
     for (const auto& [pos, mesh] : meshes_)
@@ -131,7 +134,7 @@ TEST_F(DrawMethodTest, ChunksBeyondALimitAreRefused) {
     auto made = Renderer::create(contentShaders(), contentBlocks(), contentTexture, gpu::queryDevice(),
                                  {.limits = {.meshSections = 20}});
     ASSERT_TRUE(made) << made.error().message;
-    ASSERT_TRUE(made->configure(kWalkSize, withEverything(1)));
+    ASSERT_TRUE(made->configure(kWalkSize, withEverything(2)));
     std::size_t shown = 0;
     for (const auto& [pos, mesh] : meshes_) shown += made->setChunk(pos, mesh);
     EXPECT_GT(shown, 0u);
