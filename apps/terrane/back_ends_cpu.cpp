@@ -20,9 +20,9 @@ base::Result<OnBackend<Worker>> onCpu(Backend backend, std::unique_ptr<Worker> w
 }  // namespace
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
-                                                                Backend backend,
-                                                                const pack::Content& content) {
-    auto generator = TERRANE_TRY(io::makeGenerator(options, content));
+                                                                Backend backend, const pack::Content& content,
+                                                                int level) {
+    auto generator = TERRANE_TRY(io::makeGenerator(options, content, level));
     return onCpu(backend, gen::makeCpuGenerator(std::move(generator), io::threadCount(options)));
 }
 

@@ -45,14 +45,14 @@ bool usesGpu(Backend backend) {
 }
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
-                                                                Backend backend,
-                                                                const pack::Content& content) {
+                                                                Backend backend, const pack::Content& content,
+                                                                int level) {
     const auto makeCpu = [&]() -> base::Result<std::unique_ptr<gen::BatchGenerator>> {
-        auto generator = TERRANE_TRY(io::makeGenerator(options, content));
+        auto generator = TERRANE_TRY(io::makeGenerator(options, content, level));
         return gen::makeCpuGenerator(std::move(generator), io::threadCount(options));
     };
     const auto makeGpu = [&]() -> base::Result<gen_gpu::GpuGenerator> {
-        auto graph = TERRANE_TRY(io::makeGraph(options, content));
+        auto graph = TERRANE_TRY(io::makeGraph(options, content, level));
         return gen_gpu::GpuGenerator::create(gpu::builtInShaders(""), graph, options.effectiveSeed());
     };
     return makeOnBackend<gen::BatchGenerator>(backend, makeCpu, makeGpu);

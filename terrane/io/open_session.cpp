@@ -79,12 +79,14 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     return opened;
 }
 
-base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content) {
-    return gen::makeGenerator(options.effectiveGenerator(), *content.blocks, 0, content.generators);
+base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content,
+                                            int level) {
+    return gen::makeGenerator(options.effectiveGenerator(), *content.blocks, level, content.generators);
 }
 
-base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content) {
-    auto graph = TERRANE_TRY(makeGraph(options, content));
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content,
+                                           int level) {
+    auto graph = TERRANE_TRY(makeGraph(options, content, level));
     return gen::Generator(std::move(graph), options.effectiveSeed());
 }
 

@@ -28,9 +28,11 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(
     WorldOptions& options, const SaveOptions& save, store::WorldAccess access, const pack::Content& content,
     store::WorldSharing sharing = store::WorldSharing::Alone);
 
-// The generator's graph at level 0.
-base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content);
-base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content);
+// The generator of one level, 0…world::kMaxLevel, and its graph.
+base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content,
+                                            int level = 0);
+base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content,
+                                           int level = 0);
 
 struct OpenedWorld {
     pack::Content content;

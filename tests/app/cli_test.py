@@ -101,6 +101,27 @@ class Generate(ProgramTest):
         self.digest("--area", f"{low},{low},{low + 1},{low + 1}")
         self.digest("--area", f"{high - 1},{high - 1},{high},{high}")
 
+    def test_levels(self):
+        levels = [self.digest("--radius", "1", "--level", level) for level in (0, 1, 5, 15)]
+        self.assertEqual(levels[0], self.digest("--radius", "1"))
+        self.assertEqual(len(set(levels)), 4)
+        for level, digest in zip((1, 5, 15), levels[1:]):
+            for options in (["--threads", "1"], ["--backend", "gpu"]):
+                self.assertEqual(self.succeed("generate", "--digest", "--radius", "1", "--level", level, *options), digest)
+        last = 2**27 >> 5
+        self.digest("--level", "5", f"--area={-last},{last - 1},{1 - last},{last}")
+        self.assertIn("chunk 3,4 of level 2", self.succeed("generate", "--explain", "--area", "3,4,4,5", "--level", "2", *FLAT))
+
+    def test_levels_that_there_are_not(self):
+        last = 2**27 >> 5
+        for text, *arguments in (("--level", "--level", "16", "--radius", "0"), ("--level", "--level", "-1", "--radius", "0"),
+                                 ("of level 5: outside of the world", "--level", "5", f"--area={last},0,{last + 1},1"),
+                                 ("worlds store", "--level", "1", "--radius", "0", "--world", self.folder / "a.sqlite")):
+            done = run("generate", "--digest", *arguments)
+            self.assertEqual(done.returncode, 2, done.stderr)
+            self.assertIn(text, done.stderr)
+        self.assertFalse((self.folder / "a.sqlite").exists())
+
     def test_json(self):
         text = self.succeed("generate", "--radius", "1", "--digest", "--json", "--threads", "2")
         self.assertEqual(text.count("\n"), 1)

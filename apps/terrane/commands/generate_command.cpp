@@ -27,6 +27,7 @@ namespace {
 struct GenerateOptions {
     io::WorldOptions world;
     AreaOptions chunks;
+    int level = 0;
     bool digest = false;
     bool json = false;
     bool explain = false;
@@ -49,8 +50,11 @@ struct Generated {
 class AreaGenerator {
   public:
     // `save` may be null.
-    AreaGenerator(gen::BatchGenerator& generator, store::ChunkStore* save, bool wantsDigest)
-        : generator_(generator), save_(save), wantsDigest_(wantsDigest) {}
+    AreaGenerator(gen::BatchGenerator& generator, int level, store::ChunkStore* save, bool wantsDigest)
+        : generator_(generator),
+          level_(static_cast<std::uint8_t>(level)),
+          save_(save),
+          wantsDigest_(wantsDigest) {}
 
     // The digest covers chunks by y, then x; blocks by z, y, x, as 16-bit little-endian ids.
     base::Result<Generated> run(const world::ChunkArea& area) {
@@ -61,7 +65,7 @@ class AreaGenerator {
             positions.clear();
             for (std::int64_t n = first; n < std::min(first + kBatch, area.chunkCount()); ++n) {
                 positions.push_back({static_cast<std::int32_t>(area.x0 + n % width),
-                                     static_cast<std::int32_t>(area.y0 + n / width)});
+                                     static_cast<std::int32_t>(area.y0 + n / width), level_});
             }
             TERRANE_TRY(batch(positions));
             bar.set(static_cast<std::size_t>(first) + positions.size());
@@ -99,6 +103,7 @@ class AreaGenerator {
     }
 
     gen::BatchGenerator& generator_;
+    std::uint8_t level_;
     store::ChunkStore* save_;
     bool wantsDigest_;
     std::vector<std::shared_ptr<world::Chunk>> chunks_;
@@ -135,7 +140,8 @@ std::string described(const gen::PassReport& report, const std::string& name) {
 void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::ChunkPos pos) {
     std::vector<gen::PassReport> reports;
     gen::Generator(graph, seed).generate(pos, reports);
-    fmt::print("// chunk {},{}\n", pos.x, pos.y);
+    fmt::print("// chunk {},{}{}\n", pos.x, pos.y,
+               pos.level > 0 ? fmt::format(" of level {}", pos.level) : "");
     for (const gen::PassReport& report : reports) {
         const std::string& name = graph.passes[static_cast<std::size_t>(report.pass)].name;
         fmt::print("// {}\n", described(report, name));
@@ -145,7 +151,7 @@ void explainChunk(const gen::GeneratorGraph& graph, std::uint64_t seed, world::C
 // Prints the passes, the fields that they read and write, and their GLSL.
 base::Result<void> explain(const io::WorldOptions& options, const pack::Content& content,
                            world::ChunkPos chunk) {
-    auto graph = TERRANE_TRY(io::makeGraph(options, content));
+    auto graph = TERRANE_TRY(io::makeGraph(options, content, chunk.level));
     for (std::size_t k = 0; k < graph.passes.size(); ++k) {
         const gen::PassGraph& pass = graph.passes[k];
         fmt::print("// pass {}: {}, {}, {} nodes\n", k, pass.name, pass.is3D ? "3D" : "2D",
@@ -192,21 +198,24 @@ base::Result<void> generate(GenerateOptions& options) {
     const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
     if (options.explain) {
         // The first chunk of the area, if one is given.
-        const world::ChunkPos chunk =
-            options.chunks.area ? world::ChunkPos{area.x0, area.y0} : world::ChunkPos{0, 0};
+        world::ChunkPos chunk{0, 0, static_cast<std::uint8_t>(options.level)};
+        if (options.chunks.area) chunk.x = area.x0, chunk.y = area.y0;
         return explain(options.world, content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
         return base::fail("--simd: this machine does not have {}, only {}", options.simd,
                           fmt::join(gen::simdTargets(), ", "));
     }
+    if (options.level > 0 && !options.save.world.empty())
+        return base::fail("--level: worlds store chunks of level 0, not generated tiles");
     TERRANE_TRY(checkSaveOptions(options.save));
     auto save = TERRANE_TRY(io::openSave(options.world, options.save, store::WorldAccess::ReadWrite, content,
                                          store::WorldSharing::Generating));
-    auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content));
+    auto generator = TERRANE_TRY(makeBatchGenerator(options.world, options.backend, content, options.level));
 
     const auto start = std::chrono::steady_clock::now();
-    auto result = TERRANE_TRY(AreaGenerator(*generator.worker, save.get(), options.digest).run(area));
+    auto result =
+        TERRANE_TRY(AreaGenerator(*generator.worker, options.level, save.get(), options.digest).run(area));
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     report(options, result, seconds, generator.worker->backend());
     return {};
@@ -218,6 +227,10 @@ CommandEntry addGenerate(CLI::App& app) {
     auto options = std::make_shared<GenerateOptions>();
     CLI::App* command = app.add_subcommand("generate", "Generate an area of the world");
     addAreaOptions(*command, options->chunks, 4096, "Chunks around 0,0: (2R+1)² of them");
+    command
+        ->add_option("--level", options->level,
+                     "Level of detail: tiles of columns 2^N blocks wide; radius and area count these")
+        ->check(CLI::Range(0, world::kMaxLevel));
     command->add_flag("--digest", options->digest, "Print one hash over all blocks");
     command->add_flag("--json", options->json, "Print the result as JSON");
     command->add_flag(
