@@ -28,8 +28,8 @@ struct OnBackend {
 };
 
 base::Result<OnBackend<gen::BatchGenerator>> makeBatchGenerator(const io::WorldOptions& options,
-                                                                Backend backend,
-                                                                const pack::Content& content, int level = 0);
+                                                                Backend backend, const pack::Content& content,
+                                                                int level = 0);
 // `table` outlives it.
 base::Result<OnBackend<light::AreaSolver>> makeLightSolver(Backend backend, const light::LightTable& table);
 base::Result<OnBackend<mesh::BatchMesher>> makeBatchMesher(Backend backend,
