@@ -1,6 +1,8 @@
 // Images are the same by either way of drawing, within each limit.
 #include "terrane/render/quads/draw_commands.h"
 
+#include <initializer_list>
+
 #include "terrane/mesh/mesh_section_quads.h"
 #include "terrane/render/frame/renderer.h"
 #include "tests/golden/scenes.h"
@@ -9,6 +11,23 @@
 
 namespace terrane::render {
 namespace {
+
+RenderOptions withEverything(int samples) {
+    RenderOptions options;
+    options.msaaSamples = samples;
+    options.shadows = ShadowReach::Far;
+    options.shadowSize = 512;
+    options.occlusion = Occlusion::On;
+    // Quads that grow over the same edge are at equal depth, and which is drawn first depends on the list,
+    // whose order differs from run to run: they do not grow here.
+    options.tJunctions = TJunctions::Open;
+    return options;
+}
+
+RenderOptions looped(RenderOptions options) {
+    options.draw = DrawMethod::Loop;
+    return options;
+}
 
 class DrawMethodTest : public gpu::GlTest {
   protected:
@@ -55,41 +74,32 @@ class DrawMethodTest : public gpu::GlTest {
         EXPECT_GT(a.statistics().quads, 0u) << name;
     }
 
+    void expectSameLoop(std::initializer_list<int> sampleCounts) {
+        const QuadStoreSizes tiny{.arenaQuads = largest_ + 8, .firstQuads = largest_ + 8};
+        for (const QuadStoreSizes& sizes : {QuadStoreSizes{}, tiny}) {
+            Renderer lists = makeRenderer(sizes), loop = makeRenderer(sizes);
+            for (const int samples : sampleCounts) {
+                RenderOptions options = withEverything(samples), loopOptions = looped(options);
+                ASSERT_TRUE(lists.configure(kWalkSize, options) && loop.configure(kWalkSize, loopOptions));
+                expectSameWalk(lists, loop, "occlusion culling");
+                options.occlusionCulling = loopOptions.occlusionCulling = false;
+                ASSERT_TRUE(lists.configure(kWalkSize, options) && loop.configure(kWalkSize, loopOptions));
+                expectSameWalk(lists, loop, "everything in view");
+            }
+        }
+    }
+
     static constexpr glm::ivec2 kWalkSize{160, 90};
     golden::Meshes meshes_;
     std::uint32_t largest_ = 0;
 };
 
-RenderOptions withEverything(int samples) {
-    RenderOptions options;
-    options.msaaSamples = samples;
-    options.shadows = ShadowReach::Far;
-    options.shadowSize = 512;
-    options.occlusion = Occlusion::On;
-    // Quads that grow over the same edge are at equal depth, and which is drawn first depends on the list,
-    // whose order differs from run to run: they do not grow here.
-    options.tJunctions = TJunctions::Open;
-    return options;
-}
-
-RenderOptions looped(RenderOptions options) {
-    options.draw = DrawMethod::Loop;
-    return options;
-}
-
 TEST_F(DrawMethodTest, TheLoopDrawsTheSameImages) {
-    const QuadStoreSizes tiny{.arenaQuads = largest_ + 8, .firstQuads = largest_ + 8};
-    for (const QuadStoreSizes& sizes : {QuadStoreSizes{}, tiny}) {
-        Renderer lists = makeRenderer(sizes), loop = makeRenderer(sizes);
-        for (const int samples : {2, 4}) {
-            RenderOptions options = withEverything(samples);
-            ASSERT_TRUE(lists.configure(kWalkSize, options) && loop.configure(kWalkSize, looped(options)));
-            expectSameWalk(lists, loop, "occlusion culling");
-            options.occlusionCulling = false;
-            ASSERT_TRUE(lists.configure(kWalkSize, options) && loop.configure(kWalkSize, looped(options)));
-            expectSameWalk(lists, loop, "everything in view");
-        }
-    }
+    expectSameLoop({2, 4});
+}
+
+TEST_F(DrawMethodTest, TheLoopDrawsTheSameImagesOfOneSample) {
+    expectSameLoop({1});
 }
 
 TEST_F(DrawMethodTest, DriversWithoutCountsOrListsDrawTheSame) {

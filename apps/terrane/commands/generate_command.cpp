@@ -198,8 +198,9 @@ base::Result<void> generate(GenerateOptions& options) {
     const auto content = TERRANE_TRY(io::loadContent(options.world, options.save));
     if (options.explain) {
         // The first chunk of the area, if one is given.
-        world::ChunkPos chunk{0, 0, static_cast<std::uint8_t>(options.level)};
-        if (options.chunks.area) chunk.x = area.x0, chunk.y = area.y0;
+        const auto level = static_cast<std::uint8_t>(options.level);
+        const world::ChunkPos chunk =
+            options.chunks.area ? world::ChunkPos{area.x0, area.y0, level} : world::ChunkPos{0, 0, level};
         return explain(options.world, content, chunk);
     }
     if (!gen::chooseSimdTarget(options.simd)) {
