@@ -34,8 +34,8 @@ void forEachCollisionBox(const World& world, const BlockRegistry& blocks, const 
     const auto emit = [&](glm::dvec3 corner, const Box& box) {
         return use(Aabb{corner + glm::dvec3(box.min), corner + glm::dvec3(box.max)});
     };
-    const std::int64_t minZ = std::max<std::int64_t>(cellOf(area.min.z), 0);
-    const std::int64_t maxZ = std::min<std::int64_t>(cellOf(area.max.z), kChunkHeight - 1);
+    const std::int64_t minZ = std::max<std::int64_t>(cellOf(area.min.z), world.heights().bottom);
+    const std::int64_t maxZ = std::min<std::int64_t>(cellOf(area.max.z), world.heights().top - 1);
     for (std::int64_t y = cellOf(area.min.y); y <= cellOf(area.max.y); ++y) {
         for (std::int64_t x = cellOf(area.min.x); x <= cellOf(area.max.x); ++x) {
             const BlockPos column{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), 0};
@@ -109,7 +109,7 @@ bool collides(const World& world, const BlockRegistry& blocks, const Aabb& box) 
 
 bool isInLiquid(const World& world, const BlockRegistry& blocks, glm::dvec3 point) {
     const std::int64_t x = cellOf(point.x), y = cellOf(point.y), z = cellOf(point.z);
-    if (!hasBlocks(x, y) || z < 0 || z >= kChunkHeight) return false;
+    if (!hasBlocks(x, y) || z < world.heights().bottom || z >= world.heights().top) return false;
     const BlockPos pos{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y),
                        static_cast<std::int32_t>(z)};
     if (blocks.type(world.block(pos)).shape != Shape::Liquid) return false;
@@ -198,7 +198,7 @@ bool canJumpOver(const World& world, const BlockRegistry& blocks, const Characte
 
 bool isInClimbable(const World& world, const BlockRegistry& blocks, glm::dvec3 point) {
     const BlockPos at = blockOf(point);
-    return isInHeight(at.z) && blocks.type(world.block(at)).climbable;
+    return world.heights().contains(at.z) && blocks.type(world.block(at)).climbable;
 }
 
 // Whether the chunks that the box is in are loaded.

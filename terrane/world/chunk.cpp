@@ -9,14 +9,21 @@
 
 namespace terrane::world {
 
+Chunk::Chunk(Heights heights)
+    : heights_(heights),
+      blocks_(static_cast<std::size_t>(heights.sections())),
+      blockState_(static_cast<std::size_t>(heights.sections())) {
+    assert(isValid(heights) && "whoever makes a world checks its heights");
+}
+
 void Chunk::setBlock(BlockIndex i, BlockId id) {
     clearBlockEntityData(i);
     setBlockState(i, 0);
-    blocks_[i >> 12].set(i & 4095, id);
+    blocks_[place(sectionOf(i))].set(indexInSection(i), id);
 }
 
 void Chunk::setBlockState(BlockIndex i, std::uint16_t value) {
-    blockState_[i >> 12].set(i & 4095, value);
+    blockState_[place(sectionOf(i))].set(indexInSection(i), value);
 }
 
 const BlockEntityData* Chunk::blockEntityData(BlockIndex i) const {
@@ -59,18 +66,21 @@ std::vector<BlockIndex> Chunk::blocksWithBlockEntityData() const {
     return blocks;
 }
 
+void Chunk::requireSection(int number) const {
+    base::require(number >= heights_.firstSection() && number < heights_.endSection(),
+                  "Chunk: the section is above or below the chunk");
+}
+
 void Chunk::setSection(int number, Section section) {
-    base::require(number >= 0 && number < kSectionsPerChunk,
-                  "Chunk::setSection: a chunk has sections 0 to 15");
-    std::erase_if(entityData_, [&](const auto& entry) { return entry.first >> 12 == number; });
-    blocks_[static_cast<std::size_t>(number)] = std::move(section);
-    blockState_[static_cast<std::size_t>(number)] = Section();
+    requireSection(number);
+    std::erase_if(entityData_, [&](const auto& entry) { return sectionOf(entry.first) == number; });
+    blocks_[place(number)] = std::move(section);
+    blockState_[place(number)] = Section();
 }
 
 void Chunk::setBlockStateSection(int number, Section section) {
-    base::require(number >= 0 && number < kSectionsPerChunk,
-                  "Chunk::setBlockStateSection: a chunk has sections 0 to 15");
-    blockState_[static_cast<std::size_t>(number)] = std::move(section);
+    requireSection(number);
+    blockState_[place(number)] = std::move(section);
 }
 
 bool operator==(const Chunk& a, const Chunk& b) {
@@ -78,7 +88,7 @@ bool operator==(const Chunk& a, const Chunk& b) {
         const BlockEntityData* data = b.blockEntityData(entry.first);
         return data && *data == *entry.second;
     };
-    return a.blocks_ == b.blocks_ && a.blockState_ == b.blockState_ &&
+    return a.heights_ == b.heights_ && a.blocks_ == b.blocks_ && a.blockState_ == b.blockState_ &&
            a.entityData_.size() == b.entityData_.size() && std::ranges::all_of(a.entityData_, isInB);
 }
 
@@ -86,7 +96,7 @@ std::size_t Chunk::memoryBytes() const {
     // A hash table has a pointer for each bucket, and a link and an entry for each element.
     constexpr std::size_t kEntryBytes =
         sizeof(void*) + sizeof(std::pair<const BlockIndex, BlockEntityDataPtr>);
-    std::size_t bytes = sizeof(Chunk) - sizeof(blocks_) - sizeof(blockState_);
+    std::size_t bytes = sizeof(Chunk);
     for (const Section& section : blocks_) bytes += section.memoryBytes();
     for (const Section& section : blockState_) bytes += section.memoryBytes();
     if (!entityData_.empty()) bytes += entityData_.bucket_count() * sizeof(void*);
@@ -96,7 +106,7 @@ std::size_t Chunk::memoryBytes() const {
 
 void addToDigest(base::Digest& digest, const Chunk& chunk) {
     std::array<Section::Value, kBlocksPerSection> values;
-    for (int s = 0; s < kSectionsPerChunk; ++s) {
+    for (int s = chunk.heights().firstSection(); s < chunk.heights().endSection(); ++s) {
         chunk.section(s).unpack(values);
         digest.update(std::as_bytes(std::span(values)));
     }

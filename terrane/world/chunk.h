@@ -1,8 +1,8 @@
-// A chunk: 16×16×256 blocks with their block states and block entity data. A plain value; copying it copies a
-// few kilobytes.
+// A chunk: a column of 16×16 blocks from the world's bottom to its top, with their block states and block
+// entity data. A plain value; copies share the memory of their sections until one of them changes.
 #pragma once
 
-#include <array>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -24,13 +24,21 @@ using BlockEntityDataPtr = std::shared_ptr<const BlockEntityData>;
 
 // Block access is O(1). It is not synchronised; the world shares chunks between threads as `shared_ptr<const
 // Chunk>`.
+//
+// Blocks and sections are in the chunk's heights; section numbers are those of heights.h.
 class Chunk {
   public:
-    BlockId block(BlockIndex i) const { return blocks_[i >> 12].get(i & 4095); }
+    // Filled with air.
+    Chunk() : Chunk(Heights()) {}
+    explicit Chunk(Heights heights);
+
+    Heights heights() const { return heights_; }
+
+    BlockId block(BlockIndex i) const { return section(sectionOf(i)).get(indexInSection(i)); }
     // Sets the block and resets its block state to 0; block entity data it had is freed.
     void setBlock(BlockIndex i, BlockId id);
 
-    std::uint16_t blockState(BlockIndex i) const { return blockState_[i >> 12].get(i & 4095); }
+    std::uint16_t blockState(BlockIndex i) const { return blockStates(sectionOf(i)).get(indexInSection(i)); }
     void setBlockState(BlockIndex i, std::uint16_t value);
 
     // The functions below access the block entity data of a block.
@@ -43,22 +51,29 @@ class Chunk {
     std::size_t blockEntityDataBytes() const;                   // of all blocks
     std::vector<BlockIndex> blocksWithBlockEntityData() const;  // in ascending order
 
-    const Section& section(int number) const { return blocks_[static_cast<std::size_t>(number)]; }
-    const Section& blockStates(int number) const { return blockState_[static_cast<std::size_t>(number)]; }
+    const Section& section(int number) const { return blocks_[place(number)]; }
+    const Section& blockStates(int number) const { return blockState_[place(number)]; }
     // Replaces a whole section's blocks; its block state becomes 0, block entity data of its blocks is freed.
     void setSection(int number, Section section);
     void setBlockStateSection(int number, Section section);
     // Brings a section of block states to its smallest form; its values stay.
-    void compactBlockState(int number) { blockState_[static_cast<std::size_t>(number)].compact(); }
+    void compactBlockState(int number) { blockState_[place(number)].compact(); }
 
     std::size_t memoryBytes() const;  // heap and object
 
-    // Equal blocks with equal states and data.
+    // Equal heights, and equal blocks with equal states and data.
     friend bool operator==(const Chunk& a, const Chunk& b);
 
   private:
-    std::array<Section, kSectionsPerChunk> blocks_;
-    std::array<Section, kSectionsPerChunk> blockState_;
+    void requireSection(int number) const;
+    std::size_t place(int number) const {
+        assert(number >= heights_.firstSection() && number < heights_.endSection() &&
+               "a section of the chunk");
+        return static_cast<std::size_t>(number - heights_.firstSection());
+    }
+
+    Heights heights_;
+    std::vector<Section> blocks_, blockState_;  // from the bottom
     std::unordered_map<BlockIndex, BlockEntityDataPtr> entityData_;
 };
 

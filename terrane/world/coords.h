@@ -1,5 +1,5 @@
 // Block and chunk coordinates. x and y are horizontal, z is up; one block is 1×1×1.
-// x and y are any 32-bit signed integers; z is 0…255.
+// x and y are any 32-bit signed integers; z is in the world's heights (heights.h).
 #pragma once
 
 #include <compare>
@@ -9,15 +9,13 @@
 #include <vector>
 
 #include "terrane/shared/constants.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::world {
 
 constexpr int kChunkSize = static_cast<int>(shared::kChunkSize);
-constexpr int kChunkHeight = static_cast<int>(shared::kChunkHeight);
-constexpr int kSectionSize = static_cast<int>(shared::kSectionSize);
-constexpr int kSectionsPerChunk = static_cast<int>(shared::kSectionsPerChunk);
+constexpr int kBlocksPerLayer = static_cast<int>(shared::kBlocksPerLayer);
 constexpr int kBlocksPerSection = static_cast<int>(shared::kBlocksPerSection);
-constexpr int kBlocksPerChunk = static_cast<int>(shared::kBlocksPerChunk);
 
 // Chunk coordinates of level 0 run over [-2^27, 2^27): 2^32 blocks / 16. Each level halves the range.
 constexpr std::int32_t kMinChunk = -(1 << 27);
@@ -39,7 +37,8 @@ struct BlockPos {
 };
 
 // Index of a block in its chunk: x + 16 y + 256 z, so that a layer of equal z and a section are contiguous.
-using BlockIndex = std::uint16_t;
+// It is negative below z = 0, and has 20 bits with its sign.
+using BlockIndex = std::int32_t;
 
 // Returns the chunk of level 0 that holds the block. Coordinates are rounded down, also below zero.
 constexpr ChunkPos chunkOf(BlockPos p) {
@@ -66,10 +65,18 @@ constexpr std::int32_t columnWidth(int level) {
 }
 
 constexpr BlockIndex blockIndex(int xInChunk, int yInChunk, int z) {
-    return static_cast<BlockIndex>(xInChunk | yInChunk << 4 | z << 8);
+    return xInChunk | yInChunk << 4 | z << 8;
 }
 
-// Returns the index of a block in its chunk; p.z must be in 0…255.
+// Returns the number of the section that holds a block (heights.h), and the block's index in it.
+constexpr int sectionOf(BlockIndex i) {
+    return i >> 12;
+}
+constexpr int indexInSection(BlockIndex i) {
+    return i & (kBlocksPerSection - 1);
+}
+
+// Returns the index of a block in its chunk.
 constexpr BlockIndex blockIndex(BlockPos p) {
     return blockIndex(p.x & 15, p.y & 15, p.z);
 }
@@ -78,10 +85,6 @@ constexpr BlockIndex blockIndex(BlockPos p) {
 constexpr BlockPos blockPos(ChunkPos c, BlockIndex i) {
     const std::int32_t width = columnWidth(c.level);
     return {(c.x * kChunkSize + (i & 15)) * width, (c.y * kChunkSize + ((i >> 4) & 15)) * width, i >> 8};
-}
-
-constexpr bool isInHeight(int z) {
-    return z >= 0 && z < kChunkHeight;
 }
 
 // Returns true if every block of the chunk has 32-bit coordinates.
@@ -155,7 +158,7 @@ struct ChunkPosHash {
 
 struct BlockPosHash {
     std::size_t operator()(BlockPos p) const {
-        return ChunkPosHash{}(chunkOf(p)) ^ std::size_t{blockIndex(p.x & 15, p.y & 15, p.z & 0xFF)};
+        return ChunkPosHash{}(chunkOf(p)) ^ static_cast<std::uint32_t>(blockIndex(p));
     }
 };
 

@@ -1,6 +1,7 @@
 #include "terrane/world/downsample.h"
 
 #include <algorithm>
+#include <array>
 
 #include "terrane/shared/hash.h"
 #include "terrane/world/blocks/block_model.h"
@@ -129,6 +130,7 @@ int coverThreshold(ColumnPos parent) {
 
 void downsampleColumn(const DownsampleRule& rule, std::span<const BlockColumn, 4> children, ColumnPos parent,
                       BlockColumn& out) {
+    out.resize(children[0].size());
     const std::uint32_t hash = hashOf(parent);
     Slice above = 0;  // air over the top
     bool isRepeated = false;

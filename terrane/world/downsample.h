@@ -2,7 +2,6 @@
 // level from edited chunks with it. All functions are pure; any thread may call them.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -12,7 +11,7 @@
 
 namespace terrane::world {
 
-using BlockColumn = std::array<BlockId, kChunkHeight>;  // from the bottom up
+using BlockColumn = std::vector<BlockId>;  // from the bottom up
 
 // A column of a level, counted in columns of that level: sixteen a chunk.
 struct ColumnPos {
@@ -48,7 +47,8 @@ DownsampleRule downsampleRule(const BlockRegistry& blocks);
 // tower stays whole or is removed.
 int coverThreshold(ColumnPos parent);
 
-// Computes the column of `parent` from the four below it, in the order (0, 0), (1, 0), (0, 1), (1, 1). The
+// Computes the column of `parent` from the four below it, in the order (0, 0), (1, 0), (0, 1), (1, 1), all of
+// one height. The
 // first rule that holds decides each slice:
 //   1. One of the four glows: the one with the strongest light. Light is seen from farther than its lamp.
 //   2. At least coverThreshold() are solid: one of these. First those with nothing opaque above, then

@@ -112,16 +112,16 @@ struct Walk {
     }
 
     // Outside the world and moving on away from it.
-    bool isGone() const {
-        constexpr Cell kMin{kLowest, kLowest, 0}, kMax{kHighest, kHighest, kChunkHeight - 1};
+    bool isGone(Heights heights) const {
+        const Cell lowest{kLowest, kLowest, heights.bottom}, highest{kHighest, kHighest, heights.top - 1};
         for (std::size_t a = 0; a < 3; ++a)
-            if ((cell[a] < kMin[a] && step[a] <= 0) || (cell[a] > kMax[a] && step[a] >= 0)) return true;
+            if ((cell[a] < lowest[a] && step[a] <= 0) || (cell[a] > highest[a] && step[a] >= 0)) return true;
         return false;
     }
 
-    bool isInWorld() const {
+    bool isInWorld(Heights heights) const {
         return cell[0] >= kLowest && cell[0] <= kHighest && cell[1] >= kLowest && cell[1] <= kHighest &&
-               cell[2] >= 0 && cell[2] < kChunkHeight;
+               cell[2] >= heights.bottom && cell[2] < heights.top;
     }
 
     BlockPos pos() const {
@@ -138,8 +138,9 @@ std::optional<RayHit> castRay(const World& world, const BlockRegistry& registry,
     if (!local || !std::isfinite(maxDistance)) return std::nullopt;
 
     Walk walk(*local);
-    for (double distance = 0; distance <= maxDistance && !walk.isGone(); distance = walk.advance(*local)) {
-        if (!walk.isInWorld()) continue;
+    for (double distance = 0; distance <= maxDistance && !walk.isGone(world.heights());
+         distance = walk.advance(*local)) {
+        if (!walk.isInWorld(world.heights())) continue;
         const BlockType& type = registry.type(world.block(walk.pos()));
         const bool isSource =
             type.id == liquid && liquid != kAir && isLiquidSource(world.blockState(walk.pos()));

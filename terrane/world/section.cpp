@@ -5,6 +5,8 @@
 #include <bit>
 #include <cassert>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <type_traits>
 #include <utility>
 
@@ -18,12 +20,12 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "packed words are read in memory order");
 
 constexpr int kMaxPalette = 256;  // what the widest palette form, 8 bits, can index
-constexpr int kDenseBits = 16;
+constexpr int kValueBits = 16;
 
 using Indices = std::array<std::uint8_t, kBlocksPerSection>;  // one palette index a block
 using ConstValues = std::span<const Section::Value, kBlocksPerSection>;
 
-constexpr std::size_t wordCount(int bits) {
+constexpr std::size_t wordCountOf(int bits) {
     return static_cast<std::size_t>(kBlocksPerSection * bits / 64);
 }
 
@@ -32,7 +34,7 @@ constexpr int bitsFor(std::size_t distinct) {
     if (distinct <= 2) return 1;
     if (distinct <= 4) return 2;
     if (distinct <= 16) return 4;
-    return distinct <= kMaxPalette ? 8 : kDenseBits;
+    return distinct <= kMaxPalette ? 8 : kValueBits;
 }
 
 // Brings the low `Bits` bits of each of eight bytes together in the low 8·Bits bits: pairs of bytes first,
@@ -50,7 +52,7 @@ std::uint64_t squeezeBytes(std::uint64_t x) {
 template <int Bits>
 void packIndices(const Indices& indices, std::uint64_t* words) {
     const std::uint8_t* bytes = indices.data();
-    for (std::size_t w = 0; w < wordCount(Bits); ++w) {
+    for (std::size_t w = 0; w < wordCountOf(Bits); ++w) {
         std::uint64_t word = 0;
         for (int part = 0; part < 8 / Bits; ++part, bytes += 8) {
             std::uint64_t eight;
@@ -64,7 +66,7 @@ void packIndices(const Indices& indices, std::uint64_t* words) {
 template <int Bits>
 void unpackIndices(const std::uint64_t* words, Indices& indices) {
     std::uint8_t* out = indices.data();
-    for (std::size_t w = 0; w < wordCount(Bits); ++w)
+    for (std::size_t w = 0; w < wordCountOf(Bits); ++w)
         for (int i = 0; i < 64; i += Bits) *out++ = words[w] >> i & ((1u << Bits) - 1);
 }
 
@@ -81,7 +83,7 @@ void unpackValues(const std::uint64_t* words, std::span<const Section::Value> pa
             const std::size_t at = pattern >> (i * Bits) & ((1u << Bits) - 1);
             table[pattern][i] = at < palette.size() ? palette[at] : Section::Value{0};
         }
-    for (std::size_t w = 0; w < wordCount(Bits); ++w) {
+    for (std::size_t w = 0; w < wordCountOf(Bits); ++w) {
         const std::uint64_t word = words[w];  // once: the compiler must expect `out` to change it
         for (int i = 0; i < 64; i += kGroup, out += kPerGroup)
             std::memcpy(out, &table[word >> i & (table.size() - 1)], sizeof(table[0]));
@@ -105,16 +107,8 @@ void withPaletteBits(int bits, F f) {
     }
 }
 
-std::vector<std::uint64_t> packedWords(const Indices& indices, int bits) {
-    std::vector<std::uint64_t> words(wordCount(bits));
-    withPaletteBits(bits, [&](auto b) { packIndices<b>(indices, words.data()); });
-    return words;
-}
-
-std::vector<std::uint64_t> denseWords(ConstValues values) {
-    std::vector<std::uint64_t> words(wordCount(kDenseBits));
-    std::memcpy(words.data(), values.data(), values.size_bytes());
-    return words;
+void packIndices(int bits, const Indices& indices, std::uint64_t* words) {
+    withPaletteBits(bits, [&](auto b) { packIndices<b>(indices, words); });
 }
 
 // Splits values into distinct ones, in order of their first block, and an index into these for each block.
@@ -166,30 +160,70 @@ int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& pal
 
 }  // namespace
 
+std::size_t Section::Packed::bytesOf(int bits, std::size_t paletteRoom) {
+    return sizeof(Packed) + wordCountOf(bits) * sizeof(std::uint64_t) + paletteRoom * sizeof(Value);
+}
+
+// The words are zero.
+Section::Packed* Section::Packed::make(int bits, std::size_t paletteRoom) {
+    void* memory = ::operator new(bytesOf(bits, paletteRoom));
+    auto* packed = new (memory) Packed;
+    packed->bits = static_cast<std::uint8_t>(bits);
+    packed->paletteRoom = static_cast<std::uint16_t>(paletteRoom);
+    std::uninitialized_fill_n(packed->words(), packed->wordCount(), 0);
+    std::uninitialized_fill_n(packed->palette(), paletteRoom, Value{0});
+    return packed;
+}
+
+void Section::release() {
+    if (isUniform()) return;
+    Packed& p = packed();
+    if (p.owners.fetch_sub(1, std::memory_order_acq_rel) != 1) return;
+    p.~Packed();
+    ::operator delete(&p);
+}
+
+void Section::own(bool growsPalette) {
+    const Packed& old = packed();
+    // Acquire: reads by owners that are gone come before the writes that follow.
+    const bool isAlone = old.owners.load(std::memory_order_acquire) == 1;
+    const bool isFull = growsPalette && old.paletteSize == old.paletteRoom;
+    if (isAlone && !isFull) return;
+    // A palette grows as a vector does, up to what its indices can tell apart.
+    const std::size_t most = std::size_t{1} << old.bits;
+    Packed* copy =
+        Packed::make(old.bits, isFull ? std::min<std::size_t>(2 * old.paletteRoom, most) : old.paletteRoom);
+    copy->paletteSize = old.paletteSize;
+    std::copy_n(old.words(), old.wordCount(), copy->words());
+    std::copy_n(old.palette(), old.paletteSize, copy->palette());
+    *this = Section(copy);
+}
+
 Section Section::fromValues(std::span<const Value, kBlocksPerSection> values) {
     // All are equal exactly where each equals its successor.
     if (std::memcmp(values.data(), values.data() + 1, values.size_bytes() - sizeof(Value)) == 0)
         return Section(values[0]);
 
-    Section section;
     std::array<Value, kMaxPalette> palette;
     Indices indices;
-    const int distinct = findPalette(values, palette, indices);
-    const int bits = bitsFor(static_cast<std::size_t>(distinct));
-    section.bits_ = static_cast<std::uint8_t>(bits);
+    const auto distinct = static_cast<std::size_t>(findPalette(values, palette, indices));
+    const int bits = bitsFor(distinct);
     if (bits == kDenseBits) {
-        section.words_ = denseWords(values);
-    } else {
-        section.palette_.assign(palette.begin(), palette.begin() + distinct);
-        section.words_ = packedWords(indices, bits);
+        Packed* packed = Packed::make(kDenseBits, 0);
+        std::memcpy(packed->words(), values.data(), values.size_bytes());
+        return Section(packed);
     }
-    return section;
+    Packed* packed = Packed::make(bits, distinct);
+    packed->paletteSize = packed->paletteRoom;
+    std::copy_n(palette.begin(), distinct, packed->palette());
+    packIndices(bits, indices, packed->words());
+    return Section(packed);
 }
 
-std::optional<Section> Section::fromPacked(int bits, std::vector<Value> palette,
-                                           std::vector<std::uint64_t> words) {
+std::optional<Section> Section::fromPacked(int bits, std::span<const Value> palette,
+                                           std::span<const std::uint64_t> words) {
     if (bits != 1 && bits != 2 && bits != 4 && bits != 8 && bits != kDenseBits) return std::nullopt;
-    if (words.size() != wordCount(bits)) return std::nullopt;
+    if (words.size() != wordCountOf(bits)) return std::nullopt;
     if (bits == kDenseBits) {
         if (!palette.empty()) return std::nullopt;
     } else {
@@ -198,44 +232,48 @@ std::optional<Section> Section::fromPacked(int bits, std::vector<Value> palette,
         withPaletteBits(bits, [&](auto b) { unpackIndices<b>(words.data(), indices); });
         if (*std::max_element(indices.begin(), indices.end()) >= palette.size()) return std::nullopt;
     }
-    Section section;
-    section.bits_ = static_cast<std::uint8_t>(bits);
-    section.palette_ = std::move(palette);
-    section.words_ = std::move(words);
-    return section;
+    Packed* packed = Packed::make(bits, palette.size());
+    packed->paletteSize = packed->paletteRoom;
+    std::copy(palette.begin(), palette.end(), packed->palette());
+    std::copy(words.begin(), words.end(), packed->words());
+    return Section(packed);
 }
 
 void Section::set(int index, Value value) {
     assert(index >= 0 && index < kBlocksPerSection && "index of a block in a section");
     if (get(index) == value) return;
     if (isDense()) return setPacked(index, value);
-    if (isUniform()) palette_.assign(1, uniform_);
-
-    const auto found = std::find(palette_.begin(), palette_.end(), value);
-    const auto at = static_cast<std::uint32_t>(found - palette_.begin());
-    if (found == palette_.end()) {
-        const int needed = bitsFor(palette_.size() + 1);
-        if (needed > bits_) repack(needed);
-        if (isDense()) return setPacked(index, value);
-        palette_.push_back(value);
+    if (isUniform()) {
+        Packed* packed = Packed::make(1, 2);
+        packed->paletteSize = 1;
+        packed->palette()[0] = uniformValue();
+        *this = Section(packed);
     }
-    setPacked(index, at);
+    const std::span<const Value> known = palette();
+    const auto at = static_cast<std::size_t>(std::find(known.begin(), known.end(), value) - known.begin());
+    if (at == known.size()) {
+        if (bitsFor(at + 1) > bits()) repack(bitsFor(at + 1));
+        if (isDense()) return setPacked(index, value);
+        own(true);
+        packed().palette()[packed().paletteSize++] = value;
+    }
+    setPacked(index, static_cast<std::uint32_t>(at));
 }
 
 void Section::unpack(std::span<Value, kBlocksPerSection> values) const {
     if (isUniform()) {
-        std::fill(values.begin(), values.end(), uniform_);
+        std::fill(values.begin(), values.end(), uniformValue());
     } else if (isDense()) {
-        std::memcpy(values.data(), words_.data(), values.size_bytes());
+        std::memcpy(values.data(), packed().words(), values.size_bytes());
     } else {
-        unpackMapped(palette_, values);
+        unpackMapped(palette(), values);
     }
 }
 
 void Section::unpackMapped(std::span<const Value> mapped, std::span<Value, kBlocksPerSection> values) const {
-    base::require(mapped.size() == palette_.size(),
+    base::require(mapped.size() == palette().size(),
                   "Section::unpackMapped: each palette entry needs a value");
-    withPaletteBits(bits_, [&](auto bits) { unpackValues<bits>(words_.data(), mapped, values.data()); });
+    withPaletteBits(bits(), [&](auto bits) { unpackValues<bits>(packed().words(), mapped, values.data()); });
 }
 
 void Section::compact() {
@@ -246,37 +284,45 @@ void Section::compact() {
 }
 
 std::size_t Section::memoryBytes() const {
-    return sizeof(Section) + words_.capacity() * sizeof(std::uint64_t) + palette_.capacity() * sizeof(Value);
+    return sizeof(Section) + (isUniform() ? 0 : Packed::bytesOf(packed().bits, packed().paletteRoom));
 }
 
-void Section::setPacked(int index, std::uint32_t packed) {
-    const auto bit = static_cast<std::size_t>(index) * bits_;
-    const std::uint64_t mask = (std::uint64_t{1} << bits_) - 1;
-    std::uint64_t& word = words_[bit / 64];
-    word = (word & ~(mask << bit % 64)) | std::uint64_t{packed} << bit % 64;
+void Section::setPacked(int index, std::uint32_t value) {
+    own(false);
+    Packed& p = packed();
+    const auto bit = static_cast<std::size_t>(index) * p.bits;
+    const std::uint64_t mask = (std::uint64_t{1} << p.bits) - 1;
+    std::uint64_t& word = p.words()[bit / 64];
+    word = (word & ~(mask << bit % 64)) | std::uint64_t{value} << bit % 64;
 }
 
 // Widens the form; the values stay.
 void Section::repack(int bits) {
-    assert(bits > bits_ && "repack only widens");
+    assert(bits > this->bits() && "repack only widens");
     if (bits == kDenseBits) {
+        Packed* wide = Packed::make(bits, 0);
         std::array<Value, kBlocksPerSection> values;
         unpack(values);
-        words_ = denseWords(values);
-        palette_ = std::vector<Value>();  // `= {}` would keep the memory
-    } else if (isUniform()) {
-        words_.assign(wordCount(bits), 0);
-    } else {
-        Indices indices;
-        withPaletteBits(bits_, [&](auto old) { unpackIndices<old>(words_.data(), indices); });
-        words_ = packedWords(indices, bits);
+        std::memcpy(wide->words(), values.data(), sizeof(values));
+        *this = Section(wide);
+        return;
     }
-    bits_ = static_cast<std::uint8_t>(bits);
+    const std::span<const Value> known = palette();
+    Packed* wide = Packed::make(bits, 2 * known.size());
+    wide->paletteSize = static_cast<std::uint16_t>(known.size());
+    std::copy(known.begin(), known.end(), wide->palette());
+    Indices indices;
+    withPaletteBits(this->bits(), [&](auto old) { unpackIndices<old>(packed().words(), indices); });
+    packIndices(bits, indices, wide->words());
+    *this = Section(wide);
 }
 
 bool operator==(const Section& a, const Section& b) {
-    if (a.isUniform() && b.isUniform()) return a.uniform_ == b.uniform_;
-    if (a.bits_ == b.bits_ && a.palette_ == b.palette_ && a.words_ == b.words_) return true;
+    if (a.isSame(b)) return true;
+    if (a.isUniform() && b.isUniform()) return false;
+    if (a.bits() == b.bits() && std::ranges::equal(a.palette(), b.palette()) &&
+        std::ranges::equal(a.words(), b.words()))
+        return true;
     std::array<Section::Value, kBlocksPerSection> valuesA, valuesB;
     a.unpack(valuesA);
     b.unpack(valuesB);

@@ -70,14 +70,16 @@ bool isEmpty(const Section& section, const BlockRegistry& blocks) {
 }  // namespace
 
 LandTile landTileOf(const Chunk& chunk, const BlockRegistry& blocks) {
-    int highest = kSectionsPerChunk - 1;
-    while (highest > 0 && isEmpty(chunk.section(highest), blocks)) --highest;
+    const Heights heights = chunk.heights();
+    int highest = heights.endSection() - 1;
+    while (highest > heights.firstSection() && isEmpty(chunk.section(highest), blocks)) --highest;
     LandTile tile;
+    tile.height.fill(static_cast<std::int16_t>(heights.bottom));
     for (std::size_t k = 0; k < LandTile::kColumns; ++k) {
-        for (int z = kSectionSize * (highest + 1); z-- > 0;) {
-            const BlockId id = chunk.block(static_cast<BlockIndex>(static_cast<int>(k) | z << 8));
+        for (int z = kSectionSize * (highest + 1); z-- > heights.bottom;) {
+            const BlockId id = chunk.block(static_cast<int>(k) | z << 8);
             if (!isSurface(blocks.type(id))) continue;
-            tile.height[k] = static_cast<std::uint16_t>(z + 1);
+            tile.height[k] = static_cast<std::int16_t>(z + 1);
             tile.ground[k] = id;
             break;
         }

@@ -53,13 +53,13 @@ struct LandTile {
     static constexpr std::size_t kColumns = static_cast<std::size_t>(kChunkSize) * kChunkSize;
 
     // By column, x + 16 y.
-    std::array<std::uint16_t, kColumns> height{};  // blocks from z = 0 to the upper side of the topmost block
-    std::array<BlockId, kColumns> ground{};        // the topmost block
-    PackedColor tint = kNeutralTint;               // of the whole tile
+    std::array<std::int16_t, kColumns> height{};  // z of the upper side of the topmost block
+    std::array<BlockId, kColumns> ground{};       // the topmost block
+    PackedColor tint = kNeutralTint;              // of the whole tile
 };
 
 // Returns the surface of a chunk. Tree crowns and the surface of water count, plants do not. Columns without
-// blocks have height 0.
+// blocks have the height of the world's bottom.
 LandTile landTileOf(const Chunk& chunk, const BlockRegistry& blocks);
 
 }  // namespace terrane::world

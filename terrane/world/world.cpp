@@ -34,17 +34,18 @@ ChunkPtr World::maybeChunkAt(ChunkPos pos) const {
 void World::insert(ChunkPos pos, std::shared_ptr<Chunk> chunk) {
     base::require(chunk != nullptr, "World::insert: null; erase() removes a chunk");
     base::require(isInWorld(pos), "World::insert: the chunk is outside the world");
+    base::require(chunk->heights() == heights_, "World::insert: the chunk has other heights than the world");
     chunks_.insert_or_assign(pos, std::move(chunk));
 }
 
 const Chunk* World::findChunk(BlockPos pos) const {
-    if (!isInHeight(pos.z)) return nullptr;
+    if (!heights_.contains(pos.z)) return nullptr;
     const auto found = chunks_.find(chunkOf(pos));
     return found == chunks_.end() ? nullptr : found->second.get();
 }
 
 Chunk* World::findWritable(BlockPos pos) {
-    if (!isInHeight(pos.z)) return nullptr;
+    if (!heights_.contains(pos.z)) return nullptr;
     const auto found = chunks_.find(chunkOf(pos));
     return found == chunks_.end() ? nullptr : &writable(found->second);
 }

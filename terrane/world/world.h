@@ -48,11 +48,16 @@ class BlockRecorder {
 
 class World {
   public:
+    World() = default;  // of the default heights
+    explicit World(Heights heights) : heights_(heights) {}
+
+    Heights heights() const { return heights_; }
+
     // Returns the chunk, or null unless it is loaded.
     ChunkPtr maybeChunkAt(ChunkPos pos) const;
 
-    // Adds a chunk or replaces the one there. The world owns it from now on: the caller may read through its
-    // pointer, but not write.
+    // Adds a chunk of the world's heights or replaces the one there. The world owns it from now on: the
+    // caller may read through its pointer, but not write.
     void insert(ChunkPos pos, std::shared_ptr<Chunk> chunk);
     void erase(ChunkPos pos) { chunks_.erase(pos); }
 
@@ -79,6 +84,7 @@ class World {
     const Chunk* findChunk(BlockPos pos) const;  // null above, below and where none is loaded
     Chunk* findWritable(BlockPos pos);           // the same; no snapshot shows what is written to it
 
+    Heights heights_;
     std::unordered_map<ChunkPos, std::shared_ptr<Chunk>, ChunkPosHash> chunks_;
 };
 

@@ -7,6 +7,7 @@
 
 #include "terrane/shared/hash.h"
 #include "terrane/world/changes/block_edit.h"
+#include "tests/support/default_heights.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/put_block.h"
 
@@ -17,8 +18,9 @@ using Edits = std::vector<BlockEdit>;
 
 class BehaviorTest : public testing::Test {
   protected:
-    explicit BehaviorTest(const BlockRegistry& blocks = contentBlocks()) : blocks_(blocks) {
-        world_.insert({0, 0}, std::make_shared<Chunk>());
+    explicit BehaviorTest(const BlockRegistry& blocks = contentBlocks(), Heights heights = {})
+        : blocks_(blocks), world_(heights) {
+        world_.insert({0, 0}, std::make_shared<Chunk>(heights));
     }
     Edits put(BlockPos pos, std::string_view name) {
         Edits edits;
@@ -36,6 +38,35 @@ class FallingSand : public BehaviorTest {
   protected:
     const BlockId sand_ = contentBlock("sand"), stone_ = contentBlock("stone");
 };
+
+class TallShaft : public BehaviorTest {
+  protected:
+    TallShaft() : BehaviorTest(contentBlocks(), {kLowestBottom, kHighestTop}) {}
+};
+
+TEST_F(TallShaft, SandFallsThroughAnyHeight) {
+    put({3, 4, 2000}, "sand");
+    EXPECT_EQ(nameAt({3, 4, kLowestBottom}), "sand");
+    put({3, 4, -100}, "stone");
+    put({3, 4, kHighestTop - 1}, "sand");
+    EXPECT_EQ(nameAt({3, 4, -99}), "sand");
+    put({3, 4, -100}, "air");
+    EXPECT_EQ(nameAt({3, 4, kLowestBottom + 1}), "sand");
+}
+
+TEST_F(TallShaft, AWholeColumnOfSandFalls) {
+    put({5, 5, kLowestBottom + 1}, "stone");
+    for (int z = kLowestBottom + 2; z < kHighestTop; ++z) put({5, 5, z}, "sand");
+    put({5, 5, kLowestBottom + 1}, "air");
+    for (int z = kLowestBottom; z < kHighestTop; ++z)
+        ASSERT_EQ(nameAt({5, 5, z}), z < kHighestTop - 2 ? "sand" : "air") << z;
+}
+
+TEST_F(TallShaft, ADoorNeedsRoomUnderTheTop) {
+    put({1, 1, kHighestTop - 2}, "stone");
+    put({1, 1, kHighestTop - 1}, "oak_door");
+    EXPECT_EQ(nameAt({1, 1, kHighestTop - 1}), "air");
+}
 
 TEST_F(FallingSand, FallsToTheNextBlockWhenTheOneBelowGoes) {
     put({3, 4, 5}, "stone");

@@ -1,4 +1,5 @@
 #include "terrane/world/chunk.h"
+#include "tests/support/default_heights.h"
 
 #include <gtest/gtest.h>
 
@@ -30,6 +31,31 @@ TEST(Chunk, BlocksOfEverySection) {
         EXPECT_EQ(chunk.block(blockIndex((z + 1) % 16, 15 - z % 16, z)), kAir);
     }
     EXPECT_EQ(chunk.section(2).get(0 | 15 << 4), 33);
+}
+
+TEST(Chunk, HasTheHeightsOfItsWorld) {
+    for (const Heights heights :
+         {Heights{-64, 320}, Heights{kLowestBottom, kHighestTop}, Heights{512, 528}}) {
+        Chunk chunk(heights);
+        EXPECT_EQ(chunk.heights(), heights);
+        for (int z = heights.bottom; z < heights.top; ++z)
+            chunk.setBlock(blockIndex(z & 15, 3, z), static_cast<BlockId>(z - heights.bottom + 1));
+        for (int z = heights.bottom; z < heights.top; ++z)
+            ASSERT_EQ(chunk.block(blockIndex(z & 15, 3, z)), z - heights.bottom + 1);
+        EXPECT_EQ(chunk.section(heights.firstSection()).get(0 | 3 << 4), 1);
+        chunk.setBlockEntityData(blockIndex(1, 1, heights.bottom), bytes("lowest"));
+        chunk.setBlockState(blockIndex(1, 1, heights.top - 1), 9);
+        EXPECT_EQ(chunk.blocksWithBlockEntityData(), std::vector{blockIndex(1, 1, heights.bottom)});
+        EXPECT_EQ(chunk.blockStates(heights.endSection() - 1).get(blockIndex(1, 1, 15)), 9);
+        chunk.setSection(heights.firstSection(), Section());
+        EXPECT_TRUE(chunk.blocksWithBlockEntityData().empty());
+    }
+    EXPECT_FALSE(Chunk() == Chunk({0, 512})) << "the heights count";
+}
+
+TEST(Chunk, AnEmptyTallOneIsSmall) {
+    EXPECT_LT(Chunk({kLowestBottom, kHighestTop}).memoryBytes(), 4300u);
+    EXPECT_LT(Chunk().memoryBytes(), 400u);
 }
 
 TEST(Chunk, BlockStateIsResetWithTheBlock) {
@@ -128,8 +154,8 @@ TEST(Chunk, SetSectionClearsItsDataOnly) {
     EXPECT_EQ(*chunk.blockEntityData(inTwo), bytes("two"));
 }
 
-TEST(Chunk, MemoryBytesOfAnEmptyChunkIsTheObject) {
-    EXPECT_EQ(Chunk().memoryBytes(), sizeof(Chunk));
+TEST(Chunk, MemoryBytesOfAnEmptyChunk) {
+    EXPECT_EQ(Chunk().memoryBytes(), sizeof(Chunk) + 2 * kSectionsPerChunk * sizeof(Section));
     EXPECT_LE(sizeof(Chunk), 2048u);
 }
 

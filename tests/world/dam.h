@@ -9,6 +9,7 @@
 
 #include "terrane/base/digest.h"
 #include "terrane/world/changes/liquid_flow.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::world {
 

@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "terrane/world/downsample.h"
+#include "tests/support/default_heights.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::world {
@@ -24,9 +25,7 @@ inline BlockColumn down(const Children& children, ColumnPos parent) {
 }
 
 inline BlockColumn columnOf(BlockId id) {
-    BlockColumn column;
-    column.fill(id);
-    return column;
+    return BlockColumn(kChunkHeight, id);
 }
 
 inline void fill(BlockColumn& column, int from, int to, std::string_view name) {

@@ -8,6 +8,7 @@
 #include <set>
 #include <vector>
 
+#include "tests/support/default_heights.h"
 #include "tests/world/downsample_columns.h"
 
 namespace terrane::world {
@@ -156,6 +157,7 @@ TEST(Downsample, RandomColumnsFollowTheRule) {
         const std::uint32_t runs = 1 + random() % 20;
         Children four;
         for (BlockColumn& column : four) {
+            column.resize(kChunkHeight);
             BlockId id = kAir;
             for (BlockId& block : column) {
                 if (random() % runs == 0)

@@ -15,18 +15,20 @@
 namespace terrane::world {
 
 struct FlowWorld {
+    explicit FlowWorld(Heights heights = {}) : world(heights) {}
+
     World world;
     std::vector<BlockEdit> edits;
 
     BlockId water = contentBlock("water");
 
-    // Empty chunks x0 … x1, y0 … y1 with a floor of stone at z = 0.
+    // Empty chunks x0 … x1, y0 … y1 with a floor of stone at the bottom.
     void addChunks(int x0, int y0, int x1, int y1) {
         for (int y = y0; y <= y1; ++y)
             for (int x = x0; x <= x1; ++x) {
-                auto chunk = std::make_shared<Chunk>();
+                auto chunk = std::make_shared<Chunk>(world.heights());
                 for (int i = 0; i < kChunkSize * kChunkSize; ++i)
-                    chunk->setBlock(static_cast<BlockIndex>(i), contentBlock("stone"));
+                    chunk->setBlock(i | blockIndex(0, 0, world.heights().bottom), contentBlock("stone"));
                 world.insert({x, y}, std::move(chunk));
             }
     }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <random>
 
+#include "tests/support/default_heights.h"
 #include "tests/world/content_blocks.h"
 #include "tests/world/dam.h"
 

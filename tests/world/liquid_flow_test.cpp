@@ -4,6 +4,7 @@
 #include <array>
 
 #include "terrane/world/character.h"
+#include "tests/support/default_heights.h"
 #include "tests/world/flow_world.h"
 
 namespace terrane::world {

@@ -10,7 +10,7 @@ namespace terrane::world {
 // False if no chunk is loaded.
 inline bool changeChunk(World& world, BlockPos pos, auto change) {
     const ChunkPtr old = world.maybeChunkAt(chunkOf(pos));
-    if (!old || !isInHeight(pos.z)) return false;
+    if (!old || !old->heights().contains(pos.z)) return false;
     auto chunk = std::make_shared<Chunk>(*old);
     change(*chunk);
     world.insert(chunkOf(pos), std::move(chunk));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "tests/support/default_heights.h"
 #include "tests/world/lowest_highest.h"
 #include "tests/world/put_block.h"
 
@@ -66,9 +67,9 @@ TEST(World, MemoryIsTheSumOfChunks) {
     World world;
     world.insert({0, 0}, std::make_shared<Chunk>());
     world.insert({1, 0}, std::make_shared<Chunk>());
-    EXPECT_EQ(world.memoryBytes(), 2 * sizeof(Chunk));
+    EXPECT_EQ(world.memoryBytes(), 2 * Chunk().memoryBytes());
     putBlock(world, {0, 0, 0}, 1);
-    EXPECT_GT(world.memoryBytes(), 2 * sizeof(Chunk) + 500);
+    EXPECT_GT(world.memoryBytes(), 2 * Chunk().memoryBytes() + 500);
 }
 
 TEST(World, TakesOnlyChunksAndPlacesOfTheWorld) {

@@ -51,7 +51,7 @@ BlockBehavior crop() {
 
 void fall(BlockUpdate& update, BlockPos pos) {
     BlockPos end = pos;
-    while (end.z > 0) {
+    while (end.z > update.world().heights().bottom) {
         const BlockId id = update.world().block(below(end));
         if (id != kAir && update.blocks().type(id).shape != Shape::Liquid) break;
         end = below(end);
@@ -225,7 +225,7 @@ BlockBehavior door() {
                 [](const World& world, const BlockRegistry& blocks, BlockPos pos, BlockId id) {
                     if (isUpperHalf(blocks.type(id))) return true;
                     const BlockId above = world.block(adjacent(pos, kFacePosZ));
-                    return supports(world, blocks, pos, kFaceNegZ) && pos.z + 1 < kChunkHeight &&
+                    return supports(world, blocks, pos, kFaceNegZ) && pos.z + 1 < world.heights().top &&
                            (above == kAir || above == otherHalf(blocks, id));
                 },
             .placed =

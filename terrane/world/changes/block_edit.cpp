@@ -42,7 +42,7 @@ void BlockUpdate::setBlock(BlockPos pos, const SetBlock& block) {
 void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scope) {
     BlockSet restored;
     for (const PlacedBlock& block : blocks) {
-        if (!isInHeight(block.pos.z)) continue;
+        if (!world_.heights().contains(block.pos.z)) continue;
         setValue(block.pos, block.value);
         restored.insert(block.pos);
     }
@@ -63,7 +63,7 @@ void BlockUpdate::restore(std::span<const PlacedBlock> blocks, RestoreScope scop
 }
 
 void BlockUpdate::compactState(BlockPos pos) {
-    if (Chunk* chunk = world_.findWritable(pos)) chunk->compactBlockState(pos.z / kSectionSize);
+    if (Chunk* chunk = world_.findWritable(pos)) chunk->compactBlockState(sectionOf(blockIndex(pos)));
 }
 
 void BlockUpdate::setValue(BlockPos pos, const BlockValue& value) {

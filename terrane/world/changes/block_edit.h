@@ -3,6 +3,8 @@
 // meshes and stores read the events.
 #pragma once
 
+#include <bitset>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <span>
@@ -17,27 +19,29 @@
 
 namespace terrane::world {
 
-// A set of blocks: a bit for each block, 8 KB for each chunk that has some. A hash set of a hundred thousand
-// blocks would not fit the caches. It is a plain value.
+// A set of blocks: a bit for each block, 512 bytes for each section that has some. A hash set of a hundred
+// thousand blocks would not fit the caches. It is a plain value.
 class BlockSet {
   public:
-    // Adds a block and returns whether it is new in the set. `pos` is in the world's height.
+    // Adds a block and returns whether it is new in the set.
     bool insert(BlockPos pos) {
-        std::vector<bool>& blocks = chunks_[chunkOf(pos)];
-        if (blocks.empty()) blocks.resize(kBlocksPerChunk);
-        auto bit = blocks[blockIndex(pos)];
+        auto bit = sections_[sectionOf(pos)][indexOf(pos)];
         const bool isNew = !bit;
         bit = true;
         return isNew;
     }
     bool contains(BlockPos pos) const {
-        if (!isInHeight(pos.z)) return false;
-        const auto found = chunks_.find(chunkOf(pos));
-        return found != chunks_.end() && found->second[blockIndex(pos)];
+        const auto found = sections_.find(sectionOf(pos));
+        return found != sections_.end() && found->second[indexOf(pos)];
     }
 
   private:
-    std::unordered_map<ChunkPos, std::vector<bool>, ChunkPosHash> chunks_;
+    static BlockPos sectionOf(BlockPos pos) { return {pos.x >> 4, pos.y >> 4, pos.z >> 4}; }
+    static std::size_t indexOf(BlockPos pos) {
+        return static_cast<std::size_t>(indexInSection(blockIndex(pos)));
+    }
+
+    std::unordered_map<BlockPos, std::bitset<kBlocksPerSection>, BlockPosHash> sections_;  // by section
 };
 
 // The kinds of changes of a block.
@@ -67,9 +71,9 @@ struct BlockEdit {
 // Whether a change at `from` may have consequences at `to`, a block beside it.
 using MayReach = std::function<bool(BlockPos from, BlockPos to)>;
 
-// The limit of functions of behaviors that run in one change; further calls are omitted. A column of 255
-// falling blocks needs 255 × 14.
-constexpr std::size_t kMaxBehaviorCalls = 16384;
+// The limit of functions of behaviors that run in one change; further calls are omitted. A column of 4,095
+// falling blocks needs 4,095 × 14.
+constexpr std::size_t kMaxBehaviorCalls = 65536;
 
 // Selects the blocks set by restore() whose `neighborChanged` is called.
 enum class RestoreScope : std::uint8_t {

@@ -64,6 +64,7 @@ class FlowCells {
     bool mayReach(BlockPos from, BlockPos to) const {
         return !options_.mayReach || (*options_.mayReach)(from, to);
     }
+    bool isInHeight(int z) const { return world_.heights().contains(z); }
     const Chunk* chunk(ChunkPos pos) {
         if (last_ && lastPos_ == pos) return last_;
         const auto [known, isNew] = chunks_.try_emplace(pos);
@@ -73,7 +74,7 @@ class FlowCells {
     }
     // Ground below the world, air above it.
     FlowCell at(BlockPos pos) {
-        if (pos.z < 0) return {};
+        if (pos.z < world_.heights().bottom) return {};
         const Chunk* chunk = isInHeight(pos.z) ? this->chunk(chunkOf(pos)) : nullptr;
         if (!chunk) return {kAir, 0, Room::Free};
         const BlockIndex index = blockIndex(pos);
@@ -143,7 +144,7 @@ void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
         if ((states[static_cast<std::size_t>(i)] & kLiquidUnsettled) == 0) continue;
         isFormer = false;
         if (out.cells.size() >= kMaxFlowingCells) return;
-        const BlockPos at = blockPos(pos, static_cast<BlockIndex>(section * kBlocksPerSection + i));
+        const BlockPos at = blockPos(pos, section * kBlocksPerSection + i);
         if (cells.at(at).room == Room::Liquid && cells.isSurrounded(at)) out.cells.push_back(at);
     }
     if (isFormer && !chunk.blockStates(section).isDense())
@@ -154,7 +155,9 @@ Unsettled findUnsettled(FlowCells& cells, std::span<const ChunkPos> chunks) {
     Unsettled found;
     for (const ChunkPos pos : chunks) {
         const Chunk* chunk = cells.chunk(pos);
-        for (int section = 0; chunk && section < kSectionsPerChunk; ++section)
+        if (!chunk) continue;
+        for (int section = chunk->heights().firstSection(); section < chunk->heights().endSection();
+             ++section)
             if (mayBeUnsettled(chunk->blockStates(section))) addUnsettled(cells, pos, section, found);
     }
     return found;
@@ -177,7 +180,7 @@ NextValues nextValues(FlowCells& cells, const std::vector<BlockPos>& unsettled) 
     for (const BlockId liquid : cells.rules().liquids) {
         BlockSet seen;
         const auto look = [&](BlockPos pos, BlockPos by) {
-            if (!isInHeight(pos.z) || !seen.insert(pos)) return;
+            if (!cells.isInHeight(pos.z) || !seen.insert(pos)) return;
             const FlowCell before = cells.at(pos), after = nextCell(cells, pos, liquid);
             if (before.id != after.id || before.form != after.form)
                 next.changes.push_back({pos, before.id, after, by});

@@ -24,7 +24,7 @@ void addFromSection(const Chunk& chunk, ChunkPos pos, int number, const BlockReg
                           static_cast<std::uint32_t>(number * kTickPicks + pick));
         const auto inSection =
             static_cast<int>((place ^ when) % static_cast<std::uint32_t>(kBlocksPerSection));
-        const auto index = static_cast<BlockIndex>(number * kBlocksPerSection + inSection);
+        const auto index = number * kBlocksPerSection + inSection;
         const BlockType& type = blocks.type(chunk.block(index));
         if (chunk.blockState(index) == 0 || !behaviorWith(type, &BlockBehavior::tick)) continue;
         const BlockPos at = blockPos(pos, index);
@@ -39,7 +39,8 @@ std::vector<BlockPos> blocksToTick(const World& world, const BlockRegistry& bloc
     std::vector<BlockPos> ticked;
     for (const ChunkPos pos : chunks) {
         const ChunkPtr chunk = world.maybeChunkAt(pos);
-        for (int number = 0; chunk && number < kSectionsPerChunk; ++number) {
+        if (!chunk) continue;
+        for (int number = chunk->heights().firstSection(); number < chunk->heights().endSection(); ++number) {
             if (!hasBlockState(chunk->blockStates(number))) continue;
             addFromSection(*chunk, pos, number, blocks, tick, ticked);
         }
