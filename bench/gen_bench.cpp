@@ -18,27 +18,31 @@
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/language/builder.h"
 #include "terrane/gen/language/compounds.h"
+#include "tests/support/default_heights.h"
 
 namespace {
 
 using namespace terrane;
 using bench::blocks;
 using bench::orExit;
-using gen::BlockArray;
+using gen::BlockLayers;
 using gen::ColumnValues;
 using world::ChunkPos;
 
 constexpr std::uint64_t kSeed = 1;
 
-gen::GeneratorGraph graphOf(std::string_view name) {
-    return orExit(gen::makeGenerator(name, blocks()));
+constexpr world::Heights kTall = {-1024, 1024};
+
+gen::GeneratorGraph graphOf(std::string_view name, world::Heights heights = {}) {
+    return orExit(gen::makeGenerator(name, blocks(), {0, heights}));
 }
 
 std::string digestOf(const std::vector<world::Chunk>& chunks) {
     base::Digest digest;
     std::vector<world::Section::Value> values(world::kBlocksPerSection);
     for (const world::Chunk& chunk : chunks) {
-        for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+        const world::Heights heights = chunk.heights();
+        for (int s = heights.firstSection(); s < heights.endSection(); ++s) {
             chunk.section(s).unpack(std::span(values).first<world::kBlocksPerSection>());
             digest.update(std::as_bytes(std::span(values)));
         }
@@ -47,12 +51,13 @@ std::string digestOf(const std::vector<world::Chunk>& chunks) {
 }
 
 // One iteration makes 32×32 chunks in the order of rows with a new generator.
-void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0}) {
+void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0},
+                  world::Heights heights = {}) {
     constexpr int kSide = 32;
     std::vector<world::Chunk> chunks;
     for (auto _ : state) {
         state.PauseTiming();
-        const gen::Generator generator(graphOf(name), kSeed);
+        const gen::Generator generator(graphOf(name, heights), kSeed);
         chunks.clear();
         state.ResumeTiming();
         for (int k = 0; k < kSide * kSide; ++k)
@@ -68,6 +73,14 @@ BENCHMARK_CAPTURE(generateArea, overworld, "overworld")->Unit(benchmark::kMillis
 BENCHMARK_CAPTURE(generateArea, continents, "continents", ChunkPos{195, -125})
     ->Unit(benchmark::kMillisecond)
     ->MinTime(3);
+// Content down to the bottom, and sky that costs next to nothing.
+BENCHMARK_CAPTURE(generateArea, overworld_tall, "overworld", ChunkPos{0, 0}, kTall)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateArea, continents_tall, "continents", ChunkPos{195, -125}, kTall)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateArea, flat_tall, "flat", ChunkPos{0, 0}, kTall)->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generateArea, flat, "flat")->Unit(benchmark::kMillisecond);
 BENCHMARK_CAPTURE(generateArea, hills3d, "hills3d")->Unit(benchmark::kMillisecond)->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, voronoi, "voronoi")->Unit(benchmark::kMillisecond)->Iterations(2);
@@ -106,7 +119,7 @@ class PassArea {
         const gen::PassInputs inputs = inputsOf(pass, n);
         if (program.is3D) {
             auto& result = at(solid_, n)[pass];
-            if (!result) result = std::make_unique<BlockArray>();
+            if (!result) result = std::make_unique<BlockLayers>(graph.heights);
             return executor_->run3D(*voxelPasses_[pass], inputs, *result);
         }
         std::vector<ColumnValues*> results;
@@ -117,7 +130,10 @@ class PassArea {
     std::string digest(std::size_t pass) {
         base::Digest digest;
         for (int n = 0; n < kChunks; ++n) {
-            if (programs_[pass].is3D) digest.update(std::as_bytes(std::span(*at(solid_, n)[pass])));
+            for (int z = 0; programs_[pass].is3D && z < world::kChunkHeight; ++z) {
+                const std::uint16_t* layer = at(solid_, n)[pass]->layer(z);
+                digest.update(std::as_bytes(std::span(layer, gen::kTileLanes)));
+            }
             for (const auto& f : programs_[pass].fields) {
                 digest.update(std::as_bytes(std::span(at(columns_, n)[f.field])));
             }
@@ -158,8 +174,8 @@ class PassArea {
     std::vector<gen::Program> programs_;
     std::vector<std::unique_ptr<gen::VoxelPass>> voxelPasses_;  // by pass; null for 2D ones
     std::unique_ptr<gen::Executor> executor_;
-    std::vector<std::vector<ColumnValues>> columns_;               // by chunk, by field
-    std::vector<std::vector<std::unique_ptr<BlockArray>>> solid_;  // by chunk, by pass
+    std::vector<std::vector<ColumnValues>> columns_;                // by chunk, by field
+    std::vector<std::vector<std::unique_ptr<BlockLayers>>> solid_;  // by chunk, by pass
 };
 
 // One iteration is one chunk's pass.

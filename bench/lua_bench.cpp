@@ -10,6 +10,7 @@
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/lua/script.h"
+#include "tests/support/default_heights.h"
 
 namespace {
 
@@ -22,7 +23,7 @@ lua::Script scriptOf(const std::string& name) {
 
 gen::GeneratorGraph graphOf(const std::string& name, bool isScript) {
     if (!isScript) return bench::orExit(gen::makeGenerator(name, bench::blocks()));
-    return bench::orExit(lua::recordScript(scriptOf(name), {name, ""}, bench::blocks(), 0));
+    return bench::orExit(lua::recordScript(scriptOf(name), {name, ""}, bench::blocks()));
 }
 
 // An iteration makes 12×12 chunks with a new generator.
@@ -55,7 +56,7 @@ void record(benchmark::State& state, const std::string& name) {
     const lua::Script script = scriptOf(name);
     for (auto _ : state) {
         auto graph = bench::orExit(
-            lua::recordScript(script, {name, ""}, bench::blocks(), static_cast<int>(state.range(0))));
+            lua::recordScript(script, {name, ""}, bench::blocks(), {static_cast<int>(state.range(0)), {}}));
         benchmark::DoNotOptimize(graph);
     }
 }

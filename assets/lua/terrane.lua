@@ -111,7 +111,14 @@ local Variable = {}
 ---Declares the generator; the global `g` is the only instance.
 ---@class Generator
 ---@field step integer  -- blocks from one column to the next: 1, 2, 4, … by level
+---@field bottom integer  -- the lowest layer of the world
+---@field top integer  -- the layer above its highest one
 local Generator = {}
+
+---Declares the heights of worlds that do not name their own: multiples of 16 within -2048…2048.
+---@param bottom integer
+---@param top integer
+function Generator:heights(bottom, top) end
 
 ---Declares a field.
 ---@param name string

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <optional>
 #include <stdexcept>
 
 #include "terrane/base/profile.h"
@@ -18,14 +19,37 @@ std::shared_ptr<ChunkWork> PassCache::get(world::ChunkPos pos) {
         return it->second.work;
     }
     auto work = std::make_shared<ChunkWork>(fieldCount_, passCount_);
+    const std::size_t bytes = ChunkWork::memoryBytes(fieldCount_, passCount_);
     Order newest = {pos};
-    entries_.emplace(pos, Entry{work, newest.begin()});
+    entries_.emplace(pos, Entry{work, newest.begin(), bytes});
     order_.splice(order_.begin(), newest);  // last, as it cannot throw: both containers have the same chunks
-    if (entries_.size() > capacity_) {
-        entries_.erase(order_.back());
+    bytes_ += bytes;
+    evict();
+    return work;
+}
+
+void PassCache::addBytes(world::ChunkPos pos, const ChunkWork& work, std::size_t bytes) {
+    const std::lock_guard lock(mutex_);
+    const auto it = entries_.find(pos);
+    if (it == entries_.end() || it->second.work.get() != &work) return;  // evicted meanwhile
+    it->second.bytes += bytes;
+    bytes_ += bytes;
+    evict();
+}
+
+void PassCache::evict() {
+    const auto isTooLarge = [&] {
+        if (bytes_ <= size_.bytes || entries_.empty()) return false;
+        // Without a limit on bytes the number of chunks alone counts.
+        const bool isFarTooLarge = size_.bytes > 0 && bytes_ / CacheSize::kMostTimes > size_.bytes;
+        return entries_.size() > size_.minChunks || isFarTooLarge;
+    };
+    while (isTooLarge()) {
+        const auto oldest = entries_.find(order_.back());
+        bytes_ -= oldest->second.bytes;
+        entries_.erase(oldest);
         order_.pop_back();
     }
-    return work;
 }
 
 struct Generator::Impl {
@@ -33,17 +57,15 @@ struct Generator::Impl {
     struct Worker {
         Worker(const GeneratorGraph& graph, const Seeds& seeds, DrainageMaps& drainages)
             : executor(graph.noises, seeds, {graph.shapes.get(), &drainages}),
-              downPasses(graph.noises, seeds, {graph.shapes.get(), &drainages}),
-              fields(graph.fields.size()) {
-            for (auto& b : blocks) b = std::make_unique_for_overwrite<BlockArray>();
-        }
+              downPasses(graph.noises, seeds, {graph.shapes.get(), &drainages}, graph.heights),
+              fields(graph.fields.size()),
+              blocks{BlockLayers(graph.heights), BlockLayers(graph.heights)} {}
 
         Executor executor;
         TopDownPasses downPasses;
-        std::vector<ColumnValues> fields;                   // by field
-        std::array<std::unique_ptr<BlockArray>, 2> blocks;  // of the last two 3D passes, alternating
-        LayerRanges layerRanges{};                          // of the last one
-        std::vector<PassReport>* report = nullptr;          // of reportedChunk, or null
+        std::vector<ColumnValues> fields;           // by field
+        std::array<BlockLayers, 2> blocks;          // of the last two 3D passes, alternating
+        std::vector<PassReport>* report = nullptr;  // of reportedChunk, or null
         world::ChunkPos reportedChunk;
     };
 
@@ -53,8 +75,7 @@ struct Generator::Impl {
           drainages(graph.drainages, seed),
           shared(sharedPasses(graph)),
           firstDown(canRunTopDown(graph) ? firstTopDownPass(graph) : static_cast<int>(graph.passes.size())),
-          cache(std::max(size.minChunks, size.bytes / workBytes()), graph.fields.size(),
-                static_cast<std::size_t>(shared)) {
+          cache(size, graph.fields.size(), static_cast<std::size_t>(shared)) {
         for (const PassGraph& pass : graph.passes) {
             Program program;
             std::unique_ptr<const VoxelPass> voxelPass;
@@ -72,13 +93,6 @@ struct Generator::Impl {
 
     const Program& programOf(std::size_t pass) const {
         return voxelPasses[pass] ? voxelPasses[pass]->program() : programs[pass];
-    }
-
-    std::size_t workBytes() const {
-        const auto blocks = std::count_if(graph.passes.begin(), graph.passes.begin() + shared,
-                                          [](const PassGraph& p) { return p.is3D; });
-        return sizeof(ChunkWork) + graph.fields.size() * sizeof(ColumnValues) +
-               static_cast<std::size_t>(blocks) * sizeof(BlockArray);
     }
 
     // Workers are expensive to make: each running call borrows one.
@@ -107,7 +121,7 @@ struct Generator::Impl {
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
     // Storage for results of the chunk that `worker` computes.
     ColumnValues& fieldOf(std::size_t field, ChunkWork& work, Worker& worker) const;
-    BlockArray& blocksOf(int pass, ChunkWork& work, Worker& worker) const;
+    BlockLayers& blocksOf(int pass, ChunkWork& work, Worker& worker) const;
 
     GeneratorGraph graph;
     Seeds seeds;
@@ -125,14 +139,14 @@ ColumnValues& Generator::Impl::fieldOf(std::size_t field, ChunkWork& work, Worke
     return graph.fields[field].writtenBy < shared ? work.fields[field] : worker.fields[field];
 }
 
-BlockArray& Generator::Impl::blocksOf(int pass, ChunkWork& work, Worker& worker) const {
+BlockLayers& Generator::Impl::blocksOf(int pass, ChunkWork& work, Worker& worker) const {
     const auto number = static_cast<std::size_t>(pass);
     if (pass >= shared) {
         const auto before = std::count_if(graph.passes.begin(), graph.passes.begin() + pass,
                                           [](const PassGraph& p) { return p.is3D; });
-        return *worker.blocks[static_cast<std::size_t>(before % 2)];
+        return worker.blocks[static_cast<std::size_t>(before % 2)];
     }
-    if (!work.blocks[number]) work.blocks[number] = std::make_unique_for_overwrite<BlockArray>();
+    if (!work.blocks[number]) work.blocks[number] = std::make_unique<BlockLayers>(graph.heights);
     return *work.blocks[number];
 }
 
@@ -159,7 +173,6 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
     }
     const int source = last3DPassBefore(graph, pass);
     if (source >= 0) inputs.blocks[kOwn] = &blocksOf(source, work, worker);
-    if (source >= shared) inputs.layerRanges = &worker.layerRanges;
     for (std::size_t n = 0; n < works.size(); ++n) {
         if (n == kOwn) continue;
         for (const std::uint32_t f : program.readsAt) inputs.fields[f][n] = &works[n]->fields[f];
@@ -179,8 +192,12 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     for (const Program::FieldResult& f : program.fields) results.push_back(&fieldOf(f.field, work, worker));
     if (program.is3D) {
         const VoxelPass& voxelPass = *voxelPasses[static_cast<std::size_t>(pass)];
-        worker.executor.run3D(voxelPass, inputs, blocksOf(pass, work, worker), results);
-        if (pass >= shared) worker.layerRanges = worker.executor.layerRanges();
+        BlockLayers& blocks = blocksOf(pass, work, worker);
+        worker.executor.run3D(voxelPass, inputs, blocks, results);
+        if (pass < shared) {
+            blocks.compact();
+            cache.addBytes(pos, work, blocks.memoryBytes());
+        }
         if (worker.report && worker.reportedChunk == pos) {
             const std::span<const SlabRun> slabs = worker.executor.slabs();
             worker.report->push_back({pass, {slabs.begin(), slabs.end()}, voxelPass.layerInstructions()});
@@ -208,24 +225,13 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
 
 namespace {
 
-// `ranges`: of each layer, or null. With it, sections of one block are made without reading their blocks.
-world::Chunk packChunk(const BlockArray& blocks, const LayerRanges* ranges) {
-    world::Chunk chunk;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const auto first = static_cast<std::size_t>(s) * world::kSectionSize;
-        const auto isLikeFirst = [&](const BlockRange& r) {
-            return r == BlockRange{(*ranges)[first].low, (*ranges)[first].low};
-        };
-        if (ranges &&
-            std::all_of(ranges->begin() + static_cast<long>(first),
-                        ranges->begin() + static_cast<long>(first) + world::kSectionSize, isLikeFirst)) {
-            chunk.setSection(s, world::Section((*ranges)[first].low));
-            continue;
-        }
-        const auto section = std::span(blocks)
-                                 .subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
-                                 .first<world::kBlocksPerSection>();
-        chunk.setSection(s, world::Section::fromValues(section));
+world::Chunk packChunk(const BlockLayers& blocks) {
+    const world::Heights heights = blocks.heights();
+    world::Chunk chunk(heights);
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
+        const std::optional<std::uint16_t> one = blocks.uniformBlock(number);
+        chunk.setSection(number,
+                         one ? world::Section(*one) : world::Section::fromValues(blocks.section(number)));
     }
     return chunk;
 }
@@ -264,8 +270,12 @@ int Generator::level() const {
     return impl_->graph.level;
 }
 
+world::Heights Generator::heights() const {
+    return impl_->graph.heights;
+}
+
 std::size_t Generator::cacheBytes() const {
-    return impl_->cache.size() * impl_->workBytes();
+    return impl_->cache.bytes();
 }
 
 ColumnValues Generator::columns(world::ChunkPos pos, std::uint32_t field) const {
@@ -301,9 +311,7 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
     const int passCount = static_cast<int>(impl.programs.size());
     for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, *worker);
 
-    const BlockArray& blocks = impl.blocksOf(passCount - 1, *work, *worker);
-    const LayerRanges* ranges = passCount > impl.shared ? &worker->layerRanges : nullptr;
-    world::Chunk chunk = packChunk(blocks, ranges);
+    world::Chunk chunk = packChunk(impl.blocksOf(passCount - 1, *work, *worker));
     worker->report = nullptr;
     impl.giveBack(std::move(worker));
     return chunk;

@@ -18,6 +18,7 @@
 #include "terrane/base/result.h"
 #include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/compile/top_down_passes.h"
+#include "terrane/gen/cpu/block_layers.h"
 #include "terrane/gen/cpu/executor.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
@@ -43,6 +44,12 @@ inline std::array<world::ChunkPos, 9> chunksAround(world::ChunkPos pos) {
 struct ChunkWork {
     ChunkWork(std::size_t fieldCount, std::size_t passCount) : fields(fieldCount), blocks(passCount) {}
 
+    // Returns the memory of a work without blocks.
+    static std::size_t memoryBytes(std::size_t fieldCount, std::size_t passCount) {
+        return sizeof(ChunkWork) + fieldCount * sizeof(ColumnValues) +
+               passCount * sizeof(std::unique_ptr<BlockLayers>);
+    }
+
     // Completes the first `passes` passes: calls run(pass) for each pass that no thread runs, and waits for a
     // pass that another thread runs. Rethrows an exception of `run`; then any thread may run the pass.
     template <class Run>
@@ -50,8 +57,8 @@ struct ChunkWork {
 
     int passesDone() const { return state_.load(std::memory_order_acquire) / 2; }
 
-    std::vector<ColumnValues> fields;                 // by field
-    std::vector<std::unique_ptr<BlockArray>> blocks;  // by pass; null for 2D passes
+    std::vector<ColumnValues> fields;                  // by field
+    std::vector<std::unique_ptr<BlockLayers>> blocks;  // by pass; null for 2D passes
 
   private:
     void setState(int state) {
@@ -82,18 +89,31 @@ void ChunkWork::advance(int passes, const Run& run) {
     }
 }
 
+// The size of the cache of results that neighbors need: 1 KiB per field, and per 3D pass whose blocks they
+// read 8 KiB for each section that is not one block. Overworld: 15 KiB per chunk, so the default holds 4,350
+// chunks, more than the 4,225 of a view of 32.
+struct CacheSize {
+    std::size_t bytes = std::size_t{64} << 20;
+    // The cache stores this many chunks even if they need more bytes, up to kMostTimes as many: with less
+    // than some rows of a wide area nearly everything would be computed again.
+    std::size_t minChunks = 256;
+    static constexpr std::size_t kMostTimes = 8;
+};
+
 class PassCache {
   public:
-    PassCache(std::size_t capacity, std::size_t fieldCount, std::size_t passCount)
-        : capacity_(capacity), fieldCount_(fieldCount), passCount_(passCount) {}
+    PassCache(CacheSize size, std::size_t fieldCount, std::size_t passCount)
+        : size_(size), fieldCount_(fieldCount), passCount_(passCount) {}
 
     // Returns the chunk's work, new if the cache does not have it. A work stays alive while a caller holds
     // it.
     std::shared_ptr<ChunkWork> get(world::ChunkPos pos);
+    // Counts memory that a chunk's work has taken since get().
+    void addBytes(world::ChunkPos pos, const ChunkWork& work, std::size_t bytes);
 
-    std::size_t size() {
+    std::size_t bytes() {
         const std::lock_guard lock(mutex_);
-        return entries_.size();
+        return bytes_;
     }
 
   private:
@@ -101,22 +121,15 @@ class PassCache {
     struct Entry {
         std::shared_ptr<ChunkWork> work;
         Order::iterator order;
+        std::size_t bytes;
     };
+    void evict();  // under the mutex
 
     std::mutex mutex_;
-    std::size_t capacity_, fieldCount_, passCount_;
+    CacheSize size_;
+    std::size_t fieldCount_, passCount_, bytes_ = 0;
     Order order_;  // most recently used first
     std::unordered_map<world::ChunkPos, Entry, world::ChunkPosHash> entries_;
-};
-
-// The size of the cache of results that neighbors need: 1 KiB per field and 128 KiB per 3D pass whose blocks
-// they read. Overworld: 15 KiB per chunk, so the default holds 4,350 chunks, more than the 4,225 of a view of
-// 32.
-struct CacheSize {
-    std::size_t bytes = std::size_t{64} << 20;
-    // The cache stores this many chunks even if they need more bytes: with less than some rows of a wide area
-    // nearly everything would be computed again.
-    std::size_t minChunks = 256;
 };
 
 // Returns the cache size of a level. A ring of tiles is at most 64 wide and made row by row: 8 MiB hold 8
@@ -168,6 +181,7 @@ class Generator {
 
     const std::string& name() const;
     int level() const;
+    world::Heights heights() const;  // of its chunks
     std::size_t cacheBytes() const;  // in use
 
   private:

@@ -10,10 +10,14 @@
 namespace terrane::gen {
 
 struct LevelGenerators::Impl {
-    Impl(MakeGraph make, std::uint64_t s) : makeGraph(std::move(make)), seed(s) {}
+    Impl(MakeGraph make, std::uint64_t s, world::Heights h)
+        : makeGraph(std::move(make)), seed(s), heights(h) {}
+
+    base::Result<GeneratorGraph> record(int level) const;
 
     MakeGraph makeGraph;
     std::uint64_t seed;
+    world::Heights heights;
     std::mutex mutex;
     // Never changed once set: threads use them without the lock.
     std::array<std::optional<base::Result<Generator>>, world::kMaxLevel + 1> generators;
@@ -30,11 +34,24 @@ struct LevelGenerators::Impl {
     base::Result<std::optional<Tint>>& madeTint(int level);  // under the mutex
 };
 
-LevelGenerators::LevelGenerators(MakeGraph makeGraph, std::uint64_t seed)
-    : impl_(std::make_unique<Impl>(std::move(makeGraph), seed)) {}
+base::Result<GeneratorGraph> LevelGenerators::Impl::record(int level) const {
+    auto graph = makeGraph(level);
+    if (graph && graph->heights != heights) {
+        return base::fail("generator \"{}\" was recorded for layers {}, its world has {}", graph->name,
+                          world::describe(graph->heights), world::describe(heights));
+    }
+    return graph;
+}
+
+LevelGenerators::LevelGenerators(MakeGraph makeGraph, std::uint64_t seed, world::Heights heights)
+    : impl_(std::make_unique<Impl>(std::move(makeGraph), seed, heights)) {}
 LevelGenerators::~LevelGenerators() = default;
 LevelGenerators::LevelGenerators(LevelGenerators&&) noexcept = default;
 LevelGenerators& LevelGenerators::operator=(LevelGenerators&&) noexcept = default;
+
+world::Heights LevelGenerators::heights() const {
+    return impl_->heights;
+}
 
 base::Result<const Generator*> LevelGenerators::at(int level) const {
     if (level < 0 || level > world::kMaxLevel) {
@@ -43,7 +60,7 @@ base::Result<const Generator*> LevelGenerators::at(int level) const {
     const std::lock_guard lock(impl_->mutex);
     auto& generator = impl_->generators[static_cast<std::size_t>(level)];
     if (!generator) {
-        auto graph = impl_->makeGraph(level);
+        auto graph = impl_->record(level);
         if (graph) {
             generator.emplace(Generator(*std::move(graph), impl_->seed));
         } else {
@@ -70,7 +87,7 @@ const LevelGenerators::Impl::Tint* LevelGenerators::Impl::tint(int level) {
 }
 
 base::Result<std::optional<LevelGenerators::Impl::Tint>> LevelGenerators::Impl::makeTint(int level) {
-    const auto graph = TERRANE_TRY(makeGraph(level));
+    const auto graph = TERRANE_TRY(record(level));
     if (!graph.tint) return std::nullopt;
     return Tint{Generator(graph.tint->passes, seed), graph.tint->field};
 }

@@ -18,15 +18,18 @@ namespace terrane::gen {
 
 class LevelGenerators {
   public:
-    // Records the graph of one level, such as makeGenerator(name, blocks, level). Called at most twice a
-    // level, for its blocks and for its tint, by one thread at a time, later too: objects that it refers to
-    // live as long as this object.
+    // Records the graph of one level, such as makeGenerator(name, blocks, {level, heights}). Called at most
+    // twice a level, for its blocks and for its tint, by one thread at a time, later too: objects that it
+    // refers to live as long as this object.
     using MakeGraph = std::function<base::Result<GeneratorGraph>(int level)>;
 
-    LevelGenerators(MakeGraph makeGraph, std::uint64_t seed);
+    // `heights`: of the world, for which all graphs are recorded.
+    LevelGenerators(MakeGraph makeGraph, std::uint64_t seed, world::Heights heights = {});
     ~LevelGenerators();
     LevelGenerators(LevelGenerators&&) noexcept;
     LevelGenerators& operator=(LevelGenerators&&) noexcept;
+
+    world::Heights heights() const;
 
     // Returns the generator of a level, 0…world::kMaxLevel, which lives as long as this object; or the error
     // of its graph.

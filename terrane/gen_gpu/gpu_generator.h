@@ -36,11 +36,12 @@ constexpr std::size_t kSlots = 640;
 
 class GpuGenerator : public gen::BatchGenerator {
   public:
-    // Creates the generator. A slot takes 1 KiB a field and 128 KiB for each 3D pass but the last (overworld,
-    // 15 fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of a batch 64 × 128 KiB = 8
-    // MiB, once on the GPU and once for each of three batches on their way back. Generators with more 3D
-    // passes have fewer slots, so that no buffer is larger than 256 MiB or than a shader can address. A
-    // generator whose single chunk needs more slots is refused.
+    // Creates the generator. A slot takes 1 KiB a field, and for each 3D pass but the last 512 bytes a layer
+    // (overworld with 256 layers, 15 fields and two 3D passes: 640 × (15 + 128) KiB = 89 MiB); the results of
+    // a batch 64 × 128 KiB = 8 MiB, at most 32 MiB in taller worlds, once on the GPU and once for each of
+    // three batches on their way back. Generators with more 3D passes or layers have fewer slots for blocks,
+    // so that no buffer is larger than 256 MiB or than a shader can address. A generator whose single chunk
+    // needs more slots is refused.
     [[nodiscard]] static base::Result<GpuGenerator> create(const gpu::ShaderLoader& shaders,
                                                            const gen::GeneratorGraph& generator,
                                                            std::uint64_t seed);
@@ -48,8 +49,8 @@ class GpuGenerator : public gen::BatchGenerator {
     GpuGenerator& operator=(GpuGenerator&&) noexcept;
     ~GpuGenerator() override;
 
-    // Accepts as many as kMaxBatch and the slots hold; positions that are close together need the fewest
-    // slots. Three batches may be in flight.
+    // Accepts as many as kMaxBatch, the results' memory and the slots hold; positions that are close together
+    // need the fewest slots. Three batches may be in flight.
     [[nodiscard]] std::size_t submit(std::span<const world::ChunkPos> positions) override;
     [[nodiscard]] std::vector<gen::GeneratedChunk> take(bool wait) override;
     std::string_view backend() const override { return "gpu"; }

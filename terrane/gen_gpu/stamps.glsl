@@ -9,9 +9,10 @@ layout(std430, binding = kShapesBinding) readonly buffer Shapes {
 };
 
 const uint kFeetWindow = 3u * kChunkSize;
-const int kFootBias = 64;  // of the height of a foot
+// Shapes are -8 to 48 blocks high: those of other feet do not reach the layers of this work group.
+const int kLowestFoot = -48, kHighestFoot = LAYERS_PER_GROUP + 8;  // from the group's first layer
 
-// x | y << 6 | shape << 12 | call << 22 | height + kFootBias << 23
+// x | y << 6 | shape << 12 | call << 22 | height from kLowestFoot << 23
 shared uint feet[kFeetWindow * kFeetWindow * kMaxStampsInPass];
 shared uint footCount;
 int stampLow, stampHigh;  // layers of this column that shapes may reach
@@ -29,7 +30,7 @@ struct Foot {
 
 Foot footOf(uint word) {
     ivec2 position = ivec2(word & 63u, word >> 6 & 63u) - kMaxReadOffset;
-    return Foot(ivec3(position, int(word >> 23) - kFootBias), word >> 12 & 1023u, word >> 22 & 1u);
+    return Foot(ivec3(position, int(word >> 23) + kLowestFoot + firstLayer()), word >> 12 & 1023u, word >> 22 & 1u);
 }
 
 uint shapeWord(uint shape, uint number) {
@@ -53,15 +54,14 @@ void beginStamps() {
 
 void findFeet(uint call, uint shapeField, uint baseField) {
     for (uint neighbor = 0u; neighbor < 9u; ++neighbor) {
-        uint from = jobs[gl_WorkGroupID.x].neighbors[neighbor >> 2][neighbor & 3u] * FIELD_COUNT;
+        uint from = jobs[gl_WorkGroupID.x].fieldSlots[neighbor >> 2][neighbor & 3u] * FIELD_COUNT;
         uint shape = fields[(from + shapeField) * kBlocksPerLayer + column];
         if (shape >= shapeWords[0]) continue;
         int base = int(fields[(from + baseField) * kBlocksPerLayer + column]);
-        // Shapes are -8 to 48 blocks high.
-        if (base < -48 || base > int(kChunkHeight) + 8) continue;
+        if (base < firstLayer() + kLowestFoot || base > firstLayer() + kHighestFoot) continue;
         uvec2 place = gl_LocalInvocationID.xy + kChunkSize * uvec2(neighbor % 3u, neighbor / 3u);
         feet[atomicAdd(footCount, 1u)] =
-            place.x | place.y << 6 | shape << 12 | call << 22 | uint(base + kFootBias) << 23;
+            place.x | place.y << 6 | shape << 12 | call << 22 | uint(base - firstLayer() - kLowestFoot) << 23;
     }
 }
 
@@ -72,8 +72,8 @@ ivec2 columnFrom(Foot foot) {
 
 void endStamps() {
     barrier();
-    stampLow = int(kChunkHeight);
-    stampHigh = -1;
+    stampLow = TOP;
+    stampHigh = BOTTOM - 1;
     nearCount = 0u;
     for (uint k = 0u; k < footCount; ++k) {
         Foot foot = footOf(feet[k]);

@@ -144,6 +144,10 @@ int depthOf(const gen::Graph& graph, const gen::Node& node) {
     return graph.loops()[static_cast<std::size_t>(node.loop)].depth;
 }
 
+double voxelsOf(const gen::GeneratorGraph& graph) {
+    return graph.heights.layers() * static_cast<double>(world::kBlocksPerLayer);
+}
+
 struct PassWork {
     double operationsPerVoxel = 0;
     int loopDepth = 0;
@@ -171,7 +175,7 @@ double stampOperations(const gen::GeneratorGraph& graph, const gen::PassGraph& p
     std::uint32_t most = 0;
     for (const gen::ShapeRecord& shape : graph.shapes->shapes)
         most = std::max(most, shape.firstRun.back() - shape.firstRun.front());
-    return kSide * kSide * most / kVoxelsOfChunk * static_cast<double>(pass.stamps.size());
+    return kSide * kSide * most / voxelsOf(graph) * static_cast<double>(pass.stamps.size());
 }
 
 // Rings of chunks that must have done the first `passes` passes around one that does.
@@ -188,6 +192,7 @@ int ringsOf(const gen::GeneratorGraph& graph, int passes) {
 }  // namespace
 
 std::string unboundedWork(const gen::GeneratorGraph& graph) {
+    const double voxels = voxelsOf(graph);
     double operations = 0;
     const auto add = [&](const gen::PassGraph& pass, const std::vector<gen::NoiseCall>& noises,
                          double columns) -> std::string {
@@ -197,17 +202,18 @@ std::string unboundedWork(const gen::GeneratorGraph& graph) {
         return fmt::format("pass \"{}\": more than {} nested loops", pass.name, kMaxLoopDepth);
     };
     for (const gen::PassGraph& pass : graph.passes) {
-        if (std::string reason = add(pass, graph.noises, 1.0 / 256); !reason.empty()) return reason;
+        if (std::string reason = add(pass, graph.noises, world::kBlocksPerLayer / voxels); !reason.empty())
+            return reason;
         operations += stampOperations(graph, pass);
     }
     for (const gen::DrainageGraph& map : graph.drainages) {
-        constexpr double kColumns = kColumnsOfRegion * kRegionsOfChunk / kVoxelsOfChunk;
-        if (std::string reason = add(map.heights, map.noises, kColumns); !reason.empty()) return reason;
+        const double columns = kColumnsOfRegion * kRegionsOfChunk / voxels;
+        if (std::string reason = add(map.heights, map.noises, columns); !reason.empty()) return reason;
     }
-    if (operations > kMaxOperationsPerVoxel) {
+    if (operations > kMaxOperationsOfChunk / voxels) {
         return fmt::format(
             "a chunk may take {:.0f} operations per voxel, {:.0f} are allowed: loops count as 1,024 rounds",
-            operations, kMaxOperationsPerVoxel);
+            operations, kMaxOperationsOfChunk / voxels);
     }
     const int rings = ringsOf(graph, static_cast<int>(graph.passes.size()));
     if (rings > kMaxRings)

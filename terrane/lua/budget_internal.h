@@ -42,17 +42,18 @@ constexpr std::size_t kMaxDrainages = 4;
 constexpr std::size_t kMaxVoxels = 200'000;  // in all shapes together
 constexpr std::size_t kMaxLoopDepth = 2;
 
-// Work of the slowest chunk, in operations a voxel, where each loop runs 1,024 rounds. A node that does not
-// depend on z runs for 256 columns and counts 1/256. 65,536 voxels × 100,000 operations take some 2 s.
-constexpr double kMaxOperationsPerVoxel = 100'000;
-constexpr double kVoxelsOfChunk = 65'536;
+// Work of the slowest chunk in operations, where each loop runs 1,024 rounds: 65,536 voxels, which are 256
+// layers, × 100,000 operations take some 2 s. Chunks of a taller world have more voxels with fewer
+// operations.
+constexpr double kMaxOperationsOfChunk = 65'536 * 100'000.0;
 // Heights of one region of a drainage map: (128 + 2 · 88)² cells with 4 samples each
 // (gen/drainage/drainage_curves.cpp). A chunk at a corner needs four regions.
 constexpr double kColumnsOfRegion = 369'664;
 constexpr double kRegionsOfChunk = 4;
 // Rings of chunks around one that are made before it: (2 · 6 + 1)² = 169 chunks.
 constexpr int kMaxRings = 6;
-// 3D passes whose blocks are kept for neighbors: 128 KiB each, for 256 chunks and more of each level.
+// 3D passes whose blocks are kept for neighbors: 8 KiB each for a section that is not one block, for 256
+// chunks and more of each level, up to the most memory that gen::CacheSize has.
 constexpr std::ptrdiff_t kMaxKeptBlocks = 2;
 
 class Budget {

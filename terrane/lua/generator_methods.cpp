@@ -98,6 +98,17 @@ int pass3D(Call& c) {
     return addPass(c, true);
 }
 
+// Of the world, as long as nothing depends on other ones.
+int heights(Call& c) {
+    requireNoPass(c);
+    if (c.recording.readsHeights) fail("heights: called after g.bottom or g.top was read");
+    const auto border = [&](int argument) {
+        return c.integer(argument, world::kLowestBottom, world::kHighestTop);
+    };
+    c.recording.builder.declareHeights({border(1), border(2)});
+    return 0;
+}
+
 int tint(Call& c) {
     requireNoPass(c);
     c.recording.builder.tint(gen::Field<gen::Int>{c.field(1, Kind::Int)});
@@ -237,9 +248,9 @@ int trees(Call& c) {
     return 1;
 }
 
-constexpr Function kGeneratorMethods[] = {{"field", field}, {"pass2D", pass2D},     {"pass3D", pass3D},
-                                          {"tint", tint},   {"drainage", drainage}, {"shape", shape},
-                                          {"trees", trees}};
+constexpr Function kGeneratorMethods[] = {{"field", field},     {"pass2D", pass2D}, {"pass3D", pass3D},
+                                          {"heights", heights}, {"tint", tint},     {"drainage", drainage},
+                                          {"shape", shape},     {"trees", trees}};
 
 }  // namespace
 

@@ -67,9 +67,16 @@ int indexPass(Call& c) {
 }
 
 int indexGenerator(Call& c) {
-    if (lua_type(c.L, 2) == LUA_TSTRING && c.text(2) == "step") {
+    const std::string_view key = lua_type(c.L, 2) == LUA_TSTRING ? c.text(2) : "";
+    if (key == "step") {
         c.recording.readsStep = true;
         lua_pushinteger(c.L, c.recording.builder.step());
+        return 1;
+    }
+    if (key == "bottom" || key == "top") {
+        const world::Heights heights = c.recording.builder.heights();
+        c.recording.readsHeights = true;
+        lua_pushinteger(c.L, key == "top" ? heights.top : heights.bottom);
         return 1;
     }
     return pushMethod(c, "generator methods", "the generator");

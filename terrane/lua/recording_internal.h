@@ -67,7 +67,8 @@ struct Recording {
     std::size_t drainageCount = 0, voxelCount = 0;
     std::set<std::string, std::less<>> seedNames;
     bool hasTrees = false;
-    bool readsStep = false;  // so that levels may record different passes
+    bool readsStep = false;     // so that levels may record different passes
+    bool readsHeights = false;  // and worlds of different heights
     int printedLines = 0;
 
     // Returns whether a value of the pass with this number can be used now.

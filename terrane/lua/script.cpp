@@ -16,19 +16,19 @@ constexpr std::size_t kMaxScriptBytes = std::size_t{1} << 20;
 struct RecordRequest {
     const std::string& generator;  // name of the graph
     const world::BlockRegistry& blocks;
-    int level;
+    gen::GraphRequest graph;
     bool prints;  // whether print() writes to the log
 };
 
 struct Recorded {
     gen::GeneratorGraph graph;
-    bool readsStep;
+    bool readsStep, readsHeights;
 };
 
 base::Result<Recorded> record(const Script& script, BlockNames& names, const RecordRequest& request) {
     if (script.text.size() > kMaxScriptBytes)
         return base::fail("{}: more than {} bytes", script.file, kMaxScriptBytes);
-    gen::GeneratorBuilder builder(request.generator, request.blocks, request.level);
+    gen::GeneratorBuilder builder(request.generator, request.blocks, request.graph);
     Recording recording(builder, names);
     recording.prints = request.prints;
     const StatePtr state = makeState(recording);
@@ -42,7 +42,7 @@ base::Result<Recorded> record(const Script& script, BlockNames& names, const Rec
     if (!graph) return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, graph.error().message);
     if (const std::string reason = unboundedWork(*graph); !reason.empty())
         return base::fail(base::ErrorCode::BadInput, "{}: {}", script.file, reason);
-    return Recorded{*std::move(graph), recording.readsStep};
+    return Recorded{*std::move(graph), recording.readsStep, recording.readsHeights};
 }
 
 // Replacements for names that content files do not allow, such as "pack:block".
@@ -81,27 +81,37 @@ base::Result<world::BlockRegistry> registryOf(const std::vector<std::string>& na
 }  // namespace
 
 base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
-                                               const world::BlockRegistry& blocks, int level) {
+                                               const world::BlockRegistry& blocks,
+                                               gen::GraphRequest request) {
     BlockNames blockNames(blocks, names.pack);
-    auto recorded = TERRANE_TRY(record(script, blockNames, {names.generator, blocks, level, true}));
+    auto recorded = TERRANE_TRY(record(script, blockNames, {names.generator, blocks, request, true}));
     return std::move(recorded.graph);
 }
 
 base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
                                 const world::BlockRegistry& blocks) {
-    // Level 0 decides what other levels record, unless the script reads the step.
-    int lastLevel = 0;
+    // Level 0 decides what other levels record, unless the script reads the step; the heights that it
+    // declares decide what others record, unless it reads them.
+    std::vector<gen::GraphRequest> requests = {{}};
+    bool readsStep = false, readsHeights = false;
     BlockNames used(blocks, names.pack);
-    for (int level = 0; level <= lastLevel; ++level) {
-        const auto first = TERRANE_TRY(record(script, used, {names.generator, blocks, level, false}));
-        if (first.readsStep) lastLevel = world::kMaxLevel;
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+        const auto first = TERRANE_TRY(record(script, used, {names.generator, blocks, requests[k], false}));
+        if (first.readsStep && !readsStep) {
+            readsStep = true;
+            for (int level = 1; level <= world::kMaxLevel; ++level) requests.push_back({level, {}});
+        }
+        if (first.readsHeights && !readsHeights) {
+            readsHeights = true;
+            requests.push_back({0, world::Heights{world::kLowestBottom, world::kHighestTop}});
+        }
     }
     const BlockNames::Aliases aliases = aliasesOf(used.used());
     const auto registry = TERRANE_TRY(registryOf(used.used(), aliases));
     std::string text;
-    for (int level = 0; level <= lastLevel; ++level) {
+    for (const gen::GraphRequest& request : requests) {
         BlockNames again(registry, names.pack, aliases);
-        const auto recorded = TERRANE_TRY(record(script, again, {names.generator, registry, level, false}));
+        const auto recorded = TERRANE_TRY(record(script, again, {names.generator, registry, request, false}));
         text += fmt::format("{:016x}", gen::graphHash(recorded.graph));
     }
     for (const std::string& name : used.used()) text += "\n" + name;

@@ -25,15 +25,16 @@ struct ScriptNames {
     std::string pack;       // block "x" is "PACK:x" if the registry has it, else "x"; empty: only "x"
 };
 
-// Returns the graph of one level, 0…world::kMaxLevel. An error is one line, "FILE:LINE: reason", or "FILE:
-// reason" if it concerns the whole generator.
+// Returns a graph. An error is one line, "FILE:LINE: reason", or "FILE: reason" if it concerns the whole
+// generator.
 [[nodiscard]] base::Result<gen::GeneratorGraph> recordScript(const Script& script, const ScriptNames& names,
-                                                             const world::BlockRegistry& blocks, int level);
+                                                             const world::BlockRegistry& blocks,
+                                                             gen::GraphRequest request = {});
 
 // Returns 1…2^31 − 1: a hash of everything that the script records (at level 0; at all levels if it reads the
-// step) and of the names of its blocks. It does not depend on the other blocks of the registry, nor on names
-// of passes, comments or layout. Saves store it as the generator's version. print() of the script writes
-// nothing.
+// step; for the heights that it declares, and for the tallest world if it reads the world's heights) and of
+// the names of its blocks. It does not depend on the other blocks of the registry, nor on names of passes,
+// comments or layout. Saves store it as the generator's version. print() of the script writes nothing.
 [[nodiscard]] base::Result<int> scriptVersion(const Script& script, const ScriptNames& names,
                                               const world::BlockRegistry& blocks);
 

@@ -164,8 +164,9 @@ std::string runScript(lua_State* L, const Script& script) {
 }
 
 std::vector<std::string> scriptFunctions() {
-    std::vector<std::string> names = {"Pass.x",    "Pass.y",         "Pass.z",
-                                      "Pass.step", "Generator.step", "Variable.value"};
+    std::vector<std::string> names = {"Pass.x",        "Pass.y",         "Pass.z",
+                                      "Pass.step",     "Generator.step", "Generator.bottom",
+                                      "Generator.top", "Variable.value"};
     const auto add = [&](const char* prefix, std::span<const Function> functions) {
         for (const Function& function : functions) names.push_back(std::string(prefix) + function.name);
     };

@@ -28,18 +28,19 @@ const uint kShapePaletteWords = 256u;
 // Pairs of fields from which a pass stamps: a work group keeps the feet of each in 9 KiB.
 const uint kMaxStampsInPass = 2u;
 
-// One chunk of a dispatch. A slot holds a chunk's fields and blocks on the GPU.
+// One chunk of a dispatch. A slot holds a chunk's fields on the GPU, another one its blocks. Slots are those
+// of the 3×3 chunks around, by y then x: number 4 is the chunk's own, and the last three are unused.
 struct TileJob {
-    ivec4 origin;  // x, y: block of the first column's sample; z: the chunk's slot; w: blocks to the next
-                   // column
-    uvec4 neighbors[3];  // slots of the 3×3 chunks around, by y then x; the last three are unused
+    ivec4 origin;  // x, y: block of the first column's sample; w: blocks to the next column
+    uvec4 fieldSlots[3];
+    uvec4 blockSlots[3];
 };
 
 SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(TileJob) == 64);
+static_assert(sizeof(TileJob) == 112);
 }
 #endif
 #endif

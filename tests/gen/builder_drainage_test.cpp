@@ -27,7 +27,7 @@ TEST(BuilderDrainage, RefusesNumbersOutOfRange) {
     EXPECT_EQ(mistakeOf({.maxHalfWidth = 65.0f}), start + "maxHalfWidth 65 is not in 0.5…64");
     EXPECT_EQ(mistakeOf({.reach = 300.0f}), start + "reach 300 is not in 1…256, the spacing");
     EXPECT_EQ(mistakeOf({.bend = 0.5f}), start + "bend 0.5 is not in 0…0.25");
-    EXPECT_EQ(mistakeOf({.seaLevel = 300.0f}), start + "seaLevel 300 is not in 0…255");
+    EXPECT_EQ(mistakeOf({.seaLevel = 3000.0f}), start + "seaLevel 3000 is not in -2048…2047");
     EXPECT_EQ(mistakeOf({.lakeDepth = -1.0f}), start + "lakeDepth -1 is not in 0…1024");
     EXPECT_EQ(mistakeOf({.maxCut = 2000.0f}), start + "maxCut 2000 is not in 0…1024");
 }

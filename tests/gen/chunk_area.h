@@ -9,6 +9,7 @@
 
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/gen_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 

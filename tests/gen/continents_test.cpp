@@ -14,6 +14,7 @@
 
 #include "terrane/gen/generators/continents.h"
 #include "tests/gen/chunk_area.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 namespace {

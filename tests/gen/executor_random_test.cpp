@@ -14,17 +14,13 @@
 namespace terrane::gen {
 namespace {
 
-world::BlockPos placeOf(ChunkPos chunk, std::size_t index) {
-    return world::blockPos(chunk, static_cast<world::BlockIndex>(index));
-}
-
 // Values of the pass's fields in all columns.
 std::vector<ColumnValues> expectedColumns(const PassRunner& runner) {
     const PassGraph& pass = runner.graph.passes[0];
     SlowEvaluator evaluator(runner, pass.graph);
     std::vector<ColumnValues> expected(pass.fields.size());
     for (std::size_t lane = 0; lane < kTileLanes; ++lane) {
-        evaluator.moveTo(placeOf(runner.chunk, lane));
+        evaluator.moveTo(placeOf(runner.chunk, {}, lane));
         for (std::size_t k = 0; k < pass.fields.size(); ++k) {
             expected[k][lane] = evaluator.value(pass.fields[k].value);
         }
@@ -56,10 +52,12 @@ TEST(ExecutorRandom, Passes2D) {
 }
 
 // The bottom, the top and a few layers between: plain recursion for all of them would take long.
-std::vector<int> someLayers(std::uint32_t seed) {
+std::vector<int> someLayers(std::uint32_t seed, world::Heights heights) {
     std::mt19937 random(seed);
-    std::vector<int> layers = {0, world::kChunkHeight - 1};
-    for (int k = 0; k < 3; ++k) layers.push_back(static_cast<int>(random() % world::kChunkHeight));
+    std::vector<int> layers = {heights.bottom, heights.top - 1};
+    for (int k = 0; k < 3; ++k)
+        layers.push_back(heights.bottom +
+                         static_cast<int>(random() % static_cast<std::uint32_t>(heights.layers())));
     return layers;
 }
 
@@ -68,10 +66,11 @@ void expectLayers(const PassRunner& runner, const BlockArray& blocks, const std:
     SlowEvaluator evaluator(runner, pass.graph);
     for (const int z : layers) {
         for (std::size_t lane = 0; lane < kTileLanes; ++lane) {
-            const std::size_t index = static_cast<std::size_t>(z) * kTileLanes + lane;
-            evaluator.moveTo(placeOf(runner.chunk, index));
+            world::BlockPos at = placeOf(runner.chunk, {}, lane);
+            at.z = z;
+            evaluator.moveTo(at);
             const auto want = static_cast<std::uint16_t>(evaluator.value(*pass.block));
-            ASSERT_EQ(blocks[index], want) << "layer " << z << ", column " << lane;
+            ASSERT_EQ(blocks.layer(z)[lane], want) << "layer " << z << ", column " << lane;
         }
     }
 }
@@ -86,12 +85,25 @@ TEST(ExecutorRandom, Passes3D) {
             std::unique_ptr<BlockArray> blocks = runner.run3D(0);
             if (!first) {
                 first = std::move(blocks);
-                expectLayers(runner, *first, someLayers(seed));
+                expectLayers(runner, *first, someLayers(seed, {}));
             } else {
                 ASSERT_TRUE(*first == *blocks) << "not the blocks of the first instruction set";
             }
         });
         if (HasFatalFailure()) return;
+    }
+}
+
+// With and without shortening.
+TEST(ExecutorRandom, Passes3DOfAnyHeights) {
+    for (std::uint32_t seed = 2000; seed < 2000 + kRandomCases / 5; ++seed) {
+        const world::Heights heights = kSomeHeights[seed % kSomeHeights.size()];
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + world::describe(heights));
+        PassRunner runner(RandomGraph(seed, true).take(heights));
+        RandomGraph::fillInputs(runner, seed);
+        const auto whole = runner.run3D(0, false), blocks = runner.run3D(0);
+        ASSERT_TRUE(*whole == *blocks) << "not the blocks of the whole pass";
+        ASSERT_NO_FATAL_FAILURE(expectLayers(runner, *blocks, someLayers(seed, heights)));
     }
 }
 

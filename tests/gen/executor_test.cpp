@@ -8,6 +8,7 @@
 
 #include "tests/gen/noise_reference.h"
 #include "tests/gen/pass_runner.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 namespace {

@@ -16,6 +16,7 @@
 #include "terrane/world/blocks/block_registry.h"
 #include "terrane/world/chunk.h"
 #include "terrane/world/coords.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 #include "tests/world/content_blocks.h"
 
@@ -63,14 +64,14 @@ opacity = 1
     return registry;
 }
 
-inline base::Result<GeneratorGraph> tryToBuild(const Write& write) {
-    GeneratorBuilder builder("test", testBlocks());
+inline base::Result<GeneratorGraph> tryToBuild(const Write& write, GraphRequest request = {}) {
+    GeneratorBuilder builder("test", testBlocks(), request);
     write(builder);
     return builder.finish();
 }
 
-inline GeneratorGraph build(const Write& write) {
-    auto graph = tryToBuild(write);
+inline GeneratorGraph build(const Write& write, GraphRequest request = {}) {
+    auto graph = tryToBuild(write, request);
     EXPECT_TRUE(graph.has_value()) << (graph ? "" : graph.error().message);
     return graph ? std::move(*graph) : GeneratorGraph();
 }
@@ -92,14 +93,27 @@ inline std::array<ChunkPos, 6> placesOf(int level) {
     return places;
 }
 
+// Heights that worlds may have, small ones at all ends and the tallest one.
+constexpr std::array<world::Heights, 6> kSomeHeights = {
+    {{0, 256}, {-64, 320}, {512, 1024}, {-2048, -2032}, {2032, 2048}, {-2048, 2048}}};
+
+// From the bottom of the world.
 inline std::vector<BlockId> blocksOf(const world::Chunk& chunk) {
-    std::vector<BlockId> ids(world::kBlocksPerChunk);
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+    const world::Heights heights = chunk.heights();
+    std::vector<BlockId> ids(static_cast<std::size_t>(heights.layers()) * world::kBlocksPerLayer);
+    for (int s = 0; s < heights.sections(); ++s) {
         const std::span all(ids);
-        chunk.section(s).unpack(all.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
-                                    .first<world::kBlocksPerSection>());
+        chunk.section(heights.firstSection() + s)
+            .unpack(all.subspan(static_cast<std::size_t>(s) * world::kBlocksPerSection)
+                        .first<world::kBlocksPerSection>());
     }
     return ids;
+}
+
+// The place of block `index` of blocksOf().
+inline world::BlockPos placeOf(ChunkPos chunk, world::Heights heights, std::size_t index) {
+    return world::blockPos(chunk,
+                           static_cast<world::BlockIndex>(index) + world::blockIndex(0, 0, heights.bottom));
 }
 
 // The block at (x, y, z); its lower 16 bits count.
@@ -108,18 +122,23 @@ using ExpectedBlock = std::function<std::int32_t(std::int32_t x, std::int32_t y,
 inline void expectChunk(const Generator& generator, ChunkPos pos, const ExpectedBlock& expected) {
     const std::vector<BlockId> ids = blocksOf(generator.generate(pos));
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        const world::BlockPos at = world::blockPos(pos, static_cast<world::BlockIndex>(i));
+        const world::BlockPos at = placeOf(pos, generator.heights(), i);
         const auto want = static_cast<BlockId>(expected(at.x, at.y, at.z));
         ASSERT_EQ(ids[i], want) << "at (" << at.x << ", " << at.y << ", " << at.z << ")";
     }
+}
+
+// A cache of this many chunks, however much memory they need.
+inline CacheSize chunks(std::size_t count) {
+    return {.bytes = 0, .minChunks = count};
 }
 
 constexpr std::uint64_t kTestSeed = 42;
 
 inline const std::uint32_t kRandomCases = atDepth(60u, 200u);
 
-inline void expectBlocks(const Write& write, const ExpectedBlock& expected) {
-    const Generator generator(build(write), kTestSeed);
+inline void expectBlocks(const Write& write, const ExpectedBlock& expected, GraphRequest request = {}) {
+    const Generator generator(build(write, request), kTestSeed);
     for (const ChunkPos pos : kPlaces) {
         SCOPED_TRACE(testing::PrintToString(pos));
         expectChunk(generator, pos, expected);

@@ -84,11 +84,6 @@ std::vector<std::size_t> inOrder(std::size_t count) {
     return order;
 }
 
-// A cache of this many chunks, however much memory they need.
-CacheSize chunks(std::size_t count) {
-    return {.bytes = 0, .minChunks = count};
-}
-
 // Fails unless the cache of a generator that made these chunks evicted results that they need.
 void expectEvictions(const Generator& generator, const std::vector<ChunkPos>& positions) {
     const Generator roomy(build(writeDeep), kTestSeed);

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "tests/gen/chunk_area.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 namespace {

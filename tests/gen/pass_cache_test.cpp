@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <memory>
@@ -15,7 +16,7 @@ namespace terrane::gen {
 namespace {
 
 TEST(PassCache, AWorkHasRoomForEveryFieldAndPass) {
-    PassCache cache(4, 3, 5);
+    PassCache cache(chunks(4), 3, 5);
     const auto work = cache.get({7, -7});
     EXPECT_EQ(work->fields.size(), 3u);
     EXPECT_EQ(work->blocks.size(), 5u);
@@ -24,7 +25,7 @@ TEST(PassCache, AWorkHasRoomForEveryFieldAndPass) {
 }
 
 TEST(PassCache, TheSameChunkIsTheSameWork) {
-    PassCache cache(4, 1, 1);
+    PassCache cache(chunks(4), 1, 1);
     const auto a = cache.get({1, 2}), b = cache.get({2, 1});
     EXPECT_NE(a, b);
     EXPECT_EQ(cache.get({1, 2}), a);
@@ -32,14 +33,14 @@ TEST(PassCache, TheSameChunkIsTheSameWork) {
 }
 
 TEST(PassCache, LevelsAreChunksOfTheirOwn) {
-    PassCache cache(4, 1, 1);
+    PassCache cache(chunks(4), 1, 1);
     const auto fine = cache.get({1, 2, 0}), coarse = cache.get({1, 2, 3});
     EXPECT_NE(fine, coarse);
     EXPECT_EQ(cache.get({1, 2, 3}), coarse);
 }
 
 TEST(PassCache, TheChunkUsedLongestAgoGoesFirst) {
-    PassCache cache(2, 1, 1);
+    PassCache cache(chunks(2), 1, 1);
     const std::weak_ptr<ChunkWork> a = cache.get({0, 0}), b = cache.get({1, 0});
     cache.get({0, 0});  // used again: now b is the older one
     cache.get({2, 0});
@@ -48,7 +49,7 @@ TEST(PassCache, TheChunkUsedLongestAgoGoesFirst) {
 }
 
 TEST(PassCache, AWorkThatSomebodyHoldsStaysAlive) {
-    PassCache cache(1, 1, 1);
+    PassCache cache(chunks(1), 1, 1);
     const auto held = cache.get({0, 0});
     held->advance(1, [](int) {});
     cache.get({1, 0});
@@ -59,17 +60,42 @@ TEST(PassCache, AWorkThatSomebodyHoldsStaysAlive) {
 }
 
 TEST(PassCache, ACapacityOfNoneStillWorks) {
-    PassCache cache(0, 1, 1);
+    PassCache cache(chunks(0), 1, 1);
     const auto a = cache.get({0, 0});
     ASSERT_NE(a, nullptr);
     EXPECT_NE(cache.get({0, 0}), a);
 }
 
 TEST(PassCache, KeepsAsManyAsItsCapacity) {
-    PassCache cache(50, 1, 1);
+    PassCache cache(chunks(50), 1, 1);
     std::vector<std::weak_ptr<ChunkWork>> works;
     for (std::int32_t k = 0; k < 200; ++k) works.push_back(cache.get({k, -k}));
     for (std::size_t k = 0; k < works.size(); ++k) EXPECT_EQ(works[k].expired(), k < 150) << k;
+}
+
+// Blocks count once they are there; the fewest chunks stay as long as they do not need far too much.
+TEST(PassCache, ForgetsByMemory) {
+    const std::size_t each = ChunkWork::memoryBytes(1, 1), room = 10 * each;
+    PassCache cache({.bytes = room, .minChunks = 3}, 1, 1);
+    std::vector<std::weak_ptr<ChunkWork>> works;
+    const auto count = [&] {
+        return std::count_if(works.begin(), works.end(), [](const auto& work) { return !work.expired(); });
+    };
+    for (std::int32_t k = 0; k < 20; ++k) works.push_back(cache.get({k, 0}));
+    EXPECT_EQ(count(), 10);
+    EXPECT_EQ(cache.bytes(), room);
+    const auto grow = [&](std::int32_t k, std::size_t bytes) {
+        cache.addBytes({k, 0}, *cache.get({k, 0}), bytes);
+    };
+    grow(19, room / 2);
+    EXPECT_EQ(count(), 5);
+    EXPECT_EQ(cache.bytes(), room);
+    grow(18, 2 * room);
+    EXPECT_EQ(count(), 3);
+    EXPECT_GT(cache.bytes(), room);
+    grow(18, CacheSize::kMostTimes * room);
+    EXPECT_LT(count(), 3);
+    EXPECT_LE(cache.bytes(), room);
 }
 
 TEST(ChunkWork, EachPassRunsOnceAndInOrder) {
@@ -110,7 +136,7 @@ TEST(ChunkWork, APassThatThrowsIsAnybodysAgain) {
 
 // One work a chunk, however many ask at once; nothing is lost while others push it out.
 TEST(PassCache, ManyThreadsAsk) {
-    PassCache large(100, 1, 1), small(3, 1, 1);
+    PassCache large(chunks(100), 1, 1), small(chunks(3), 1, 1);
     std::array<std::atomic<ChunkWork*>, 64> first{};
     std::atomic<int> differing = 0;
     const auto ask = [&](int thread) {

@@ -1,7 +1,10 @@
 // Runs single passes of a generator on one chunk with fields, blocks and seeds that the test sets.
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <utility>
@@ -17,6 +20,38 @@ inline bool sameFloat(Bits a, Bits b) {
     const bool aIsNaN = (a & 0x7FFFFFFFu) > 0x7F800000u, bIsNaN = (b & 0x7FFFFFFFu) > 0x7F800000u;
     return a == b || (aIsNaN && bIsNaN);
 }
+
+// Blocks from the bottom of the world.
+struct BlockArray : std::vector<std::uint16_t> {
+    explicit BlockArray(world::Heights h = {})
+        : std::vector<std::uint16_t>(static_cast<std::size_t>(h.layers()) * kTileLanes), heights(h) {}
+    explicit BlockArray(const BlockLayers& layers) : BlockArray(layers.heights()) {
+        for (int z = heights.bottom; z < heights.top; ++z) std::copy_n(layers.layer(z), kTileLanes, layer(z));
+    }
+
+    std::uint16_t* layer(int z) {
+        return data() + static_cast<std::ptrdiff_t>(z - heights.bottom) * kTileLanes;
+    }
+    const std::uint16_t* layer(int z) const { return const_cast<BlockArray&>(*this).layer(z); }
+
+    BlockLayers layers() const {
+        BlockLayers result(heights);
+        for (int z = heights.bottom; z < heights.top; ++z) {
+            alignas(64) std::array<Bits, kTileLanes> values;
+            std::copy_n(layer(z), kTileLanes, values.begin());
+            const bool isOne =
+                std::all_of(values.begin(), values.end(), [&](Bits b) { return b == values[0]; });
+            if (isOne) {
+                result.fill(z, 1, static_cast<std::uint16_t>(values[0]));
+            } else {
+                result.write(z, values.data());
+            }
+        }
+        return result;
+    }
+
+    world::Heights heights;
+};
 
 class PassRunner {
   public:
@@ -52,17 +87,17 @@ class PassRunner {
     }
     std::unique_ptr<BlockArray> run3D(const PassGraph& pass, const VoxelPass& voxelPass,
                                       bool shortens = true) {
-        auto result = std::make_unique<BlockArray>();
+        result_ = BlockLayers(graph.heights);
         writtenFields.resize(pass.fields.size());
         std::vector<ColumnValues*> pointers;
         for (ColumnValues& values : writtenFields) pointers.push_back(&values);
         executor().setShortens(shortens);
-        executor().run3D(voxelPass, inputs(), *result, pointers);
-        return result;
+        executor().run3D(voxelPass, inputs(), result_, pointers);
+        return std::make_unique<BlockArray>(result_);
     }
 
     std::vector<SlabRun> slabs() const { return {executor_->slabs().begin(), executor_->slabs().end()}; }
-    const LayerRanges& layerRanges() const { return executor_->layerRanges(); }
+    const BlockLayers& layers() const { return result_; }  // of the 3D pass run last
 
     GeneratorGraph graph;
     Seeds seeds;
@@ -81,7 +116,7 @@ class PassRunner {
         return *executor_;
     }
 
-    PassInputs inputs() const {
+    PassInputs inputs() {
         PassInputs result;
         result.chunk = chunk;
         result.fields.resize(graph.fields.size());
@@ -90,12 +125,17 @@ class PassRunner {
             if (f >= around.size()) continue;
             for (std::size_t n = 0; n < 9; ++n) result.fields[f][n] = &around[f][n];
         }
-        result.blocks[4] = blocks.get();
-        for (std::size_t n = 0; n < blocksAround.size(); ++n) {
-            if (n != 4) result.blocks[n] = blocksAround[n].get();
+        for (std::size_t n = 0; n < 9; ++n) {
+            const BlockArray* source = n == 4 ? blocks.get() : blocksAround[n].get();
+            if (!source) continue;
+            sources_[n] = source->layers();
+            result.blocks[n] = &sources_[n];
         }
         return result;
     }
+
+    BlockLayers result_;
+    std::array<BlockLayers, 9> sources_;
 
     std::unique_ptr<Executor> executor_;
 };

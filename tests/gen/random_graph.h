@@ -56,8 +56,9 @@ class RandomGraph {
     }
 
     // The generator with this one pass. It reads fields 0 to 3, and writes the others or the block.
-    GeneratorGraph take() {
+    GeneratorGraph take(world::Heights heights = {}) {
         GeneratorGraph g;
+        g.heights = heights;
         for (const Type type : kFields) g.fields.push_back({"read", type, 0});
         for (const Type type : kFields) g.fields.push_back({"written", type, 1});
         g.noises = {{NoiseKind::Perlin2D, "a", 5, {1.0f, 0.0f, -0.5f}, 1},
@@ -88,7 +89,7 @@ class RandomGraph {
             for (ColumnValues& values : runner.around[f]) values = randomColumns(kFields[f], random);
             runner.fields[f] = runner.around[f][4];
         }
-        runner.blocks = std::make_unique<BlockArray>();
+        runner.blocks = std::make_unique<BlockArray>(runner.graph.heights);
         for (std::uint16_t& block : *runner.blocks) block = static_cast<std::uint16_t>(random());
         for (auto& blocks : runner.blocksAround) blocks = std::make_unique<BlockArray>(*runner.blocks);
         for (std::size_t n = 0; n < runner.blocksAround.size(); ++n) {

@@ -11,6 +11,7 @@
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/pass_runner.h"
 #include "tests/gen/random_graph.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 namespace {
@@ -156,8 +157,9 @@ TEST(ShortPasses, OfRandomGraphsGiveTheBlocksOfTheWholeOnes) {
         ASSERT_TRUE(*whole == *blocks);
         for (const SlabRun& s : runner.slabs()) shortLayers += s.way == SlabRun::Way::Whole ? 0 : s.count;
         for (int z = 0; z < world::kChunkHeight; ++z) {
-            const BlockRange range = rangeOfLayer(blocks->data() + z * kTileLanes);
-            ASSERT_TRUE(range == runner.layerRanges()[static_cast<std::size_t>(z)]) << "layer " << z;
+            const std::uint16_t* layer = blocks->layer(z);
+            const auto [low, high] = std::minmax_element(layer, layer + kTileLanes);
+            ASSERT_TRUE(runner.layers().range(z) == (BlockRange{*low, *high})) << "layer " << z;
         }
     }
     EXPECT_GT(shortLayers, 0);
@@ -179,6 +181,23 @@ TEST(PassReport, CountsTheLayersOfEvery3DPass) {
         EXPECT_EQ(layers, world::kChunkHeight);
         EXPECT_GT(isFilled, world::kChunkHeight / 4) << "there is mostly air above the ground";
     }
+}
+
+// Rock and sky of any height are few slabs.
+TEST(PassReport, OfATallWorldHasFewSlabs) {
+    const world::Heights tallest = {world::kLowestBottom, world::kHighestTop};
+    const Generator generator(makeGenerator("flat", contentBlocks(), {0, tallest}).value(), kTestSeed);
+    std::vector<PassReport> reports;
+    generator.generate({3, 4}, reports);
+    ASSERT_EQ(reports.size(), 1u);
+    int layers = 0, isFilled = 0;
+    for (const SlabRun& slab : reports[0].slabs) {
+        layers += slab.count;
+        isFilled += slab.way == Way::Filled ? slab.count : 0;
+    }
+    EXPECT_EQ(layers, tallest.layers());
+    EXPECT_GT(isFilled, tallest.layers() - 32);
+    EXPECT_LE(reports[0].slabs.size(), 32u);
 }
 
 }  // namespace

@@ -89,12 +89,11 @@ class SlowEvaluator {
     Bits block(std::int32_t z) const { return blockAt(0, 0, z); }
 
     Bits blockAt(std::int32_t dx, std::int32_t dy, std::int32_t z) const {
-        const auto layer = static_cast<std::size_t>(std::clamp(z, 0, world::kChunkHeight - 1));
         const int x = (at_.x & 15) + 16 + std::clamp(dx, -16, 16);  // from the corner of the nine chunks
         const int y = (at_.y & 15) + 16 + std::clamp(dy, -16, 16);
         const auto chunk = static_cast<std::size_t>(y / 16 * 3 + x / 16);
         const BlockArray& blocks = chunk == 4 ? *runner_.blocks : *runner_.blocksAround[chunk];
-        return blocks[layer * kTileLanes + static_cast<std::size_t>(x % 16 + y % 16 * 16)];
+        return blocks.layer(blocks.heights.clamp(z))[x % 16 + y % 16 * 16];
     }
 
     // Round by round; what depends on the loop's variables is forgotten before each.

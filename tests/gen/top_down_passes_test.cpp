@@ -11,6 +11,7 @@
 
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/gen_fixture.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 
 namespace terrane::gen {
@@ -19,22 +20,25 @@ namespace {
 using Layer = std::span<const BlockId, kTileLanes>;
 
 // Each column is requested down to a random height, some down to the bottom.
-std::vector<int> randomDepths(std::mt19937& random) {
+std::vector<int> randomDepths(world::Heights heights, std::mt19937& random) {
     std::vector<int> depths(kTileLanes);
-    const int low = static_cast<int>(random() % 250);
-    for (int& depth : depths) depth = random() % 20 == 0 ? 0 : low + static_cast<int>(random() % 6);
+    const auto below = [&](int count) { return static_cast<int>(random() % static_cast<unsigned>(count)); };
+    const int low = heights.bottom + below(heights.layers() - 6);
+    for (int& depth : depths) depth = below(20) == 0 ? heights.bottom : low + below(6);
     return depths;
 }
 
 // The chunk's blocks from generateTopDown(): each column down to its depth, others unknown.
 std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, ChunkPos pos,
                                                   const std::vector<int>& depths) {
-    std::vector<std::optional<BlockId>> seen(world::kBlocksPerChunk);
+    const world::Heights heights = generator.heights();
+    std::vector<std::optional<BlockId>> seen(static_cast<std::size_t>(heights.layers()) * kTileLanes);
     const auto note = [&](int z, auto blockOf) {
         for (std::size_t k = 0; k < kTileLanes; ++k)
-            if (z >= depths[k]) seen[static_cast<std::size_t>(z) * kTileLanes + k] = blockOf(k);
+            if (z >= depths[k])
+                seen[static_cast<std::size_t>(z - heights.bottom) * kTileLanes + k] = blockOf(k);
     };
-    int above = world::kChunkHeight;
+    int above = heights.top;
     BlockId blockAbove = 0;  // of the layers that are left out
     generator.generateTopDown(pos, [&](int z, Layer layer, RequestedColumns& requested) {
         EXPECT_LT(z, above);
@@ -44,7 +48,7 @@ std::vector<std::optional<BlockId>> seenFromAbove(const Generator& generator, Ch
         for (std::size_t k = 0; k < kTileLanes; ++k)
             if (z <= depths[k]) requested.drop(k);
     });
-    while (--above >= 0) note(above, [&](std::size_t) { return blockAbove; });
+    while (--above >= heights.bottom) note(above, [&](std::size_t) { return blockAbove; });
     return seen;
 }
 
@@ -54,7 +58,7 @@ void expectLayersOf(const Generator& generator, ChunkPos pos, const std::vector<
     const std::vector<BlockId> whole = blocksOf(generator.generate(pos));
     for (std::size_t i = 0; i < whole.size(); ++i)
         ASSERT_EQ(seen[i].value_or(whole[i]), whole[i])
-            << "column " << i % kTileLanes << ", z " << i / kTileLanes;
+            << "column " << i % kTileLanes << ", layer " << i / kTileLanes << " from the bottom";
 }
 
 void expectSameDown(const Generator& generator, int chunks) {
@@ -64,7 +68,7 @@ void expectSameDown(const Generator& generator, int chunks) {
         const ChunkPos pos = {at() >> generator.level(), at() >> generator.level(),
                               static_cast<std::uint8_t>(generator.level())};
         SCOPED_TRACE(testing::PrintToString(pos));
-        expectLayersOf(generator, pos, randomDepths(random));
+        expectLayersOf(generator, pos, randomDepths(generator.heights(), random));
     }
 }
 
@@ -101,6 +105,10 @@ void nearLayers(Pass& p, int below, int above) {
 
 void expectSameDown(const Write& write) {
     expectSameDown(Generator(build(write), kTestSeed), 10);
+    for (const world::Heights heights : kSomeHeights) {
+        SCOPED_TRACE(world::describe(heights));
+        expectSameDown(Generator(build(write, {0, heights}), kTestSeed), 1);
+    }
 }
 
 TEST(GenerateDown, PassesReadLayersBelowAndAbove) {
@@ -172,13 +180,13 @@ TEST(LayersReadBelow, CountsFromZ) {
     EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(Int(-3) + p.z())); }), 3);
 }
 
-TEST(LayersReadBelow, IsUnknownBeyondAChunk) {
+TEST(LayersReadBelow, IsUnknownBeyondAWorld) {
     const auto above = [](std::int32_t blocks) {
         return readBelow([blocks](Pass& p) { p.setBlock(p.blockInColumn(p.z() + blocks)); });
     };
-    EXPECT_EQ(above(world::kChunkHeight), 0);
-    EXPECT_EQ(above(-world::kChunkHeight), world::kChunkHeight);
-    for (const std::int32_t far : {world::kChunkHeight + 1, -world::kChunkHeight - 1, INT32_MAX, INT32_MIN}) {
+    EXPECT_EQ(above(world::kMostLayers), 0);
+    EXPECT_EQ(above(-world::kMostLayers), world::kMostLayers);
+    for (const std::int32_t far : {world::kMostLayers + 1, -world::kMostLayers - 1, INT32_MAX, INT32_MIN}) {
         EXPECT_EQ(above(far), std::nullopt) << far;
         EXPECT_EQ(readBelow([far](Pass& p) { p.setBlock(p.blockInColumn(p.z() - far)); }), std::nullopt);
         EXPECT_EQ(readBelow([far](Pass& p) { p.setBlock(p.blockInColumn(Int(far) + p.z())); }), std::nullopt);

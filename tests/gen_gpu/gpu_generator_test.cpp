@@ -10,6 +10,7 @@
 #include "tests/gen/stamp_fixture.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 
 namespace terrane::gen_gpu {
@@ -19,11 +20,16 @@ using world::ChunkPos;
 
 // The first block in which two chunks differ, or nothing.
 std::string difference(const world::Chunk& a, const world::Chunk& b) {
-    for (int k = 0; k < world::kBlocksPerChunk; ++k) {
-        const auto i = static_cast<world::BlockIndex>(k);
-        if (a.block(i) != b.block(i)) {
-            return fmt::format("x {} y {} z {}: {} and {}", k & 15, k >> 4 & 15, k >> 8, a.block(i),
-                               b.block(i));
+    if (a.heights() != b.heights()) return "their heights differ";
+    const world::Heights heights = a.heights();
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
+        if (a.section(number) == b.section(number)) continue;
+        for (int k = 0; k < world::kBlocksPerSection; ++k) {
+            const int one = a.section(number).get(k), other = b.section(number).get(k);
+            if (one != other) {
+                return fmt::format("x {} y {} z {}: {} and {}", k & 15, k >> 4 & 15, 16 * number + (k >> 8),
+                                   one, other);
+            }
         }
     }
     return "";
@@ -33,8 +39,9 @@ class GpuGeneratorTest : public gpu::GlTest {
   protected:
     // Generates all chunks on both back ends, the GPU in batches of `batch`, and compares them block by
     // block.
-    void compare(const std::string& name, const std::vector<ChunkPos>& chunks, std::size_t batch) {
-        const auto graph = gen::makeGenerator(name, contentBlocks(), chunks.front().level);
+    void compare(const std::string& name, const std::vector<ChunkPos>& chunks, std::size_t batch,
+                 world::Heights heights = {}) {
+        const auto graph = gen::makeGenerator(name, contentBlocks(), {chunks.front().level, heights});
         ASSERT_TRUE(graph) << graph.error().message;
         compare(*graph, chunks, batch);
     }
@@ -147,6 +154,76 @@ TEST_F(GpuGeneratorTest, StampsEqualCpu) {
         compare(*graph, gen::chunksInSquare({-1, -1, level}, 2), 4);
         compare(*graph, {{corner.x >> level, corner.y >> level, level}}, 1);
     }
+}
+
+// Layers that are no multiple of a work group's, below and above zero.
+constexpr world::Heights kSomeHeights[] = {{-64, 320}, {512, 1024}, {-2048, -2032}, {2032, 2048}, {-80, 32}};
+constexpr world::Heights kTallest = {world::kLowestBottom, world::kHighestTop};
+
+TEST_F(GpuGeneratorTest, EveryPartOfTheLanguageEqualsCpuAtAnyHeights) {
+    for (const world::Heights heights : kSomeHeights) {
+        SCOPED_TRACE(world::describe(heights));
+        gen::GeneratorBuilder builder("everything", contentBlocks(), {0, heights});
+        writeEverything(builder);
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, {{-3, 17}}, 1);
+        if (HasFatalFailure()) return;
+    }
+}
+
+// Feet in all layers, and some beyond.
+TEST_F(GpuGeneratorTest, StampsEqualCpuAtAnyHeights) {
+    std::vector<world::Heights> all(std::begin(kSomeHeights), std::end(kSomeHeights));
+    all.push_back(kTallest);
+    for (const world::Heights heights : all) {
+        SCOPED_TRACE(world::describe(heights));
+        gen::GeneratorBuilder builder("stamps", contentBlocks(), {0, heights});
+        const auto number = builder.field<gen::Int>("number"), base = builder.field<gen::Int>("base");
+        for (const gen::VoxelShape& shape : gen::stampShapes()) builder.shape(shape);
+        builder.pass2D("feet", [&](gen::Pass& p) {
+            const gen::Float where = p.random2D("where", p.x(), p.y());
+            const auto layers = static_cast<float>(heights.layers() + 200);
+            p.set(number, select(where < 0.2f, gen::Int(where * 25.0f), gen::Int(-1)));
+            const gen::Int within =
+                gen::Int(p.random2D("base", p.x(), p.y()) * layers) + (heights.bottom - 100);
+            const gen::Int beyond = select(where < 0.01f, gen::Int(INT32_MAX), gen::Int(INT32_MIN));
+            p.set(base, select(where < 0.02f, beyond, within));
+        });
+        builder.pass3D("stamps", [&](gen::Pass& p) { p.setBlock(p.stamp(number, base)); });
+        const auto graph = builder.finish();
+        ASSERT_TRUE(graph) << graph.error().message;
+        compare(*graph, gen::chunksInSquare({-1, 4}, 2), 4);
+        if (HasFatalFailure()) return;
+    }
+}
+
+// A batch has as many chunks as fit into the results; slots for blocks are fewer than those for fields.
+TEST_F(GpuGeneratorTest, BuiltInGeneratorsEqualCpuInTheTallestWorld) {
+    compare("flat", gen::chunksInSquare({-2, -2}, atDepth(5, 9)), 64, kTallest);
+    compare("overworld", gen::chunksInSquare({-5, -5}, 1), 4, kTallest);
+    for (const char* name : {"continents", "hills3d", "voronoi"})
+        compare(name, gen::chunksInSquare({226, -122}, 1), 1, {-128, 384});
+}
+
+// Blocks of neighbors whose slots others have taken meanwhile are made again.
+TEST_F(GpuGeneratorTest, BlocksThatWereReplacedAreMadeAgain) {
+    using namespace gen;
+    GeneratorBuilder builder("far reads", contentBlocks(), {0, kTallest});
+    const auto height = builder.field<Float>("height");
+    builder.pass2D("land", [&](Pass& p) { p.set(height, p.perlin2D("land", 40, {500.0f, 900.0f})); });
+    builder.pass3D("ground", [&](Pass& p) {
+        p.setBlock(select(Float(p.z()) < p.read(height), p.block("stone"), p.block("air")));
+    });
+    builder.pass3D("reads", [&](Pass& p) {
+        p.setBlock(
+            select(p.blockAt({16, -3}, p.z() - 100) == p.block("air"), p.block("dirt"), p.blockHere()));
+    });
+    const auto graph = builder.finish();
+    ASSERT_TRUE(graph) << graph.error().message;
+    std::vector<ChunkPos> chunks;
+    for (int k = 0; k < 14; ++k) chunks.push_back({(k % 7) * 2, 0});
+    compare(*graph, chunks, 2);
 }
 
 TEST_F(GpuGeneratorTest, ManyStampsEqualCpu) {

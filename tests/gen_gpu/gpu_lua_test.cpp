@@ -17,7 +17,7 @@ class GpuLuaTest : public gpu::GlTest {
         const std::string file = name + ".lua";
         const auto text = base::readFile(TERRANE_SOURCE_DIR "/examples/lua/generators/" + file);
         ASSERT_TRUE(text) << text.error().message;
-        const auto graph = lua::recordScript({*text, file}, {name, ""}, contentBlocks(), level);
+        const auto graph = lua::recordScript({*text, file}, {name, ""}, contentBlocks(), {level, {}});
         ASSERT_TRUE(graph) << graph.error().message;
         const gen::Generator cpu(*graph, gen::kTestSeed);
         auto onGpu = GpuGenerator::create(render::contentShaders(), *graph, gen::kTestSeed);

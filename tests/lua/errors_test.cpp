@@ -124,7 +124,7 @@ TEST(ScriptErrors, ValuesOfOtherPassesAreRefused) {
 TEST(ScriptErrors, LongFileNamesStayWhole) {
     const std::string file =
         "a/long/path/to/some/folder/in/which/there/are/many/generators/of/all/kinds/isles.lua";
-    const auto graph = recordScript({"\n\nlocal x = nil + 1", file}, {"x", ""}, contentBlocks(), 0);
+    const auto graph = recordScript({"\n\nlocal x = nil + 1", file}, {"x", ""}, contentBlocks());
     ASSERT_FALSE(graph);
     EXPECT_EQ(graph.error().message, file + ":3: attempt to perform arithmetic on a nil value");
 }

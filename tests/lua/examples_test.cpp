@@ -12,7 +12,7 @@ TEST(Examples, RecordAtEveryLevel) {
     for (const auto& path : scriptsIn("examples/lua/generators")) {
         const Script script{readText(path), path.filename()};
         for (int level = 0; level <= world::kMaxLevel; ++level) {
-            const auto graph = recordScript(script, {path.stem(), ""}, contentBlocks(), level);
+            const auto graph = recordScript(script, {path.stem(), ""}, contentBlocks(), {level, {}});
             ASSERT_TRUE(graph) << graph.error().message;
             if (level % 5 != 0) continue;
             const auto blocks = chunkOf(*graph, {3, -2, static_cast<std::uint8_t>(level)});
@@ -40,7 +40,7 @@ TEST(Examples, HaveTheirBlocks) {
                                 {"09_rivers", {"water", "grass", "gravel"}},
                                 {"10_islands_in_the_sky", {"grass", "crystal", "limestone"}}};
     for (const Promise& promise : promises) {
-        auto graph = recordScript(exampleScript(promise.name), {promise.name, ""}, contentBlocks(), 0);
+        auto graph = recordScript(exampleScript(promise.name), {promise.name, ""}, contentBlocks());
         ASSERT_TRUE(graph) << graph.error().message;
         const gen::Generator generator(*std::move(graph), 1);
         std::vector<bool> isThere(contentBlocks().types().size());

@@ -29,7 +29,7 @@ TEST(HostileScripts, AreStoppedWithOneLine) {
         const std::string name = path.stem();
         const Script script = {readText(path), name + ".lua"};
         const auto start = std::chrono::steady_clock::now();
-        const auto graph = recordScript(script, {"hostile", ""}, contentBlocks(), 0);
+        const auto graph = recordScript(script, {"hostile", ""}, contentBlocks());
         std::printf("%-24s %6.1f ms\n", name.c_str(), milliseconds(std::chrono::steady_clock::now() - start));
         ASSERT_FALSE(graph) << name;
         const std::string& message = graph.error().message;

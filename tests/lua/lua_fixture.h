@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -38,8 +39,9 @@ inline std::vector<std::filesystem::path> scriptsIn(std::string_view folder) {
     return found;
 }
 
-inline base::Result<gen::GeneratorGraph> recorded(std::string_view text, int level = 0) {
-    return recordScript({std::string(text), "test.lua"}, {"test", ""}, contentBlocks(), level);
+inline base::Result<gen::GeneratorGraph> recorded(std::string_view text, int level = 0,
+                                                  world::RequestedHeights heights = {}) {
+    return recordScript({std::string(text), "test.lua"}, {"test", ""}, contentBlocks(), {level, heights});
 }
 
 // The reason why a script fails; empty where it does not.

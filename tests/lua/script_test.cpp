@@ -25,7 +25,7 @@ class ScriptEqualsCpp : public testing::TestWithParam<const char*> {};
 
 TEST_P(ScriptEqualsCpp, AtEveryLevel) {
     for (const int level : {0, 1, 2, 5, world::kMaxLevel}) {
-        auto script = recordScript(exampleScript(GetParam()), {GetParam(), ""}, contentBlocks(), level);
+        auto script = recordScript(exampleScript(GetParam()), {GetParam(), ""}, contentBlocks(), {level, {}});
         ASSERT_TRUE(script) << script.error().message;
         auto cpp = graphOfCpp(GetParam(), level);
         ASSERT_TRUE(cpp) << cpp.error().message;
@@ -99,7 +99,7 @@ TEST(Script, PrintsOnceWhenRecordedAndNotForItsVersion) {
 TEST(Script, IsRecordedTheSameByAllThreads) {
     const Script script = exampleScript("08_forest");
     const auto hash = [&] {
-        const auto graph = recordScript(script, {"forest", ""}, contentBlocks(), 2);
+        const auto graph = recordScript(script, {"forest", ""}, contentBlocks(), {2, {}});
         return graph ? gen::graphHash(*graph) : 0;
     };
     const std::uint64_t expected = hash();

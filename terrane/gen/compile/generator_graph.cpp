@@ -249,6 +249,10 @@ std::uint64_t graphHash(const GeneratorGraph& generator) {
                    [&](const PassGraph& pass) { add(values, pass, generator.noises, generator.hashNames); });
     values.add(generator.shapes != nullptr);
     if (generator.shapes) add(values, *generator.shapes);
+    if (generator.heights != world::Heights()) {
+        values.add(generator.heights.bottom);
+        values.add(generator.heights.top);
+    }
     return values.hash();
 }
 

@@ -13,6 +13,7 @@
 #include "terrane/gen/drainage/drainage.h"
 #include "terrane/gen/noise/noise.h"
 #include "terrane/shared/generation.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::gen {
 
@@ -64,9 +65,16 @@ struct DrainageGraph {
 };
 struct TintGraph;  // builder.h
 
+// Which graph of a generator to record.
+struct GraphRequest {
+    int level = 0;
+    world::RequestedHeights heights = {};  // else those that the generator declares, else 0…255
+};
+
 struct GeneratorGraph {
     std::string name;
-    int level = 0;  // of the chunks it makes
+    int level = 0;           // of the chunks it makes
+    world::Heights heights;  // likewise
     std::vector<FieldInfo> fields;
     std::vector<NoiseCall> noises;
     std::vector<std::string> hashNames;  // of seed slots
@@ -86,8 +94,8 @@ int sharedPasses(const GeneratorGraph& generator);
 
 // Returns a hash of a recorded generator: generators with equal hashes make the same blocks. It covers
 // everything that blocks depend on: outputs of passes and the nodes that compute them, noises and names of
-// hashes, drainage maps, shapes, fields. It ignores names of passes, unused nodes and the tint. The order in
-// which a pass is recorded does not count: compilers choose different ones.
+// hashes, drainage maps, shapes, fields, and heights other than 0…255. It ignores names of passes, unused
+// nodes and the tint. The order in which a pass is recorded does not count: compilers choose different ones.
 [[nodiscard]] std::uint64_t graphHash(const GeneratorGraph& generator);
 
 // The seeds of a generator's noise calls and hashes for one world seed. Both back ends use them.

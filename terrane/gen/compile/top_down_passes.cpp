@@ -10,7 +10,7 @@
 namespace terrane::gen {
 namespace {
 
-// Returns `height` − z if it is constant. None beyond the height of a chunk, where the sum may overflow.
+// Returns `height` − z if it is constant. None beyond the layers of a world, where the sum may overflow.
 std::optional<int> blocksAboveZ(const Graph& graph, NodeId height) {
     const Node& n = graph.node(height);
     if (n.op == Op::PosZ) return 0;
@@ -19,7 +19,7 @@ std::optional<int> blocksAboveZ(const Graph& graph, NodeId height) {
     if (n.op == Op::AddI && z->op == Op::Constant) std::swap(z, constant);
     if (z->op != Op::PosZ || constant->op != Op::Constant) return std::nullopt;
     const std::int32_t blocks = asInt(constant->imm);
-    if (blocks < -world::kChunkHeight || blocks > world::kChunkHeight) return std::nullopt;
+    if (blocks < -world::kMostLayers || blocks > world::kMostLayers) return std::nullopt;
     return n.op == Op::SubI ? -blocks : blocks;
 }
 
@@ -54,25 +54,24 @@ int firstTopDownPass(const GeneratorGraph& generator) {
 
 void TopDownPasses::add(const VoxelPass& pass, PassInputs inputs) {
     if (passes_.size() == count_)
-        passes_.push_back(std::make_unique<Running>(Executor(noises_, seeds_, parts_)));
+        passes_.push_back(std::make_unique<Running>(Executor(noises_, seeds_, parts_), heights_));
     Running& running = *passes_[count_];
     if (count_ > 0) {
         const Running& before = *passes_[count_ - 1];
-        inputs.blocks[4] = before.blocks.get();
-        inputs.layerRanges = &before.executor.layerRanges();
+        inputs.blocks[4] = &before.blocks;
         const std::optional<int> below = layersReadBelow(pass.plan().pass);
         assert(below && "firstTopDownPass() says which passes run together");
         running.readsBelow = *below;
     }
-    running.executor.begin3D(pass, inputs, *running.blocks);
+    running.executor.begin3D(pass, inputs, running.blocks);
     ++count_;
 }
 
 // The lowest layer that can be made from what the pass before has made.
 int TopDownPasses::reachOf(std::size_t pass) const {
-    if (pass == 0) return 0;
+    if (pass == 0) return heights_.bottom;
     const int made = passes_[pass - 1]->executor.lowestComputed();
-    return made == 0 ? 0 : std::min(made + passes_[pass]->readsBelow, world::kChunkHeight);
+    return made == heights_.bottom ? made : std::min(made + passes_[pass]->readsBelow, heights_.top);
 }
 
 void TopDownPasses::makeMore(std::size_t pass) {
@@ -83,18 +82,15 @@ void TopDownPasses::makeMore(std::size_t pass) {
 
 void TopDownPasses::run(const LayerCallback& take) {
     const Running& last = *passes_[count_ - 1];
-    const LayerRanges& ranges = last.executor.layerRanges();
     const auto isLikeAbove = [&](int z) {
-        const auto at = static_cast<std::size_t>(z);
-        return z + 1 < world::kChunkHeight && ranges[at].low == ranges[at].high &&
-               ranges[at] == ranges[at + 1];
+        const BlockRange here = last.blocks.range(z);
+        return z + 1 < heights_.top && here.low == here.high && here == last.blocks.range(z + 1);
     };
     requested_ = RequestedColumns();
-    for (int z = world::kChunkHeight; z-- > 0 && requested_.rows() != 0;) {
+    for (int z = heights_.top; z-- > heights_.bottom && requested_.rows() != 0;) {
         if (z < last.executor.lowestComputed()) makeMore(count_ - 1);
         if (isLikeAbove(z)) continue;
-        const auto first = last.blocks->begin() + std::ptrdiff_t{z} * kTileLanes;
-        take(z, std::span<const world::BlockId, kTileLanes>(first, kTileLanes), requested_);
+        take(z, std::span<const world::BlockId, kTileLanes>(last.blocks.layer(z), kTileLanes), requested_);
     }
 }
 

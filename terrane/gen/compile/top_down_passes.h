@@ -33,9 +33,10 @@ int firstTopDownPass(const GeneratorGraph& generator);
 
 class TopDownPasses {
   public:
-    // Refers to its arguments.
-    TopDownPasses(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts)
-        : noises_(noises), seeds_(seeds), parts_(parts) {}
+    // Refers to its arguments. `heights`: of the world.
+    TopDownPasses(const std::vector<NoiseCall>& noises, const Seeds& seeds, ExecutorParts parts,
+                  world::Heights heights)
+        : noises_(noises), seeds_(seeds), parts_(parts), heights_(heights) {}
 
     // Removes the passes.
     void clear() { count_ = 0; }
@@ -48,10 +49,10 @@ class TopDownPasses {
 
   private:
     struct Running {
-        explicit Running(Executor e) : executor(std::move(e)) {}
+        Running(Executor e, world::Heights heights) : executor(std::move(e)), blocks(heights) {}
 
         Executor executor;
-        std::unique_ptr<BlockArray> blocks = std::make_unique_for_overwrite<BlockArray>();
+        BlockLayers blocks;
         int readsBelow = 0;
     };
     int reachOf(std::size_t pass) const;
@@ -60,6 +61,7 @@ class TopDownPasses {
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;
     ExecutorParts parts_;
+    world::Heights heights_;
     RequestedColumns requested_;
     std::size_t count_ = 0;
     std::vector<std::unique_ptr<Running>> passes_;  // count_ of them run

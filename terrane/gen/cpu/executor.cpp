@@ -38,45 +38,45 @@ void Executor::run2D(const Program& program, const PassInputs& inputs,
 namespace {
 
 // Slabs begin as high as a section. They double where that decides all choices, and are split as far as
-// kLowestSlab where fewer layers may decide more: analyzing each layer would cost more than it saves.
-constexpr int kLowestSlab = 4, kFirstSlab = world::kSectionSize, kHighestSlab = 64;
+// kLowestSlab where fewer layers may decide more: analyzing each layer would cost more than it saves. Slabs
+// of one block cost nothing beside their analysis: sky and rock of a tall world are a few of them.
+constexpr int kLowestSlab = 4, kFirstSlab = world::kSectionSize, kHighestSlab = 64, kHighestFilledSlab = 1024;
 
-// Five times as fast as std::fill.
-void fillLayers(std::uint16_t* layers, int count, std::uint16_t block) {
-    std::uint64_t four = block * 0x0001000100010001u;
-    constexpr int kWords = kTileLanes / 4;
-    std::uint64_t words[kWords];
-    for (std::uint64_t& word : words) word = four;
-    for (int k = 0; k < count; ++k) std::memcpy(layers + k * kTileLanes, words, sizeof(words));
+int heightAfter(int height, bool isSettled, bool isFilled) {
+    if (!isSettled) return height;
+    return std::min(2 * height, isFilled ? kHighestFilledSlab : std::max(height, kHighestSlab));
 }
 
 }  // namespace
 
-void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result) {
+void Executor::begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayers& result) {
     const Program& program = pass.program();
     assert(program.is3D && program.block && "a 3D pass has blocks");
     prepareTile(program, inputs);
+    paintStamps(program, result.heights());
     runInstructions(program.column, context_);
-    ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps, inputs.layerRanges);
+    ranges_.begin(pass.plan(), context_.arena, context_.blocks, context_.stamps);
     slabs_.clear();
+    result.clear();
     run_ = {&pass, &result, {}};
-    lowestComputed_ = slabBottom_ = world::kChunkHeight;
+    lowestComputed_ = slabBottom_ = result.heights().top;
     nextLayers_ = kFirstSlab;
 }
 
-void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
+void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayers& result,
                      std::span<ColumnValues* const> fieldResults) {
     assert(fieldResults.size() == pass.program().fields.size() && "a result for each field");
     for (ColumnValues* field : fieldResults) field->fill(0);
     begin3D(pass, inputs, result);
     run_.fieldResults = fieldResults;
+    const world::Heights heights = result.heights();
     if (!shortens_) {
-        slabs_.push_back({SlabRun::Way::Whole, world::kChunkHeight, pass.layerInstructions()});
-        return runLayers(pass.program(), 0, world::kChunkHeight);
+        slabs_.push_back({SlabRun::Way::Whole, heights.layers(), pass.layerInstructions()});
+        return runLayers(pass.program(), heights.bottom, heights.layers());
     }
     int height = kFirstSlab;
-    for (int z = 0; z < world::kChunkHeight;) {
-        height = std::min(height, world::kChunkHeight - z);
+    for (int z = heights.bottom; z < heights.top;) {
+        height = std::min(height, heights.top - z);
         ranges_.analyze(z, height);
         if (!ranges_.isSettled() && height > kLowestSlab) {
             height = std::max(height / 4, kLowestSlab);
@@ -84,7 +84,7 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
         }
         runSlab(z, height);
         z += height;
-        if (ranges_.isSettled()) height = std::min(2 * height, kHighestSlab);
+        height = heightAfter(height, ranges_.isSettled(), slabs_.back().way == SlabRun::Way::Filled);
     }
 }
 
@@ -94,7 +94,7 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray
 void Executor::runTopDown(int lowest, const RequestedColumns& requested) {
     context_.rows = requested.rows();
     context_.requested = requested.lanes();
-    assert(run_.pass && lowest >= 0 && lowest < lowestComputed_ &&
+    assert(run_.pass && lowest >= run_.result->heights().bottom && lowest < lowestComputed_ &&
            "begin3D() comes first, and layers go down");
     if (lowestComputed_ > slabBottom_) return continueSlab(std::max(lowest, slabBottom_));
     int height = std::min(nextLayers_, lowestComputed_ - lowest);
@@ -114,9 +114,11 @@ void Executor::runTopDown(int lowest, const RequestedColumns& requested) {
             startShort(*pass, slabBottom_);
         }
     }
-    nextLayers_ = ranges_.isSettled() && !slabProgram_ ? std::min(2 * height, kHighestSlab) : kFirstSlab;
+    nextLayers_ = kFirstSlab;
     if (slabProgram_) return continueSlab(std::max(lowest, slabBottom_));
     runSlab(slabBottom_, height);
+    if (ranges_.isSettled())
+        nextLayers_ = heightAfter(height, true, slabs_.back().way == SlabRun::Way::Filled);
     lowestComputed_ = slabBottom_;
 }
 
@@ -134,11 +136,9 @@ void Executor::runSlab(int z, int count) {
     for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
         writesNothing = writesNothing && ranges_.writesNothing(k);
     }
-    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
     const std::optional<std::uint16_t> block = ranges_.block();
     if (block && writesNothing) {
-        fillLayers(layers, count, *block);
-        std::fill_n(layerRanges_.begin() + z, count, BlockRange{*block, *block});
+        run_.result->fill(z, count, *block);
         slabs_.push_back({SlabRun::Way::Filled, count, 0});
         return;
     }
@@ -154,20 +154,15 @@ void Executor::runSlab(int z, int count) {
 void Executor::runShort(const ShortPass& pass, int z, int count) {
     const Program& program = pass.program;
     const std::size_t instructions = pass.layerInstructions;
-    std::uint16_t* layers = run_.result->data() + z * kTileLanes;
-    const std::size_t layerBytes = kTileLanes * sizeof(*layers);
     if (pass.kind == ShortPass::Kind::CopyBlocks) {
-        std::memcpy(layers, context_.blocks + z * kTileLanes, static_cast<std::size_t>(count) * layerBytes);
-        for (int k = z; k < z + count; ++k)
-            layerRanges_[static_cast<std::size_t>(k)] = ranges_.layerBefore(k);
+        run_.result->copy(*context_.blocks, z, count);
         slabs_.push_back({SlabRun::Way::Copied, count, 0});
         return;
     }
     startShort(pass, z);
     if (pass.kind == ShortPass::Kind::OneLayer) {
         runLayers(program, z, 1);
-        for (int k = 1; k < count; ++k) std::memcpy(layers + k * kTileLanes, layers, layerBytes);
-        std::fill_n(layerRanges_.begin() + z, count, layerRanges_[static_cast<std::size_t>(z)]);
+        run_.result->repeat(z, count);
         slabs_.push_back({SlabRun::Way::Repeated, count, instructions});
     } else {
         runLayers(program, z, count);
@@ -197,8 +192,7 @@ void Executor::runLayers(const Program& program, int z, int count) {
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
         runInstructions(program.layer, context_);
-        layerRanges_[static_cast<std::size_t>(z)] =
-            writeLayer(*program.block, run_.result->data() + z * kTileLanes);
+        writeLayer(*program.block, z);
         for (std::size_t k = 0; k < run_.fieldResults.size(); ++k) {
             addToField(program.fields[k].value, *run_.fieldResults[k]);
         }
@@ -213,12 +207,9 @@ void Executor::addToField(Operand value, ColumnValues& field) {
     }
 }
 
-BlockRange Executor::writeLayer(Operand block, std::uint16_t* layer) {
-    const Bits* values = row(block);
-    if (block.rowStep != 0) return packLayer(values, layer);
-    const auto one = static_cast<std::uint16_t>(*values);
-    fillLayers(layer, 1, one);
-    return {one, one};
+void Executor::writeLayer(Operand block, int z) {
+    if (block.rowStep != 0) return run_.result->write(z, row(block));
+    run_.result->fill(z, 1, static_cast<std::uint16_t>(*row(block)));
 }
 
 void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
@@ -227,10 +218,8 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     context_.rows = kAllRows;
     context_.requested = nullptr;
     context_.arena = arena_.front().lanes.data();
-    for (std::size_t n = 0; n < inputs.blocks.size(); ++n) {
-        context_.blocksAround[n] = inputs.blocks[n] ? inputs.blocks[n]->data() : nullptr;
-    }
-    context_.blocks = context_.blocksAround[4];
+    context_.blocksAround = inputs.blocks;
+    context_.blocks = inputs.blocks[4];
     grid_ = sampleGrid(inputs.chunk);
     fillConstants(program, grid_);
     isPrepared_.assign(noises_.size(), false);
@@ -245,15 +234,15 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
         context_.fields[f] = own ? own->data() : nullptr;
     }
     for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
-    paintStamps(program);
 }
 
-void Executor::paintStamps(const Program& program) {
+void Executor::paintStamps(const Program& program, world::Heights heights) {
     assert((program.stamps.empty() || parts_.shapes) && "a generator that stamps has shapes");
     if (context_.stamps.size() < program.stamps.size()) context_.stamps.resize(program.stamps.size());
     for (std::size_t k = 0; k < program.stamps.size(); ++k) {
         const StampCall& call = program.stamps[k];
-        context_.stamps[k].paint(*parts_.shapes, context_.windows[call.shape], context_.windows[call.base]);
+        context_.stamps[k].paint(*parts_.shapes, heights, context_.windows[call.shape],
+                                 context_.windows[call.base]);
     }
 }
 

@@ -10,6 +10,7 @@
 #include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/compile/program.h"
 #include "terrane/gen/compile/voxel_pass.h"
+#include "terrane/gen/cpu/block_layers.h"
 #include "terrane/gen/cpu/kernels.h"
 #include "terrane/gen/drainage/drainage_maps.h"
 #include "terrane/world/coords.h"
@@ -42,9 +43,8 @@ class RequestedColumns {
     RowMask rows_ = kAllRows;
 };
 
-// Values of a field in a chunk's columns, and a chunk's blocks by world::BlockIndex.
+// Values of a field in a chunk's columns.
 using ColumnValues = std::array<Bits, kTileLanes>;
-using BlockArray = std::array<std::uint16_t, world::kBlocksPerChunk>;
 
 // Inputs of a pass from its chunk and the eight around it.
 struct PassInputs {
@@ -54,9 +54,7 @@ struct PassInputs {
     std::vector<std::array<const ColumnValues*, 9>> fields;
     // Blocks of the last earlier 3D pass, in the same order. Only the middle one is set where the pass reads
     // blocks without an offset.
-    std::array<const BlockArray*, 9> blocks{};
-    // Ranges of the layers of blocks[4], if they are known.
-    const LayerRanges* layerRanges = nullptr;
+    std::array<const BlockLayers*, 9> blocks{};
 };
 
 // Statistics of a slab.
@@ -86,29 +84,27 @@ class Executor {
 
     // Runs a 2D pass. The results are in the order of program.fields.
     void run2D(const Program& program, const PassInputs& inputs, std::span<ColumnValues* const> results);
-    // Runs a 3D pass. `fieldResults` are those of the fields that the pass writes, in the order of
-    // program.fields.
-    void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result,
+    // Runs a 3D pass in the heights of `result`, whose blocks it replaces. `fieldResults` are those of the
+    // fields that the pass writes, in the order of program.fields.
+    void run3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayers& result,
                std::span<ColumnValues* const> fieldResults = {});
     // Runs the pass from the top down as far as requested: begin3D(), then runTopDown() until there are
     // enough layers. Writes no fields. It refers to its arguments until then; no other pass runs in between.
-    void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockArray& result);
+    void begin3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayers& result);
     // Computes at least one of the missing layers down to `lowest`, the highest first. Columns that are
     // dropped from `requested` get any blocks.
     void runTopDown(int lowest, const RequestedColumns& requested);
-    // Returns the lowest computed layer; world::kChunkHeight before the first.
+    // Returns the lowest computed layer; the world's top before the first.
     int lowestComputed() const { return lowestComputed_; }
     // Sets whether run3D skips work that cannot change the result. Tests compare both.
     void setShortens(bool shortens) { shortens_ = shortens; }
     // Returns the slabs of the last run3D, from the bottom.
     std::span<const SlabRun> slabs() const { return slabs_; }
-    // Returns the ranges of the layers that the last run3D or runTopDown computed.
-    const LayerRanges& layerRanges() const { return layerRanges_; }
 
   private:
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, SampleGrid grid);
-    void paintStamps(const Program& program);
+    void paintStamps(const Program& program, world::Heights heights);
     void fillWindow(std::uint32_t field, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     void prepareNoise(std::uint32_t noise);
@@ -118,7 +114,7 @@ class Executor {
     void runShort(const ShortPass& pass, int z, int count);
     void startShort(const ShortPass& pass, int z);
     void continueSlab(int lowest);
-    BlockRange writeLayer(Operand block, std::uint16_t* layer);
+    void writeLayer(Operand block, int z);
     void addToField(Operand value, ColumnValues& field);
 
     struct AlignedRow {
@@ -133,13 +129,12 @@ class Executor {
     SampleGrid grid_;
     std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
-    LayerRanges layerRanges_{};
     bool shortens_ = true;
     std::vector<SlabRun> slabs_;
     // Arguments of the 3D pass that runs.
     struct TileRun {
         const VoxelPass* pass = nullptr;
-        BlockArray* result = nullptr;
+        BlockLayers* result = nullptr;
         std::span<ColumnValues* const> fieldResults;
     };
     TileRun run_;

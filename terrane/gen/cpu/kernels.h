@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "terrane/gen/compile/program.h"
+#include "terrane/gen/cpu/block_layers.h"
 #include "terrane/gen/drainage/drainage_maps.h"
 #include "terrane/gen/noise/perlin_tile.h"
 #include "terrane/gen/noise/simplex_tile.h"
@@ -38,10 +39,10 @@ struct TileContext {
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;
-    // Blocks of the last earlier 3D pass, 256 layers of 256: of this chunk, and of the nine chunks around it
-    // by y, then x, where the program reads them with an offset.
-    const std::uint16_t* blocks = nullptr;
-    std::array<const std::uint16_t*, 9> blocksAround{};
+    // Blocks of the last earlier 3D pass: of this chunk, and of the nine chunks around it by y, then x, where
+    // the program reads them with an offset.
+    const BlockLayers* blocks = nullptr;
+    std::array<const BlockLayers*, 9> blocksAround{};
     std::vector<StampTile> stamps;  // by the pass's stamps, painted
     std::int32_t z = 0;             // of the layer
     RowMask rows = kAllRows;        // for which instructions run

@@ -14,7 +14,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 
 constexpr hn::CappedTag<std::int32_t, kRowLanes> di;
 constexpr hn::CappedTag<float, kRowLanes> df;
-constexpr hn::CappedTag<std::uint16_t, kRowLanes> d16;
 
 void rangeOfInts(const Bits* values, std::int32_t& lowest, std::int32_t& highest) {
     const auto load = [&](std::size_t k) HWY_ATTR {
@@ -63,17 +62,6 @@ void packBlocks(const Bits* values, std::uint16_t* layer, std::uint16_t& lowest,
     highest = hn::GetLane(hn::MaxOfLanes(half, high));
 }
 
-void rangeOfBlocks(const std::uint16_t* layer, std::uint16_t& lowest, std::uint16_t& highest) {
-    auto low = hn::LoadU(d16, layer), high = low;
-    for (std::size_t k = hn::Lanes(d16); k < kTileLanes; k += hn::Lanes(d16)) {
-        const auto v = hn::LoadU(d16, layer + k);
-        low = hn::Min(low, v);
-        high = hn::Max(high, v);
-    }
-    lowest = hn::GetLane(hn::MinOfLanes(d16, low));
-    highest = hn::GetLane(hn::MaxOfLanes(d16, high));
-}
-
 }  // namespace HWY_NAMESPACE
 }  // namespace terrane::gen
 HWY_AFTER_NAMESPACE();
@@ -83,7 +71,6 @@ namespace terrane::gen {
 
 HWY_EXPORT(rangeOfInts);
 HWY_EXPORT(rangeOfFloats);
-HWY_EXPORT(rangeOfBlocks);
 HWY_EXPORT(packBlocks);
 
 ValueRange rangeOfTile(Type type, const Bits* values) {
@@ -99,12 +86,6 @@ ValueRange rangeOfTile(Type type, const Bits* values) {
 BlockRange packLayer(const Bits* values, std::uint16_t* blocks) {
     BlockRange r{};
     HWY_DYNAMIC_DISPATCH(packBlocks)(values, blocks, r.low, r.high);
-    return r;
-}
-
-BlockRange rangeOfLayer(const std::uint16_t* blocks) {
-    BlockRange r{};
-    HWY_DYNAMIC_DISPATCH(rangeOfBlocks)(blocks, r.low, r.high);
     return r;
 }
 

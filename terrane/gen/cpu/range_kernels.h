@@ -1,11 +1,9 @@
 // Smallest and largest values of a tile or a layer, with SIMD instructions. slab_ranges.cpp uses it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "terrane/gen/compile/value_range.h"
-#include "terrane/world/coords.h"
 
 namespace terrane::gen {
 
@@ -17,11 +15,6 @@ struct BlockRange {
     bool operator==(const BlockRange&) const = default;
 };
 
-// By layer of a chunk.
-using LayerRanges = std::array<BlockRange, world::kChunkHeight>;
-
-// Returns the range of the kTileLanes blocks of a layer.
-BlockRange rangeOfLayer(const std::uint16_t* blocks);
 // Writes the lower halves of kTileLanes values, 64-byte aligned, as a layer's blocks. Returns their range.
 BlockRange packLayer(const Bits* values, std::uint16_t* blocks);
 

@@ -65,32 +65,28 @@ void layerOf(const std::uint16_t* layer, const Instruction& i, TileContext& c, c
 }
 
 void blockLayer(const Instruction& i, TileContext& c, const RowList& rows, std::int32_t z) {
-    layerOf(c.blocks + static_cast<std::size_t>(z) * kTileLanes, i, c, rows);
+    layerOf(c.blocks->layer(z), i, c, rows);
 }
 
 void stamp(const Instruction& i, TileContext& c, const RowList& rows) {
-    static constexpr std::uint16_t kNoBlocks[kTileLanes] = {};
-    const StampTile& tile = c.stamps[i.imm];
-    layerOf(tile.isPainted(c.z) ? tile.layer(c.z) : kNoBlocks, i, c, rows);
+    layerOf(c.stamps[i.imm].blocks().layer(c.z), i, c, rows);
 }
 
 void blockHere(const Instruction& i, TileContext& c, const RowList& rows) {
     blockLayer(i, c, rows, c.z);
 }
 
-std::int32_t clampedLayer(Bits z) {
-    return std::clamp(asInt(z), 0, world::kChunkHeight - 1);
-}
-
 void blockInColumn(const Instruction& i, TileContext& c, const RowList& rows) {
+    const world::Heights heights = c.blocks->heights();
     // A height that is the same in every column, like that of the block below.
-    if (i.args[0].rowStep == 0) return blockLayer(i, c, rows, clampedLayer(*rowOf(c.arena, i.args[0], 0)));
+    if (i.args[0].rowStep == 0)
+        return blockLayer(i, c, rows, heights.clamp(asInt(*rowOf(c.arena, i.args[0], 0))));
     for (int k = 0; k < rows.count; ++k) {
         const int row = rows.rows[k];
         const Bits* z = rowOf(c.arena, i.args[0], row);
         Bits* out = rowOf(c.arena, i.dst, row);
         for (int lane = 0; lane < kRowLanes; ++lane) {
-            out[lane] = c.blocks[clampedLayer(z[lane]) * kTileLanes + row * kRowLanes + lane];
+            out[lane] = c.blocks->layer(heights.clamp(asInt(z[lane])))[row * kRowLanes + lane];
         }
     }
 }
@@ -106,9 +102,10 @@ void blockAt(const Instruction& i, TileContext& c, const RowList& rows) {
             // From the corner of the nine chunks.
             const int x = lane + kTileSize + clampedOffset(dx[lane]);
             const int y = row + kTileSize + clampedOffset(dy[lane]);
-            const std::uint16_t* chunk =
-                c.blocksAround[static_cast<std::size_t>(y / kTileSize * 3 + x / kTileSize)];
-            out[lane] = chunk[clampedLayer(z[lane]) * kTileLanes + y % kTileSize * kTileSize + x % kTileSize];
+            const BlockLayers& chunk =
+                *c.blocksAround[static_cast<std::size_t>(y / kTileSize * 3 + x / kTileSize)];
+            const int layer = chunk.heights().clamp(asInt(z[lane]));
+            out[lane] = chunk.layer(layer)[y % kTileSize * kTileSize + x % kTileSize];
         }
     }
 }

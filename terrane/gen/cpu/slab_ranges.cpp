@@ -1,6 +1,7 @@
 #include "terrane/gen/cpu/slab_ranges.h"
 
 #include <algorithm>
+#include <array>
 
 namespace terrane::gen {
 namespace {
@@ -41,6 +42,14 @@ bool isTooDeepFor(const PassGraph& pass, const std::vector<bool>& needed) {
     return false;
 }
 
+// Range of the blocks in these layers. `mayNarrow`: whether fewer layers may be asked for.
+ValueRange rangeOfBlocks(const BlockLayers& blocks, int first, int last, bool mayNarrow) {
+    const std::optional<BlockLayers::LayersRange> found = blocks.range(first, last);
+    ValueRange range = found ? intRange(found->blocks.low, found->blocks.high) : intRange(0, UINT16_MAX);
+    range.mayNarrow = found ? !found->isAlike : mayNarrow;
+    return range;
+}
+
 }  // namespace
 
 SlabPlan::SlabPlan(const PassGraph& passGraph, const Program& passProgram,
@@ -62,9 +71,8 @@ SlabPlan::SlabPlan(const PassGraph& passGraph, const Program& passProgram,
     }
 }
 
-void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
-                       std::span<const StampTile> stamps, const LayerRanges* layers) {
-    given_ = layers;
+void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const BlockLayers* blocks,
+                       std::span<const StampTile> stamps) {
     stamps_ = stamps;
     plan_ = &plan;
     arena_ = arena;
@@ -72,7 +80,6 @@ void SlabRanges::begin(const SlabPlan& plan, const Bits* arena, const std::uint1
     slab_ = 0;
     entries_.assign(plan.pass.graph.size(), Entry());
     decisions_.assign(plan.choices.size(), Decision::Open);
-    isLayerKnown_.fill(false);
 }
 
 void SlabRanges::analyze(std::int32_t z, std::int32_t count) {
@@ -139,7 +146,7 @@ ValueRange SlabRanges::compute(NodeId id) {
         case Op::BlockAt:
             return intRange(0, UINT16_MAX);
         case Op::Stamp:
-            return stampBlocks(stamps_[n.imm]);
+            return rangeOfBlocks(stamps_[n.imm].blocks(), z_, z_ + count_ - 1, count_ > 1);
         case Op::Component:
             return component(n);
         case Op::And:
@@ -201,44 +208,12 @@ ValueRange SlabRanges::component(const Node& n) const {
     return unknownRange(n.type);
 }
 
-// Air where no shape reaches.
-ValueRange SlabRanges::stampBlocks(const StampTile& stamp) const {
-    if (!stamp.isPainted(z_, z_ + count_ - 1)) return intRange(0, 0);
-    ValueRange blocks = intRange(0, UINT16_MAX);
-    for (std::int32_t z = z_; z < z_ + count_; ++z)
-        blocks.mayNarrow = blocks.mayNarrow || !stamp.isPainted(z);
-    return blocks;
-}
-
-BlockRange SlabRanges::layerBefore(int z) {
-    const auto k = static_cast<std::size_t>(z);
-    if (given_) return (*given_)[k];
-    if (!isLayerKnown_[k]) layers_[k] = rangeOfLayer(blocks_ + k * kTileLanes);
-    isLayerKnown_[k] = true;
-    return layers_[k];
-}
-
-// Range of the blocks of the pass before in layers z. Heights beyond the world are clamped into it.
-ValueRange SlabRanges::blocksBetween(const ValueRange& z) {
+// Range of the blocks of the pass before in layers z. Heights beyond the world are clamped into it. A height
+// that differs from column to column may be anywhere.
+ValueRange SlabRanges::blocksBetween(const ValueRange& z) const {
     if (!blocks_) return intRange(0, UINT16_MAX);
-    const auto first = static_cast<std::size_t>(std::clamp(z.low, 0, world::kChunkHeight - 1));
-    const auto last = static_cast<std::size_t>(std::clamp(z.high, 0, world::kChunkHeight - 1));
-    // A height that differs from column to column may be anywhere.
-    if (last - first >= 5 * world::kSectionSize) {
-        ValueRange any = intRange(0, UINT16_MAX);
-        any.mayNarrow = z.mayNarrow;
-        return any;
-    }
-    BlockRange all{UINT16_MAX, 0};
-    bool isAlike = true;
-    for (std::size_t k = first; k <= last; ++k) {
-        const BlockRange layer = layerBefore(static_cast<int>(k));
-        isAlike = isAlike && (k == first || layer == all);
-        all = {std::min(all.low, layer.low), std::max(all.high, layer.high)};
-    }
-    ValueRange range = intRange(all.low, all.high);
-    range.mayNarrow = !isAlike;
-    return range;
+    const world::Heights heights = blocks_->heights();
+    return rangeOfBlocks(*blocks_, heights.clamp(z.low), heights.clamp(z.high), z.mayNarrow);
 }
 
 }  // namespace terrane::gen

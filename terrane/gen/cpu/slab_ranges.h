@@ -3,7 +3,6 @@
 // executor.cpp uses it.
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -12,9 +11,8 @@
 #include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/compile/program.h"
 #include "terrane/gen/compile/value_range.h"
-#include "terrane/gen/cpu/range_kernels.h"
+#include "terrane/gen/cpu/block_layers.h"
 #include "terrane/gen/noise/stamp_tile.h"
-#include "terrane/world/coords.h"
 
 namespace terrane::gen {
 
@@ -42,10 +40,9 @@ using Decisions = std::vector<Decision>;
 class SlabRanges {
   public:
     // Begins a tile whose `column` instructions have run. It refers to its arguments until the next call.
-    // `blocks`: of the 3D pass before, by world::BlockIndex, or null. `layers`: their ranges by layer, or
-    // null to compute them. `stamps`: painted stamps of the pass.
-    void begin(const SlabPlan& plan, const Bits* arena, const std::uint16_t* blocks,
-               std::span<const StampTile> stamps = {}, const LayerRanges* layers = nullptr);
+    // `blocks`: of the 3D pass before, or null. `stamps`: painted stamps of the pass.
+    void begin(const SlabPlan& plan, const Bits* arena, const BlockLayers* blocks,
+               std::span<const StampTile> stamps = {});
 
     // Sets another address of the same values.
     void moveArena(const Bits* arena) { arena_ = arena; }
@@ -64,9 +61,6 @@ class SlabRanges {
     // Returns whether slabs of fewer layers would decide no more choices.
     bool isSettled() const { return isSettled_; }
 
-    // Returns the range of the blocks of the 3D pass before in layer z.
-    BlockRange layerBefore(int z);
-
   private:
     struct Entry {
         ValueRange range = kAnyInt;
@@ -80,14 +74,13 @@ class SlabRanges {
     ValueRange choice(const Node& n);
     ValueRange logic(const Node& n);
     ValueRange component(const Node& n) const;
-    ValueRange blocksBetween(const ValueRange& z);
-    ValueRange stampBlocks(const StampTile& stamp) const;
+    ValueRange blocksBetween(const ValueRange& z) const;
     const ValueRange& condition(NodeId id);
     void decide(NodeId id, const ValueRange& range);
 
     const SlabPlan* plan_ = nullptr;
     const Bits* arena_ = nullptr;
-    const std::uint16_t* blocks_ = nullptr;
+    const BlockLayers* blocks_ = nullptr;
     std::int32_t z_ = 0, count_ = 1;
     std::uint32_t slab_ = 0;
     std::vector<Entry> entries_;  // by node
@@ -95,10 +88,7 @@ class SlabRanges {
     bool isSettled_ = true;
     ValueRange block_ = kAnyInt;
     std::vector<ValueRange> fields_;
-    const LayerRanges* given_ = nullptr;
     std::span<const StampTile> stamps_;
-    LayerRanges layers_{};  // of the pass before
-    std::array<bool, world::kChunkHeight> isLayerKnown_{};
 };
 
 }  // namespace terrane::gen

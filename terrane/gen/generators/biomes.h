@@ -1,5 +1,5 @@
-// Computes the biomes of chunks of any level, for generators that have biomes, from the 2D passes alone. Any
-// thread may use it.
+// Computes the biomes of chunks of any level, for generators that have biomes, from the 2D passes alone: they
+// are the same in worlds of all heights. Any thread may use it.
 #pragma once
 
 #include <array>

@@ -10,8 +10,8 @@ namespace terrane::gen {
 namespace {
 
 CatalogueEntry builtIn(std::string name, int version, void (*write)(GeneratorBuilder&)) {
-    const auto record = [name, write](const world::BlockRegistry& blocks, int level) {
-        GeneratorBuilder builder(name, blocks, level);
+    const auto record = [name, write](const world::BlockRegistry& blocks, GraphRequest request) {
+        GeneratorBuilder builder(name, blocks, request);
         write(builder);
         return builder.finish();
     };
@@ -45,20 +45,45 @@ int versionOf(const GeneratorCatalogue& catalogue, std::string_view name) {
     return entry ? entry->version : 0;
 }
 
-base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks,
-                                           int level, const GeneratorCatalogue& catalogue) {
-    if (const CatalogueEntry* entry = find(catalogue, name)) return entry->record(blocks, level);
+namespace {
+
+base::Result<const CatalogueEntry*> entryNamed(std::string_view name, const GeneratorCatalogue& catalogue) {
+    if (const CatalogueEntry* entry = find(catalogue, name)) return entry;
     const std::vector<std::string> names = namesOf(catalogue);
-    return base::fail("unknown generator \"{}\": known are {}{}", name, fmt::join(names, ", "),
-                      base::didYouMean(name, names));
+    return base::fail(base::ErrorCode::BadInput, "unknown generator \"{}\": known are {}{}", name,
+                      fmt::join(names, ", "), base::didYouMean(name, names));
+}
+
+}  // namespace
+
+base::Result<GeneratorGraph> makeGenerator(std::string_view name, const world::BlockRegistry& blocks,
+                                           GraphRequest request, const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = TERRANE_TRY(entryNamed(name, catalogue));
+    return entry->record(blocks, request);
+}
+
+base::Result<world::Heights> heightsOf(std::string_view name, const world::BlockRegistry& blocks,
+                                       world::RequestedHeights requested,
+                                       const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = TERRANE_TRY(entryNamed(name, catalogue));
+    world::Heights declared;
+    if (!requested.bottom || !requested.top) declared = TERRANE_TRY(entry->record(blocks, {})).heights;
+    const world::Heights heights = requested.over(declared);
+    if (const auto valid = world::checkHeights(heights); !valid)
+        return base::fail(base::ErrorCode::BadInput, "{}", valid.error().message);
+    return heights;
 }
 
 base::Result<LevelGenerators> makeLevelGenerators(std::string_view name, const world::BlockRegistry& blocks,
-                                                  std::uint64_t seed, const GeneratorCatalogue& catalogue) {
-    const CatalogueEntry* entry = find(catalogue, name);
-    if (!entry) return tl::unexpected(makeGenerator(name, blocks, 0, catalogue).error());
-    LevelGenerators made([record = entry->record, &blocks](int level) { return record(blocks, level); },
-                         seed);
+                                                  std::uint64_t seed, const GeneratorCatalogue& catalogue,
+                                                  world::RequestedHeights requested) {
+    const CatalogueEntry* entry = TERRANE_TRY(entryNamed(name, catalogue));
+    const auto heights = TERRANE_TRY(heightsOf(name, blocks, requested, catalogue));
+    LevelGenerators made(
+        [record = entry->record, &blocks, heights](int level) {
+            return record(blocks, {level, heights});
+        },
+        seed, heights);
     (void)TERRANE_TRY(made.at(0));
     return made;
 }

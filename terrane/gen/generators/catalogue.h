@@ -3,6 +3,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,8 +21,8 @@ struct CatalogueEntry {
     std::string name;
     // At least 1. The same name and version make the same blocks; saves store both.
     int version = 1;
-    // Records the graph of one level.
-    std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, int level)> record;
+    std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, GraphRequest request)>
+        record;
 };
 
 // Names are unique. It is a plain value.
@@ -34,15 +35,28 @@ std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue);
 // Returns the version of a generator; 0 for an unknown name.
 int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 
-// Returns the graph of one level. An unknown name is an error that lists the known ones.
+// Returns a graph. An unknown name is an error that lists the known ones.
 [[nodiscard]] base::Result<GeneratorGraph> makeGenerator(
-    std::string_view name, const world::BlockRegistry& blocks, int level = 0,
+    std::string_view name, const world::BlockRegistry& blocks, GraphRequest request,
     const GeneratorCatalogue& catalogue = builtInGenerators());
+[[nodiscard]] inline base::Result<GeneratorGraph> makeGenerator(
+    std::string_view name, const world::BlockRegistry& blocks, int level = 0,
+    const GeneratorCatalogue& catalogue = builtInGenerators()) {
+    return makeGenerator(name, blocks, GraphRequest{level, {}}, catalogue);
+}
 
-// Makes the generators of all levels of a world. The block types outlive the result.
+// Returns the heights of a new world: those that are requested, else those that the generator declares. Fails
+// if there is no such generator, or if they are not those of a world.
+[[nodiscard]] base::Result<world::Heights> heightsOf(std::string_view name,
+                                                     const world::BlockRegistry& blocks,
+                                                     world::RequestedHeights requested,
+                                                     const GeneratorCatalogue& catalogue);
+
+// Makes the generators of all levels of a world, whose heights are those of heightsOf(). The block types
+// outlive the result.
 [[nodiscard]] base::Result<LevelGenerators> makeLevelGenerators(
     std::string_view name, const world::BlockRegistry& blocks, std::uint64_t seed,
-    const GeneratorCatalogue& catalogue = builtInGenerators());
+    const GeneratorCatalogue& catalogue = builtInGenerators(), world::RequestedHeights heights = {});
 
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants

@@ -152,7 +152,7 @@ void surfacePass(Pass& p, const Fields& f) {
 
 namespace {
 
-constexpr int kCaveWater = 13;  // z below which caves are lakes
+constexpr int kCaveWater = 13;  // up to this height above the world's bottom caves are lakes
 
 // Bands of rock, a little bent. Only canyon lands show theirs.
 Block strata(Pass& p, const Fields& f) {
@@ -169,7 +169,7 @@ Block strata(Pass& p, const Fields& f) {
 Bool isCave(Pass& p, const Fields& f) {
     Var<Bool> result = p.var(Bool(false));
     const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
-    p.if_(p.z() > 2 && p.z() < p.read(f.caveTop), [&] {
+    p.if_(p.z() > p.heights().bottom + 2 && p.z() < p.read(f.caveTop), [&] {
         p.if_(where > -0.05f, [&] {
             const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}),
                         b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
@@ -209,7 +209,7 @@ Block earth(Pass& p, const Fields& f) {
         },
         [&] { block = p.step() == 1 ? veins(p, strata(p, f)) : strata(p, f); });
     if (p.step() > 1) return block;
-    const Block inside = select(z <= kCaveWater, p.block("water"), p.block("air"));
+    const Block inside = select(z <= p.heights().bottom + kCaveWater, p.block("water"), p.block("air"));
     return select(isCave(p, f), inside, static_cast<Block>(block));
 }
 

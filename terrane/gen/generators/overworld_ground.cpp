@@ -59,7 +59,7 @@ Int caveTop(Pass& p, const Fields& f, const Shape& s) {
 
 Bool isCave(Pass& p, const Fields& f) {
     Var<Bool> result = p.var(Bool(false));
-    p.if_(p.z() > 1 && p.z() < p.read(f.caveTop), [&] {
+    p.if_(p.z() > p.heights().bottom + 1 && p.z() < p.read(f.caveTop), [&] {
         const Float area = p.perlin3D("cave areas", 32, {1.0f});
         p.if_(area > 0.0f, [&] {
             result = p.perlin3D("caves", 8, {.35f, .6f, .8f, 1.0f}) > 0.42f - min(area, 0.2f);

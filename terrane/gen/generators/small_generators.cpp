@@ -23,7 +23,7 @@ Bool isSolid(Pass& p, Field<Float> middle) {
         const Float density = p.simplex3D("rock", 24, {.25f, 1.0f}) + p.perlin3D("bulk", 64, {.7f});
         solid = density > above * (1.0f / 34.0f);
     });
-    return solid || p.z() == 0;
+    return solid || p.z() == p.heights().bottom;
 }
 
 void groundPass(Pass& p, Field<Float> middle) {
@@ -35,7 +35,9 @@ void groundPass(Pass& p, Field<Float> middle) {
 void soilPass(Pass& p) {
     const Int z = p.z();
     const auto isStone = [&](Int at) { return p.blockInColumn(at) == p.block("stone"); };
-    p.if_(p.blockHere() == p.block("stone") && z > 1 && z < 255, [&] {
+    const world::Heights heights = p.heights();
+    const Bool isInside = z > heights.bottom + 1 && z < heights.top - 1;
+    p.if_(p.blockHere() == p.block("stone") && isInside, [&] {
         const Bool isTop = !isStone(z + 1), isSoil = !isStone(z + 3);
         const Block top = select(z <= kSeaLevel + 1, p.block("sand"), p.block("grass"));
         const Block soil = select(z <= kSeaLevel + 1, p.block("sand"), p.block("dirt"));
@@ -45,7 +47,8 @@ void soilPass(Pass& p) {
 
 void plantsPass(Pass& p) {
     const Int z = p.z();
-    p.if_(p.blockHere() == p.block("air") && z > 0 && p.blockInColumn(z - 1) == p.block("grass"), [&] {
+    const Bool hasGround = z > p.heights().bottom;
+    p.if_(p.blockHere() == p.block("air") && hasGround && p.blockInColumn(z - 1) == p.block("grass"), [&] {
         const Float kind = p.random2D("kind", p.x(), p.y());
         const Block flower = multiSelect(
             {{kind < 0.15f, p.block("poppy")}, {kind < 0.3f, p.block("oxeye_daisy")}}, p.block("grass_tuft"));
@@ -94,7 +97,7 @@ void groundPass(Pass& p, Field<Int> height) {
         p.if_(isChamber, [&] { block = inside; });
     };
     // They are not visible from afar and cost most of the time.
-    if (p.step() == 1) p.if_(depth > 6 && z > 3, chambers);
+    if (p.step() == 1) p.if_(depth > 6 && z > p.heights().bottom + 3, chambers);
     p.setBlock(block);
 }
 

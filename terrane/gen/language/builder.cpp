@@ -139,14 +139,32 @@ std::string extractTint(GeneratorGraph& generator, std::uint32_t field) {
     return "";
 }
 
-GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level)
-    : blocks_(blocks) {
+GeneratorBuilder::GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, GraphRequest request)
+    : requestedHeights_(request.heights), blocks_(blocks) {
     generator_.name = std::move(name);
-    if (level < 0 || level > world::kMaxLevel) {
-        errors_.push_back(fmt::format("level {} is not in 0…{}", level, world::kMaxLevel));
-        level = 0;
+    if (request.level < 0 || request.level > world::kMaxLevel) {
+        errors_.push_back(fmt::format("level {} is not in 0…{}", request.level, world::kMaxLevel));
+        request.level = 0;
     }
-    generator_.level = level;
+    generator_.level = request.level;
+    setHeights(requestedHeights_.over({}));
+}
+
+void GeneratorBuilder::setHeights(world::Heights heights) {
+    const auto valid = world::checkHeights(heights);
+    heightsMistake_ = valid ? "" : valid.error().message;
+    if (valid) generator_.heights = heights;
+}
+
+void GeneratorBuilder::declareHeights(world::Heights heights) {
+    if (!written_.empty()) errors_.push_back("heights are declared after a pass");
+    if (declaresHeights_) errors_.push_back("heights are declared twice");
+    declaresHeights_ = true;
+    // A mistake in a declaration is one whatever the world is.
+    if (const auto valid = world::checkHeights(heights); !valid)
+        errors_.push_back(valid.error().message);
+    else
+        setHeights(requestedHeights_.over(heights));
 }
 
 int GeneratorBuilder::last3DPass() const {
@@ -280,6 +298,7 @@ void GeneratorBuilder::checkBranches(const GeneratorGraph& generator) {
 }
 
 base::Result<GeneratorGraph> GeneratorBuilder::finish() {
+    if (!heightsMistake_.empty()) errors_.push_back(heightsMistake_);
     if (generator_.passes.empty() || !generator_.passes.back().is3D) {
         errors_.push_back("the last pass must be a 3D pass");
     } else {

@@ -64,12 +64,19 @@ std::string extractTint(GeneratorGraph& generator, std::uint32_t field);
 
 class GeneratorBuilder {
   public:
-    // Records the graph of one level, 0…world::kMaxLevel: a generator is written once and recorded for each.
-    GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level = 0);
+    // Records the graph of one level, 0…world::kMaxLevel, and of a world's heights: a generator is written
+    // once and recorded for each.
+    GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, GraphRequest request = {});
+    GeneratorBuilder(std::string name, const world::BlockRegistry& blocks, int level)
+        : GeneratorBuilder(std::move(name), blocks, GraphRequest{level, {}}) {}
 
     // Returns the number of blocks from one column to the next: 2^level. It is a constant while recording, so
     // `if` on it omits the other branch.
     int step() const { return world::columnWidth(generator_.level); }
+    // Returns the heights that it records for, constants like step().
+    world::Heights heights() const { return generator_.heights; }
+    // Sets the heights of worlds that do not name their own; before the first pass.
+    void declareHeights(world::Heights heights);
 
     template <class T>
     Field<T> field(std::string_view name) {
@@ -107,6 +114,7 @@ class GeneratorBuilder {
 
   private:
     friend class Pass;
+    void setHeights(world::Heights heights);
     int last3DPass() const;  // number of the last finished 3D pass, or -1
     std::uint32_t newField(std::string_view name, Type type);
     void setTint(std::uint32_t field, Type type);
@@ -121,6 +129,9 @@ class GeneratorBuilder {
     void makeShapeTable();
 
     GeneratorGraph generator_;
+    world::RequestedHeights requestedHeights_;
+    bool declaresHeights_ = false;
+    std::string heightsMistake_;  // in the requested and the declared ones together
     const world::BlockRegistry& blocks_;
     std::optional<std::uint32_t> tint_;                   // field
     std::map<std::string, std::string> noiseParameters_;  // by name: kind and parameters

@@ -55,6 +55,10 @@ int Pass::step() const {
     return generator_.step();
 }
 
+world::Heights Pass::heights() const {
+    return generator_.heights();
+}
+
 const std::vector<std::string>& Pass::mistakes() const {
     return generator_.mistakes();
 }
@@ -158,7 +162,9 @@ void Pass::setFieldAt(std::uint32_t field, Type type, Int atZ, Value value) {
     }
     if (!claimField(field)) return;
     Graph& g = graph_.graph;
-    const NodeId isThere = (z() == clamp(atZ, 0, world::kChunkHeight - 1)).nodeIn(g, Type::Bool);
+    const world::Heights heights = generator_.heights();
+    const Int inWorld = clamp(atZ, heights.bottom, heights.top - 1);
+    const NodeId isThere = (z() == inWorld).nodeIn(g, Type::Bool);
     const NodeId args[] = {isThere, value.nodeIn(g, type), g.constant(type, 0)};
     graph_.fields.push_back({field, g.add(Op::Phi, type, args, g.newIf()), isThere});
 }
@@ -209,7 +215,9 @@ std::string mistakeIn(const DrainageSpec& s) {
     if (!isWithin(s.reach, 1.0f, spacing))
         return fmt::format("reach {} is not in 1…{}, the spacing", s.reach, s.spacing);
     if (!isWithin(s.bend, 0.0f, 0.25f)) return fmt::format("bend {} is not in 0…0.25", s.bend);
-    if (!isWithin(s.seaLevel, 0.0f, 255.0f)) return fmt::format("seaLevel {} is not in 0…255", s.seaLevel);
+    constexpr int kLowest = world::kLowestBottom, kHighest = world::kHighestTop - 1;
+    if (!isWithin(s.seaLevel, kLowest, kHighest))
+        return fmt::format("seaLevel {} is not in {}…{}", s.seaLevel, kLowest, kHighest);
     if (!isWithin(s.lakeDepth, 0.0f, 1024.0f))
         return fmt::format("lakeDepth {} is not in 0…1024", s.lakeDepth);
     if (!isWithin(s.maxCut, 0.0f, 1024.0f)) return fmt::format("maxCut {} is not in 0…1024", s.maxCut);
@@ -234,7 +242,7 @@ Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec&
     }
     // A builder of its own, of the level at which a column is a sample. It knows the fields of this one, so
     // that using them is a mistake with a name.
-    GeneratorBuilder heights(name, blocks_, drainageLevel(map.spec));
+    GeneratorBuilder heights(name, blocks_, {drainageLevel(map.spec), generator_.heights});
     heights.noiseParameters_ = noiseParameters_;
     for (const FieldInfo& info : generator_.fields)
         heights.generator_.fields.push_back({info.name, info.type});

@@ -71,6 +71,7 @@ class Pass {
     // Returns the number of blocks from one column to the next: 1, 2, 4, … It is a constant while recording,
     // so `if` on it omits the other branch.
     int step() const;
+    world::Heights heights() const;      // of the world, constants likewise
     Block block(std::string_view name);  // "air" or a name of the registry
 
     template <class T>

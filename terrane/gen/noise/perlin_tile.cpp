@@ -53,7 +53,7 @@ void prepare(Perlin2DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
 void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid) {
     const std::vector<Octave> octaves = octavesOf(call);
     tile.octaves.resize(octaves.size());
-    tile.layer = -1;
+    tile.layer = kNoLayer;
     for (std::size_t n = 0; n < octaves.size(); ++n) {
         Perlin3DTile::Octave& o = tile.octaves[n];
         o.size = octaves[n].size;
@@ -68,13 +68,12 @@ void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, Samp
 }
 
 void moveToCellsOf(Perlin3DTile& tile, std::int32_t z) {
-    assert(z >= 0 && "layers count from the bottom of the world");
-    const bool first = tile.layer < 0;
+    const bool first = tile.layer == kNoLayer;
     for (Perlin3DTile::Octave& o : tile.octaves) {
         // A division takes as long as blending a level.
         const bool isInCell = !first && z >= o.zStart && z - o.zStart < o.size;
         if (!isInCell) {
-            const std::int32_t zCell = z / o.size;
+            const std::int32_t zCell = cellOfLayer(z, o.size);
             if (!first && z - o.zStart >= o.size && z - o.zStart < 2 * o.size) {
                 o.low = 1 - o.low;
             } else {

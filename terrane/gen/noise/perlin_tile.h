@@ -63,7 +63,7 @@ struct Perlin3DTile {
         std::size_t low = 0;  // the one at zStart; the other is above it
     };
     std::vector<Octave> octaves;
-    std::int32_t layer = -1;
+    std::int32_t layer = kNoLayer;
 };
 
 void prepare(Perlin3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);

@@ -1,4 +1,5 @@
-// Sample positions of the columns of a chunk, at every level. Both back ends take positions from here.
+// Sample positions of the columns of a chunk, at every level, and of its layers. Both back ends take
+// positions from here.
 #pragma once
 
 #include <cstdint>
@@ -17,6 +18,14 @@ struct SampleGrid {
 constexpr SampleGrid sampleGrid(world::ChunkPos pos) {
     const std::int32_t step = world::columnWidth(pos.level), width = world::kChunkSize * step;
     return {pos.x * width + step / 2, pos.y * width + step / 2, step};
+}
+
+// Stands for a layer's z where noise in space has none yet.
+constexpr std::int32_t kNoLayer = world::kLowestBottom - 1;
+
+// Returns the cell of a lattice of `size` blocks that holds a layer, also below zero.
+constexpr std::int32_t cellOfLayer(std::int32_t z, std::int32_t size) {
+    return z >= 0 ? z / size : ~(~z / size);
 }
 
 }  // namespace terrane::gen

@@ -15,18 +15,21 @@ bool isEmptyRow(const Bits* numbers) {
     return asInt(all) < 0;
 }
 
-bool reaches(const StampFoot& foot) {
+bool reaches(const StampFoot& foot, world::Heights heights) {
     const auto& [low, high] = std::pair(foot.shape->low, foot.shape->high);
     return foot.x + high[0] >= 0 && foot.x + low[0] < kTileSize && foot.y + high[1] >= 0 &&
-           foot.y + low[1] < kTileSize && foot.z + high[2] >= 0 && foot.z + low[2] < world::kChunkHeight;
+           foot.y + low[1] < kTileSize && foot.z + high[2] >= heights.bottom && foot.z + low[2] < heights.top;
 }
 
 }  // namespace
 
-void StampTile::paint(const ShapeTable& shapes, std::span<const Bits> numbers, std::span<const Bits> bases) {
+void StampTile::paint(const ShapeTable& shapes, world::Heights heights, std::span<const Bits> numbers,
+                      std::span<const Bits> bases) {
     assert(numbers.size() == std::size_t{kWindowSize} * kWindowSize && bases.size() == numbers.size() &&
            "each column of the window has both fields");
-    clear();
+    if (blocks_.heights() != heights) blocks_ = BlockLayers(heights);
+    blocks_.clear();
+    blocks_.fill(heights.bottom, heights.layers(), world::kAir);
     findFeet(shapes, numbers, bases);
     // The block painted first stays: feet are in the order of precedence.
     for (std::size_t rank = kMaxShapeRank + 1; rank-- > 0;) {
@@ -37,29 +40,12 @@ void StampTile::paint(const ShapeTable& shapes, std::span<const Bits> numbers, s
     }
 }
 
-bool StampTile::isPainted(int low, int high) const {
-    return std::find(painted_.begin() + low, painted_.begin() + high + 1, true) !=
-           painted_.begin() + high + 1;
-}
-
-const std::uint16_t* StampTile::layer(int z) const {
-    assert(isPainted(z) && "paint() comes first");
-    return blocks_.data() + static_cast<std::size_t>(z) * kTileLanes;
-}
-
-void StampTile::clear() {
-    blocks_.resize(world::kBlocksPerChunk);
-    for (std::size_t z = 0; z < painted_.size(); ++z) {
-        if (painted_[z]) std::fill_n(blocks_.begin() + static_cast<long>(z) * kTileLanes, kTileLanes, 0);
-    }
-    painted_.fill(false);
-}
-
 void StampTile::findFeet(const ShapeTable& shapes, std::span<const Bits> numbers,
                          std::span<const Bits> bases) {
     // Shapes whose feet are beyond these heights do not reach the world; sums of other heights do not
     // overflow.
-    constexpr int kLowest = -kMaxShapeZ, kHighest = world::kChunkHeight - kMinShapeZ;
+    const world::Heights heights = blocks_.heights();
+    const int lowest = heights.bottom - kMaxShapeZ, highest = heights.top - kMinShapeZ;
     feet_.clear();
     for (int y = 0; y < kWindowSize; ++y) {
         const std::size_t row = static_cast<std::size_t>(y) * kWindowSize;
@@ -67,22 +53,21 @@ void StampTile::findFeet(const ShapeTable& shapes, std::span<const Bits> numbers
         for (int x = 0; x < kWindowSize; ++x) {
             const std::size_t at = row + static_cast<std::size_t>(x);
             const std::int32_t base = asInt(bases[at]);
-            if (numbers[at] >= shapes.shapes.size() || base < kLowest || base > kHighest) continue;
+            if (numbers[at] >= shapes.shapes.size() || base < lowest || base > highest) continue;
             const StampFoot foot = {&shapes.shapes[numbers[at]], x - kMaxReadOffset, y - kMaxReadOffset,
                                     base};
-            if (reaches(foot)) feet_.push_back(foot);
+            if (reaches(foot, heights)) feet_.push_back(foot);
         }
     }
 }
 
 void StampTile::paintRun(const StampFoot& foot, const ShapeRun& run) {
     const int y = foot.y + run.y, z = foot.z + run.z;
-    if (y < 0 || y >= kTileSize || z < 0 || z >= world::kChunkHeight) return;
+    if (y < 0 || y >= kTileSize || !blocks_.heights().contains(z)) return;
     const int low = std::max(0, foot.x + run.x), high = std::min(kTileSize, foot.x + run.x + run.length);
     if (low >= high) return;
-    std::uint16_t* row = blocks_.data() + z * kTileLanes + y * kTileSize;
+    std::uint16_t* row = blocks_.edit(z) + y * kTileSize;
     for (int x = low; x < high; ++x) row[x] = row[x] == 0 ? run.block : row[x];
-    painted_[static_cast<std::size_t>(z)] = true;
 }
 
 }  // namespace terrane::gen

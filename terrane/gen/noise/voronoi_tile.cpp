@@ -147,13 +147,13 @@ void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, Sam
     tile.call = call;
     tile.seed = seed;
     tile.grid = grid;
-    tile.layer = -1;
+    tile.layer = kNoLayer;
 }
 
 void moveToLayer(Voronoi3DTile& tile, std::int32_t z) {
-    const std::int32_t zCell = z / tile.call.size;
-    if (tile.layer < 0 || zCell != tile.zCell) {
-        const bool isNext = tile.layer >= 0 && zCell == tile.zCell + 1;
+    const std::int32_t zCell = cellOfLayer(z, tile.call.size);
+    if (tile.layer == kNoLayer || zCell != tile.zCell) {
+        const bool isNext = tile.layer != kNoLayer && zCell == tile.zCell + 1;
         if (isNext) std::rotate(tile.cells.begin(), tile.cells.begin() + 1, tile.cells.end());
         for (int k = isNext ? 4 : 0; k < 5; ++k) {
             fillCells(tile, tile.cells[static_cast<std::size_t>(k)], zCell - 2 + k);

@@ -38,7 +38,7 @@ struct Voronoi3DTile {
     // Points of the cells that the search covers: around zCell, from below, each in the order of y, then x.
     std::array<std::vector<Voronoi3DPoint>, 5> cells;
     std::vector<Voronoi3DPoint> points;  // of these the ones that count in the current layer
-    std::int32_t layer = -1;
+    std::int32_t layer = kNoLayer;
 };
 
 void prepare(Voronoi3DTile& tile, const NoiseCall& call, std::uint32_t seed, SampleGrid grid);
