@@ -1,9 +1,9 @@
-// Light on one thread, over the landscape scene with a view distance of 16. Labels are digests of the light:
-// they change where the result does.
+// Light on one thread, over the landscape scene with a view distance of 16, and over worlds of −1,024…1,023
+// with the same content or deep shafts. Labels are digests of the light of 0…255: they change where the
+// result does, and are the same in the tall worlds.
 #include <benchmark/benchmark.h>
 
 #include <array>
-#include <bit>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,6 +14,7 @@
 #include "terrane/light/light_area.h"
 #include "terrane/light/relight.h"
 #include "terrane/shared/hash.h"
+#include "tests/support/default_heights.h"
 
 namespace {
 
@@ -109,6 +110,28 @@ void lightScene(benchmark::State& state, const std::vector<world::Chunk>& chunks
 void landscapeScene(benchmark::State& state) {
     lightScene(state, landscape());
 }
+constexpr world::Heights kTall{-1024, 1024};
+
+// The chunks with rock below and sky above them.
+std::vector<world::Chunk> inTallWorld(const std::vector<world::Chunk>& chunks) {
+    std::vector<world::Chunk> tall;
+    for (const world::Chunk& chunk : chunks) {
+        world::Chunk& copy = tall.emplace_back(kTall);
+        for (int n = kTall.firstSection(); n < 0; ++n) copy.setSection(n, world::Section(blockId("stone")));
+        for (int n = 0; n < world::kSectionsPerChunk; ++n) copy.setSection(n, chunk.section(n));
+    }
+    return tall;
+}
+
+void tallLandscapeScene(benchmark::State& state) {
+    lightScene(state, inTallWorld(landscape()));
+}
+void tallOceanScene(benchmark::State& state) {
+    lightScene(state, inTallWorld(bench::sceneChunks("ocean")));
+}
+void tallCaveScene(benchmark::State& state) {
+    lightScene(state, inTallWorld(bench::sceneChunks("cave")));
+}
 void oceanScene(benchmark::State& state) {
     lightScene(state, bench::sceneChunks("ocean"));
 }
@@ -135,24 +158,46 @@ void tenThousandLamps(benchmark::State& state) {
 // Worst edits, in 3×3 chunks: each iteration makes an edit and takes it back, and both are relit.
 
 struct TestScene {
-    std::vector<world::Chunk> chunks = std::vector<world::Chunk>(9);
+    explicit TestScene(world::Heights heights = {}) : chunks(9, world::Chunk(heights)) {}
 
     // Blocks of the box, x and y from the corner of the area, ends excluded.
     void fill(world::BlockPos from, world::BlockPos to, world::BlockId id) {
         for (int z = from.z; z < to.z; ++z) {
             for (int y = from.y; y < to.y; ++y) {
-                for (int x = from.x; x < to.x; ++x)
-                    chunks[static_cast<std::size_t>(x / 16 + 3 * (y / 16))].setBlock(
-                        world::blockIndex(x & 15, y & 15, z), id);
+                for (int x = from.x; x < to.x; ++x) set(x, y, z, id);
             }
         }
     }
+    void set(int x, int y, int z, world::BlockId id) {
+        chunks[static_cast<std::size_t>(x / 16 + 3 * (y / 16))].setBlock(world::blockIndex(x & 15, y & 15, z),
+                                                                         id);
+    }
+
+    std::vector<world::Chunk> chunks;
 };
 
-// Open ground at z = 100.
-TestScene openGround() {
-    TestScene scene;
-    scene.fill({0, 0, 0}, {48, 48, 100}, blockId("stone"));
+// Open ground at z = 100, or at `top`.
+TestScene openGround(world::Heights heights = {}, int top = 100) {
+    TestScene scene(heights);
+    scene.fill({0, 0, heights.bottom}, {48, 48, top}, blockId("stone"));
+    return scene;
+}
+
+// Stone up to z = 967 with glowing ore and caves, which take this percentage of it.
+TestScene deepCaves(benchmark::State& state) {
+    const auto open = static_cast<unsigned>(state.range(0));
+    TestScene scene = openGround(kTall, 967);
+    for (int z = kTall.bottom; z < 967; ++z) {
+        for (int k = 0; k < 48 * 48; ++k) {
+            const auto x = static_cast<unsigned>(k % 48), y = static_cast<unsigned>(k / 48);
+            const auto up = static_cast<unsigned>(z - kTall.bottom);
+            if (shared::hash3(x / 4, y / 4, up / 4, 1u) % 100 < open) {
+                scene.set(k % 48, k / 48, z, world::kAir);
+            } else if (shared::hash3(x, y, up, 2u) % 200 == 0) {
+                scene.set(k % 48, k / 48, z, blockId("glowing_ore"));
+            }
+        }
+    }
     return scene;
 }
 
@@ -188,7 +233,7 @@ void edit(benchmark::State& state, TestScene scene, world::BlockIndex index, wor
         const light::BlockChange one{index, from};
         const auto bricks = relight(window, {&one, 1}, table(), scratch);
         int changed = 0;
-        for (const std::uint16_t bits : bricks) changed += std::popcount(bits);
+        for (const world::SectionSet& set : bricks) changed += static_cast<int>(set.count());
         return changed;
     };
     int bricks = 0;
@@ -209,6 +254,51 @@ void lampPlaced(benchmark::State& state) {
 }
 void lampRemovedInCorner(benchmark::State& state) {
     edit(state, openGround(), world::blockIndex(15, 15, 111), blockId("lamp_white"), world::kAir);
+}
+
+// At the surface of a tall world, at z = 100 or 900, and in a cave at z = −892.
+void tallLampPlaced(benchmark::State& state) {
+    const int z = static_cast<int>(state.range(0));
+    TestScene scene = openGround(kTall, z < 0 ? 100 : z);
+    if (z < 0) scene.fill({1, 1, z}, {47, 47, z + 8}, world::kAir);
+    edit(state, std::move(scene), world::blockIndex(8, 8, z + 4), world::kAir, blockId("lamp_white"));
+}
+void tallLampRemoved(benchmark::State& state) {
+    const int z = static_cast<int>(state.range(0));
+    TestScene scene = openGround(kTall, z < 0 ? 100 : z);
+    if (z < 0) scene.fill({1, 1, z}, {47, 47, z + 8}, world::kAir);
+    edit(state, std::move(scene), world::blockIndex(8, 8, z + 4), blockId("lamp_white"), world::kAir);
+}
+
+// A shaft of 1×1×1,990 blocks to the bottom of the world, or a hall of 46×46×1,900, under a lid.
+void editShaft(benchmark::State& state, TestScene scene, std::string_view before, std::string_view after) {
+    const auto idOf = [](std::string_view name) { return name.empty() ? world::kAir : blockId(name); };
+    scene.fill({24, 24, kTall.bottom}, {25, 25, 967}, world::kAir);
+    scene.fill({23, 23, 966}, {26, 26, 967}, blockId("stone"));
+    edit(state, std::move(scene), world::blockIndex(8, 8, 966), idOf(before), idOf(after));
+}
+TestScene deepHall() {
+    TestScene scene = openGround(kTall, 967);
+    scene.fill({1, 1, 66 - 1024}, {47, 47, 942}, world::kAir);
+    return scene;
+}
+void shaftOpened(benchmark::State& state) {
+    editShaft(state, openGround(kTall, 967), "stone", "");
+}
+void shaftClosed(benchmark::State& state) {
+    editShaft(state, openGround(kTall, 967), "", "stone");
+}
+void shaftInCavesOpened(benchmark::State& state) {
+    editShaft(state, deepCaves(state), "stone", "");
+}
+void shaftInCavesClosed(benchmark::State& state) {
+    editShaft(state, deepCaves(state), "", "stone");
+}
+void deepHallOpened(benchmark::State& state) {
+    editShaft(state, deepHall(), "stone", "");
+}
+void deepHallClosed(benchmark::State& state) {
+    editShaft(state, deepHall(), "", "stone");
 }
 
 // The roof's lower block is open already, so that the edit lets daylight in or takes it away.
@@ -244,6 +334,17 @@ BENCHMARK(roofOpened)->Arg(130)->Arg(160)->Arg(250)->Unit(benchmark::kMicrosecon
 BENCHMARK(roofClosed)->Arg(130)->Arg(160)->Arg(250)->Unit(benchmark::kMicrosecond);
 BENCHMARK(leafRemoved)->Unit(benchmark::kMicrosecond);
 BENCHMARK(stonePlaced)->Unit(benchmark::kMicrosecond);
+BENCHMARK(tallLandscapeScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(tallOceanScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(tallCaveScene)->Unit(benchmark::kMillisecond);
+BENCHMARK(tallLampPlaced)->Arg(100)->Arg(900)->Arg(-892)->Unit(benchmark::kMicrosecond);
+BENCHMARK(tallLampRemoved)->Arg(100)->Arg(900)->Arg(-892)->Unit(benchmark::kMicrosecond);
+BENCHMARK(shaftOpened)->Unit(benchmark::kMicrosecond);
+BENCHMARK(shaftClosed)->Unit(benchmark::kMicrosecond);
+BENCHMARK(shaftInCavesOpened)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(shaftInCavesClosed)->Arg(8)->Arg(16)->Unit(benchmark::kMicrosecond);
+BENCHMARK(deepHallOpened)->Unit(benchmark::kMicrosecond);
+BENCHMARK(deepHallClosed)->Unit(benchmark::kMicrosecond);
 
 }  // namespace
 

@@ -1,12 +1,13 @@
-// The light of a chunk: 16×16×256 levels in sixteen bricks of 16³. A plain value; copying it copies some
-// kilobytes. Shared between threads as `shared_ptr<const ChunkLight>`, like the chunk itself.
+// The light of a chunk: its levels in bricks of 16³, one for each section. A plain value; copies share the
+// memory of their bricks. Shared between threads as `shared_ptr<const ChunkLight>`, like the chunk itself.
 #pragma once
 
-#include <array>
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "terrane/world/coords.h"
 #include "terrane/world/section.h"
@@ -40,24 +41,26 @@ constexpr LightValue allComponents(int level) {
 // block, or are dense (8 KiB). Index in a brick: x + 16 y + 256 z, as in a section of blocks.
 using LightBrick = world::Section;
 
+// Blocks and bricks are in the light's heights; a brick has the number of its section (world/heights.h).
 class ChunkLight {
   public:
-    LightValue at(world::BlockIndex i) const { return bricks_[i >> 12].get(i & 4095); }
-    // Returns the light of a block: x and y in the chunk, 0…15; z 0…255.
+    // Dark.
+    explicit ChunkLight(world::Heights heights = {})
+        : heights_(heights), bricks_(static_cast<std::size_t>(heights.sections())) {}
+
+    world::Heights heights() const { return heights_; }
+
+    LightValue at(world::BlockIndex i) const {
+        return brick(world::sectionOf(i)).get(world::indexInSection(i));
+    }
+    // Returns the light of a block: x and y in the chunk, 0…15; z in the heights.
     LightValue get(int x, int y, int z) const { return at(world::blockIndex(x, y, z)); }
 
-    // Returns brick `number`, 0…15 from below.
-    const LightBrick& brick(int number) const {
-        assert(number >= 0 && number < world::kSectionsPerChunk && "number of a brick in a chunk");
-        return bricks_[static_cast<std::size_t>(number)];
-    }
-    void setBrick(int number, LightBrick brick) {
-        assert(number >= 0 && number < world::kSectionsPerChunk && "number of a brick in a chunk");
-        bricks_[static_cast<std::size_t>(number)] = std::move(brick);
-    }
+    const LightBrick& brick(int number) const { return bricks_[place(number)]; }
+    void setBrick(int number, LightBrick brick) { bricks_[place(number)] = std::move(brick); }
 
     std::size_t memoryBytes() const {  // heap and object
-        std::size_t bytes = 0;
+        std::size_t bytes = sizeof(ChunkLight);
         for (const LightBrick& brick : bricks_) bytes += brick.memoryBytes();
         return bytes;
     }
@@ -65,7 +68,13 @@ class ChunkLight {
     friend bool operator==(const ChunkLight&, const ChunkLight&) = default;
 
   private:
-    std::array<LightBrick, world::kSectionsPerChunk> bricks_;  // dark
+    std::size_t place(int number) const {
+        assert(number >= heights_.firstSection() && number < heights_.endSection() && "a brick of the chunk");
+        return static_cast<std::size_t>(number - heights_.firstSection());
+    }
+
+    world::Heights heights_;
+    std::vector<LightBrick> bricks_;  // from the bottom
 };
 
 using ChunkLightPtr = std::shared_ptr<const ChunkLight>;

@@ -18,21 +18,23 @@
 HWY_BEFORE_NAMESPACE();
 namespace terrane::light {
 namespace HWY_NAMESPACE {
+// Light of the bricks beside one, which stays while the one changes.
+using LightBeside = std::array<const LightValue*, kSideCount>;
+
 // Pointers to the values of a row and of its neighbors.
 struct RowPlace {
     const LightValue *self, *west, *east, *south, *north, *below, *above;
 };
 
-HWY_INLINE RowPlace placeOf(const FieldBrick* brick, int row) {
+HWY_INLINE RowPlace placeOf(const LightValue* self, const LightBeside& beside, int row) {
     const int y = row & 15, z = row >> 4, at = 16 * row;
-    const auto light = [&](int step) { return brick[step].light.values; };
-    return {light(0) + at,
-            light(-LightField::kStepX) + at + 8,
-            light(LightField::kStepX) + at,
-            y > 0 ? light(0) + at - 16 : light(-LightField::kStepY) + at + 240,
-            y < 15 ? light(0) + at + 16 : light(LightField::kStepY) + at - 240,
-            z > 0 ? light(0) + at - 256 : light(-LightField::kStepZ) + at + 3840,
-            z < 15 ? light(0) + at + 256 : light(LightField::kStepZ) + at - 3840};
+    return {self + at,
+            beside[kWest] + at + 8,
+            beside[kEast] + at,
+            y > 0 ? self + at - 16 : beside[kSouth] + at + 240,
+            y < 15 ? self + at + 16 : beside[kNorth] + at - 240,
+            z > 0 ? self + at - 256 : beside[kBelow] + at + 3840,
+            z < 15 ? self + at + 256 : beside[kAbove] + at - 3840};
 }
 
 // Raises voxels to the light that their neighbors give them.
@@ -63,8 +65,9 @@ struct RowChange {
 
 // Applies the rule to a row until nothing changes inside it, and writes the row.
 template <class Rule>
-HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Rule rule) {
-    const RowPlace at = placeOf(&brick, row);
+HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, const LightBeside& beside, int row,
+                               Rule rule) {
+    const RowPlace at = placeOf(brick.light.values, beside, row);
     const LightLevels old = loadRow(at.self), loss = lossOf(brick.opacity + 16 * row);
     const Half west = loadHalf(at.west), east = loadHalf(at.east);
     const LightLevels aroundZ = maxOf(loadRow(at.below), loadRow(at.above));
@@ -84,15 +87,15 @@ HWY_INLINE RowChange updateRow(LightField& field, FieldBrick& brick, int row, Ru
     return {true, out[0] != oldFirst, out[15] != oldLast};
 }
 
-void markBeside(LightField& field, int index, int row, const RowChange& change) {
-    using F = LightField;
+void markBeside(LightField& field, int index, const std::array<int, kSideCount>& beside, int row,
+                const RowChange& change) {
     const int y = row & 15, z = row >> 4;
-    y > 0 ? field.markRow(index, row - 1) : field.markRow(index - F::kStepY, row + 15);
-    y < 15 ? field.markRow(index, row + 1) : field.markRow(index + F::kStepY, row - 15);
-    z > 0 ? field.markRow(index, row - 16) : field.markRow(index - F::kStepZ, row + 240);
-    z < 15 ? field.markRow(index, row + 16) : field.markRow(index + F::kStepZ, row - 240);
-    if (change.first) field.markRow(index - F::kStepX, row);
-    if (change.last) field.markRow(index + F::kStepX, row);
+    y > 0 ? field.markRow(index, row - 1) : field.markRow(beside[kSouth], row + 15);
+    y < 15 ? field.markRow(index, row + 1) : field.markRow(beside[kNorth], row - 15);
+    z > 0 ? field.markRow(index, row - 16) : field.markRow(beside[kBelow], row + 240);
+    z < 15 ? field.markRow(index, row + 16) : field.markRow(beside[kAbove], row - 240);
+    if (change.first) field.markRow(beside[kWest], row);
+    if (change.last) field.markRow(beside[kEast], row);
 }
 
 // Processes rows downward and upward in turn, so that light travels far in both directions in one pass.
@@ -100,11 +103,14 @@ template <class Rule>
 void settleBrick(LightField& field, int index, Rule rule) {
     FieldBrick& brick = field.brick(index);
     auto& dirty = brick.dirty;
+    LightBeside beside;
+    for (std::size_t side = 0; side < kSideCount; ++side)
+        beside[side] = field.brick(brick.beside[side]).light.values;
     const auto update = [&](std::size_t word, int bit) {
         dirty[word] &= ~(std::uint64_t{1} << bit);
         const int row = static_cast<int>(64 * word) + bit;
-        const RowChange change = updateRow(field, brick, row, rule);
-        if (change.any) markBeside(field, index, row, change);
+        const RowChange change = updateRow(field, brick, beside, row, rule);
+        if (change.any) markBeside(field, index, brick.beside, row, change);
     };
     while ((dirty[0] | dirty[1] | dirty[2] | dirty[3]) != 0) {
         for (std::size_t word = 4; word-- > 0;) {
@@ -127,17 +133,12 @@ void settleBrick(LightField& field, int index, Rule rule) {
     }
 }
 
-template <class Rule>
-void settle(LightField& field, Rule rule) {
-    for (int index = field.popDirty(); index >= 0; index = field.popDirty()) settleBrick(field, index, rule);
+void raise(LightField& field, int index) {
+    settleBrick(field, index, Raise());
 }
 
-void raise(LightField& field) {
-    settle(field, Raise());
-}
-
-void decrease(LightField& field) {
-    settle(field, Decrease());
+void decrease(LightField& field, int index) {
+    settleBrick(field, index, Decrease());
 }
 
 void sunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
@@ -163,6 +164,10 @@ void replace(const LightValue* decreased, const LightValue* source, const LightV
                               HWY_ATTR { return hn::IfThenElseZero(hn::Eq(level, hn::Zero(kBytes)), value); };
     for (int at = 0; at < world::kBlocksPerSection; at += 16) {
         const LightLevels s = loadRow(decreased + at);
+        if (isSame(s, minus(s, s))) {
+            storeRow(loadRow(before + at), light + at);
+            continue;
+        }
         storeRow(maxOf(each(where, s, loadRow(source + at)), each(whereNot, s, loadRow(before + at))),
                  light + at);
     }
@@ -185,12 +190,16 @@ void propagateSunlight(const LightValue* opacity, const LightValue* emission, Da
     HWY_DYNAMIC_DISPATCH(sunlight)(opacity, emission, columns, light);
 }
 
-void raiseLight(LightField& field) {
-    HWY_DYNAMIC_DISPATCH(raise)(field);
+void raiseBrick(LightField& field, int index) {
+    HWY_DYNAMIC_DISPATCH(raise)(field, index);
 }
 
-void propagateDecreases(LightField& field) {
-    HWY_DYNAMIC_DISPATCH(decrease)(field);
+void raiseLight(LightField& field) {
+    for (int index = field.popDirty(); index != 0; index = field.popDirty()) raiseBrick(field, index);
+}
+
+void decreaseBrick(LightField& field, int index) {
+    HWY_DYNAMIC_DISPATCH(decrease)(field, index);
 }
 
 void replaceDecreased(const LightValue* decreased, const LightValue* source, const LightValue* before,

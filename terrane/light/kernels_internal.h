@@ -19,15 +19,19 @@ using DaylightColumns = std::array<LightValue, world::kChunkSize * world::kChunk
 void propagateSunlight(const LightValue* opacity, const LightValue* emission, DaylightColumns& columns,
                        LightValue* light);
 
-// Raises the marked rows, and the rows affected by them, until every voxel is at least each neighbor less 1 +
-// its opacity.
+// Raises the marked rows of a brick, and the rows of the brick affected by them, until every voxel is at
+// least each neighbor less 1 + its opacity. Marks the affected rows of the bricks beside it.
+void raiseBrick(LightField& field, int index);
+
+// Raises brick after brick until no row is marked.
 void raiseLight(LightField& field);
 
-// Runs the decrease queue: `light` has the levels to remove. A level of `before` that exceeds its source and
-// equals the level that a removed neighbor gave is removed too. Starts from the marked rows.
-void propagateDecreases(LightField& field);
+// Runs the decrease queue in a brick: `light` has the levels to remove. A level of `before` that exceeds its
+// source and equals the level that a removed neighbor gave is removed too. Starts from the marked rows, and
+// marks the affected rows of the bricks beside it.
+void decreaseBrick(LightField& field, int index);
 
-// Sets light = source where `decreased` is not 0, else before, for whole bricks.
+// Sets light = source where `decreased` is not 0, else before, for whole bricks. `light` may be `decreased`.
 void replaceDecreased(const LightValue* decreased, const LightValue* source, const LightValue* before,
                       LightValue* light);
 

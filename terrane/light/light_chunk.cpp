@@ -10,37 +10,70 @@
 namespace terrane::light {
 namespace {
 
-constexpr int kBricks = world::kSectionsPerChunk;
 constexpr LightValue kOpaque = allComponents(kMaxLevel);
 
-void addChunk(LightField& field, int chunk, const ChunkBricks& bricks) {
-    for (int number = 0; number < kBricks; ++number) {
-        FieldBrick& brick = field.brick(chunk, number);
-        brick.light = bricks.light[static_cast<std::size_t>(number)];
-        brick.opacity = bricks.opacity[static_cast<std::size_t>(number)].values;
-        brick.isInside = true;
-    }
+bool isUniformly(const BrickView& brick, LightValue value) {
+    return brick.isUniform && brick.uniformValue() == value;
 }
 
 // Marks the rows that may not be settled in a chunk of which only the sources are known. Inside a brick of
 // one value no light flows.
 void markUnsettled(LightField& field, const ChunkBricks& bricks) {
-    for (int number = 0; number < kBricks; ++number) {
-        const auto k = static_cast<std::size_t>(number);
-        const BrickView opacity = bricks.opacity[k];
-        if (opacity.isUniform && opacity.uniformValue() == kOpaque) continue;
-        const int index = LightField::indexOf(kCenterChunk, number);
-        if (!bricks.light[k].isUniform) {
-            field.markAll(index);
+    for (std::size_t k = 0; k < bricks.size(); ++k) {
+        const BrickRun& run = bricks[k];
+        if (isUniformly(run.opacity, kOpaque)) continue;
+        if (!run.light.isUniform) {
+            field.markAll(field.find(kCenterChunk, run.highest));
             continue;
         }
-        const auto differs = [&](std::size_t other) {
-            return !bricks.light[other].isUniform ||
-                   bricks.light[other].uniformValue() != bricks.light[k].uniformValue();
+        const auto differs = [&](const BrickRun& other) {
+            return !isUniformly(other.light, run.light.uniformValue());
         };
-        if (number > 0 && differs(k - 1)) field.markLayer(index, 0);
-        if (number + 1 < kBricks && differs(k + 1)) field.markLayer(index, world::kSectionSize - 1);
+        if (k > 0 && differs(bricks[k - 1]))
+            field.markLayer(field.find(kCenterChunk, run.highest), world::kSectionSize - 1);
+        if (k + 1 < bricks.size() && differs(bricks[k + 1]))
+            field.markLayer(field.find(kCenterChunk, run.lowest), 0);
     }
+}
+
+int addBrick(LightField& field, int chunk, int number, const BrickRun& run) {
+    const int index = field.add(chunk, number);
+    field.brick(index).light = run.light;
+    field.brick(index).opacity = run.opacity.values;
+    return index;
+}
+
+// Adds the highest and the lowest brick of each run to the field. The light of those between does not change:
+// as far as light reaches, 14 blocks, all sources are equal.
+void addEnds(LightField& field, const ChunkBricks& bricks) {
+    for (const BrickRun& run : bricks) {
+        addBrick(field, kCenterChunk, run.highest, run);
+        if (run.lowest != run.highest) addBrick(field, kCenterChunk, run.lowest, run);
+    }
+}
+
+// The runs after the light of their ends has changed in the field.
+ChunkBricks changedRuns(LightField& field, const ChunkBricks& bricks) {
+    ChunkBricks result;
+    result.reserve(bricks.size() + 8);
+    const auto push = [&](int highest, int lowest, BrickView light, BrickView opacity) {
+        light.writable = opacity.writable = nullptr;
+        result.push_back({highest, lowest, light, opacity});
+    };
+    for (const BrickRun& run : bricks) {
+        const BrickView upper = field.brick(field.find(kCenterChunk, run.highest)).light;
+        const BrickView lower = field.brick(field.find(kCenterChunk, run.lowest)).light;
+        if (run.highest == run.lowest) {
+            push(run.highest, run.lowest, upper, run.opacity);
+            continue;
+        }
+        int highest = run.highest, lowest = run.lowest;
+        if (!upper.isUniform) push(highest, highest, upper, run.opacity), --highest;
+        if (!lower.isUniform) ++lowest;
+        if (highest >= lowest) push(highest, lowest, run.light, run.opacity);
+        if (!lower.isUniform) push(run.lowest, run.lowest, lower, run.opacity);
+    }
+    return result;
 }
 
 // Distance of each column of a chunk of the field to the middle chunk: light of that level or less cannot
@@ -80,8 +113,8 @@ bool flows(LightValue from, LightValue to, LightValue opacity, LightValue reach)
 // Marks the rows into which light flows across a border between bricks in x; `lower` is the brick at the
 // lower x.
 void markBorderX(LightField& field, int lower, const LightValue* east, const LightValue* west) {
-    if (std::memcmp(east, west, sizeof(LocalLight::Side)) == 0) return;
-    const int upper = lower + LightField::kStepX;
+    if (std::memcmp(east, west, sizeof(LocalLight::SideLevels)) == 0) return;
+    const int upper = field.brick(lower).beside[kEast];
     const FieldBrick &a = field.brick(lower), &b = field.brick(upper);
     for (int row = 0; row < kRowsPerBrick; ++row) {
         if (east[row] == west[row]) continue;
@@ -93,7 +126,7 @@ void markBorderX(LightField& field, int lower, const LightValue* east, const Lig
 
 // The same for a border in y. Rows lie along the border there, and are marked where they differ.
 void markBorderY(LightField& field, int lower) {
-    const int upper = lower + LightField::kStepY;
+    const int upper = field.brick(lower).beside[kNorth];
     const BrickView a = field.brick(lower).light, b = field.brick(upper).light;
     if (a.isUniform && b.isUniform && a.uniformValue() == b.uniformValue()) return;
     for (int z = 0; z < world::kSectionSize; ++z) {
@@ -105,40 +138,131 @@ void markBorderY(LightField& field, int lower) {
     }
 }
 
-void addSides(LocalLight& local) {
-    const auto isUniform = [](const BrickView& brick) { return brick.isUniform; };
-    const auto& light = local.bricks.light;
-    const auto uniform = std::count_if(light.begin(), light.end(), isUniform);
-    local.ownedSides.resize(2 * (light.size() - static_cast<std::size_t>(uniform)));
-    LocalLight::Side* next = local.ownedSides.data();
-    for (std::size_t k = 0; k < light.size(); ++k) {
-        local.west[k] = local.east[k] = light[k].values;  // any 256 values of a uniform brick
-        if (light[k].isUniform) continue;
-        LocalLight::Side &west = *next++, &east = *next++;
-        for (std::size_t row = 0; row < west.size(); ++row) {
-            west[row] = light[k].values[16 * row];
-            east[row] = light[k].values[16 * row + 15];
+std::vector<LocalLight::Run> withSides(const ChunkBricks& bricks,
+                                       std::vector<LocalLight::SideLevels>& owned) {
+    const auto isUniform = [](const BrickRun& run) { return run.light.isUniform; };
+    const auto uniform = std::count_if(bricks.begin(), bricks.end(), isUniform);
+    owned.resize(2 * (bricks.size() - static_cast<std::size_t>(uniform)));
+    LocalLight::SideLevels* next = owned.data();
+    std::vector<LocalLight::Run> runs;
+    runs.reserve(bricks.size());
+    for (const BrickRun& run : bricks) {
+        const LightValue* values = run.light.values;
+        if (run.light.isUniform) {
+            runs.push_back({run, values, values});  // any 256 values of a uniform brick
+            continue;
         }
-        local.west[k] = west.data();
-        local.east[k] = east.data();
+        LocalLight::SideLevels &west = *next++, &east = *next++;
+        for (std::size_t row = 0; row < west.size(); ++row) {
+            west[row] = values[16 * row];
+            east[row] = values[16 * row + 15];
+        }
+        runs.push_back({run, west.data(), east.data()});
+    }
+    return runs;
+}
+
+// The runs of 3×3 chunks at one height, which is lowered from the top.
+class RunsAround {
+  public:
+    explicit RunsAround(const LocalLightNeighborhood& chunks) {
+        for (std::size_t k = 0; k < chunks.size(); ++k)
+            runs_[k] = chunks[k] ? chunks[k]->runs.data() : nullptr;
+    }
+
+    // Returns the run of a chunk at this height, or null if the chunk is unknown.
+    const LocalLight::Run* of(int chunk) const { return runs_[static_cast<std::size_t>(chunk)]; }
+    // Returns the lowest height at which all runs are the same as here.
+    int lowest() const {
+        int lowest = world::kLowestSection;
+        for (const LocalLight::Run* run : runs_)
+            if (run) lowest = std::max(lowest, run->bricks.lowest);
+        return lowest;
+    }
+    void lowerTo(int number) {
+        for (const LocalLight::Run*& run : runs_)
+            while (run && run->bricks.lowest > number) ++run;
+    }
+
+  private:
+    std::array<const LocalLight::Run*, kFieldChunks> runs_{};
+};
+
+// Calls f(chunk, other, side) for the twelve borders between 3×3 chunks: `other` is on the side kEast or
+// kNorth of `chunk`.
+template <class Function>
+void forEachBorder(Function f) {
+    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
+        if (chunk % kFieldSide < 2) f(chunk, chunk + 1, kEast);
+        if (chunk / kFieldSide < 2) f(chunk, chunk + kFieldSide, kNorth);
     }
 }
 
-void markBorders(LightField& field, const LocalLightNeighborhood& chunks) {
-    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
-        const auto isThere = [&](int other) { return chunks[static_cast<std::size_t>(other)] != nullptr; };
-        if (!isThere(chunk)) continue;
-        const bool hasEast = chunk % kFieldSide < 2 && isThere(chunk + 1);
-        const bool hasNext = chunk / kFieldSide < 2 && isThere(chunk + kFieldSide);
-        for (int number = 0; number < kBricks; ++number) {
-            const int index = LightField::indexOf(chunk, number);
-            if (hasEast) {
-                const auto at = static_cast<std::size_t>(number);
-                markBorderX(field, index, chunks[static_cast<std::size_t>(chunk)]->east[at],
-                            chunks[static_cast<std::size_t>(chunk + 1)]->west[at]);
-            }
-            if (hasNext) markBorderY(field, index);
+// Returns true if surely no light passes between two bricks beside each other: in both directions it is no
+// brighter or the other is opaque.
+bool isSettled(const BrickRun& a, const BrickRun& b) {
+    if (isUniformly(a.opacity, kOpaque) && isUniformly(b.opacity, kOpaque)) return true;
+    if (!a.light.isUniform || !b.light.isUniform) return false;
+    const LightValue lightA = a.light.uniformValue(), lightB = b.light.uniformValue();
+    if (lightA == lightB) return true;
+    const auto enters = [](LightValue from, LightValue to, const BrickView& opacity) {
+        return !opacity.isUniform || flows(from, to, opacity.uniformValue(), kDark);
+    };
+    return !enters(lightA, lightB, b.opacity) && !enters(lightB, lightA, a.opacity);
+}
+
+// Returns the heights at which light may pass from chunk to chunk. Runs are looked at once, however high.
+world::SectionSet findUnsettled(const LocalLightNeighborhood& chunks) {
+    const world::Heights heights = chunks[kCenterChunk]->heights;
+    world::SectionSet unsettled;
+    RunsAround around(chunks);
+    for (int number = heights.endSection() - 1; number >= heights.firstSection();) {
+        around.lowerTo(number);
+        const int lowest = around.lowest();
+        bool isUnsettled = false;
+        forEachBorder([&](int chunk, int other, Side) {
+            const LocalLight::Run *a = around.of(chunk), *b = around.of(other);
+            if (a && b && !isSettled(a->bricks, b->bricks)) isUnsettled = true;
+        });
+        for (; number >= lowest; --number)
+            if (isUnsettled) unsettled.add(number);
+    }
+    return unsettled;
+}
+
+// Adds the bricks at these heights and one above and below, which light reaches too, to the field.
+void addAround(LightField& field, const LocalLightNeighborhood& chunks, const world::SectionSet& unsettled) {
+    const world::Heights heights = chunks[kCenterChunk]->heights;
+    const auto has = [&](int number) {
+        return heights.contains(number * world::kSectionSize) && unsettled.has(number);
+    };
+    RunsAround around(chunks);
+    for (int number = heights.endSection() - 1; number >= heights.firstSection(); --number) {
+        if (!has(number) && !has(number - 1) && !has(number + 1)) continue;
+        around.lowerTo(number);
+        for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
+            if (const LocalLight::Run* run = around.of(chunk))
+                field.brick(addBrick(field, chunk, number, run->bricks)).reach = reachOf(chunk);
         }
+    }
+}
+
+void markBorders(LightField& field, const LocalLightNeighborhood& chunks,
+                 const world::SectionSet& unsettled) {
+    const world::Heights heights = chunks[kCenterChunk]->heights;
+    RunsAround around(chunks);
+    for (int number = heights.endSection() - 1; number >= heights.firstSection(); --number) {
+        if (!unsettled.has(number)) continue;
+        around.lowerTo(number);
+        forEachBorder([&](int chunk, int other, Side side) {
+            const LocalLight::Run *a = around.of(chunk), *b = around.of(other);
+            if (!a || !b) return;
+            const int index = field.find(chunk, number);
+            if (side == kEast)
+                markBorderX(field, index, a->east, b->west);
+            else
+                markBorderY(field, index);
+        });
     }
 }
 
@@ -148,39 +272,35 @@ LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightS
     TERRANE_ZONE("light local");
     LightField& field = scratch.field;
     field.reset();
-    LocalLight result;
-    result.bricks = findSources(chunk, table, field.pool());
-    addChunk(field, kCenterChunk, result.bricks);
-    markUnsettled(field, result.bricks);
+    const ChunkBricks sources = findSources(chunk, table, field.pool());
+    addEnds(field, sources);
+    markUnsettled(field, sources);
     raiseLight(field);
-    for (int number = 0; number < kBricks; ++number) {
-        BrickView& light = result.bricks.light[static_cast<std::size_t>(number)];
-        light = field.brick(kCenterChunk, number).light;
-        light.writable = nullptr;
-        result.bricks.opacity[static_cast<std::size_t>(number)].writable = nullptr;
-    }
+    LocalLight result;
+    result.heights = chunk.heights();
+    result.runs = withSides(changedRuns(field, sources), result.ownedSides);
     result.owned = field.pool().release();
-    addSides(result);
     return result;
 }
 
 ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch) {
     TERRANE_ZONE("light chunk");
     base::require(chunks[kCenterChunk] != nullptr, "lightChunk: the chunk to light, in the middle, is null");
+    const LocalLight& center = *chunks[kCenterChunk];
+    for (const LocalLight* local : chunks)
+        base::require(!local || local->heights == center.heights, "lightChunk: the heights differ");
     LightField& field = scratch.field;
     field.reset();
-    for (int chunk = 0; chunk < kFieldChunks; ++chunk) {
-        if (const LocalLight* local = chunks[static_cast<std::size_t>(chunk)]) {
-            addChunk(field, chunk, local->bricks);
-            for (int number = 0; number < kBricks; ++number)
-                field.brick(chunk, number).reach = reachOf(chunk);
-        }
-    }
-    markBorders(field, chunks);
+    const world::SectionSet unsettled = findUnsettled(chunks);
+    addAround(field, chunks, unsettled);
+    markBorders(field, chunks, unsettled);
     raiseLight(field);
-    ChunkLight result;
-    for (int number = 0; number < kBricks; ++number) {
-        result.setBrick(number, packBrick(field.brick(kCenterChunk, number).light));
+    ChunkLight result(center.heights);
+    for (const LocalLight::Run& run : center.runs) {
+        for (int number = run.bricks.highest; number >= run.bricks.lowest; --number) {
+            const int index = field.find(kCenterChunk, number);
+            result.setBrick(number, packBrick(index == 0 ? run.bricks.light : field.brick(index).light));
+        }
     }
     return result;
 }

@@ -18,19 +18,26 @@
 namespace terrane::light {
 
 // The result of stage 1; it is immutable and shared between threads. It is unpacked, with 17 KiB for each
-// brick that is not uniform: about 110 KB in the overworld. It is needed until the chunk and its eight
-// neighbors are lit.
+// brick that is not uniform: about 110 KB in the overworld, in worlds of any heights. It is needed until the
+// chunk and its eight neighbors are lit.
 struct LocalLight {
     // Light at x = 0 or x = 15, index y + 16 z.
-    using Side = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
+    using SideLevels = std::array<LightValue, world::kSectionSize * world::kSectionSize>;
 
-    ChunkBricks bricks;
-    std::array<const LightValue*, world::kSectionsPerChunk> west{}, east{};  // Sides
+    // Bricks with their west and east sides.
+    struct Run {
+        BrickRun bricks;
+        const LightValue *west = nullptr, *east = nullptr;  // SideLevels
+    };
+
+    world::Heights heights;
+    std::vector<Run> runs;  // from the top to the bottom
     std::vector<std::unique_ptr<Brick>> owned;
-    std::vector<Side> ownedSides;
+    std::vector<SideLevels> ownedSides;
 
     std::size_t memoryBytes() const {
-        return sizeof(LocalLight) + owned.size() * sizeof(Brick) + ownedSides.size() * sizeof(Side);
+        return sizeof(LocalLight) + runs.size() * sizeof(Run) + owned.size() * sizeof(Brick) +
+               ownedSides.size() * sizeof(SideLevels);
     }
 };
 
@@ -43,7 +50,7 @@ struct LightScratch {
 LocalLight solveLocal(const world::Chunk& chunk, const LightTable& table, LightScratch& scratch);
 
 // The index is x + 3 y, with the chunk itself in the middle (4). A null chunk is unknown: it counts as dark
-// and opaque; the result is then that of a world that ends there.
+// and opaque; the result is then that of a world that ends there. All have the same heights.
 using LocalLightNeighborhood = std::array<const LocalLight*, kFieldChunks>;
 
 ChunkLight lightChunk(const LocalLightNeighborhood& chunks, LightScratch& scratch);

@@ -1,5 +1,6 @@
-// The working area of the solver: 3×3 chunks of bricks surrounded by darkness, and the rows that are to be
-// processed. It is a part of LightScratch (light_chunk.h); one thread at a time uses it.
+// The working area of the solver: the bricks of 3×3 chunks whose light may change and those beside them, and
+// the rows that are to be processed. It is a part of LightScratch (light_chunk.h); one thread at a time uses
+// it.
 #pragma once
 
 #include <array>
@@ -7,6 +8,7 @@
 #include <vector>
 
 #include "terrane/light/brick.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::light {
 
@@ -15,39 +17,46 @@ constexpr int kCenterChunk = 4;  // index of a chunk: x + 3 y
 constexpr int kFieldChunks = kFieldSide * kFieldSide;
 constexpr int kRowsPerBrick = 256;  // index of a row: y + 16 z
 
-// A brick of the field. Bricks outside are dark and opaque, so that no code needs to test for them.
+// Sides of a brick, in the order −x, +x, −y, +y, −z, +z.
+enum Side : std::size_t { kWest, kEast, kSouth, kNorth, kBelow, kAbove, kSideCount };
+
+// A brick of the field. Brick 0 stands for all that are not in the field: it is dark and opaque, and none of
+// its rows is ever marked, so that no code needs to test for it.
 struct FieldBrick {
     BrickView light;
     const LightValue* opacity = nullptr;
     // Levels up to this (16 × 16, the same for all z) cannot reach the middle chunk and may be dropped.
     const LightValue* reach = nullptr;
-    // In the decrease queue (relight.cpp) `light` holds the levels to remove. These are the light before the
-    // change, and the sources of the changed world.
+    // For relight.cpp: the light before the change, and the sources of the changed world.
     const LightValue* before = nullptr;
     const LightValue* source = nullptr;
     std::array<std::uint64_t, kRowsPerBrick / 64> dirty{};  // rows to process, a bit each
-    bool isInside = false;
+    std::array<int, kSideCount> beside{};                   // bricks of the field, 0 where there is none
     bool isQueued = false;
+    std::int8_t chunk = 0;
+    std::int16_t number = 0;  // of its section
 };
 
+// A field takes as much time and memory as it has bricks, in worlds of any heights.
 class LightField {
   public:
-    // Steps between neighbors in the array of bricks.
-    static constexpr int kStepX = 1, kStepY = kFieldSide + 2, kStepZ = kStepY * kStepY;
-
     LightField() { reset(); }
-    void reset();  // all bricks outside, no marked rows
+    void reset();  // no bricks, no marked rows
 
-    // Returns the index of brick 0…15, from below, of chunk 0…8.
-    static int indexOf(int chunk, int brick) {
-        return (chunk % kFieldSide + 1) * kStepX + (chunk / kFieldSide + 1) * kStepY + (brick + 1) * kStepZ;
+    // Adds a brick of chunk 0…8 that is not in the field yet, and returns its index. It is dark, without
+    // opacities, and lies beside its neighbors in the field.
+    int add(int chunk, int number);
+    // Returns the index of a brick, or 0 if it is not in the field.
+    int find(int chunk, int number) const {
+        return indices_[static_cast<std::size_t>(chunk)]
+                       [static_cast<std::size_t>(number - world::kLowestSection)];
     }
     FieldBrick& brick(int index) { return bricks_[static_cast<std::size_t>(index)]; }
-    FieldBrick& brick(int chunk, int number) { return brick(indexOf(chunk, number)); }
+    int brickCount() const { return static_cast<int>(bricks_.size()); }  // brick 0 included
 
     void markRow(int index, int row) {
+        if (index == 0) return;
         FieldBrick& b = brick(index);
-        if (!b.isInside) return;
         b.dirty[static_cast<std::size_t>(row >> 6)] |= std::uint64_t{1} << (row & 63);
         enqueue(index);
     }
@@ -60,7 +69,7 @@ class LightField {
     // Returns the brick's values for writing; copies them first if they are owned elsewhere.
     LightValue* writable(FieldBrick& brick);
 
-    // Returns the next brick with marked rows, or -1. Its rows stay marked.
+    // Returns the next brick with marked rows, or 0. Its rows stay marked.
     int popDirty();
 
     BrickPool& pool() { return pool_; }
@@ -72,8 +81,11 @@ class LightField {
         b.isQueued = true;
         queue_.push_back(index);
     }
+    void link(int index, Side side, int chunk, int number);
 
-    std::array<FieldBrick, kStepZ*(world::kSectionsPerChunk + 2)> bricks_;
+    std::vector<FieldBrick> bricks_;
+    // By chunk and section: 4.6 KB, of which a reset touches the entries in use.
+    std::array<std::array<std::int16_t, world::kMostSections>, kFieldChunks> indices_{};
     std::vector<int> queue_;
     std::size_t queueHead_ = 0;
     BrickPool pool_;

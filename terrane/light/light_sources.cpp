@@ -40,8 +40,9 @@ BrickView brickOf(const Section& section, BrickPool& pool, Property property) {
     std::array<Section::Value, 256> mapped;  // a palette has at most 256 entries
     const auto end =
         std::transform(section.palette().begin(), section.palette().end(), mapped.begin(), property);
-    if (std::all_of(mapped.begin(), end, [&](auto value) { return value == mapped[0]; }))
-        return pool.uniform(mapped[0]);
+    const Section::Value first = property(section.palette()[0]);
+    if (std::all_of(mapped.begin(), end, [&](auto value) { return value == first; }))
+        return pool.uniform(first);
     Brick* brick = pool.acquire();
     section.unpackMapped(std::span(mapped.begin(), end), valuesOf(*brick));
     return {brick->values.data(), brick->values.data(), false};
@@ -51,36 +52,80 @@ bool areAll(const DaylightColumns& columns, LightValue value) {
     return std::all_of(columns.begin(), columns.end(), [&](LightValue v) { return v == value; });
 }
 
+// The daylight that comes down the columns of a chunk.
+struct Daylight {
+    DaylightColumns columns;
+    bool isEven = true;  // the same in all columns
+
+    bool isDark() const { return isEven && columns[0] == kDark; }
+};
+
 // Emission of the section and the daylight that reaches it straight from above.
-BrickView sourcesOf(BrickView emission, BrickView opacity, DaylightColumns& columns, BrickPool& pool) {
-    if (areAll(columns, kDark)) return emission;
+BrickView sourcesOf(BrickView emission, BrickView opacity, Daylight& daylight, BrickPool& pool) {
+    DaylightColumns& columns = daylight.columns;
+    if (daylight.isDark()) return emission;
     const bool isClear = opacity.isUniform && opacity.uniformValue() == allComponents(0);
-    if (isClear && emission.isUniform && areAll(columns, columns[0]))
+    if (isClear && emission.isUniform && daylight.isEven)
         return pool.uniform(static_cast<LightValue>(emission.uniformValue() | columns[0]));
     if (opacity.isUniform && opacity.uniformValue() == allComponents(kMaxLevel)) {
         columns.fill(kDark);
+        daylight.isEven = true;
         return emission;
     }
     LightValue* light = emission.writable ? emission.writable : pool.acquire()->values.data();
     propagateSunlight(opacity.values, emission.values, columns, light);
+    daylight.isEven = areAll(columns, columns[0]);
     return {light, light, false};
+}
+
+bool areSame(const BrickView& a, const BrickView& b) {
+    return a.isUniform && b.isUniform && a.uniformValue() == b.uniformValue();
+}
+
+ChunkBricks findBricks(const world::Chunk& chunk, const LightTable& table, BrickPool& pool,
+                       bool isSunlitOnly) {
+    ChunkBricks bricks;
+    Daylight daylight;
+    daylight.columns.fill(kFullDaylight);
+    const Section* above = nullptr;
+    for (int number = chunk.heights().endSection() - 1; number >= chunk.heights().firstSection(); --number) {
+        if (isSunlitOnly && daylight.isDark()) break;
+        const Section& section = chunk.section(number);
+        // Two equal sections of one kind of block have the same light if daylight passes the upper one as it
+        // is; no others of them need to be read.
+        if (above && section.isUniform() && section.isSame(*above) && bricks.back().light.isUniform) {
+            bricks.back().lowest = number;
+            continue;
+        }
+        above = &section;
+        const BrickView opacity = opacityOf(section, table, pool);
+        const BrickView light = sourcesOf(emissionOf(section, table, pool), opacity, daylight, pool);
+        if (!bricks.empty() && areSame(light, bricks.back().light) &&
+            areSame(opacity, bricks.back().opacity)) {
+            bricks.back().lowest = number;
+        } else {
+            bricks.push_back({number, number, light, opacity});
+        }
+    }
+    return bricks;
 }
 
 }  // namespace
 
-ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool, int lowest) {
-    ChunkBricks bricks;
-    DaylightColumns columns;
-    columns.fill(kFullDaylight);
-    for (int number = world::kSectionsPerChunk - 1; number >= lowest; --number) {
-        const auto k = static_cast<std::size_t>(number);
-        const Section& section = chunk.section(number);
-        bricks.opacity[k] = brickOf(section, pool, [&](world::BlockId id) { return table.opacity(id); });
-        const BrickView emission =
-            brickOf(section, pool, [&](world::BlockId id) { return table.emission(id); });
-        bricks.light[k] = sourcesOf(emission, bricks.opacity[k], columns, pool);
-    }
-    return bricks;
+BrickView opacityOf(const Section& section, const LightTable& table, BrickPool& pool) {
+    return brickOf(section, pool, [&](world::BlockId id) { return table.opacity(id); });
+}
+
+BrickView emissionOf(const Section& section, const LightTable& table, BrickPool& pool) {
+    return brickOf(section, pool, [&](world::BlockId id) { return table.emission(id); });
+}
+
+ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool) {
+    return findBricks(chunk, table, pool, false);
+}
+
+ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool) {
+    return findBricks(chunk, table, pool, true);
 }
 
 }  // namespace terrane::light

@@ -2,8 +2,6 @@
 // its columns. It is a part of LocalLight (light_chunk.h); any thread may use it.
 #pragma once
 
-#include <array>
-#include <memory>
 #include <vector>
 
 #include "terrane/light/brick.h"
@@ -34,12 +32,22 @@ class LightTable {
     world::BlockId missing_;
 };
 
-// Sixteen bricks of a chunk. The function that fills it states who owns the values.
-struct ChunkBricks {
-    std::array<BrickView, world::kSectionsPerChunk> light, opacity;
+// A brick of a chunk, or several with the same uniform light and opacity, one above the other.
+struct BrickRun {
+    int highest = 0, lowest = 0;  // numbers of their sections
+    BrickView light, opacity;
 };
 
-// Fills bricks from number `lowest` on; those below stay empty. The pool owns the bricks that are not shared.
-ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool, int lowest = 0);
+// The bricks of a chunk from its top to its bottom. The function that fills them states who owns the values.
+using ChunkBricks = std::vector<BrickRun>;
+
+// Returns the sources of a chunk. The pool owns the bricks that are not shared.
+ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool);
+
+// The same down to the lowest brick that daylight enters straight from above. Below, the source is emission.
+ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool);
+
+BrickView emissionOf(const world::Section& section, const LightTable& table, BrickPool& pool);
+BrickView opacityOf(const world::Section& section, const LightTable& table, BrickPool& pool);
 
 }  // namespace terrane::light

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cstring>
-#include <functional>
 #include <map>
+#include <optional>
 
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
@@ -16,49 +16,31 @@ namespace {
 
 // The bricks that the changes can reach: in chunks firstX…lastX, firstY…lastY (0…2), bricks lowest…highest.
 struct Range {
-    int firstX = 1, lastX = 1, firstY = 1, lastY = 1, lowest = world::kSectionsPerChunk, highest = -1;
+    int firstX = 1, lastX = 1, firstY = 1, lastY = 1, lowest = 0, highest = -1;
+
+    bool contains(int chunk, int number) const {
+        const int x = chunk % kFieldSide, y = chunk / kFieldSide;
+        return x >= firstX && x <= lastX && y >= firstY && y <= lastY && number >= lowest &&
+               number <= highest;
+    }
 };
 
-Range rangeOf(std::span<const SourceChange> changes) {
+Range rangeOf(std::span<const SourceChange> changes, world::Heights heights) {
     Range range;
+    if (changes.empty()) return range;
+    int lowest = heights.top, highest = heights.bottom;
     for (const SourceChange& change : changes) {
         const int x = change.index & 15, y = change.index >> 4 & 15, z = change.index >> 8;
         if (x < kMaxLevel) range.firstX = 0;
         if (x + kMaxLevel >= world::kChunkSize) range.lastX = 2;
         if (y < kMaxLevel) range.firstY = 0;
         if (y + kMaxLevel >= world::kChunkSize) range.lastY = 2;
-        range.lowest = std::min(range.lowest, std::max(0, z - kMaxLevel) >> 4);
-        range.highest = std::max(range.highest, std::min(world::kChunkHeight - 1, z + kMaxLevel) >> 4);
+        lowest = std::min(lowest, z);
+        highest = std::max(highest, z);
     }
+    range.lowest = heights.clamp(lowest - kMaxLevel) >> 4;
+    range.highest = heights.clamp(highest + kMaxLevel) >> 4;
     return range;
-}
-
-// Calls f(chunk, brick) for bricks in range whose chunk and light are known.
-template <class Function>
-void forEachBrick(const LightWindow& window, const Range& range, Function f) {
-    for (int cy = range.firstY; cy <= range.lastY; ++cy) {
-        for (int cx = range.firstX; cx <= range.lastX; ++cx) {
-            const int chunk = cx + kFieldSide * cy;
-            if (!window.chunks[static_cast<std::size_t>(chunk)]) continue;
-            if (!window.lights[static_cast<std::size_t>(chunk)]) continue;
-            for (int brick = range.lowest; brick <= range.highest; ++brick) f(chunk, brick);
-        }
-    }
-}
-
-// Fills `decreaseQueue` with the old light and the new sources, without decreases.
-void load(const LightWindow& window, const Range& range, const LightTable& table, LightField& decreaseQueue) {
-    std::array<ChunkBricks, kFieldChunks> sources;
-    forEachBrick(window, range, [&](int chunk, int number) {
-        const auto c = static_cast<std::size_t>(chunk), n = static_cast<std::size_t>(number);
-        if (number == range.lowest)
-            sources[c] = findSources(*window.chunks[c], table, decreaseQueue.pool(), range.lowest);
-        FieldBrick& brick = decreaseQueue.brick(chunk, number);
-        brick.opacity = sources[c].opacity[n].values;
-        brick.source = sources[c].light[n].values;
-        brick.before = decreaseQueue.pool().unpack(window.lights[c]->brick(number)).values;
-        brick.isInside = true;
-    });
 }
 
 // Levels of a changed voxel to remove: those that lost their source, or where the block became more opaque.
@@ -72,82 +54,235 @@ LightValue decreasedLevels(const SourceChange& change, LightValue before) {
     return decreased;
 }
 
-int fieldIndexOf(const SourceChange& change) {
-    return LightField::indexOf(kCenterChunk, change.index >> 12);
+LightValue brighterOf(LightValue a, LightValue b) {
+    for (int c = 0; c < kComponentCount; ++c) a = withLevel(a, c, std::max(levelOf(a, c), levelOf(b, c)));
+    return a;
 }
 
-void findDecreases(std::span<const SourceChange> changes, LightField& decreaseQueue) {
-    for (const SourceChange& change : changes) {
-        const int index = fieldIndexOf(change), voxel = change.index & 4095;
-        FieldBrick& brick = decreaseQueue.brick(index);
-        const LightValue found = decreasedLevels(change, brick.before[voxel]);
-        if (found == 0) continue;
-        decreaseQueue.writable(brick)[voxel] = found;
-        decreaseQueue.markAround(index, voxel);
+// Sides of a brick, a bit each.
+using Sides = unsigned;
+
+// The sides that a voxel lies on.
+Sides sidesOf(int voxel) {
+    Sides sides = 0;
+    for (const int axis : {0, 1, 2}) {
+        const int at = voxel >> 4 * axis & 15;
+        if (at == 0) sides |= 1u << 2 * axis;
+        if (at == 15) sides |= 2u << 2 * axis;
     }
-    propagateDecreases(decreaseQueue);
+    return sides;
 }
 
-void markRows(const LightValue* decreased, int index, LightField& field) {
+// Marks the rows with decreased levels and returns the sides on which they lie.
+Sides markRows(const LightValue* decreased, int index, LightField& field) {
+    Sides sides = 0;
     for (int row = 0; row < kRowsPerBrick; ++row) {
-        const LightValue* values = decreased + 16 * row;
-        if (std::any_of(values, values + 16, [](LightValue v) { return v != 0; })) field.markRow(index, row);
+        std::array<std::uint64_t, 4> words;  // of four voxels
+        std::memcpy(words.data(), decreased + 16 * row, sizeof(words));
+        if ((words[0] | words[1] | words[2] | words[3]) == 0) continue;
+        field.markRow(index, row);
+        // Without its ends a row lies on no side in x.
+        sides |= sidesOf(16 * row + 8);
+        if (decreased[16 * row] != 0) sides |= 1u << kWest;
+        if (decreased[16 * row + 15] != 0) sides |= 1u << kEast;
     }
+    return sides;
 }
 
-// Fills `field` with the light that stays: the old light without the decreased levels, with the new sources.
-void keepCertain(const LightWindow& window, const Range& range, LightField& decreaseQueue,
-                 LightField& field) {
-    forEachBrick(window, range, [&](int chunk, int number) {
-        const int index = LightField::indexOf(chunk, number);
-        const FieldBrick& from = decreaseQueue.brick(index);
-        FieldBrick& to = field.brick(index);
-        to.opacity = from.opacity;
-        to.isInside = true;
-        to.light = {from.before, nullptr, false};
-        if (!from.light.writable) return;
-        LightValue* light = field.pool().acquire()->values.data();
-        replaceDecreased(from.light.values, from.source, from.before, light);
-        to.light = {light, light, false};
-        markRows(from.light.values, index, field);
-    });
-}
+// One change of the light of 3×3 chunks. Bricks are unpacked when light is first removed or raised in them.
+// Until then they lie in the fields as dark ones beside those that change. This hides their light, which does
+// not matter to a voxel beside them: it was raised to that light long ago, unless it is decreased or lets
+// more light in than before. The bricks beside such voxels are unpacked too.
+class Relighter {
+  public:
+    Relighter(LightWindow& window, std::span<const SourceChange> changes, const LightTable& table,
+              LightScratch& scratch)
+        : window_(window),
+          changes_(changes),
+          table_(table),
+          decreases_(scratch.decreaseQueue),
+          field_(scratch.field),
+          range_(rangeOf(changes, window.chunks[kCenterChunk]->heights())) {
+        decreases_.reset();
+        field_.reset();
+    }
 
-void raiseSources(std::span<const SourceChange> changes, LightField& field) {
-    for (const SourceChange& change : changes) {
-        const int index = fieldIndexOf(change), voxel = change.index & 4095;
-        FieldBrick& brick = field.brick(index);
-        LightValue light = brick.light.values[voxel];
-        for (int c = 0; c < kComponentCount; ++c)
-            light = withLevel(light, c, std::max(levelOf(light, c), levelOf(change.sourceAfter, c)));
-        if (light != brick.light.values[voxel]) {
-            field.writable(brick)[voxel] = light;
-            field.markAround(index, voxel);
-        } else if (change.isBlock) {
-            field.markRow(index, voxel >> 4);  // more light may enter than before
+    ChangedBricks run() {
+        findDecreases();
+        keepCertain();
+        raiseSources();
+        return store();
+    }
+
+  private:
+    bool isInside(int chunk, int number) const {
+        const auto c = static_cast<std::size_t>(chunk);
+        return range_.contains(chunk, number) && window_.chunks[c] && window_.lights[c];
+    }
+    const LightBrick& lightBefore(int chunk, int number) const {
+        return window_.lights[static_cast<std::size_t>(chunk)]->brick(number);
+    }
+    const world::Section& section(int chunk, int number) const {
+        return window_.chunks[static_cast<std::size_t>(chunk)]->section(number);
+    }
+
+    static int findOrAdd(LightField& field, int chunk, int number) {
+        const int found = field.find(chunk, number);
+        return found != 0 ? found : field.add(chunk, number);
+    }
+    // Adds the bricks inside on all sides of one.
+    void addBeside(LightField& field, int index) {
+        const int chunk = field.brick(index).chunk, number = field.brick(index).number;
+        const auto add = [&](int other, int otherNumber) {
+            if (isInside(other, otherNumber)) findOrAdd(field, other, otherNumber);
+        };
+        if (chunk % kFieldSide > 0) add(chunk - 1, number);
+        if (chunk % kFieldSide + 1 < kFieldSide) add(chunk + 1, number);
+        if (chunk >= kFieldSide) add(chunk - kFieldSide, number);
+        if (chunk + kFieldSide < kFieldChunks) add(chunk + kFieldSide, number);
+        add(chunk, number - 1);
+        add(chunk, number + 1);
+    }
+
+    // Prepares a brick of the decrease queue for decreases.
+    void prepareDecrease(int index) {
+        if (decreases_.brick(index).opacity) return;
+        addBeside(decreases_, index);
+        FieldBrick& brick = decreases_.brick(index);
+        brick.opacity = opacityOf(section(brick.chunk, brick.number), table_, decreases_.pool()).values;
+        brick.source = sourceOf(brick.chunk, brick.number);
+        brick.before = decreases_.pool().unpack(lightBefore(brick.chunk, brick.number)).values;
+    }
+    // Sources of the changed world. Without daylight where the brick had none: no daylight is removed there.
+    const LightValue* sourceOf(int chunk, int number) {
+        const bool wasWithoutDaylight =
+            lightBefore(chunk, number).surelyAll([](LightValue v) { return levelOf(v, kDaylight) == 0; });
+        if (!wasWithoutDaylight) {
+            const auto c = static_cast<std::size_t>(chunk);
+            if (!sunlit_[c]) sunlit_[c] = findSunlitSources(*window_.chunks[c], table_, decreases_.pool());
+            const auto found = std::partition_point(sunlit_[c]->begin(), sunlit_[c]->end(),
+                                                    [&](const BrickRun& run) { return run.lowest > number; });
+            if (found != sunlit_[c]->end()) return found->light.values;
+        }
+        return emissionOf(section(chunk, number), table_, decreases_.pool()).values;
+    }
+
+    void findDecreases() {
+        for (const SourceChange& change : changes_) {
+            const int number = world::sectionOf(change.index), voxel = world::indexInSection(change.index);
+            const LightValue found = decreasedLevels(change, window_.lights[kCenterChunk]->at(change.index));
+            if (found == 0) continue;
+            const int index = findOrAdd(decreases_, kCenterChunk, number);
+            prepareDecrease(index);
+            decreases_.writable(decreases_.brick(index))[voxel] = found;
+            decreases_.markAround(index, voxel);
+        }
+        for (int index = decreases_.popDirty(); index != 0; index = decreases_.popDirty()) {
+            prepareDecrease(index);
+            decreaseBrick(decreases_, index);
         }
     }
-    raiseLight(field);
-}
 
-ChangedBricks store(LightWindow& window, const Range& range, LightField& decreaseQueue, LightField& field) {
-    ChangedBricks changed{};
-    std::array<std::shared_ptr<ChunkLight>, kFieldChunks> copies;
-    forEachBrick(window, range, [&](int chunk, int number) {
-        const int index = LightField::indexOf(chunk, number);
-        const LightValue* light = field.brick(index).light.values;
-        const LightValue* before = decreaseQueue.brick(index).before;
-        if (light == before || std::memcmp(light, before, sizeof(Brick)) == 0) return;
-        const auto c = static_cast<std::size_t>(chunk);
-        if (!copies[c]) copies[c] = std::make_shared<ChunkLight>(*window.lights[c]);
-        copies[c]->setBrick(number, packBrick({light, nullptr, false}));
-        changed[c] = static_cast<std::uint16_t>(changed[c] | 1 << number);
-    });
-    for (std::size_t c = 0; c < copies.size(); ++c) {
-        if (copies[c]) window.lights[c] = std::move(copies[c]);
+    // Unpacks the light that stays: the old light, or what keepCertain() has put into the place of decreases.
+    void openLight(int index) {
+        FieldBrick& brick = field_.brick(index);
+        if (brick.before) return;
+        const int decreased = decreases_.find(brick.chunk, brick.number);
+        if (decreased != 0 && decreases_.brick(decreased).before) {
+            const FieldBrick& from = decreases_.brick(decreased);
+            LightValue* kept = from.light.writable;
+            brick.before = from.before;
+            brick.light = {kept ? kept : from.before, kept, false};
+        } else {
+            brick.light = field_.pool().unpack(lightBefore(brick.chunk, brick.number));
+            brick.before = brick.light.values;
+        }
     }
-    return changed;
-}
+    // Prepares a brick of the field for raising.
+    void prepareRaise(int index) {
+        openLight(index);
+        if (field_.brick(index).opacity) return;
+        addBeside(field_, index);
+        FieldBrick& brick = field_.brick(index);
+        const int decreased = decreases_.find(brick.chunk, brick.number);
+        const LightValue* known = decreased == 0 ? nullptr : decreases_.brick(decreased).opacity;
+        brick.opacity =
+            known ? known : opacityOf(section(brick.chunk, brick.number), table_, field_.pool()).values;
+    }
+    void openBeside(int index, Sides sides) {
+        for (std::size_t side = 0; side < kSideCount; ++side) {
+            const int beside = field_.brick(index).beside[side];
+            if ((sides >> side & 1) != 0 && beside != 0) openLight(beside);
+        }
+    }
+
+    // Replaces the decreased levels by the new sources.
+    void keepCertain() {
+        for (int k = 1; k < decreases_.brickCount(); ++k) {
+            const FieldBrick& from = decreases_.brick(k);
+            LightValue* decreased = from.light.writable;
+            if (!decreased) continue;
+            const int index = findOrAdd(field_, from.chunk, from.number);
+            prepareRaise(index);
+            const Sides sides = markRows(decreased, index, field_);
+            replaceDecreased(decreased, from.source, from.before, decreased);
+            openBeside(index, sides);
+        }
+    }
+
+    void raiseSources() {
+        for (const SourceChange& change : changes_) {
+            const int number = world::sectionOf(change.index), voxel = world::indexInSection(change.index);
+            const int found = field_.find(kCenterChunk, number);
+            const bool isOpen = found != 0 && field_.brick(found).before;
+            const LightValue before = isOpen ? field_.brick(found).light.values[voxel]
+                                             : window_.lights[kCenterChunk]->at(change.index),
+                             light = brighterOf(before, change.sourceAfter);
+            if (light == before && !change.isBlock) continue;
+            const int index = findOrAdd(field_, kCenterChunk, number);
+            prepareRaise(index);
+            if (light != before) {
+                field_.writable(field_.brick(index))[voxel] = light;
+                field_.markAround(index, voxel);
+            } else {
+                field_.markRow(index, voxel >> 4);
+            }
+            if (change.isBlock) openBeside(index, sidesOf(voxel));  // more light may enter than before
+        }
+        for (int index = field_.popDirty(); index != 0; index = field_.popDirty()) {
+            prepareRaise(index);
+            raiseBrick(field_, index);
+        }
+    }
+
+    ChangedBricks store() {
+        ChangedBricks changed{};
+        std::array<std::shared_ptr<ChunkLight>, kFieldChunks> copies;
+        for (int k = 1; k < field_.brickCount(); ++k) {
+            const FieldBrick& brick = field_.brick(k);
+            const LightValue* light = brick.light.values;
+            if (!brick.before || light == brick.before ||
+                std::memcmp(light, brick.before, sizeof(Brick)) == 0)
+                continue;
+            const auto c = static_cast<std::size_t>(brick.chunk);
+            if (!copies[c]) copies[c] = std::make_shared<ChunkLight>(*window_.lights[c]);
+            copies[c]->setBrick(brick.number, packBrick({light, nullptr, false}));
+            changed[c].add(brick.number);
+        }
+        for (std::size_t c = 0; c < copies.size(); ++c) {
+            if (copies[c]) window_.lights[c] = std::move(copies[c]);
+        }
+        return changed;
+    }
+
+    LightWindow& window_;
+    std::span<const SourceChange> changes_;
+    const LightTable& table_;
+    LightField &decreases_, &field_;
+    Range range_;
+    // By chunk: sources of the bricks that daylight enters from above, once they are needed.
+    std::array<std::optional<ChunkBricks>, kFieldChunks> sunlit_;
+};
 
 }  // namespace
 
@@ -157,14 +292,7 @@ ChangedBricks relight(LightWindow& window, std::span<const BlockChange> changes,
     base::require(window.chunks[kCenterChunk] && window.lights[kCenterChunk],
                   "relight: the changed chunk, in the middle, or its light is null");
     const std::vector<SourceChange> sources = findSourceChanges(*window.chunks[kCenterChunk], changes, table);
-    const Range range = rangeOf(sources);
-    scratch.field.reset();
-    scratch.decreaseQueue.reset();
-    load(window, range, table, scratch.decreaseQueue);
-    findDecreases(sources, scratch.decreaseQueue);
-    keepCertain(window, range, scratch.decreaseQueue, scratch.field);
-    raiseSources(sources, scratch.field);
-    return store(window, range, scratch.decreaseQueue, scratch.field);
+    return Relighter(window, sources, table, scratch).run();
 }
 
 std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::BlockEdit> edits,
@@ -173,7 +301,7 @@ std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::Block
     for (const world::BlockEdit& edit : edits)
         byChunk[world::chunkOf(edit.pos)].push_back({world::blockIndex(edit.pos), edit.before});
 
-    std::map<world::ChunkPos, std::uint16_t> changed;
+    std::map<world::ChunkPos, world::SectionSet> changed;
     for (const auto& [pos, changes] : byChunk) {
         LightWindow window;
         std::array<LitChunk*, kFieldChunks> around{};
@@ -191,9 +319,9 @@ std::vector<LightChange> relight(LitChunks& chunks, std::span<const world::Block
         if (!window.chunks[kCenterChunk] || !window.lights[kCenterChunk]) continue;
         const ChangedBricks bricks = relight(window, changes, table, scratch);
         for (std::size_t k = 0; k < around.size(); ++k) {
-            if (bricks[k] == 0) continue;
+            if (bricks[k].isEmpty()) continue;
             around[k]->light = std::move(window.lights[k]);
-            changed[offset(k)] = static_cast<std::uint16_t>(changed[offset(k)] | bricks[k]);
+            changed[offset(k)] |= bricks[k];
         }
     }
     std::vector<LightChange> result;
@@ -206,13 +334,24 @@ namespace {
 // Appends the changes of one column. `changes` are all in it, highest first.
 void addColumn(const world::Chunk& chunk, std::span<const BlockChange> changes, const LightTable& table,
                std::vector<SourceChange>& result) {
-    constexpr int kLayer = world::kChunkSize * world::kChunkSize;
+    const world::Heights heights = chunk.heights();
     int dayBefore = kMaxLevel, dayAfter = kMaxLevel;
     auto next = changes.begin();
-    const int column = next->index % kLayer;
-    for (int z = world::kChunkHeight - 1; z >= 0; --z) {
-        if (next == changes.end() && dayBefore == dayAfter) return;
-        const auto index = static_cast<world::BlockIndex>(column + kLayer * z);
+    const int column = next->index & (world::kBlocksPerLayer - 1);
+    for (int z = heights.top - 1; z >= heights.bottom; --z) {
+        // The world below the changes is as it was, and so is the dark down to the next of them.
+        if (dayBefore == dayAfter) {
+            if (next == changes.end()) return;
+            if (dayAfter == 0) z = next->index >> 8;
+        }
+        // Clear sections above the next change let daylight through.
+        const world::Section& section = chunk.section(z >> 4);
+        if (dayBefore == dayAfter && section.isUniform() && z >> 4 > next->index >> 12 &&
+            table.opacity(section.uniformValue()) == allComponents(0)) {
+            z &= ~(world::kSectionSize - 1);
+            continue;
+        }
+        const world::BlockIndex index = column + world::kBlocksPerLayer * z;
         const world::BlockId after = chunk.block(index);
         const bool isBlock = next != changes.end() && next->index == index;
         const world::BlockId before = isBlock ? (next++)->before : after;
@@ -234,7 +373,9 @@ void addColumn(const world::Chunk& chunk, std::span<const BlockChange> changes, 
 std::vector<SourceChange> findSourceChanges(const world::Chunk& chunk, std::span<const BlockChange> changes,
                                             const LightTable& table) {
     std::vector<BlockChange> sorted(changes.begin(), changes.end());
-    const auto columnOf = [](const BlockChange& change) { return change.index & 255; };
+    const auto columnOf = [](const BlockChange& change) {
+        return change.index & (world::kBlocksPerLayer - 1);
+    };
     std::sort(sorted.begin(), sorted.end(), [&](const BlockChange& a, const BlockChange& b) {
         return columnOf(a) != columnOf(b) ? columnOf(a) < columnOf(b) : a.index > b.index;
     });

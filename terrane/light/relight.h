@@ -1,9 +1,9 @@
-// Updates light after blocks have changed: only the changed light is computed again. The result is, to the
-// bit, that of a world lit from scratch. Any thread: reads immutable snapshots and makes new ones.
+// Updates light after blocks have changed: only the changed light is computed again, and only the bricks that
+// it reaches are unpacked. The result is, to the bit, that of a world lit from scratch. Any thread: reads
+// immutable snapshots and makes new ones.
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <span>
 #include <unordered_map>
 #include <vector>
@@ -11,6 +11,7 @@
 #include "terrane/light/light_chunk.h"
 #include "terrane/light/light_sources.h"
 #include "terrane/world/changes/block_edit.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::light {
 
@@ -20,15 +21,15 @@ struct BlockChange {
     world::BlockId before = world::kAir;
 };
 
-// 3×3 chunks, index x + 3 y. A chunk where either is null is unknown: it counts as dark and opaque, and light
-// from or through it is lost.
+// 3×3 chunks of the same heights, index x + 3 y. A chunk where either is null is unknown: it counts as dark
+// and opaque, and light from or through it is lost.
 struct LightWindow {
     std::array<const world::Chunk*, kFieldChunks> chunks{};  // with the changes
     std::array<ChunkLightPtr, kFieldChunks> lights{};        // without them
 };
 
-// Bit k of entry c: brick k of chunk c changed.
-using ChangedBricks = std::array<std::uint16_t, kFieldChunks>;
+// By chunk.
+using ChangedBricks = std::array<world::SectionSet, kFieldChunks>;
 
 // Replaces the lights that change by new ones, which share nothing with the old. A block that changed several
 // times is listed in `changes` once, with its first id.
@@ -45,7 +46,7 @@ using LitChunks = std::unordered_map<world::ChunkPos, LitChunk, world::ChunkPosH
 
 struct LightChange {
     world::ChunkPos pos;
-    std::uint16_t bricks = 0;  // a bit each
+    world::SectionSet bricks;
 };
 
 // Brings the lights of `chunks`, which have the new blocks of all edits, up to date. Edits in chunks that are

@@ -40,7 +40,7 @@ std::size_t GpuBatchLighter::submit(std::span<const light::LightRequest> request
     if (workspace == impl_->workspaces.end() || requests.empty()) return 0;
     const auto most = requests.first(std::min(requests.size(), kMaxRequests));
     for (const light::LightRequest& request : most) light::requireLevel0(request);
-    const LightBatch batch = gatherBatch(most);
+    const LightBatch batch = gatherBatch(most, impl_->table);
     workspace->start(impl_->programs, batch, impl_->table);
     impl_->inFlight.push_back(&*workspace);
     return batch.requested.size();

@@ -15,18 +15,19 @@ namespace terrane::light_gpu {
 class GpuBatchLighter : public light::BatchLighter {
   public:
     // Creates the lighter. Each of three batches in flight takes GPU memory, sized for the largest batch so
-    // far: 133 KB a solved chunk (requests and their neighbors), 131 KB a request, and the blocks. Example:
-    // 64 requests in a square have 100 solved chunks; rounded up to 128 they take 25 MB. The most, 256
-    // requests and 324 chunks rounded up to 384, takes 85 MB. Creates the solver; Creates the solver; `table`
-    // outlives it.
+    // far: 8.3 KB a solved section of a solved chunk (requests and their neighbors), 8.2 KB a solved section
+    // of a request, and the blocks. Sections of open sky and of rock are not solved (LightBatch::sections).
+    // Example: 64 requests in a square have 100 solved chunks; with 10 sections each they take 14 MB. The
+    // most, 8,191 sections, takes 136 MB. `table` outlives it.
     [[nodiscard]] static base::Result<GpuBatchLighter> create(const gpu::ShaderLoader& shaders,
                                                               const light::LightTable& table);
     GpuBatchLighter(GpuBatchLighter&&) noexcept;
     GpuBatchLighter& operator=(GpuBatchLighter&&) noexcept;
     ~GpuBatchLighter() override;
 
-    // Accepts up to 256 requests with up to 324 chunks in all. A batch ends before a request that has another
-    // snapshot of a chunk than those before it, or that requests the same chunk again.
+    // Accepts up to 256 requests with up to 324 chunks in all, or fewer where they have more than 25 solved
+    // sections. A batch ends before a request that has another snapshot of a chunk than those before it, or
+    // that requests the same chunk again.
     [[nodiscard]] std::size_t submit(std::span<const light::LightRequest> requests) override;
     // Returns finished results. Light in winding tunnels may need more rounds than a batch has; then several
     // calls without `wait` return nothing.

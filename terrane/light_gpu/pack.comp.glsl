@@ -2,7 +2,6 @@
 // group packs one brick of a requested chunk; these come first. While light tiles are left that could change, only
 // their number is written.
 #include "terrane/light_gpu/light_tiles.glsl"
-#include "terrane/light_gpu/solver_state.glsl"
 
 layout(local_size_x = 256) in;
 
@@ -36,11 +35,11 @@ void packBrick(uint local) {
     bool isUniform = allLight == anyLight && (allLight & 0xFFFFu) == allLight >> 16;
     if (local == 0u) {
         brick = isUniform ? kBrickUniformBit | (allLight & 0xFFFFu) : atomicAdd(brickCount, 1u);
-        result[resultEntry(gl_WorkGroupID.x, gl_WorkGroupID.y)] = brick;
+        result[resultEntry(gl_WorkGroupID.x, gl_WorkGroupID.y, sectionCount)] = brick;
     }
     barrier();
     if (isUniform) return;
-    uint first = resultWords(gl_NumWorkGroups.x, brick);
+    uint first = resultWords(gl_NumWorkGroups.x * sectionCount, brick);
     for (uint k = local; k < kBrickWords; k += 256u) result[first + k] = wordOfBrick(k);
 }
 

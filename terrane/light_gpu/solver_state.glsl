@@ -2,4 +2,7 @@
 layout(std430, binding = kSolverStateBinding) buffer State {
     SolverRound rounds[kSolverRounds + 1u];  // the last one is the first of the next submission
     uint brickCount;                         // in the result
+    // No uniforms: zink of Mesa 22.3 keeps old values of uniforms that bound loops.
+    uint chunkCount;
+    uint sectionCount;  // of a chunk
 };

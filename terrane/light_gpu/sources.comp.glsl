@@ -1,4 +1,4 @@
-// Sets the first levels: emission, and daylight that comes down each column. A work group has a chunk, an invocation
+// Sets the first levels: emission, and daylight that comes down each column. Above the solved sections is open sky. A work group has a chunk, an invocation
 // the two columns of a word.
 #include "terrane/light_gpu/light_tiles.glsl"
 
@@ -41,7 +41,7 @@ void main() {
     barrier();
     daylight[0] = 15u;
     daylight[1] = 15u;
-    for (uint layer = kLightTilesHigh; layer-- > 0u;) {
+    for (uint layer = 2u * sectionCount; layer-- > 0u;) {
         uint turn = layer & 1u, all = 0xFFFFFFFFu, any = 0u, opacities = 15u;
         uint tile = tileIndex(chunk, uvec3(at.x / 4u, at.y / 8u, layer));
         for (uint k = kLightTileSize; k-- > 0u;) {

@@ -7,7 +7,7 @@
 
 layout(local_size_x = 256) in;
 
-layout(location = 1) uniform uint thisRound;  // counted over all submissions
+layout(location = 0) uniform uint thisRound;  // counted over all submissions
 
 // The tile with a halo of one word: x fastest, 6 × 10 × 10 words.
 const uint kHaloRow = 6u, kHaloLayer = 60u, kHaloWords = 600u;
@@ -29,11 +29,10 @@ uint wordAround(uint tile, uint place) {
     return levels[wordIndex(from, uvec3(word & ivec3(3, 7, 7)))];
 }
 
-uint lossHere(uint tile, uvec3 word) {
-    uint chunk = tile / kLightTilesPerChunk;
+uint lossHere(TilePlace tile, uvec3 word) {
     uvec3 block = tileCorner(tile) + uvec3(2u * word.x, word.yz);
-    uint low = lossOfOpacity(opacityOf(propertyAt(chunk, block)));
-    uint high = lossOfOpacity(opacityOf(propertyAt(chunk, block + uvec3(1u, 0u, 0u))));
+    uint low = lossOfOpacity(opacityOf(propertyAt(tile.chunk, block)));
+    uint high = lossOfOpacity(opacityOf(propertyAt(tile.chunk, block + uvec3(1u, 0u, 0u))));
     return low * 0x0101u | high * 0x01010000u;
 }
 
@@ -63,9 +62,10 @@ void listTile(uint tile) {
 }
 
 void main() {
-    uint local = gl_LocalInvocationIndex, tile = tileOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
+    TilePlace place = tileOfList(thisRound % kSolverRounds, gl_WorkGroupID.x);
+    uint local = gl_LocalInvocationIndex, tile = indexOf(place);
     uvec3 word = uvec3(local & 3u, local >> 2 & 7u, local >> 5);
-    if (local < 6u) tilesBeside[local] = tileBeside(tile, local);
+    if (local < 6u) tilesBeside[local] = tileBeside(place, local);
     if (local < 3u) changed[local] = 0u;
     if (local == 3u) raisedSides = 0u;
     barrier();
@@ -73,7 +73,7 @@ void main() {
     barrier();
 
     uint at = word.x + 1u + kHaloRow * (word.y + 1u) + kHaloLayer * (word.z + 1u);
-    uint loss = lossHere(tile, word), first = tileWithHalo[at], now = first;
+    uint loss = lossHere(place, word), first = tileWithHalo[at], now = first;
     for (uint turn = 0u;; turn = (turn + 1u) % 3u) {
         uint next = raised(now, at, loss);
         barrier();  // all have read

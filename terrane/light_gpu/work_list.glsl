@@ -1,7 +1,5 @@
 // Work lists of light tiles that may change in a round, and the neighbors of light tiles. Two lists take turns; the
 // dispatch of a round has a work group for each entry.
-#include "terrane/light_gpu/solver_state.glsl"
-
 layout(std430, binding = kSolverTilesBinding) readonly buffer Tiles {
     uint tiles[];  // summaries: see kTileIsUniform
 };
@@ -14,22 +12,37 @@ layout(std430, binding = kSolverNeighborsBinding) readonly buffer Neighbors {
 
 const uint kNoTile = 0xFFFFFFFFu;
 
-// Light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoTile if unknown.
-uint tileBeside(uint tile, uint side) {
-    bool isUp = (side & 1u) != 0u;
-    if (side >= 4u) {
-        uint z = tile >> 2 & (kLightTilesHigh - 1u);
-        if (z == (isUp ? kLightTilesHigh - 1u : 0u)) return kNoTile;
-        return isUp ? tile + 4u : tile - 4u;
-    }
-    uint axis = side >> 1, other = tile ^ 1u << axis;
-    if (isUp == ((tile >> axis & 1u) == 0u)) return other;  // of the same chunk
-    uint chunk = neighbors[tile / kLightTilesPerChunk][side];
-    return chunk == kNoChunk ? kNoTile : chunk * kLightTilesPerChunk + other % kLightTilesPerChunk;
+// A light tile by its chunk and its number in the chunk.
+struct TilePlace {
+    uint chunk;
+    uint number;
+};
+
+uint indexOf(TilePlace tile) {
+    return tile.chunk * tilesPerChunk() + tile.number;
 }
 
-uint tileOfList(uint list, uint entry) {
-    return lists[(list & 1u) * tileCount() + entry];
+// Corner of a light tile in its chunk, in blocks.
+uvec3 tileCorner(TilePlace tile) {
+    return kLightTileSize * uvec3(tile.number & 1u, tile.number >> 1 & 1u, tile.number >> 2);
+}
+
+// Index of the light tile beyond a side: −x, +x, −y, +y, −z, +z; kNoTile if unknown.
+uint tileBeside(TilePlace tile, uint side) {
+    bool isUp = (side & 1u) != 0u;
+    if (side >= 4u) {
+        if (isUp ? tile.number + 4u >= tilesPerChunk() : tile.number < 4u) return kNoTile;
+        return isUp ? indexOf(tile) + 4u : indexOf(tile) - 4u;
+    }
+    uint axis = side >> 1, other = tile.number ^ 1u << axis;
+    if (isUp == ((tile.number >> axis & 1u) == 0u)) return indexOf(TilePlace(tile.chunk, other));
+    uint chunk = neighbors[tile.chunk][side];
+    return chunk == kNoChunk ? kNoTile : indexOf(TilePlace(chunk, other));
+}
+
+TilePlace tileOfList(uint list, uint entry) {
+    uint tile = lists[(list & 1u) * tileCount() + entry];
+    return TilePlace(tile / tilesPerChunk(), tile % tilesPerChunk());
 }
 
 void addToList(uint list, uint tile) {

@@ -18,9 +18,10 @@ const uint kSolverResultBinding = 7u;
 
 // Levels lie two to a word (the block at the even x in the lower half) in light tiles of 8³ blocks: x
 // fastest, then y, then z, 256 words. A work group raises a light tile, each invocation a word. Light tile k
-// of a chunk is the one at x + 2 y + 4 z.
+// of a chunk is the one at x + 2 y + 4 z. A section has eight of them.
 const uint kLightTileWordsX = 4u;
 const uint kLightTileWords = 256u;
+const uint kLightTilesPerSection = 8u;
 const uint kBrickWords = 2048u;  // 16³ blocks
 
 // Rounds submitted to the GPU at once; even, so that the two work lists keep their turns. Light crosses at
@@ -51,15 +52,15 @@ struct SolverRound {
 const uint kTileIsUniform = 0x10000u;
 const uint kTileIsOpaque = 0x20000u;  // no light gets in
 
-// The result, in words: the number of light tiles left on the list of the last round; if it is 0, sixteen
-// entries a chunk, each the one value of a brick or the number of its words; the words of bricks, kBrickWords
-// each.
+// The result, in words: the number of light tiles left on the list of the last round; if it is 0, an entry
+// for each solved section of each chunk, the one value of its brick or the number of the brick's words; the
+// words of bricks, kBrickWords each.
 const uint kBrickUniformBit = 0x80000000u;
-SHARED_FN uint resultEntry(uint chunk, uint section) {
-    return 1u + chunk * kSectionsPerChunk + section;
+SHARED_FN uint resultEntry(uint chunk, uint section, uint sectionCount) {
+    return 1u + chunk * sectionCount + section;
 }
-SHARED_FN uint resultWords(uint chunkCount, uint brick) {
-    return 1u + chunkCount * kSectionsPerChunk + brick * kBrickWords;
+SHARED_FN uint resultWords(uint entries, uint brick) {
+    return 1u + entries + brick * kBrickWords;
 }
 
 SHARED_END
@@ -68,8 +69,7 @@ SHARED_END
 namespace terrane::shared {
 static_assert(sizeof(SolverRound) == 16);
 static_assert(kLightTileWords == kLightTileWordsX * kLightTileSize * kLightTileSize);
-static_assert(kLightTilesPerChunk * kLightTileWords * 2 == kBlocksPerChunk &&
-              kBrickWords * 2 == kBlocksPerSection);
+static_assert(kLightTilesPerSection * kLightTileWords == kBrickWords && kBrickWords * 2 == kBlocksPerSection);
 }  // namespace terrane::shared
 #endif
 #endif

@@ -5,6 +5,7 @@
 
 #include "terrane/light/light_area.h"
 #include "tests/light/reference_light.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::light {
 

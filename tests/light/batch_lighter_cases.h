@@ -10,7 +10,10 @@
 #include <vector>
 
 #include "terrane/light/batch_lighter.h"
+#include "tests/light/reference_light.h"
+#include "tests/light/tall_worlds.h"
 #include "tests/light/test_area.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::light {
 
@@ -30,9 +33,10 @@ inline ChunkLight directLight(const LightRequest& request) {
 // Chunks of a world whose corner chunk is `corner`. Nothing is known around them.
 class RequestArea {
   public:
-    RequestArea(int sizeX, int sizeY, const TestArea::Source& source, world::ChunkPos corner = {-1, 2})
+    RequestArea(int sizeX, int sizeY, const TestArea::Source& source, world::ChunkPos corner = {-1, 2},
+                world::Heights heights = {})
         : sizeX_(sizeX), sizeY_(sizeY), corner_(corner) {
-        for (world::Chunk& chunk : TestArea(sizeX, sizeY, source).chunks)
+        for (world::Chunk& chunk : TestArea(sizeX, sizeY, source, heights).chunks)
             chunks_.push_back(std::make_shared<world::Chunk>(std::move(chunk)));
     }
 
@@ -165,6 +169,56 @@ inline void expectManyRequestsLit(BatchLighter& lighter) {
     EXPECT_TRUE(found[0].light == expected);
 }
 
+// Worlds of other heights, against the formula. One chunk of some is missing, which is as if it were of
+// stone.
+inline void expectTallWorldsLit(BatchLighter& lighter) {
+    const world::BlockId stone = contentBlock("stone");
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const TallWorld world = tallWorld(seed);
+        const int missing = static_cast<int>(seed % 5);  // 4: none
+        const TestArea::Source source = [&](int x, int y, int z) {
+            return x / 16 + 2 * (y / 16) == missing ? stone : world(x, y, z);
+        };
+        RequestArea area(2, 2, source, {-1, 2}, world.heights);
+        if (missing < 4) area.chunk(missing % 2, missing / 2) = nullptr;
+        std::vector<LightRequest> requests;
+        for (int k = 0; k < 4; ++k)
+            if (k != missing) requests.push_back(area.request(k % 2, k / 2));
+        std::vector<ChunkLight> lights = lightAll(lighter, requests);
+        ASSERT_EQ(lights.size(), requests.size());
+        if (missing < 4) lights.insert(lights.begin() + missing, ChunkLight(world.heights));
+        const TestArea whole(2, 2, source, world.heights);
+        expectReference(whole, whole.flatten(lights), world.heights.top);
+        if (testing::Test::HasFailure()) return;
+    }
+}
+
+// More chunks than fit into one batch where worlds are tall.
+inline void expectManyTallChunksLit(BatchLighter& lighter) {
+    const TallWorld world = tallWorld(3);
+    expectLit(lighter, RequestArea(6, 6, world, {3, -4}, world.heights).all());
+}
+
+// Sections of one value at all heights: only sky, only rock, and both in several layers.
+inline void expectUniformTallWorldsLit(BatchLighter& lighter) {
+    const world::BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_red");
+    const world::Heights heights{-2048, 2048};
+    const auto slabs = [&](int x, int, int z) {
+        return (z + 2048) / 512 % 2 == x / 16 ? stone : world::kAir;
+    };
+    const auto lampsAtEnds = [&](int x, int y, int z) {
+        const bool isEnd = z == -2048 || z == 2047 || z == 15 || z == 16;
+        return isEnd && x == 15 && y == 3 ? lamp : z < 16 ? stone : world::kAir;
+    };
+    for (const TestArea::Source& source : std::initializer_list<TestArea::Source>{
+             [](int, int, int) { return world::kAir; }, [&](int, int, int) { return stone; },
+             [&](int, int, int) { return lamp; },
+             [&](int, int, int z) { return z < 3 ? stone : world::kAir; },
+             [&](int, int, int z) { return z % 1024 == 900 ? stone : 0; }, slabs, lampsAtEnds})
+        expectLit(lighter, RequestArea(2, 1, source, {0, 0}, heights).all());
+}
+
 inline void expectOtherLevelsRefused(BatchLighter& lighter) {
     std::vector<LightRequest> requests = RequestArea(2, 1, layers(80)).all();
     requests[1].pos.level = 1;
@@ -179,6 +233,9 @@ inline void expectLighterCases(BatchLighter& lighter) {
     expectSnapshotsKeptApart(lighter);
     expectLightInOrder(lighter);
     expectManyRequestsLit(lighter);
+    expectTallWorldsLit(lighter);
+    expectManyTallChunksLit(lighter);
+    expectUniformTallWorldsLit(lighter);
     expectOtherLevelsRefused(lighter);
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tests/light/reference_light.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::light {
 namespace {

@@ -107,7 +107,7 @@ TEST(LightChunk, UnknownNeighborsAreDarkAndOpaque) {
         TestArea::makeChunk(0, 0, [&](int, int, int z) { return z == 99 ? stone : world::kAir; });
     LightScratch scratch;
     const LocalLight local = solveLocal(roofed, contentTable(), scratch),
-                     open = solveLocal({}, contentTable(), scratch);
+                     open = solveLocal(world::Chunk(), contentTable(), scratch);
     LocalLightNeighborhood around{};
     around[kCenterChunk] = &local;
     EXPECT_EQ(lightChunk(around, scratch).get(0, 0, 50), kDark);

@@ -68,10 +68,11 @@ class LitArea {
         for (const auto& [pos, chunk] : chunks_) {
             const auto found = std::find_if(changes.begin(), changes.end(),
                                             [p = pos](const LightChange& c) { return c.pos == p; });
-            const int bricks = found == changes.end() ? 0 : found->bricks;
-            for (int k = 0; k < world::kSectionsPerChunk; ++k) {
+            const world::Heights heights = area_.heights;
+            for (int k = heights.firstSection(); k < heights.endSection(); ++k) {
                 const bool changed = !(chunk.light->brick(k) == before.at(pos).light->brick(k));
-                EXPECT_EQ(changed, (bricks >> k & 1) != 0) << pos.x << ' ' << pos.y << " brick " << k;
+                EXPECT_EQ(changed, found != changes.end() && found->bricks.has(k))
+                    << pos.x << ' ' << pos.y << " brick " << k;
             }
         }
     }
@@ -114,7 +115,8 @@ inline world::BlockId randomBlock(Random& random) {
                                                 : anyBlock(static_cast<std::uint32_t>(random.below(1 << 20)));
 }
 
-// More than half of the places lie at borders and corners of chunks, a few at the world's bottom and top.
+// More than half of the places lie at borders and corners of chunks, a few at the world's bottom and top. In
+// worlds of 0…255 most others lie where the random worlds have blocks.
 inline world::BlockPos randomPlace(Random& random, const TestArea& area) {
     const auto along = [&](int size) {
         const int any = random.below(size);
@@ -122,8 +124,10 @@ inline world::BlockPos randomPlace(Random& random, const TestArea& area) {
     };
     const int x = along(area.width()), y = along(area.height());
     const int kind = random.below(20);
-    if (kind == 0) return {x, y, random.below(2) == 0 ? 0 : 255};
-    if (kind == 1) return {x, y, random.below(256)};
+    const world::Heights heights = area.heights;
+    if (kind == 0) return {x, y, random.below(2) == 0 ? heights.bottom : heights.top - 1};
+    if (kind == 1) return {x, y, heights.bottom + random.below(heights.layers())};
+    if (heights != world::Heights()) return {x, y, heights.bottom + along(heights.layers())};
     return {x, y, random.below(kFilledHeight + 8)};
 }
 

@@ -13,16 +13,16 @@ namespace terrane::light {
 
 class Reference {
   public:
-    // Levels are found up to `height`; above must be nothing but air.
+    // Levels are found below `height`; from there on must be nothing but air.
     Reference(const TestArea& area, int height) : area_(area), height_(height), row_(area.width() + 2) {
-        for (int z = -1; z <= height; ++z) {
+        for (int z = area.heights.bottom - 1; z <= height; ++z) {
             for (int y = -1; y <= area.height(); ++y) {
                 for (int x = -1; x <= area.width(); ++x) addVoxel(x, y, z);
             }
         }
     }
 
-    // Index x + width (y + height z).
+    // Index as in TestArea.
     std::vector<int> solve(int component) {
         setSources(component);
         while (raiseAll()) continue;
@@ -33,25 +33,24 @@ class Reference {
 
   private:
     void addVoxel(int x, int y, int z) {
-        const bool isInside =
-            x >= 0 && y >= 0 && z >= 0 && x < area_.width() && y < area_.height() && z < height_;
+        const bool isInside = x >= 0 && y >= 0 && z >= area_.heights.bottom && x < area_.width() &&
+                              y < area_.height() && z < height_;
         if (isInside) inside_.push_back(static_cast<int>(types_.size()));
         types_.push_back(isInside ? &area_.type(x, y, z) : nullptr);
     }
 
     int layer() const { return row_ * (area_.height() + 2); }
 
-    int source(int component, int at) const {
-        const auto typeAt = [&](int index) { return types_[static_cast<std::size_t>(index)]; };
-        if (component != kDaylight) return typeAt(at)->emission[static_cast<std::size_t>(component)];
-        int level = kMaxLevel;
-        for (int above = at; typeAt(above); above += layer()) level -= typeAt(above)->opacity;
-        return std::max(0, level);
-    }
-
+    // From above, so that daylight is what the block above lets through.
     void setSources(int component) {
         level_.assign(types_.size(), 0);
-        for (const int at : inside_) level_[static_cast<std::size_t>(at)] = source(component, at);
+        for (auto next = inside_.rbegin(); next != inside_.rend(); ++next) {
+            const auto at = static_cast<std::size_t>(*next), above = at + static_cast<std::size_t>(layer());
+            const world::BlockType& type = *types_[at];
+            const int daylight = types_[above] ? level_[above] : kMaxLevel;
+            level_[at] = component == kDaylight ? std::max(0, daylight - type.opacity)
+                                                : type.emission[static_cast<std::size_t>(component)];
+        }
     }
 
     bool raiseAll() {
@@ -76,10 +75,10 @@ class Reference {
     std::vector<int> level_;
 };
 
-// Compares the light of a world whose blocks end at kFilledHeight; no color reaches the compared height.
+// Compares the light of a world whose blocks end at kFilledHeight, or at `height`: no color reaches further.
 inline void expectReference(const TestArea& area, const std::vector<LightValue>& light,
                             int height = kFilledHeight + 16) {
-    ASSERT_EQ(light.size(), area.index(0, 0, world::kChunkHeight));
+    ASSERT_EQ(light.size(), area.index(0, 0, area.heights.top));
     Reference reference(area, height);
     for (int c = 0; c < kComponentCount; ++c) {
         const std::vector<int> expected = reference.solve(c);

@@ -7,6 +7,8 @@
 
 #include "tests/light/lit_area.h"
 #include "tests/light/reference_light.h"
+#include "tests/light/tall_worlds.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 
 namespace terrane::light {
@@ -94,7 +96,8 @@ TEST(Relight, RoofIsOpenedAndClosed) {
     // 14 blocks aside, of which 5 lead out at −x and −y, 12 at +x and +y: of the chunks at the corners only
     // the one at −x −y.
     EXPECT_EQ(changes.size(), 6u);
-    for (const LightChange& change : changes) EXPECT_EQ(change.bricks, 0b1111111) << change.pos.x;
+    for (const LightChange& change : changes)
+        EXPECT_EQ(change.bricks, world::SectionSet::all({0, 112})) << change.pos.x;
     lit.set(20, 20, 100, contentBlock("oak_leaves"));
     lit.relightEdits();
     EXPECT_EQ(levelOf(lit.at(20, 20, 10), kDaylight), 12);
@@ -157,7 +160,7 @@ TEST(Relight, MakesNewSnapshots) {
     window.lights[kCenterChunk] = before;
     const BlockChange changes[] = {{world::blockIndex(8, 8, 50), world::kAir}};
     const ChangedBricks bricks = relight(window, changes, contentTable(), scratch);
-    EXPECT_EQ(bricks[kCenterChunk], 1 << 3);
+    EXPECT_EQ(bricks[kCenterChunk], world::SectionSet::all({48, 64}));
     EXPECT_EQ(before->get(8, 8, 50), kDark);
     EXPECT_EQ(window.lights[kCenterChunk]->get(8, 8, 50), 15);
     const ChunkLightPtr lit = window.lights[kCenterChunk];
@@ -168,9 +171,10 @@ TEST(Relight, MakesNewSnapshots) {
 void expectFromScratch(const LitArea& lit) {
     const std::vector<ChunkLight> expected = lit.area().lights(), found = lit.lights();
     for (std::size_t k = 0; k < expected.size(); ++k) {
-        for (int i = 0; i < world::kBlocksPerChunk; ++i) {
-            const auto at = static_cast<world::BlockIndex>(i);
-            ASSERT_EQ(found[k].at(at), expected[k].at(at))
+        if (found[k] == expected[k]) continue;
+        const world::Heights heights = lit.area().heights;
+        for (world::BlockIndex i = 256 * heights.bottom; i < 256 * heights.top; ++i) {
+            ASSERT_EQ(found[k].at(i), expected[k].at(i))
                 << "chunk " << k << " at " << (i & 15) << ' ' << (i >> 4 & 15) << ' ' << (i >> 8);
         }
     }
@@ -180,8 +184,9 @@ const int kEditsAWorld = atDepth(200, 1500);
 
 // Edits single blocks and batches of 2 to 12, and compares after the first and then after every 10 edits or
 // more.
-void editRandomly(const TestArea::Source& source, std::uint32_t seed, ChunkPos corner) {
-    LitArea lit(TestArea(3, 3, source), corner);
+void editRandomly(const TestArea::Source& source, std::uint32_t seed, ChunkPos corner,
+                  world::Heights heights = {}) {
+    LitArea lit(TestArea(3, 3, source, heights), corner);
     Random random(seed);
     int untilCompared = 0;
     for (int edits = 0; edits < kEditsAWorld && !testing::Test::HasFatalFailure();) {
@@ -199,7 +204,8 @@ void editRandomly(const TestArea::Source& source, std::uint32_t seed, ChunkPos c
         untilCompared = 10;
     }
     expectFromScratch(lit);
-    expectReference(lit.area(), lit.area().flatten(lit.lights()), world::kChunkHeight);
+    // The formula takes a minute where a world is very tall.
+    if (heights.layers() <= 512) expectReference(lit.area(), lit.area().flatten(lit.lights()), heights.top);
 }
 
 TEST(RelightRandom, CavesAtTheOrigin) {
@@ -224,6 +230,79 @@ TEST(RelightRandom, SolidGround) {
 TEST(RelightRandom, Sea) {
     const BlockId water = contentBlock("water");
     editRandomly([=](int, int, int z) { return z < kFilledHeight ? water : world::kAir; }, 7, {0, 0});
+}
+
+TEST(RelightRandom, WorldsOfOtherHeights) {
+    for (std::uint32_t seed = 0; seed < 10; ++seed) {
+        SCOPED_TRACE("seed " + std::to_string(seed));
+        const TallWorld world = tallWorld(seed);
+        editRandomly(world, seed, {-1, static_cast<int>(seed)}, world.heights);
+        if (HasFailure()) return;
+    }
+}
+
+// A shaft through the whole world, opened and closed at its top, through rock and through caves, at the
+// border of chunks and inside one.
+TEST(Relight, ShaftsOfAnyDepthAreOpenedAndClosed) {
+    for (const std::uint32_t seed : {0u, 1u, 3u, 7u}) {
+        const TallWorld world = tallWorld(seed);
+        const BlockId stone = contentBlock("stone");
+        const int cap = world.heights.top - 3;
+        for (const bool isInRock : {true, false}) {
+            for (const int at : {24, 16}) {
+                LitArea lit(TestArea(
+                                3, 3,
+                                [&](int x, int y, int z) {
+                                    if (z == cap) return stone;
+                                    if (x == at && y == 24) return world::kAir;
+                                    return isInRock ? stone : world(x, y, z);
+                                },
+                                world.heights),
+                            {0, 0});
+                for (const BlockId id : {world::kAir, contentBlock("oak_leaves"), stone}) {
+                    lit.set(at, 24, cap, id);
+                    lit.relightEdits();
+                    const int level = id == stone ? 0 : id == world::kAir ? 15 : 12;
+                    if (isInRock) {
+                        EXPECT_EQ(levelOf(lit.at(at, 24, world.heights.bottom), kDaylight), level);
+                    }
+                    expectFromScratch(lit);
+                }
+                if (HasFailure()) return;
+            }
+        }
+    }
+}
+
+// Chunks around the changed one may be missing: light from and through them is lost.
+TEST(Relight, NeighborsMayBeMissingInTallWorlds) {
+    const TallWorld world = tallWorld(7);
+    for (const int missing : {1, 3, 8}) {
+        TestArea area(3, 3, world, world.heights);
+        const BlockId stone = contentBlock("stone"), lamp = contentBlock("lamp_white");
+        area.chunks[static_cast<std::size_t>(missing)] = TestArea::makeChunk(
+            0, 0, [&](int, int, int) { return stone; }, world.heights);
+        LightWindow window;
+        std::vector<ChunkLight> lights = area.lights();
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            if (k == static_cast<std::size_t>(missing)) continue;
+            window.chunks[k] = &area.chunks[k];
+            window.lights[k] = std::make_shared<ChunkLight>(lights[k]);
+        }
+        LightScratch scratch;
+        for (const int z : {-1024, -1009, -512, -1, 0, 300, 1008, 1023}) {
+            const BlockChange change{world::blockIndex(15, 1, z),
+                                     area.chunks[kCenterChunk].block(world::blockIndex(15, 1, z))};
+            area.chunks[kCenterChunk].setBlock(change.index, lamp);
+            relight(window, {&change, 1}, contentTable(), scratch);
+        }
+        lights = area.lights();
+        for (std::size_t k = 0; k < lights.size(); ++k) {
+            if (window.lights[k]) {
+                EXPECT_TRUE(*window.lights[k] == lights[k]) << missing << ' ' << k;
+            }
+        }
+    }
 }
 
 TEST(Relight, NeedsTheChunkThatChanged) {

@@ -54,6 +54,32 @@ TEST(SourceChange, OfTwoBlocksInAColumnMayCancel) {
     EXPECT_TRUE(changes.back().moreOpaque);
 }
 
+TEST(SourceChange, ReachesTheBottomOfATallWorld) {
+    const Chunk chunk({-2048, 2048});
+    const auto changes = changesOf(chunk, {{blockIndex(7, 0, 2000), contentBlock("water")}});
+    ASSERT_EQ(changes.size(), 2000u + 2048u + 1u);
+    EXPECT_EQ(changes.front().index, blockIndex(7, 0, 2000));
+    EXPECT_EQ(changes.back().index, blockIndex(7, 0, -2048));
+}
+
+// Sections without blocks and the dark below the ground are passed over.
+TEST(SourceChange, OfDeepBlocksAreThemselves) {
+    Chunk chunk({-1024, 1024});
+    chunk.setBlock(blockIndex(3, 4, 17), contentBlock("oak_leaves"));
+    chunk.setBlock(blockIndex(3, 4, -300), contentBlock("stone"));
+    const auto changes = changesOf(chunk, {{blockIndex(3, 4, -900), contentBlock("lamp_red")},
+                                           {blockIndex(3, 4, -400), contentBlock("stone")},
+                                           {blockIndex(3, 4, 5), contentBlock("oak_leaves")}});
+    ASSERT_EQ(changes.size(), 1 + (5 + 300) - 1 + 2u);
+    EXPECT_EQ(changes.front().index, blockIndex(3, 4, 5));
+    EXPECT_EQ(changes.front().sourceBefore, 9 << 12);
+    EXPECT_EQ(changes.front().sourceAfter, 12 << 12);
+    EXPECT_EQ(changes[changes.size() - 2].index, blockIndex(3, 4, -400));
+    EXPECT_EQ(changes.back().index, blockIndex(3, 4, -900));
+    EXPECT_EQ(changes.back().sourceBefore, 15);
+    EXPECT_EQ(changes.back().sourceAfter, kDark);
+}
+
 TEST(SourceChange, ReachesTheBottomOfTheWorld) {
     const Chunk chunk;
     const auto changes = changesOf(chunk, {{blockIndex(0, 0, 255), contentBlock("water")}});

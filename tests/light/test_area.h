@@ -20,16 +20,17 @@ inline const LightTable& contentTable() {
 struct TestArea {
     using Source = std::function<world::BlockId(int x, int y, int z)>;
 
-    TestArea(int sizeX, int sizeY, const Source& source) : chunksX(sizeX), chunksY(sizeY) {
+    TestArea(int sizeX, int sizeY, const Source& source, world::Heights itsHeights = {})
+        : chunksX(sizeX), chunksY(sizeY), heights(itsHeights) {
         for (int cy = 0; cy < chunksY; ++cy) {
-            for (int cx = 0; cx < chunksX; ++cx) chunks.push_back(makeChunk(cx, cy, source));
+            for (int cx = 0; cx < chunksX; ++cx) chunks.push_back(makeChunk(cx, cy, source, heights));
         }
     }
 
     int width() const { return chunksX * world::kChunkSize; }
     int height() const { return chunksY * world::kChunkSize; }
     std::size_t index(int x, int y, int z) const {
-        return static_cast<std::size_t>(x + width() * (y + height() * z));
+        return static_cast<std::size_t>(x + width() * (y + height() * (z - heights.bottom)));
     }
     std::size_t chunkIndex(int x, int y) const {
         return static_cast<std::size_t>(x / world::kChunkSize + chunksX * (y / world::kChunkSize));
@@ -46,12 +47,12 @@ struct TestArea {
         return area;
     }
     std::vector<ChunkLight> lights() const { return lightArea(view(), contentTable()); }
-    // Light of all blocks by index().
+    // Light of all blocks by index(), which counts from the bottom of the world.
     std::vector<LightValue> solve() const { return flatten(lights()); }
     std::vector<LightValue> flatten(const std::vector<ChunkLight>& lights) const {
         std::vector<LightValue> values;
-        values.reserve(index(0, 0, world::kChunkHeight));
-        for (int z = 0; z < world::kChunkHeight; ++z) {
+        values.reserve(index(0, 0, heights.top));
+        for (int z = heights.bottom; z < heights.top; ++z) {
             for (int y = 0; y < height(); ++y) {
                 for (int x = 0; x < width(); ++x) {
                     values.push_back(lights[chunkIndex(x, y)].get(x & 15, y & 15, z));
@@ -61,10 +62,10 @@ struct TestArea {
         return values;
     }
 
-    static world::Chunk makeChunk(int cx, int cy, const Source& source) {
-        world::Chunk chunk;
+    static world::Chunk makeChunk(int cx, int cy, const Source& source, world::Heights heights = {}) {
+        world::Chunk chunk(heights);
         std::array<world::BlockId, world::kBlocksPerSection> values;
-        for (int section = 0; section < world::kSectionsPerChunk; ++section) {
+        for (int section = heights.firstSection(); section < heights.endSection(); ++section) {
             for (int i = 0; i < world::kBlocksPerSection; ++i) {
                 values[static_cast<std::size_t>(i)] =
                     source(cx * world::kChunkSize + (i & 15), cy * world::kChunkSize + ((i >> 4) & 15),
@@ -76,6 +77,7 @@ struct TestArea {
     }
 
     int chunksX, chunksY;
+    world::Heights heights;
     std::vector<world::Chunk> chunks;
 };
 

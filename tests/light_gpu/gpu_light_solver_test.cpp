@@ -10,7 +10,9 @@
 #include "tests/gpu/gl_fixture.h"
 #include "tests/light/area_solver_cases.h"
 #include "tests/light/lit_area.h"
+#include "tests/light/tall_worlds.h"
 #include "tests/render/content.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 
 namespace terrane::light_gpu {
@@ -43,11 +45,13 @@ TEST_F(GpuLightSolverTest, SolvesWhatEveryBackEndSolves) {
 std::string difference(const std::vector<light::ChunkLight>& a, const std::vector<light::ChunkLight>& b) {
     if (a.size() != b.size()) return fmt::format("{} and {} chunks", a.size(), b.size());
     for (std::size_t chunk = 0; chunk < a.size(); ++chunk) {
-        for (int k = 0; k < world::kBlocksPerChunk; ++k) {
-            const auto i = static_cast<world::BlockIndex>(k);
+        if (a[chunk] == b[chunk]) continue;
+        const world::Heights heights = a[chunk].heights();
+        if (heights != b[chunk].heights()) return fmt::format("chunk {}: other heights", chunk);
+        for (world::BlockIndex i = 256 * heights.bottom; i < 256 * heights.top; ++i) {
             if (a[chunk].at(i) == b[chunk].at(i)) continue;
-            return fmt::format("chunk {} x {} y {} z {}: {:04x} and {:04x}", chunk, k & 15, k >> 4 & 15,
-                               k >> 8, a[chunk].at(i), b[chunk].at(i));
+            return fmt::format("chunk {} x {} y {} z {}: {:04x} and {:04x}", chunk, i & 15, i >> 4 & 15,
+                               i >> 8, a[chunk].at(i), b[chunk].at(i));
         }
     }
     return "";
@@ -60,6 +64,14 @@ TEST_F(GpuLightSolverTest, RandomWorldsEqualCpu) {
             const TestArea area(3, 2, source);
             ASSERT_EQ(difference(solver_->solve(area.view()), area.lights()), "") << seed;
         }
+    }
+}
+
+TEST_F(GpuLightSolverTest, TallWorldsEqualCpu) {
+    for (const std::uint32_t seed : {0u, 3u, 7u}) {
+        const light::TallWorld world = light::tallWorld(seed);
+        const TestArea area(4, 3, world, world.heights);
+        ASSERT_EQ(difference(solver_->solve(area.view()), area.lights()), "") << seed;
     }
 }
 

@@ -2,10 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <set>
+#include <vector>
 
 #include "terrane/shared/light_solver.h"
 #include "tests/light/test_area.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::light_gpu {
 namespace {
@@ -14,7 +17,7 @@ namespace {
 shared::uint propertyAt(const world::PackedSections& packed, std::size_t chunk, int index) {
     const auto at = static_cast<shared::uint>(index), block = at % shared::kBlocksPerSection;
     const shared::PackedSection section =
-        packed.sections[chunk * shared::kSectionsPerChunk + at / shared::kBlocksPerSection];
+        packed.sections[chunk * world::kSectionsPerChunk + at / shared::kBlocksPerSection];
     if (section.bits == 0) return packed.data[section.palette];
     const shared::uint word = packed.data[section.words + shared::packedWordIndex(section, block)];
     const shared::uint value = shared::packedIndex(section, word, block);
@@ -29,8 +32,10 @@ TEST(SectionUpload, HoldsOpacityAndEmissionOfEveryBlockInEveryForm) {
         return light::anyBlock(hash % (1u << (z / 16)));
     });
     world::PackedSections upload;
-    appendChunk(upload, {}, light::contentTable());
-    appendChunk(upload, chunk, light::contentTable());
+    std::vector<int> numbers(world::kSectionsPerChunk);
+    std::iota(numbers.begin(), numbers.end(), 0);
+    appendChunk(upload, world::Chunk(), numbers, light::contentTable());
+    appendChunk(upload, chunk, numbers, light::contentTable());
     std::set<int> forms;
     for (int n = 0; n < world::kSectionsPerChunk; ++n) forms.insert(chunk.section(n).bits());
     EXPECT_GE(forms.size(), 5u);
