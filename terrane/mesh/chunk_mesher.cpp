@@ -1,6 +1,8 @@
 #include "terrane/mesh/chunk_mesher.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "terrane/base/result.h"
 #include "terrane/mesh/section_faces.h"
@@ -9,23 +11,65 @@ namespace terrane::mesh {
 
 namespace {
 
-SectionView viewSection(const MeshInput& input, int number) {
+bool hasSection(const world::Chunk& chunk, int number) {
+    return number >= chunk.heights().firstSection() && number < chunk.heights().endSection();
+}
+
+// Solid sections below this one have no sides on open borders: kOpenSections below the highest section that
+// is all opaque.
+int endOfOpenSides(const MeshInput& input) {
+    const world::Heights heights = input.center->heights();
+    if (std::ranges::find(input.neighbors, nullptr) == input.neighbors.end()) return heights.firstSection();
+    int number = heights.endSection() - 1;
+    while (number > heights.firstSection() && !isAllOpaque(input.center->section(number), *input.blocks))
+        --number;
+    return number - kOpenSections;
+}
+
+SectionView viewSection(const MeshInput& input, int number, int endOfOpenSides) {
+    static const world::Section kNothing;
     SectionView view;
     view.center = &input.center->section(number);
+    const bool isDeep = number < endOfOpenSides && isAllOpaque(*view.center, *input.blocks);
     for (std::size_t side = 0; side < input.neighbors.size(); ++side) {
-        if (!input.neighbors[side]) continue;
-        view.neighbors[side] = &input.neighbors[side]->section(number);
-        view.neighborStates[side] = &input.neighbors[side]->blockStates(number);
+        if (!input.neighbors[side]) {
+            if (isDeep) view.neighbors[side] = view.center;
+            continue;
+        }
+        const bool isInNeighbor = hasSection(*input.neighbors[side], number);
+        view.neighbors[side] = isInNeighbor ? &input.neighbors[side]->section(number) : &kNothing;
+        view.neighborStates[side] = isInNeighbor ? &input.neighbors[side]->blockStates(number) : &kNothing;
     }
-    if (number > 0) view.neighbors[world::kFaceNegZ] = &input.center->section(number - 1);
-    if (number + 1 < world::kSectionsPerChunk) {
-        view.neighbors[world::kFacePosZ] = &input.center->section(number + 1);
-    }
+    for (const auto& [side, other] :
+         {std::pair(world::kFaceNegZ, number - 1), {world::kFacePosZ, number + 1}})
+        if (hasSection(*input.center, other)) view.neighbors[side] = &input.center->section(other);
     view.blockState = &input.center->blockStates(number);
     view.blocks = input.blocks;
     view.target.baseZ = number * world::kSectionSize;
     view.target.method = input.options.method;
     return view;
+}
+
+// Returns true for sections of one block without faces: most of a high column, so this takes no look at their
+// blocks. May be false for some of them.
+bool isPlain(const MeshInput& input, int number, int endOfOpenSides) {
+    const world::Section& section = input.center->section(number);
+    if (!section.isUniform()) return false;
+    const world::BlockType& type = input.blocks->type(section.uniformValue());
+    if (type.shape == world::Shape::None || !type.opaqueCube) return type.shape == world::Shape::None;
+    const auto isOpaque = [&](const world::Section& other) {
+        return other.isSame(section) ||
+               (other.isUniform() && input.blocks->type(other.uniformValue()).opaqueCube);
+    };
+    const auto hidesSide = [&](const world::Chunk* neighbor) {
+        if (!neighbor) return number < endOfOpenSides;
+        return hasSection(*neighbor, number) && isOpaque(neighbor->section(number));
+    };
+    const world::Chunk& center = *input.center;
+    const bool isLowest = !hasSection(center, number - 1), isHighest = !hasSection(center, number + 1);
+    return !isHighest && isOpaque(center.section(number + 1)) &&
+           (isLowest || isOpaque(center.section(number - 1))) &&
+           std::ranges::all_of(input.neighbors, hidesSide);
 }
 
 void requireWhole(const MeshInput& input) {
@@ -34,39 +78,59 @@ void requireWhole(const MeshInput& input) {
                   "MeshInput: the height of mesh sections is a power of two, 8 to 128");
 }
 
+// Returns nothing if the mesh section has no quads.
+std::optional<MeshSection> buildWithSides(const MeshInput& input, int bottom, int endOfOpenSides,
+                                          MeshScratch& scratch, std::vector<shared::Quad>& quads) {
+    const world::Heights heights = input.center->heights();
+    const int top = bottom + input.options.meshSectionHeight;
+    const int step = std::min(top - bottom, world::kSectionSize);  // a section, or half of one
+    bool mayHaveQuads = false;
+    for (int z = std::max(bottom, heights.bottom); z < std::min(top, heights.top); z += step) {
+        if (isPlain(input, z >> 4, endOfOpenSides)) continue;
+        SectionView view = viewSection(input, z >> 4, endOfOpenSides);
+        const auto layer = static_cast<std::size_t>(z & (world::kSectionSize - 1));
+        view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
+        addSectionFaces(view, scratch.buckets);
+        mayHaveQuads = true;
+    }
+    if (!mayHaveQuads) return std::nullopt;
+    const std::size_t before = quads.size();
+    MeshSection made = scratch.buckets.finishMeshSection(quads);
+    if (quads.size() == before) return std::nullopt;
+    made.bottom = bottom;
+    made.top = top;
+    return made;
+}
+
 }  // namespace
 
 MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks,
                     const MeshOptions& options) {
     static const world::Chunk kAir;
-    const auto at = [&](std::size_t k) { return chunks[k] ? chunks[k].get() : &kAir; };
+    const world::Chunk* air = &kAir;
+    const auto at = [&](std::size_t k) { return chunks[k] ? chunks[k].get() : air; };
     return {at(0), {at(1), at(2), at(3), at(4)}, &blocks, options};
 }
 
-MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
-                             std::vector<shared::Quad>& quads) {
+std::optional<MeshSection> buildMeshSection(const MeshInput& input, int bottom, MeshScratch& scratch,
+                                            std::vector<shared::Quad>& quads) {
     requireWhole(input);
+    const world::Heights heights = input.center->heights();
     const int height = input.options.meshSectionHeight;
-    base::require(meshSection >= 0 && meshSection < world::kChunkHeight / height,
-                  "buildMeshSection: the chunk has no mesh section of this number");
-    const int step = std::min(height, world::kSectionSize);  // a section, or half of one
-    for (int z = meshSection * height; z < (meshSection + 1) * height; z += step) {
-        SectionView view = viewSection(input, z / world::kSectionSize);
-        const auto layer = static_cast<std::size_t>(z % world::kSectionSize);
-        view.target.layers = {layer, layer + static_cast<std::size_t>(step)};
-        addSectionFaces(view, scratch.buckets);
-    }
-    return scratch.buckets.finishMeshSection(quads);
+    base::require((bottom & (height - 1)) == 0 && bottom < heights.top && bottom + height > heights.bottom,
+                  "buildMeshSection: the chunk has no mesh section that begins with this layer");
+    return buildWithSides(input, bottom, endOfOpenSides(input), scratch, quads);
 }
 
 ChunkMesh meshChunk(const MeshInput& input, MeshScratch& scratch) {
     requireWhole(input);
+    const int openEnd = endOfOpenSides(input);
     ChunkMesh mesh;
     scratch.quads.clear();
-    for (int meshSection = 0; meshSection < world::kChunkHeight / input.options.meshSectionHeight;
-         ++meshSection) {
-        mesh.meshSections.push_back(buildMeshSection(input, meshSection, scratch, scratch.quads));
-    }
+    forEachMeshSection(input, [&](int bottom, int) {
+        if (const auto made = buildWithSides(input, bottom, openEnd, scratch, scratch.quads))
+            mesh.meshSections.push_back(*made);
+    });
     mesh.quads.assign(scratch.quads.begin(), scratch.quads.end());  // no larger than needed
     return mesh;
 }

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,9 +20,10 @@ namespace terrane::mesh {
 
 struct MeshInput {
     const world::Chunk* center = nullptr;
-    // -x, +x, -y, +y. Null: unknown, the border is open. Faces of opaque cubes on an open border are drawn,
-    // down to the bottom of the world, so that no gap shows beside land of another height; faces that a block
-    // of the same type would hide (water) are not.
+    // -x, +x, -y, +y; air beyond their heights. Null: unknown, the border is open. Faces of opaque cubes on
+    // an open border are drawn, so that no gap shows beside land of another height, but not those of solid
+    // sections more than kOpenSections below the highest one; faces that a block of the same type would hide
+    // (water) are not.
     std::array<const world::Chunk*, 4> neighbors{};
     const world::BlockRegistry* blocks = nullptr;
     MeshOptions options;
@@ -30,6 +32,9 @@ struct MeshInput {
 // The chunks that a mesh depends on: its own, then those at -x, +x, -y, +y. Null beyond the world's edge,
 // which counts as air.
 using MeshBlocks = std::array<world::ChunkPtr, 5>;
+
+// Land beside an open border may be 256 blocks lower. In a world of 0…255 that is its bottom.
+constexpr int kOpenSections = 16;
 
 // Returns the input of the mesh of the first chunk; it points into `chunks`.
 MeshInput meshInput(const MeshBlocks& chunks, const world::BlockRegistry& blocks, const MeshOptions& options);
@@ -50,10 +55,20 @@ ChunkMesh meshAlone(const world::Chunk& chunk, const world::BlockRegistry& block
 ChunkMesh meshTile(const world::Chunk& chunk, const world::BlockRegistry& blocks, const MeshOptions& options,
                    MeshScratch& scratch);
 
-// Meshes one mesh section of a chunk, 0 is the lowest, and appends its quads to `quads`. Its ranges are
-// indices into `quads`.
-MeshSection buildMeshSection(const MeshInput& input, int meshSection, MeshScratch& scratch,
-                             std::vector<shared::Quad>& quads);
+// Meshes the mesh section of a chunk that begins with layer `bottom`, and appends its quads to `quads`. Its
+// ranges are indices into `quads`. Returns nothing if it has no quads.
+std::optional<MeshSection> buildMeshSection(const MeshInput& input, int bottom, MeshScratch& scratch,
+                                            std::vector<shared::Quad>& quads);
+
+// Calls use(bottom, top) for the layers of each mesh section of a chunk, from below. The first and the last
+// one may reach beyond the chunk.
+template <class Use>
+void forEachMeshSection(const MeshInput& input, Use use) {
+    const world::Heights heights = input.center->heights();
+    const int height = input.options.meshSectionHeight;
+    // Heights of mesh sections are powers of two.
+    for (int z = heights.bottom & ~(height - 1); z < heights.top; z += height) use(z, z + height);
+}
 
 // Meshes many chunks. Back ends: the CPU here, compute shaders in terrane/mesh_gpu. They give the same quads
 // and ranges; the order of quads within a range differs between back ends.

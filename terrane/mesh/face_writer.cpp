@@ -180,12 +180,15 @@ void FaceWriter::writeLevel(const FaceKind& kind, LayerRange layers) {
     const MergeFunction merge = mergeOf(kind);
     for (std::size_t layer = layers.first; layer < layers.end; ++layer) {
         if (used_[layer] == 0) continue;
-        const uint z = static_cast<uint>(target_.baseZ) + static_cast<uint>(layer);
-        const Quad first =
-            packQuad({.x = 0, .y = 0, .z = z, .shapeFace = kind.shapeFace, .material = kind.material});
+        const int z = target_.baseZ + static_cast<int>(layer);
+        const Quad first = packQuad({.x = 0,
+                                     .y = 0,
+                                     .z = shared::quadZOf(z),
+                                     .shapeFace = kind.shapeFace,
+                                     .material = kind.material});
         const PlaneRows plane{&rows_[16 * layer], 1, used_[layer]};
         bucket_->add(merge(plane, {first, kShiftX, kShiftY}, bucket_->reserve(kMaxQuadsPerPlane)));
-        out_.coverHeight(static_cast<int>(z), static_cast<int>(z) + 1);
+        out_.coverHeight(z, z + 1);
     }
 }
 
@@ -200,7 +203,7 @@ void FaceWriter::writeUpright(const FaceKind& kind, LayerRange layers) {
         const auto at = static_cast<uint>(plane);
         const Quad first = packQuad({.x = alongX ? at : 0,
                                      .y = alongX ? 0 : at,
-                                     .z = static_cast<uint>(target_.baseZ),
+                                     .z = shared::quadZOf(target_.baseZ),
                                      .shapeFace = kind.shapeFace,
                                      .material = kind.material});
         const QuadPattern pattern{first, alongX ? kShiftY : kShiftX, kShiftZ};

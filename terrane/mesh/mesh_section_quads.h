@@ -22,14 +22,15 @@ struct QuadRange {
 // The vertical unit of culling and drawing. Its quads are contiguous: by draw bucket, then face direction.
 struct MeshSection {
     QuadRange ranges[kDrawBucketCount][kFaceDirectionCount];
-    int minZ = 0, maxZ = 0;  // the quads lie in blocks minZ … maxZ − 1; both 0 if there are none
+    int bottom = 0, top = 0;  // its layers are bottom … top − 1; bottom is a multiple of their number
+    int minZ = 0, maxZ = 0;   // the quads lie in blocks minZ … maxZ − 1; both 0 if there are none
 
     bool operator==(const MeshSection&) const = default;
 };
 
 struct ChunkMesh {
     std::vector<shared::Quad> quads;
-    std::vector<MeshSection> meshSections;  // lowest first, kChunkHeight / meshSectionHeight of them
+    std::vector<MeshSection> meshSections;  // those with quads, lowest first
 
     bool operator==(const ChunkMesh&) const = default;
 };
@@ -44,6 +45,11 @@ inline std::uint32_t quadCount(const MeshSection& meshSection) {
         for (const QuadRange range : bucket) count += range.count;
     }
     return count;
+}
+
+// Returns the z that those of the mesh section's quads count from (shared/quad.h).
+inline int quadBase(const MeshSection& meshSection) {
+    return shared::quadSlab(meshSection.bottom) * static_cast<int>(shared::kQuadSlab);
 }
 
 // Returns the ranges in the order of a GPU record: two-sided buckets have faces of the last direction only.

@@ -21,14 +21,14 @@ void addCellFace(const ModelBlocks& blocks, std::size_t block, const world::Mode
     const bool isTwoSided = look.twoSided || face.isTwoSided;
     QuadArray& quads = out.quadsOf(drawBucket(alphaClass(look.alpha), isTwoSided),
                                    isTwoSided ? kAnyDirection : int{face.direction});
-    const auto z = static_cast<shared::uint>(blocks.view.target.baseZ) + (block >> 8);
+    const int z = blocks.view.target.baseZ + static_cast<int>(block >> 8);
     *quads.reserve(1) = shared::packQuad({.x = static_cast<shared::uint>(block & 15),
                                           .y = static_cast<shared::uint>(block >> 4 & 15),
-                                          .z = static_cast<shared::uint>(z),
+                                          .z = shared::quadZOf(z),
                                           .shapeFace = face.shapeFace,
                                           .material = material});
     quads.add(1);
-    out.coverHeight(static_cast<int>(z), static_cast<int>(z) + 1);
+    out.coverHeight(z, z + 1);
 }
 
 void addModelFaces(const ModelBlocks& blocks, const std::array<BitCube, world::kFaceCount>& uncovered,

@@ -38,8 +38,8 @@ MeshSection QuadCollector::finishMeshSection(std::vector<shared::Quad>& quads) {
         meshSection.minZ = minZ_;
         meshSection.maxZ = maxZ_;
     }
-    minZ_ = world::kChunkHeight;
-    maxZ_ = 0;
+    minZ_ = world::kHighestTop;
+    maxZ_ = world::kLowestBottom;
     return meshSection;
 }
 

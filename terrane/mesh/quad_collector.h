@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::mesh {
 
@@ -38,12 +39,12 @@ class QuadCollector {
     QuadArray& quadsOf(int bucket, int direction);
     // Widens the mesh section's bounds by blocks minZ … maxZ − 1.
     void coverHeight(int minZ, int maxZ);
-    // Appends all arrays to `quads`, returns their ranges, and empties them.
+    // Appends all arrays to `quads`, returns their ranges, and empties them. The caller sets the layers.
     MeshSection finishMeshSection(std::vector<shared::Quad>& quads);
 
   private:
     std::array<QuadArray, kDrawBucketCount * kFaceDirectionCount> buckets_;
-    int minZ_ = world::kChunkHeight, maxZ_ = 0;
+    int minZ_ = world::kHighestTop, maxZ_ = world::kLowestBottom;
 };
 
 }  // namespace terrane::mesh

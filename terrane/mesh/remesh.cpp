@@ -1,27 +1,30 @@
 #include "terrane/mesh/remesh.h"
 
-#include <cstddef>
-
 #include "terrane/base/result.h"
 #include "terrane/mesh/mesh_section_quads.h"
 
 namespace terrane::mesh {
 namespace {
 
-MeshSectionSet meshSectionAt(int z, int meshSectionHeight) {
-    return world::isInHeight(z) ? MeshSectionSet{1} << (z / meshSectionHeight) : MeshSectionSet{0};
+constexpr world::Heights kAllHeights{world::kLowestBottom, world::kHighestTop};
+
+void append(ChunkMesh& mesh, const ChunkMesh& from, const MeshSection& meshSection) {
+    mesh.meshSections.push_back(movedTo(static_cast<std::uint32_t>(mesh.quads.size()), meshSection));
+    const auto first = from.quads.begin() + firstQuad(meshSection);
+    mesh.quads.insert(mesh.quads.end(), first, first + quadCount(meshSection));
 }
 
 }  // namespace
 
-std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSectionHeight) {
-    base::require(world::isInHeight(pos.z), "meshSectionsTouchedBy: the block is above or below the world");
-    base::require(isMeshSectionHeight(meshSectionHeight),
-                  "meshSectionsTouchedBy: the height of mesh sections is a power of two, 8 to 128");
-    const MeshSectionSet own = meshSectionAt(pos.z, meshSectionHeight);
+std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos) {
+    base::require(kAllHeights.contains(pos.z),
+                  "meshSectionsTouchedBy: the block is above or below every world");
+    MeshSectionSet own, around;
+    own.add(pos.z >> 3);
+    for (int z = pos.z - 1; z <= pos.z + 1; ++z)
+        if (kAllHeights.contains(z)) around.add(z >> 3);
     const world::ChunkPos chunk = world::chunkOf(pos);
-    std::vector<TouchedChunk> touched{{chunk, own | meshSectionAt(pos.z - 1, meshSectionHeight) |
-                                                  meshSectionAt(pos.z + 1, meshSectionHeight)}};
+    std::vector<TouchedChunk> touched{{chunk, around}};
     const auto addBeside = [&](int dx, int dy) {
         const world::ChunkPos beside = world::offsetBy(chunk, dx, dy);
         if (world::isInWorld(beside)) touched.push_back({beside, own});
@@ -34,31 +37,36 @@ std::vector<TouchedChunk> meshSectionsTouchedBy(world::BlockPos pos, int meshSec
     return touched;
 }
 
-ChunkMesh buildMeshSections(const MeshInput& input, MeshSectionSet meshSections, MeshScratch& scratch) {
-    if (meshSections == kAllMeshSections) return meshChunk(input, scratch);
+ChunkMesh buildMeshSections(const MeshInput& input, const MeshSectionSet& meshSections,
+                            MeshScratch& scratch) {
+    base::require(input.center, "buildMeshSections: the chunk is null");
+    MeshSectionSet joined = meshSections;
+    joined |= MeshSectionSet::all(input.center->heights());
+    if (joined == meshSections) return meshChunk(input, scratch);
     ChunkMesh mesh;
-    const auto count = static_cast<std::size_t>(world::kChunkHeight / input.options.meshSectionHeight);
-    for (std::size_t r = 0; r < count; ++r) {
-        const MeshSection empty = movedTo(static_cast<std::uint32_t>(mesh.quads.size()), {});
-        mesh.meshSections.push_back(hasMeshSection(meshSections, r)
-                                        ? buildMeshSection(input, static_cast<int>(r), scratch, mesh.quads)
-                                        : empty);
-    }
+    forEachMeshSection(input, [&](int bottom, int top) {
+        if (!meshSections.hasAny(bottom, top)) return;
+        if (const auto made = buildMeshSection(input, bottom, scratch, mesh.quads))
+            mesh.meshSections.push_back(*made);
+    });
     return mesh;
 }
 
-ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, MeshSectionSet meshSections) {
-    base::require(old.meshSections.size() == newer.meshSections.size(),
-                  "withMeshSections: the meshes have mesh sections of different heights");
+// Both are in the order of their heights.
+ChunkMesh withMeshSections(const ChunkMesh& old, const ChunkMesh& newer, const MeshSectionSet& meshSections) {
     ChunkMesh mesh;
     mesh.quads.reserve(old.quads.size() + newer.quads.size());
-    for (std::size_t r = 0; r < old.meshSections.size(); ++r) {
-        const ChunkMesh& from = hasMeshSection(meshSections, r) ? newer : old;
-        const MeshSection& meshSection = from.meshSections[r];
-        mesh.meshSections.push_back(movedTo(static_cast<std::uint32_t>(mesh.quads.size()), meshSection));
-        const auto first = from.quads.begin() + firstQuad(meshSection);
-        mesh.quads.insert(mesh.quads.end(), first, first + quadCount(meshSection));
+    auto added = newer.meshSections.begin();
+    const auto appendBelow = [&](int bottom) {
+        for (; added != newer.meshSections.end() && added->bottom < bottom; ++added)
+            if (meshSections.has(*added)) append(mesh, newer, *added);
+    };
+    for (const MeshSection& kept : old.meshSections) {
+        if (meshSections.has(kept)) continue;
+        appendBelow(kept.bottom);
+        append(mesh, old, kept);
     }
+    appendBelow(world::kHighestTop);
     return mesh;
 }
 

@@ -439,8 +439,7 @@ void SectionFaces::addGrowingPlanes(const TypeBlocks& blocks, uint firstFace, ui
 
 void addSectionFaces(const SectionView& view, QuadCollector& out) {
     assert(view.center && view.blocks && "a section and what its ids mean");
-    assert(view.target.baseZ % world::kSectionSize == 0 && world::isInHeight(view.target.baseZ) &&
-           "height of a section");
+    assert(view.target.baseZ % world::kSectionSize == 0 && "height of a section");
     if (isHidden(view)) return;
     const Surroundings around(view);
     if (around.isEnclosed() && isAllOpaque(*view.center, *view.blocks)) return;

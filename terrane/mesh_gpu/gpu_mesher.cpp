@@ -19,11 +19,9 @@ namespace {
 
 using shared::uint;
 
-constexpr std::size_t kMaxMeshSections =
-    GpuMesher::kMaxChunks * (world::kChunkHeight / mesh::kMinMeshSectionHeight);
-constexpr shared::MeshSectionCounts kNothing{{}, world::kChunkHeight, 0};
-static_assert(GpuMesher::kMaxChunks * 2 * world::kSectionsPerChunk < 65536,
-              "OpenGL has as many work groups along an axis at least");
+constexpr std::size_t kFirstMeshSections = 8192;
+constexpr shared::MeshSectionCounts kNothing{{}, shared::kQuadSlab, 0};
+constexpr std::size_t kMaxUnitsPerRow = 32768;  // OpenGL has 65,535 work groups along an axis at least
 
 base::Result<gpu::Program> compile(const gpu::ShaderLoader& shaders, bool writesQuads) {
     return gpu::Program::compute(shaders, "terrane/mesh_gpu/mesh.comp.glsl",
@@ -36,9 +34,8 @@ gpu::Buffer bufferOf(std::span<const T> values, std::string_view label) {
     return gpu::Buffer(std::as_bytes(values), 0, label);
 }
 
-// Counts are in the order of mesh::rangesOf().
-mesh::MeshSection meshSectionOf(const shared::MeshSectionCounts& counts) {
-    mesh::MeshSection meshSection;
+// Sets the ranges and bounds. Counts are in the order of mesh::rangesOf().
+mesh::MeshSection withCounts(mesh::MeshSection meshSection, const shared::MeshSectionCounts& counts) {
     uint first = 0;
     std::size_t next = 0;
     for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
@@ -50,8 +47,8 @@ mesh::MeshSection meshSectionOf(const shared::MeshSectionCounts& counts) {
         }
     }
     if (counts.minZ < counts.maxZ) {
-        meshSection.minZ = static_cast<int>(counts.minZ);
-        meshSection.maxZ = static_cast<int>(counts.maxZ);
+        meshSection.minZ = mesh::quadBase(meshSection) + static_cast<int>(counts.minZ);
+        meshSection.maxZ = mesh::quadBase(meshSection) + static_cast<int>(counts.maxZ);
     }
     return meshSection;
 }
@@ -63,24 +60,26 @@ struct GpuMesher::Impl {
         : table(blocks),
           upload(table),
           types(bufferOf(std::span<const shared::MeshType>(table.types), "mesh types")),
-          forms(bufferOf(std::span<const uint>(table.forms), "mesh forms")),
-          counts(kMaxMeshSections * sizeof(shared::MeshSectionCounts), GL_DYNAMIC_STORAGE_BIT, "mesh counts"),
-          places(kMaxMeshSections * shared::kRangesPerMeshSection * sizeof(uint), GL_DYNAMIC_STORAGE_BIT,
-                 "mesh places"),
-          readback(counts.sizeBytes(), "mesh counts read back") {}
+          forms(bufferOf(std::span<const uint>(table.forms), "mesh forms")) {
+        reserve(kFirstMeshSections);
+    }
 
+    void reserve(std::size_t meshSectionCount);
     void bind() const;
     void run(const gpu::Program& program) const;
 
     BlockTable table;
     MeshUpload upload;  // of the current batch, as are these
-    std::size_t unitCount = 0, meshSectionCount = 0;
+    std::size_t unitCount = 0;
+    std::vector<mesh::MeshSection> meshSections;  // without quads
+    std::vector<std::size_t> chunkEnds;
     mesh::MergeMethod method = mesh::MergeMethod::Greedy;
     gpu::Buffer sections, data, units, unitCounts;
 
     gpu::Program countProgram, writeProgram;
-    gpu::Buffer types, forms;    // kept
-    gpu::Buffer counts, places;  // by mesh section
+    gpu::Buffer types, forms;  // kept
+    // By mesh section; they grow to the largest batch.
+    gpu::Buffer counts, places;
     gpu::ReadbackBuffer readback;
     gpu::Fence counted;
     std::array<gpu::Handle<gpu::ObjectKind::Query>, 2> countTimes = {gpu::createQuery(GL_TIMESTAMP),
@@ -99,7 +98,18 @@ void GpuMesher::Impl::bind() const {
 void GpuMesher::Impl::run(const gpu::Program& program) const {
     program.use();
     program.set(0, static_cast<GLuint>(method));
-    glDispatchCompute(static_cast<GLuint>(unitCount), 1, 1);
+    const std::size_t row = std::min(unitCount, kMaxUnitsPerRow);
+    glDispatchCompute(static_cast<GLuint>(row), static_cast<GLuint>((unitCount + row - 1) / row), 1);
+}
+
+// Counts that are not read yet are lost.
+void GpuMesher::Impl::reserve(std::size_t meshSectionCount) {
+    const std::size_t bytes = meshSectionCount * sizeof(shared::MeshSectionCounts);
+    if (counts.sizeBytes() >= bytes) return;
+    counts = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "mesh counts");
+    places = gpu::Buffer(meshSectionCount * shared::kRangesPerMeshSection * sizeof(uint),
+                         GL_DYNAMIC_STORAGE_BIT, "mesh places");
+    readback = gpu::ReadbackBuffer(bytes, "mesh counts read back");
 }
 
 GpuMesher::GpuMesher(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
@@ -134,10 +144,11 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
     }
     m.method = options.method;
     m.unitCount = m.upload.units().size();
-    m.meshSectionCount =
-        chunks.size() * static_cast<std::size_t>(world::kChunkHeight / options.meshSectionHeight);
-    const std::vector<shared::MeshSectionCounts> nothing(m.meshSectionCount, kNothing);
-    m.counts.uploadVector(0, nothing);
+    m.meshSections.assign(m.upload.meshSections().begin(), m.upload.meshSections().end());
+    m.chunkEnds.assign(m.upload.chunkEnds().begin(), m.upload.chunkEnds().end());
+    m.reserve(m.meshSections.size());
+    const std::vector<shared::MeshSectionCounts> nothing(m.meshSections.size(), kNothing);
+    if (!nothing.empty()) m.counts.uploadVector(0, nothing);
     glQueryCounter(m.countTimes[0].id(), GL_TIMESTAMP);
     if (m.unitCount > 0) {
         m.sections = bufferOf(std::span(m.upload.packed().sections), "mesh sections");
@@ -152,7 +163,7 @@ void GpuMesher::count(std::span<const mesh::MeshInput> chunks) {
                         GL_TEXTURE_FETCH_BARRIER_BIT);
     }
     m.upload.clear();
-    m.readback.copyFrom(m.counts, m.meshSectionCount * sizeof(shared::MeshSectionCounts));
+    if (!nothing.empty()) m.readback.copyFrom(m.counts, nothing.size() * sizeof(nothing[0]));
     glQueryCounter(m.countTimes[1].id(), GL_TIMESTAMP);
     m.counted = gpu::Fence::insert();
 }
@@ -178,37 +189,46 @@ std::size_t GpuMesher::gpuBytes() const {
     return bytes;
 }
 
-std::vector<mesh::MeshSection> GpuMesher::meshSections() const {
+CountedSections GpuMesher::meshSections() const {
     const Impl& m = *impl_;
     base::require(m.counted.valid(), "GpuMesher::meshSections: count() comes first");
     m.counted.wait();
-    std::vector<shared::MeshSectionCounts> counts(m.meshSectionCount);
-    std::memcpy(counts.data(), m.readback.data().data(), counts.size() * sizeof(counts[0]));
-    std::vector<mesh::MeshSection> meshSections(counts.size());
-    std::ranges::transform(counts, meshSections.begin(), meshSectionOf);
-    return meshSections;
+    std::vector<shared::MeshSectionCounts> counts(m.meshSections.size());
+    if (!counts.empty())
+        std::memcpy(counts.data(), m.readback.data().data(), counts.size() * sizeof(counts[0]));
+    CountedSections counted;
+    std::size_t next = 0;
+    for (const std::size_t end : m.chunkEnds) {
+        for (; next < end; ++next)
+            if (counts[next].maxZ > 0) counted.all.push_back(withCounts(m.meshSections[next], counts[next]));
+        counted.chunkEnds.push_back(counted.all.size());
+    }
+    return counted;
 }
 
 void GpuMesher::write(std::span<const std::uint32_t> firstQuads, const gpu::Buffer& quads) {
     TERRANE_ZONE("write quads on the GPU");
     Impl& m = *impl_;
-    const std::vector<mesh::MeshSection> counted = meshSections();
-    base::require(firstQuads.size() == counted.size(), "GpuMesher::write: each mesh section needs a place");
+    const CountedSections counted = meshSections();
+    base::require(firstQuads.size() == counted.all.size(),
+                  "GpuMesher::write: each mesh section needs a place");
     if (m.unitCount == 0) return;
     const gpu::DebugGroup group("write quads");
-    std::vector<uint> places;
-    places.reserve(counted.size() * shared::kRangesPerMeshSection);
-    for (std::size_t k = 0; k < counted.size(); ++k) {
-        if (firstQuads[k] == kNoPlace) {
-            places.insert(places.end(), shared::kRangesPerMeshSection, kNoPlace);
-            continue;
+    // Of all mesh sections of the batch: those without quads have no place.
+    std::vector<uint> places(m.meshSections.size() * shared::kRangesPerMeshSection, kNoPlace);
+    std::size_t number = 0, next = 0;
+    for (std::size_t chunk = 0; chunk < m.chunkEnds.size(); ++chunk) {
+        for (const mesh::MeshSection& meshSection : counted.ofChunk(chunk)) {
+            while (m.meshSections[number].bottom != meshSection.bottom) ++number;
+            const uint first = firstQuads[next++];
+            if (first == kNoPlace) continue;
+            const std::size_t end = std::size_t{first} + mesh::quadCount(meshSection);
+            base::require(end * shared::kQuadBytes <= quads.sizeBytes(),
+                          "GpuMesher::write: the quads of a mesh section do not fit the buffer");
+            uint* place = &places[number * shared::kRangesPerMeshSection];
+            for (const mesh::QuadRange range : mesh::rangesOf(meshSection)) *place++ = first + range.first;
         }
-        for (const mesh::QuadRange range : mesh::rangesOf(counted[k])) {
-            places.push_back(firstQuads[k] + range.first);
-        }
-        const std::size_t end = std::size_t{firstQuads[k]} + mesh::quadCount(counted[k]);
-        base::require(counted[k].maxZ == 0 || end * shared::kQuadBytes <= quads.sizeBytes(),
-                      "GpuMesher::write: the quads of a mesh section do not fit the buffer");
+        number = m.chunkEnds[chunk];
     }
     m.places.uploadVector(0, places);
     m.bind();
@@ -232,10 +252,10 @@ std::vector<mesh::ChunkMesh> GpuBatchMesher::mesh(std::span<const mesh::MeshInpu
 
 void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vector<mesh::ChunkMesh>& meshes) {
     mesher_.count(chunks);
-    const std::vector<mesh::MeshSection> meshSections = mesher_.meshSections();
+    const CountedSections counted = mesher_.meshSections();
     std::vector<std::uint32_t> firstQuads;
     std::uint32_t total = 0;
-    for (const mesh::MeshSection& meshSection : meshSections) {
+    for (const mesh::MeshSection& meshSection : counted.all) {
         firstQuads.push_back(total);
         total += mesh::quadCount(meshSection);
     }
@@ -246,14 +266,13 @@ void GpuBatchMesher::meshPart(std::span<const mesh::MeshInput> chunks, std::vect
         mesher_.write(firstQuads, quads_);
         quads_.download(0, std::as_writable_bytes(std::span(quads)));
     }
-    const std::size_t meshSectionsPerChunk = meshSections.size() / chunks.size();
     auto from = quads.begin();
-    for (std::size_t k = 0; k < meshSections.size(); k += meshSectionsPerChunk) {
+    for (std::size_t k = 0; k < chunks.size(); ++k) {
         mesh::ChunkMesh& chunk = meshes.emplace_back();
         std::uint32_t first = 0;
-        for (std::size_t r = k; r < k + meshSectionsPerChunk; ++r) {
-            chunk.meshSections.push_back(mesh::movedTo(first, meshSections[r]));
-            first += mesh::quadCount(meshSections[r]);
+        for (const mesh::MeshSection& meshSection : counted.ofChunk(k)) {
+            chunk.meshSections.push_back(mesh::movedTo(first, meshSection));
+            first += mesh::quadCount(meshSection);
         }
         chunk.quads.assign(from, from + first);
         from += first;

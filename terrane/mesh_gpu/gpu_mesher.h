@@ -27,12 +27,23 @@ namespace terrane::mesh_gpu {
 
 using shared::kNoPlace;
 
+// Mesh sections of a batch, of one chunk after the other.
+struct CountedSections {
+    std::vector<mesh::MeshSection> all;
+    std::vector<std::size_t> chunkEnds;  // in `all`
+
+    std::span<const mesh::MeshSection> ofChunk(std::size_t chunk) const {
+        const std::size_t first = chunk == 0 ? 0 : chunkEnds[chunk - 1];
+        return std::span(all).subspan(first, chunkEnds[chunk] - first);
+    }
+};
+
 class GpuMesher {
   public:
     static constexpr std::size_t kMaxChunks = 256;  // a batch
 
-    // Creates the mesher. Besides the uploads of batches (9 KB a chunk) it takes 2.5 MB of GPU memory, for
-    // counts and addresses of 8,192 mesh sections.
+    // Creates the mesher. Besides the uploads of batches (9 KB a chunk) it takes 300 bytes of GPU memory for
+    // each mesh section of the largest batch, for counts and addresses: 2.5 MB for the first 8,192.
     static base::Result<GpuMesher> create(const gpu::ShaderLoader& shaders,
                                           const world::BlockRegistry& blocks);
     GpuMesher(GpuMesher&&) noexcept;
@@ -44,9 +55,9 @@ class GpuMesher {
     void count(std::span<const mesh::MeshInput> chunks);
     // Returns whether the counts are available, without waiting.
     bool isCounted() const;
-    // Returns the mesh sections of all chunks, the lowest of each first; waits until isCounted(). Ranges
-    // count from the mesh section's first quad.
-    std::vector<mesh::MeshSection> meshSections() const;
+    // Returns the mesh sections with quads of all chunks, the lowest of each first; waits until isCounted().
+    // Ranges count from the mesh section's first quad.
+    CountedSections meshSections() const;
     // Returns the GPU time of count(), once isCounted() is true.
     double countMilliseconds() const;
     // Returns the size of all buffers, including those of the current batch.

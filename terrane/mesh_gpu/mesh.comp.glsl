@@ -58,7 +58,8 @@ void reportCounts(MeshUnit unit, uint unitIndex, uint local) {
 #endif
 
 void main() {
-    uint local = gl_LocalInvocationIndex, unitIndex = gl_WorkGroupID.x;
+    uint local = gl_LocalInvocationIndex, unitIndex = gl_WorkGroupID.x + gl_NumWorkGroups.x * gl_WorkGroupID.y;
+    if (unitIndex >= uint(units.length())) return;  // the last row has some more work groups
     MeshUnit unit = units[unitIndex];
 #if WRITES_QUADS
     if (unitCounts[kMeshUnitWords * unitIndex + kRangesPerMeshSection] == 0u) return;  // no visible faces

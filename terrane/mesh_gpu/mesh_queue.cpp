@@ -68,11 +68,10 @@ std::vector<CountedChunk> MeshQueue::takeCounted() {
     base::require(isCounted(), "MeshQueue::takeCounted: no batch is counted");
     start_ = Clock::now();
     meshSections_ = mesher_.meshSections();
-    const std::size_t perChunk = meshSections_.size() / counting_.size();
     std::vector<CountedChunk> counted;
     for (std::size_t k = 0; k < counting_.size(); ++k) {
         if (isRemoved_.contains(counting_[k])) continue;
-        counted.push_back({counting_[k], std::span(meshSections_).subspan(k * perChunk, perChunk)});
+        counted.push_back({counting_[k], meshSections_.ofChunk(k)});
     }
     return counted;
 }
@@ -81,14 +80,18 @@ void MeshQueue::write(std::span<const FirstQuads> places, const gpu::ArenaBuffer
     TERRANE_ZONE("mesh queue: write");
     base::require(!counting_.empty() && places.size() == counting_.size() - isRemoved_.size(),
                   "MeshQueue::write: each chunk of takeCounted() needs a place");
-    const std::size_t perChunk = meshSections_.size() / counting_.size();
-    std::vector<std::uint32_t> addresses(meshSections_.size(), kNoPlace);
+    std::vector<std::uint32_t> addresses;
     auto place = places.begin();
     for (std::size_t k = 0; k < counting_.size(); ++k) {
-        if (isRemoved_.contains(counting_[k])) continue;
-        base::require(place->empty() || place->size() == perChunk,
-                      "MeshQueue::write: each mesh section of a chunk needs a place");
-        std::ranges::copy(*place++, addresses.begin() + static_cast<std::ptrdiff_t>(k * perChunk));
+        const std::size_t count = meshSections_.ofChunk(k).size();
+        if (isRemoved_.contains(counting_[k]) || place->empty()) {
+            addresses.insert(addresses.end(), count, kNoPlace);
+        } else {
+            base::require(place->size() == count,
+                          "MeshQueue::write: each mesh section of a chunk needs a place");
+            addresses.insert(addresses.end(), place->begin(), place->end());
+        }
+        if (!isRemoved_.contains(counting_[k])) ++place;
     }
     for (std::size_t arena = 0; arena < quads.buffers.size(); ++arena) {
         const auto [offsets, isAny] =

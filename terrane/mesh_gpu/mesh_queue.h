@@ -14,13 +14,14 @@
 
 namespace terrane::mesh_gpu {
 
-// A chunk whose quads are counted. The mesh sections are valid until the batch is written.
+// A chunk whose quads are counted, with its mesh sections that have some. They are valid until the batch is
+// written.
 struct CountedChunk {
     world::ChunkPos pos;
     std::span<const mesh::MeshSection> meshSections;
 };
 
-// Addresses of the first quad of each mesh section of a chunk; empty if there is no room for them.
+// Addresses of the first quad of each mesh section of a chunk; empty if there is no room for them, or none.
 using FirstQuads = std::vector<std::uint32_t>;
 
 // A frame calls, in this order:
@@ -70,7 +71,7 @@ class MeshQueue {
     // The batch in flight, its removed chunks, and once it is counted the mesh sections of all.
     std::vector<world::ChunkPos> counting_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> isRemoved_;
-    std::vector<mesh::MeshSection> meshSections_;
+    CountedSections meshSections_;
     Clock::time_point start_;       // of counting or writing, whichever is under way
     double countMilliseconds_ = 0;  // of the batch, on the CPU
 };

@@ -11,11 +11,25 @@ namespace {
 using shared::uint;
 using world::Section;
 
+const Section& sectionOf(const world::Chunk& chunk, int number) {
+    static const Section kAir;
+    const world::Heights heights = chunk.heights();
+    return number >= heights.firstSection() && number < heights.endSection() ? chunk.section(number) : kAir;
+}
+
+const Section& statesOf(const world::Chunk& chunk, int number) {
+    static const Section kNone;
+    const world::Heights heights = chunk.heights();
+    return number >= heights.firstSection() && number < heights.endSection() ? chunk.blockStates(number)
+                                                                             : kNone;
+}
+
 // The section beyond a side; null above and below the world.
 const Section* beside(const mesh::MeshInput& chunk, int number, uint side) {
-    if (side < 4) return &chunk.neighbors[side]->section(number);
+    if (side < 4) return &sectionOf(*chunk.neighbors[side], number);
     const int other = side == world::kFaceNegZ ? number - 1 : number + 1;
-    const bool isInside = other >= 0 && other < world::kSectionsPerChunk;
+    const world::Heights heights = chunk.center->heights();
+    const bool isInside = other >= heights.firstSection() && other < heights.endSection();
     return isInside ? &chunk.center->section(other) : nullptr;
 }
 
@@ -29,7 +43,8 @@ void MeshUpload::clear() {
     units_.clear();
     packed_.clear();
     slots_.clear();
-    meshSections_ = 0;
+    meshSections_.clear();
+    chunkEnds_.clear();
 }
 
 uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
@@ -42,7 +57,7 @@ uint MeshUpload::slotOf(const Section& section, bool holdsBlocks) {
 }
 
 // Whether faces of a section may be visible. False for air only, and for opaque cubes surrounded by opaque
-// cubes: 4 or 5 of 16 sections of a landscape chunk are left.
+// cubes: 4 or 5 sections of a landscape chunk are left.
 bool MeshUpload::mayBeSeen(const mesh::MeshInput& chunk, int number) const {
     const Section& section = chunk.center->section(number);
     const auto isInvisible = [&](std::uint16_t id) {
@@ -70,29 +85,41 @@ void MeshUpload::addUnits(const mesh::MeshInput& chunk, int number) {
     };
     unit.blockState = stateSlot(chunk.center->blockStates(number));
     for (uint side = 0; side < 4; ++side)
-        unit.neighborStates[side] = stateSlot(chunk.neighbors[side]->blockStates(number));
+        unit.neighborStates[side] = stateSlot(statesOf(*chunk.neighbors[side], number));
     for (uint side = 0; side < world::kFaceCount; ++side) {
         const Section* next = beside(chunk, number, side);
         const uint none = side == world::kFaceNegZ ? shared::kOpaqueSection : shared::kNoSection;
         unit.neighbors[side] = next ? slotOf(*next, true) : none;
     }
-    unit.baseZ = static_cast<uint>(number * world::kSectionSize);
-    const auto height = static_cast<uint>(chunk.options.meshSectionHeight);
-    const uint step = std::min(height, shared::kSectionSize);
-    for (uint layer = 0; layer < shared::kSectionSize; layer += step) {
-        unit.meshSection = meshSections_ + (unit.baseZ + layer) / height;
-        unit.layers = layer | (layer + step) << 16;
+    const int baseZ = number * world::kSectionSize, height = chunk.options.meshSectionHeight;
+    unit.baseZ = shared::quadZOf(baseZ);
+    const int step = std::min(height, world::kSectionSize);
+    for (int layer = 0; layer < world::kSectionSize; layer += step) {
+        unit.meshSection = meshSectionOf(baseZ + layer, height);
+        unit.layers = static_cast<uint>(layer | (layer + step) << 16);
         units_.push_back(unit);
     }
+}
+
+// The number of the chunk's mesh section with a layer, which is the last one or comes after it.
+uint MeshUpload::meshSectionOf(int z, int height) {
+    const std::size_t firstOfChunk = chunkEnds_.empty() ? 0 : chunkEnds_.back();
+    if (meshSections_.size() == firstOfChunk || meshSections_.back().top <= z) {
+        mesh::MeshSection& added = meshSections_.emplace_back();
+        added.bottom = z & ~(height - 1);
+        added.top = added.bottom + height;
+    }
+    return static_cast<uint>(meshSections_.size() - 1);
 }
 
 void MeshUpload::add(const mesh::MeshInput& chunk) {
     base::require(chunk.center && std::ranges::count(chunk.neighbors, nullptr) == 0,
                   "GpuMesher: a chunk is meshed when its neighbors are known");
-    for (int number = 0; number < world::kSectionsPerChunk; ++number) {
+    const world::Heights heights = chunk.center->heights();
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
         if (mayBeSeen(chunk, number)) addUnits(chunk, number);
     }
-    meshSections_ += static_cast<uint>(world::kChunkHeight / chunk.options.meshSectionHeight);
+    chunkEnds_.push_back(meshSections_.size());
 }
 
 }  // namespace terrane::mesh_gpu

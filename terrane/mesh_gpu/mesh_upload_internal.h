@@ -24,17 +24,23 @@ class MeshUpload {
 
     std::span<const shared::MeshUnit> units() const { return units_; }
     const world::PackedSections& packed() const { return packed_; }
+    // Returns the mesh sections that units are in, of one chunk after the other, without quads.
+    std::span<const mesh::MeshSection> meshSections() const { return meshSections_; }
+    // Returns the number of mesh sections up to the end of each chunk.
+    std::span<const std::size_t> chunkEnds() const { return chunkEnds_; }
 
   private:
     shared::uint slotOf(const world::Section& section, bool holdsBlocks);
     void addUnits(const mesh::MeshInput& chunk, int number);
     bool mayBeSeen(const mesh::MeshInput& chunk, int number) const;
+    shared::uint meshSectionOf(int z, int height);
 
     const BlockTable& types_;
     std::vector<shared::MeshUnit> units_;
     world::PackedSections packed_;
     std::unordered_map<const world::Section*, shared::uint> slots_;
-    shared::uint meshSections_ = 0;  // of the chunks before
+    std::vector<mesh::MeshSection> meshSections_;
+    std::vector<std::size_t> chunkEnds_;
 };
 
 }  // namespace terrane::mesh_gpu

@@ -21,10 +21,34 @@ SHARED_FN uint firstRange(uint bucket) {
 
 struct MeshSectionRecord {
     ivec2 chunk;                          // in chunks of the level
-    uint level;                           // see world::ChunkPos
-    uint heights;                         // lowest block, and the block above the highest << 16
+    uint place;                           // level and slab, see packPlace()
+    uint heights;                         // see packHeights()
     uvec2 ranges[kRangesPerMeshSection];  // address of the first quad (gpu/arena_allocator.h), count
 };
+
+// The level of a mesh section's chunk (world::ChunkPos) in bits 0–7, and above them the slab of its quads
+// (quad.h), which may be negative.
+SHARED_FN uint packPlace(uint level, int slab) {
+    return level | (uint(slab) << 8);
+}
+SHARED_FN uint placeLevel(uint place) {
+    return place & 255u;
+}
+SHARED_FN int placeBase(uint place) {  // lowest layer of the slab
+    return int(place & ~255u);
+}
+
+// The lowest block of a mesh section with quads in the lower 16 bits, and the block above the highest in the
+// upper ones; both may be negative.
+SHARED_FN uint packHeights(int low, int high) {
+    return (uint(low) & 65535u) | (uint(high) << 16);
+}
+SHARED_FN int lowHeight(uint heights) {
+    return int(heights << 16) >> 16;
+}
+SHARED_FN int highHeight(uint heights) {
+    return int(heights) >> 16;
+}
 
 // Width of a column of a level, in blocks.
 SHARED_FN float columnBlocks(uint level) {
@@ -49,8 +73,8 @@ struct DrawCommand {
 // What the vertex shader knows of a draw, as an instance attribute. The first quad is not in the base vertex,
 // so that vertex ids stay below 2¹⁶: some drivers have wrong ones from 2²³ on.
 struct DrawRecord {
-    ivec2 chunk;  // of the mesh section, with its level
-    uint level;
+    ivec2 chunk;  // of the mesh section
+    uint place;
     uint firstQuad;  // in its arena, or see kFirstListedQuad
 };
 

@@ -2,7 +2,7 @@
 //
 //   word 0, bits  0–3   x of the quad's lowest block in its chunk
 //                 4–7   y
-//                 8–15  z
+//                 8–15  z in its slab of 256 layers; the quad's mesh section says which (mesh_section.h)
 //                 16–23 shape face, its low bits: index into the table of mesh/shape_faces.h
 //                 24–27 extent along the face's u axis, minus one (1…16 blocks)
 //                 28–31 extent along the face's v axis, minus one
@@ -19,6 +19,9 @@
 SHARED_BEGIN
 
 const uint kQuadBytes = 8u;
+
+// Layers of a slab. Slab n has layers 256 n … 256 n + 255; no mesh section is in two of them.
+const uint kQuadSlab = 256u;
 
 // Bits of word 1: see render/cull/cull_pass.h.
 const uint kQuadSeen = 1u << 30;
@@ -59,11 +62,18 @@ namespace terrane::shared {
 static_assert(sizeof(Quad) == kQuadBytes);
 
 struct QuadFields {
-    uint x, y, z;                   // lowest block of the quad, in the chunk
+    uint x, y, z;                   // lowest block of the quad, in the chunk and the slab
     uint shapeFace;                 // 0…2047
     uint extentU = 1, extentV = 1;  // 1…16 blocks
     uint material = 0;              // 0…65535
 };
+
+constexpr int quadSlab(int z) {
+    return z >> 8;
+}
+constexpr uint quadZOf(int z) {  // in its slab
+    return static_cast<uint>(z) & (kQuadSlab - 1);
+}
 
 constexpr Quad packQuad(const QuadFields& f) {
     return {

@@ -5,6 +5,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "terrane/mesh/remesh.h"
 #include "tests/mesh/mesh_fixture.h"
 #include "tests/mesh/random_blocks.h"
 #include "tests/mesh/reference_faces.h"
@@ -19,7 +20,7 @@ constexpr int kMeshSectionHeights[] = {8, 16, 32, 64, 128};
 // Every visible face is covered once, no other face is.
 void expectExact(const MeshInput& input, const ChunkMesh& mesh) {
     const std::vector<CellFace> expected = ReferenceFaces(input).find();
-    const std::vector<CellFace> covered = coveredFaces(mesh.quads, testBlocks());
+    const std::vector<CellFace> covered = coveredFaces(mesh, testBlocks());
     if (expected == covered) return;
     const auto [e, c] = std::mismatch(expected.begin(), expected.end(), covered.begin(), covered.end());
     ADD_FAILURE() << "expected " << (e == expected.end() ? "no more" : describe(*e)) << ", covered "
@@ -86,10 +87,10 @@ void expectSorted(const shared::Quad q, int bucket, int direction) {
 }
 
 struct Height {
-    int min = world::kChunkHeight, max = 0;
+    int min = world::kHighestTop, max = world::kLowestBottom;
 
-    void cover(const shared::Quad q) {
-        const int z = static_cast<int>(quadZ(q));
+    void cover(const shared::Quad q, int base) {
+        const int z = base + static_cast<int>(quadZ(q));
         const bool upright = shapeFaceOf(q).axisV.z != 0;
         min = std::min(min, z);
         max = std::max(max, z + (upright ? static_cast<int>(quadExtentV(q)) : 1));
@@ -97,11 +98,14 @@ struct Height {
 };
 
 void expectMeshSections(const ChunkMesh& mesh, int meshSectionHeight) {
-    ASSERT_EQ(static_cast<int>(mesh.meshSections.size()), world::kChunkHeight / meshSectionHeight);
     std::uint32_t next = 0;
-    for (std::size_t r = 0; r < mesh.meshSections.size(); ++r) {
-        const MeshSection& meshSection = mesh.meshSections[r];
-        const std::uint32_t first = next;
+    int end = world::kLowestBottom;
+    for (const MeshSection& meshSection : mesh.meshSections) {
+        ASSERT_GE(meshSection.bottom, end) << "lowest first";
+        end = meshSection.top;
+        ASSERT_EQ(meshSection.bottom & (meshSectionHeight - 1), 0);
+        ASSERT_EQ(meshSection.top - meshSection.bottom, meshSectionHeight);
+        ASSERT_GT(quadCount(meshSection), 0u);
         Height height;
         for (int bucket = 0; bucket < kDrawBucketCount; ++bucket) {
             for (int direction = 0; direction < kFaceDirectionCount; ++direction) {
@@ -111,13 +115,14 @@ void expectMeshSections(const ChunkMesh& mesh, int meshSectionHeight) {
                 ASSERT_LE(next, mesh.quads.size());
                 for (std::uint32_t i = range.first; i < next; ++i) {
                     expectSorted(mesh.quads[i], bucket, direction);
-                    EXPECT_EQ(quadZ(mesh.quads[i]) / static_cast<unsigned>(meshSectionHeight), r);
-                    height.cover(mesh.quads[i]);
+                    height.cover(mesh.quads[i], quadBase(meshSection));
                 }
             }
         }
-        EXPECT_EQ(meshSection.minZ, next == first ? 0 : height.min);
-        EXPECT_EQ(meshSection.maxZ, next == first ? 0 : height.max);
+        EXPECT_EQ(meshSection.minZ, height.min);
+        EXPECT_EQ(meshSection.maxZ, height.max);
+        EXPECT_GE(meshSection.minZ, meshSection.bottom);
+        EXPECT_LE(meshSection.maxZ, meshSection.top);
     }
     EXPECT_EQ(next, mesh.quads.size());
 }
@@ -181,23 +186,20 @@ TEST(ChunkMesher, FormOfSectionsDoesNotMatter) {
     }
     ASSERT_TRUE(area.center.section(1).isDense());
     const ChunkMesh after = meshOf(area);
-    EXPECT_EQ(coveredFaces(before.quads, testBlocks()), coveredFaces(after.quads, testBlocks()));
+    EXPECT_EQ(coveredFaces(before, testBlocks()), coveredFaces(after, testBlocks()));
     EXPECT_EQ(before.quads.size(), after.quads.size());
 }
 
 TEST(ChunkMesher, MeshSectionHeightOnlyRegroups) {
     const Area area(randomBlocks(Mix::Terrain, 7));
-    const std::vector<CellFace> faces = coveredFaces(meshOf(area).quads, testBlocks());
+    const std::vector<CellFace> faces = coveredFaces(meshOf(area), testBlocks());
     for (const int height : kMeshSectionHeights) {
-        EXPECT_EQ(coveredFaces(meshOf(area, {.meshSectionHeight = height}).quads, testBlocks()), faces);
+        EXPECT_EQ(coveredFaces(meshOf(area, {.meshSectionHeight = height}), testBlocks()), faces);
     }
 }
 
-TEST(ChunkMesher, EmptyChunkHasEmptyMeshSections) {
-    const ChunkMesh mesh = meshOf(placed({}), {.meshSectionHeight = 64});
-    EXPECT_TRUE(mesh.quads.empty());
-    ASSERT_EQ(mesh.meshSections.size(), 4u);
-    EXPECT_EQ(mesh.meshSections[0], MeshSection{});
+TEST(ChunkMesher, EmptyChunkHasNoMeshSections) {
+    EXPECT_EQ(meshOf(placed({}), {.meshSectionHeight = 64}), ChunkMesh());
 }
 
 TEST(ChunkMesher, SolidWorldShowsOnlyItsTop) {
@@ -239,7 +241,97 @@ TEST(ChunkMesher, BoundsOfMeshSectionsAreTight) {
     EXPECT_EQ(mesh.meshSections[0].maxZ, 64);
     EXPECT_EQ(mesh.meshSections[1].minZ, 64);
     EXPECT_EQ(mesh.meshSections[1].maxZ, 66);
-    EXPECT_EQ(mesh.meshSections[2].maxZ, 0);
+    EXPECT_EQ(mesh.meshSections.size(), 2u);
+}
+
+constexpr world::Heights kTallHeights[] = {{-64, 320}, {-2048, -1808}, {1936, 2048}, {512, 1024}, {-16, 0}};
+
+// The blocks of a source from the bottom of a world on.
+BlockSource movedUp(const BlockSource& source, int blocks) {
+    return [=](int x, int y, int z) { return source(x, y, z - blocks); };
+}
+
+// Also with mesh sections that reach beyond the world.
+TEST(ChunkMesher, AnyHeightsCoverEachVisibleFaceOnce) {
+    MeshScratch scratch;
+    unsigned seed = 0;
+    for (const world::Heights heights : kTallHeights) {
+        for (const int meshSectionHeight : kMeshSectionHeights) {
+            SCOPED_TRACE(world::describe(heights) + ", mesh sections of " +
+                         std::to_string(meshSectionHeight));
+            const auto mix = static_cast<Mix>(seed % static_cast<unsigned>(Mix::Count));
+            Area area(movedUp(randomBlocks(mix, seed), heights.bottom), heights);
+            if (++seed % 2 == 1) area.addBlockState(seed);
+            if (seed % 3 == 1) area.addFlow(seed);
+            const MeshOptions options{MergeMethod::Greedy, meshSectionHeight};
+            MeshInput input = area.input(options);
+            if (seed % 4 == 0) input.neighbors[seed / 4 % 4] = nullptr;
+            const ChunkMesh mesh = meshChunk(input, scratch);
+            expectExact(input, mesh);
+            expectMeshSections(mesh, meshSectionHeight);
+            for (const shared::Quad q : mesh.quads) expectWellFormed(q, options);
+            if (HasFailure()) return;
+        }
+    }
+}
+
+// Land in the middle of a world of 4,096 layers: its mesh has what the land has, and no more.
+TEST(ChunkMesher, HeightAddsNothing) {
+    const world::Heights tall{world::kLowestBottom, world::kHighestTop};
+    const BlockSource land = randomBlocks(Mix::Terrain, 5);
+    const auto deepLand = [&](int x, int y, int z) { return z < 0 ? idOf("stone") : land(x, y, z); };
+    const Area area(deepLand, tall);
+    const ChunkMesh expected = meshOf(Area(land));
+    EXPECT_EQ(meshOf(area), expected);
+    MeshScratch scratch;
+    EXPECT_EQ(buildMeshSections(area.input(), MeshSectionSet::all(tall), scratch), expected);
+}
+
+// Moved by whole slabs, quads are the same; by other steps their z changes.
+TEST(ChunkMesher, QuadsCountFromTheirSlab) {
+    const world::Heights tall{world::kLowestBottom, world::kHighestTop};
+    const BlockSource lumps = [](int x, int y, int z) {
+        return z < 0 || z >= 200 ? world::kAir : randomBlocks(Mix::Lumps, 3)(x, y, z);
+    };
+    const ChunkMesh at0 = meshOf(Area(lumps, tall));
+    for (const int slabs : {-7, -1, 7}) {
+        const ChunkMesh moved = meshOf(Area(movedUp(lumps, 256 * slabs), tall));
+        EXPECT_TRUE(moved.quads == at0.quads);
+        ASSERT_EQ(moved.meshSections.size(), at0.meshSections.size());
+        for (std::size_t k = 0; k < moved.meshSections.size(); ++k) {
+            EXPECT_EQ(moved.meshSections[k].minZ, at0.meshSections[k].minZ + 256 * slabs);
+            EXPECT_EQ(quadBase(moved.meshSections[k]), 256 * slabs);
+        }
+    }
+}
+
+// A tile of a tall world: 16 solid sections under the surface have sides, those below have none.
+TEST(ChunkMesher, OpenSidesEndDeepInTheGround) {
+    const world::Heights tall{world::kLowestBottom, 512};
+    const Area area([](int, int, int z) { return z < 80 ? idOf("stone") : world::kAir; }, tall);
+    MeshScratch scratch;
+    const ChunkMesh mesh = meshTile(area.center, testBlocks(), {}, scratch);
+    ASSERT_FALSE(mesh.meshSections.empty());
+    EXPECT_EQ(mesh.meshSections.front().minZ, 64 - 16 * kOpenSections);
+    EXPECT_EQ(mesh.quads.size(), 1u + 4 * (kOpenSections + 1));
+    MeshInput input = area.input();
+    input.neighbors = {};
+    expectExact(input, mesh);
+}
+
+// The chunk that stands for those beyond the world's edge has other heights.
+TEST(ChunkMesher, BeyondTheHeightsOfANeighborIsAir) {
+    const world::Heights tall{-64, 320};
+    const Area area(randomBlocks(Mix::Dense, 4), tall);
+    const world::Chunk none, noneAsTall(tall);
+    MeshScratch scratch;
+    MeshInput input = area.input(), same = input;
+    input.neighbors[0] = input.neighbors[3] = &none;
+    same.neighbors[0] = same.neighbors[3] = &noneAsTall;
+    EXPECT_EQ(meshChunk(input, scratch), meshChunk(same, scratch));
+    const MeshBlocks blocks{std::make_shared<const world::Chunk>(area.center), nullptr, nullptr, nullptr,
+                            nullptr};
+    EXPECT_EQ(meshChunk(meshInput(blocks, testBlocks(), {}), scratch), meshAlone(area.center, testBlocks()));
 }
 
 TEST(ChunkMesher, BottomOfTheWorldIsNotDrawn) {
@@ -261,8 +353,8 @@ TEST(MeshChunk, NeedsAChunkItsBlocksAndAHeight) {
     refuses([](MeshInput& input) { input.blocks = nullptr; });
     for (const int height : {0, -16, 4, 24, 256})
         refuses([=](MeshInput& input) { input.options.meshSectionHeight = height; });
-    for (const int number : {-1, 4})
-        EXPECT_THROW(buildMeshSection(area.input({MergeMethod::None, 64}), number, scratch, quads),
+    for (const int bottom : {-64, 32, 256})
+        EXPECT_THROW(buildMeshSection(area.input({MergeMethod::None, 64}), bottom, scratch, quads),
                      std::invalid_argument);
 }
 

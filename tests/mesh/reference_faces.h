@@ -9,21 +9,23 @@
 #include <vector>
 
 #include "terrane/mesh/chunk_mesher.h"
+#include "terrane/mesh/section_faces.h"
 #include "terrane/world/blocks/block_model.h"
 
 namespace terrane::mesh {
 
-// One face of one block in a number, which sorts faster than a struct: x 4 bits, y 4, z 8, shape face 16,
-// material 16, from the lowest.
+// One face of one block in a number, which sorts faster than a struct: x 4 bits, y 4, z above the lowest
+// bottom 16, shape face 16, material 16, from the lowest.
 using CellFace = std::uint64_t;
 
-inline CellFace cellFace(unsigned x, unsigned y, unsigned z, unsigned shapeFace, unsigned material) {
-    return x | y << 4 | z << 8 | CellFace{shapeFace} << 16 | CellFace{material} << 32;
+inline CellFace cellFace(unsigned x, unsigned y, int z, unsigned shapeFace, unsigned material) {
+    const auto layer = static_cast<unsigned>(z - world::kLowestBottom);
+    return x | y << 4 | layer << 8 | CellFace{shapeFace} << 24 | CellFace{material} << 40;
 }
 
 inline std::string describe(CellFace face) {
-    return fmt::format("shape face {}, material {} at {} {} {}", face >> 16 & 65535, face >> 32, face & 15,
-                       face >> 4 & 15, face >> 8 & 255);
+    return fmt::format("shape face {}, material {} at {} {} {}", face >> 24 & 65535, face >> 40, face & 15,
+                       face >> 4 & 15, static_cast<int>(face >> 8 & 65535) + world::kLowestBottom);
 }
 
 class ReferenceFaces {
@@ -33,7 +35,7 @@ class ReferenceFaces {
     // In ascending order.
     std::vector<CellFace> find() {
         faces_.clear();
-        for (int z = 0; z < world::kChunkHeight; ++z) {
+        for (int z = heights_.bottom; z < heights_.top; ++z) {
             for (int y = 0; y < 16; ++y) {
                 for (int x = 0; x < 16; ++x) addBlock(x, y, z);
             }
@@ -53,14 +55,25 @@ class ReferenceFaces {
     }
 
     world::BlockId idAt(int x, int y, int z) const {
-        if (!world::isInHeight(z)) return world::kAir;
+        if (!heights_.contains(z)) return world::kAir;
         return chunkAt(x, y)->block(world::blockIndex(x & 15, y & 15, z));
     }
 
-    // Beyond an open border an opaque cube meets air, everything else its own kind.
+    // Whether the layer is in a solid section more than kOpenSections below the highest one.
+    bool isDeep(int z) const {
+        const auto isSolid = [&](int number) {
+            return isAllOpaque(input_.center->section(number), *input_.blocks);
+        };
+        int highest = heights_.endSection() - 1;
+        while (highest >= heights_.firstSection() && !isSolid(highest)) --highest;
+        return (z >> 4) < highest - kOpenSections && isSolid(z >> 4);
+    }
+
+    // Beyond an open border an opaque cube meets air, but in deep solid ground, and everything else its own
+    // kind.
     world::BlockId idBeside(world::BlockId id, int x, int y, int z) const {
         if (chunkAt(x, y)) return idAt(x, y, z);
-        return typeOf(id).opaqueCube ? world::kAir : id;
+        return typeOf(id).opaqueCube && !isDeep(z) ? world::kAir : id;
     }
 
     const world::BlockType& typeOf(world::BlockId id) const { return input_.blocks->type(id); }
@@ -73,7 +86,7 @@ class ReferenceFaces {
         const int step = side % 2 == 0 ? -1 : 1;
         const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
         const int nz = z + (side / 2 == 2 ? step : 0);
-        if (nz < 0) return true;
+        if (nz < heights_.bottom) return true;
         return chunkAt(nx, ny) && typeOf(idAt(nx, ny, nz)).opaqueCube;
     }
 
@@ -82,8 +95,8 @@ class ReferenceFaces {
         const std::uint16_t state = input_.center->blockState(world::blockIndex(x, y, z));
         for (const world::ModelFace& face : type.model->form(state).faces) {
             if (face.hiddenBy != world::kFaceCount && touchesOpaqueCube(x, y, z, face.hiddenBy)) continue;
-            faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y),
-                                      static_cast<unsigned>(z), face.shapeFace, type.material[face.look]));
+            faces_.push_back(cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y), z, face.shapeFace,
+                                      type.material[face.look]));
         }
     }
 
@@ -92,7 +105,7 @@ class ReferenceFaces {
         const int step = side % 2 == 0 ? -1 : 1;
         const int nx = x + (side / 2 == 0 ? step : 0), ny = y + (side / 2 == 1 ? step : 0);
         const int nz = z + (side / 2 == 2 ? step : 0);
-        if (nz < 0) return false;
+        if (nz < heights_.bottom) return false;
         const world::BlockId id = idAt(x, y, z), next = idBeside(id, nx, ny, nz);
         if (typeOf(next).opaqueCube) return false;
         if (next != id) return true;
@@ -107,7 +120,7 @@ class ReferenceFaces {
         const std::size_t left =
             std::min<std::size_t>(input_.center->blockState(world::blockIndex(x, y, z)), type.growth.size());
         faces_.push_back(
-            cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z), shapeFace,
+            cellFace(static_cast<unsigned>(x), static_cast<unsigned>(y), z, shapeFace,
                      left > 0 ? type.growth[left - 1] : type.material[static_cast<std::size_t>(side)]));
     }
 
@@ -132,7 +145,7 @@ class ReferenceFaces {
 
     // Not known at the top of a section in a chunk beside.
     bool isStillFull(int x, int y, int z) const {
-        if (((x | y) & ~15) != 0 && z % 16 == 15) return false;
+        if (((x | y) & ~15) != 0 && (z & 15) == 15) return false;
         const world::BlockId above = idAt(x, y, z + 1);
         return above == idAt(x, y, z) || typeOf(above).opaqueCube;
     }
@@ -200,26 +213,32 @@ class ReferenceFaces {
     }
 
     const MeshInput& input_;
+    const world::Heights heights_ = input_.center->heights();
     std::vector<CellFace> faces_;
 };
 
 // All faces the quads cover, in ascending order; a face covered twice stands twice.
-inline std::vector<CellFace> coveredFaces(const std::vector<shared::Quad>& quads,
-                                          const world::BlockRegistry& blocks) {
+inline std::vector<CellFace> coveredFaces(const ChunkMesh& mesh, const world::BlockRegistry& blocks) {
     const std::vector<shared::ShapeFace> table = shapeFaces(blocks);
     std::vector<CellFace> faces;
-    for (const shared::Quad q : quads) {
+    const auto add = [&](shared::Quad q, int base) {
         const shared::ShapeFace& shape = table[quadShapeFace(q)];
         // The axes of merged faces lie along coordinates; steps go up whichever way the texture runs.
         const auto step = [](float a) { return a != 0 ? 1u : 0u; };
         const shared::vec4 u = shape.axisU, v = shape.axisV;
         for (unsigned j = 0; j < quadExtentV(q); ++j) {
             for (unsigned i = 0; i < quadExtentU(q); ++i) {
-                faces.push_back(cellFace(
-                    quadX(q) + i * step(u.x) + j * step(v.x), quadY(q) + i * step(u.y) + j * step(v.y),
-                    quadZ(q) + i * step(u.z) + j * step(v.z), quadShapeFace(q), quadMaterial(q)));
+                const unsigned z = quadZ(q) + i * step(u.z) + j * step(v.z);
+                faces.push_back(cellFace(quadX(q) + i * step(u.x) + j * step(v.x),
+                                         quadY(q) + i * step(u.y) + j * step(v.y), base + static_cast<int>(z),
+                                         quadShapeFace(q), quadMaterial(q)));
             }
         }
+    };
+    for (const MeshSection& meshSection : mesh.meshSections) {
+        const std::uint32_t first = firstQuad(meshSection);
+        for (std::uint32_t k = first; k < first + quadCount(meshSection); ++k)
+            add(mesh.quads[k], quadBase(meshSection));
     }
     std::sort(faces.begin(), faces.end());
     return faces;

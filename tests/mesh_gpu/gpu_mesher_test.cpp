@@ -10,6 +10,7 @@
 #include "tests/mesh/random_blocks.h"
 #include "tests/mesh_gpu/mesh_comparison.h"
 #include "tests/mesh_gpu/overworld.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::mesh_gpu {
 namespace {
@@ -60,6 +61,33 @@ TEST_F(GpuMesherTest, RandomVolumesEqualCpu) {
             expectEqual(mesher, inputs);
         }
     }
+}
+
+// Worlds of all heights in a batch, also with more mesh sections than the buffers had room for.
+TEST_F(GpuMesherTest, AnyHeightsEqualCpu) {
+    constexpr world::Heights kTall[] = {
+        {-64, 320}, {world::kLowestBottom, -1792}, {1808, world::kHighestTop}, {512, 1024}, {-16, 0}};
+    GpuBatchMesher mesher = mesherOf(mesh::testBlocks());
+    unsigned seed = 40;
+    for (const int height : {8, 16, 128}) {
+        std::vector<mesh::Area> areas;
+        for (const world::Heights heights : kTall) {
+            const auto mix = static_cast<mesh::Mix>(++seed % static_cast<unsigned>(mesh::Mix::Count));
+            const mesh::BlockSource source = mesh::randomBlocks(mix, seed);
+            areas.emplace_back([&](int x, int y, int z) { return source(x, y, z - heights.bottom); },
+                               heights);
+            if (seed % 2 == 0) areas.back().addBlockState(seed);
+            if (seed % 3 == 0) areas.back().addFlow(seed);
+        }
+        std::vector<MeshInput> inputs;
+        for (const mesh::Area& area : areas) inputs.push_back(area.input({MergeMethod::Greedy, height}));
+        SCOPED_TRACE(height);
+        expectEqual(mesher, inputs);
+    }
+    const world::Heights tall{world::kLowestBottom, world::kHighestTop};
+    const mesh::Area full(mesh::randomBlocks(mesh::Mix::Slabs, 3), tall);
+    const std::vector<MeshInput> inputs(20, full.input({MergeMethod::Lines, 8}));
+    expectEqual(mesher, inputs);
 }
 
 // A block whose only quad a stone of the next chunk hides has no faces and covers no layer.
@@ -140,7 +168,7 @@ TEST_F(GpuMesherTest, WritesOnlyWhereItIsTold) {
     const mesh::Area area(mesh::randomBlocks(mesh::Mix::Terrain, 4));
     const std::vector<MeshInput> inputs = {area.input({MergeMethod::Greedy, 16})};
     mesher->count(inputs);
-    const std::vector<mesh::MeshSection> meshSections = mesher->meshSections();
+    const std::vector<mesh::MeshSection> meshSections = mesher->meshSections().all;
     constexpr std::uint32_t kGap = 7;
     std::vector<std::uint32_t> firstQuads;
     std::uint32_t end = kGap;
@@ -175,12 +203,11 @@ TEST_F(GpuMesherTest, FillsTheStoreThatIsDrawnFrom) {
     render::QuadStore store({.arenaQuads = 400'000, .maxArenas = 1});
     const std::vector<MeshInput> inputs = {first.input(), second.input()};
     mesher->count(inputs);
-    const std::vector<mesh::MeshSection> meshSections = mesher->meshSections();
-    const std::size_t perChunk = meshSections.size() / 2;
+    const CountedSections counted = mesher->meshSections();
     std::vector<std::uint32_t> firstQuads;
     for (std::size_t k = 0; k < 2; ++k) {
         const world::ChunkPos pos{static_cast<int>(k), 0};
-        ASSERT_TRUE(store.reserve(pos, std::span(meshSections).subspan(k * perChunk, perChunk)));
+        ASSERT_TRUE(store.reserve(pos, counted.ofChunk(k)));
         for (const mesh::MeshSection& meshSection : store.meshSectionsOf(pos))
             firstQuads.push_back(mesh::firstQuad(meshSection));
     }

@@ -12,6 +12,7 @@
 #include "tests/mesh/test_blocks.h"
 #include "tests/mesh_gpu/mesh_comparison.h"
 #include "tests/render/content.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::mesh_gpu {
 namespace {
