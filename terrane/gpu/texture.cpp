@@ -73,6 +73,7 @@ std::size_t texelBytes(GLenum format) {
             return 2;
         case GL_RGBA16F:
         case GL_RGBA16:
+        case GL_RG32F:
             return 8;
         case GL_RGBA32F:
             return 16;

@@ -11,8 +11,10 @@ const uint kSkyTableColumns = 64u;
 const uint kSkyTableRows = 32u;
 
 struct AirFrame {
-    vec4 lightAzimuth;  // x, y: level direction toward the light, unit length; z: scale of the table; w: 0
-    vec4 aureole;       // narrow glow around the light; w: its sharpness
+    // x, y: level direction toward the light, unit length; z: scale of the table; w: optical depth of haze at
+    // z = 0, as in depth.y: it is no denser below.
+    vec4 lightAzimuth;
+    vec4 aureole;  // narrow glow around the light; w: its sharpness
     // x, y: optical depth of a block at the camera's altitude in powers of ½: of molecules for red, and of
     // haze for all colors. z: 1 / scale height of the haze. w: share by which the mean density of molecules
     // on the way decreases with each block of rise.

@@ -52,6 +52,7 @@ const uint kTintUnit = 23u;
 const uint kLandShadowUnit = 24u;
 const uint kLandGroundUnit = 25u;
 const uint kShadowDepthsUnit = 26u;  // the maps of kShadowUnit without comparison
+const uint kLightEntriesUnit = 27u;
 const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
 const uint kListedQuadsUnit = 30u;  // a buffer as a texture

@@ -51,7 +51,8 @@ struct Frame {
     uint isMoon;           // 1 at night, when the light is the moon
 
     uint waterAbove;  // blocks of water over the camera, its own included; 0 in air
-    uint unused0, unused1, unused2;
+    int bottom, top;  // the world's lowest layer, and the one above its highest
+    uint unused;
 };
 
 // Share of the fog distance, along the view direction, from which surfaces may fade: 5/6 over the ground,
@@ -73,6 +74,10 @@ const uint kViewLight = 4u;
 const int kSwitchAnimation = 1;
 const int kSwitchDistanceFog = 4;
 const int kSwitchUnlit = 8;  // the colors of the blocks alone
+
+// The plane of the clouds, in blocks. A camera is in them up to kCloudDepth below and above it.
+const float kCloudHeight = 360.0f;
+const float kCloudDepth = 24.0f;
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {

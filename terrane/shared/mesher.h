@@ -34,7 +34,7 @@ struct MeshUnit {
     uint layers;       // of the section: the first, and the one after the last << 16
     uint neighbors[6];
     uint neighborStates[4];
-    uint baseZ;  // of the section
+    uint baseZ;  // of the section, in its slab (quad.h)
     uint unused;
 };
 
@@ -77,7 +77,7 @@ const uint kMeshUnitWords = 25u;
 
 struct MeshSectionCounts {
     uint quads[kRangesPerMeshSection];
-    uint minZ;  // as in mesh::MeshSection; above maxZ if there are no quads
+    uint minZ;  // as in mesh::MeshSection, in its slab; above maxZ if there are no quads
     uint maxZ;
 };
 

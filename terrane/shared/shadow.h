@@ -13,7 +13,7 @@ const uint kShadowTiles = 8u;
 
 // Blocks along the light that all maps hold, half of them on each side of the anchor: depths of 32 bits are
 // exact to 1/2000 block. Casters beyond are clamped into the range. Receivers are at most some 800 blocks
-// from the camera, which is at most 1,024 √2 blocks from the anchor.
+// from the camera, which is at most 1,024 √2 blocks over the ground and 2,048 in height from the anchor.
 const float kShadowRange = 8192.0f;
 
 // Transforms from positions of the frame (see Frame) to the maps. Cascades differ in the direction of the

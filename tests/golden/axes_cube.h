@@ -58,8 +58,9 @@ constexpr int kCubeX = 6, kCubeY = 7, kCubeZ = 100;  // lowest block
 inline mesh::ChunkMesh cubeMesh() {
     constexpr std::array<unsigned, 3> kSize = {3, 2, 1};
     mesh::ChunkMesh mesh;
-    mesh.meshSections.resize(256 / mesh::kDefaultMeshSectionHeight);
-    mesh::MeshSection& meshSection = mesh.meshSections[kCubeZ / mesh::kDefaultMeshSectionHeight];
+    mesh::MeshSection& meshSection = mesh.meshSections.emplace_back();
+    meshSection.bottom = kCubeZ / mesh::kDefaultMeshSectionHeight * mesh::kDefaultMeshSectionHeight;
+    meshSection.top = meshSection.bottom + mesh::kDefaultMeshSectionHeight;
     meshSection.minZ = kCubeZ;
     meshSection.maxZ = kCubeZ + 1;
     for (unsigned side = 0; side < 6; ++side) {

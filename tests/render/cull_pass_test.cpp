@@ -28,6 +28,8 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
     mesh::ChunkMesh mesh;
     mesh.meshSections.resize(256 / kMeshSectionHeight);
     for (std::size_t r = 0; r < mesh.meshSections.size(); ++r) {
+        mesh.meshSections[r].bottom = static_cast<int>(r) * kMeshSectionHeight;
+        mesh.meshSections[r].top = mesh.meshSections[r].bottom + kMeshSectionHeight;
         for (int bucket = 0; bucket < mesh::kDrawBucketCount; ++bucket) {
             for (int direction = 0; direction < mesh::kFaceDirectionCount; ++direction) {
                 mesh::QuadRange range{static_cast<std::uint32_t>(mesh.quads.size()), 0};
@@ -37,8 +39,8 @@ mesh::ChunkMesh meshOfParts(const std::vector<Part>& parts) {
                         continue;
                     range.count = part.count;
                     mesh.quads.resize(mesh.quads.size() + part.count);
-                    mesh.meshSections[r].minZ = static_cast<int>(r) * kMeshSectionHeight;
-                    mesh.meshSections[r].maxZ = mesh.meshSections[r].minZ + kMeshSectionHeight;
+                    mesh.meshSections[r].minZ = mesh.meshSections[r].bottom;
+                    mesh.meshSections[r].maxZ = mesh.meshSections[r].top;
                 }
                 mesh.meshSections[r].ranges[bucket][direction] = range;
             }
@@ -118,9 +120,12 @@ class CullPassTest : public gpu::GlTest {
     }
 
     std::set<std::uint32_t> stored(world::ChunkPos pos, int meshSection, int bucket, int direction) const {
-        const mesh::QuadRange range =
-            quads_->meshSectionsOf(pos)[static_cast<std::size_t>(meshSection)].ranges[bucket][direction];
         std::set<std::uint32_t> numbers;
+        const auto all = quads_->meshSectionsOf(pos);
+        const auto found =
+            std::ranges::find(all, meshSection * kMeshSectionHeight, &mesh::MeshSection::bottom);
+        if (found == all.end()) return numbers;
+        const mesh::QuadRange range = found->ranges[bucket][direction];
         for (std::uint32_t k = 0; k < range.count; ++k) numbers.insert(range.first + k);
         return numbers;
     }

@@ -9,6 +9,7 @@
 #include "terrane/shared/hash.h"
 #include "tests/gpu/scratch_folder.h"
 #include "tests/render/renderer_fixture.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 
 namespace terrane::render {

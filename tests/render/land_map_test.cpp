@@ -34,7 +34,7 @@ world::LandTile tileOf(const Land& land, world::ChunkPos pos) {
     for (std::size_t k = 0; k < world::LandTile::kColumns; ++k) {
         const double x = (16.0 * pos.x + static_cast<double>(k % 16) + 0.5) * width;
         const double y = (16.0 * pos.y + static_cast<double>(k / 16) + 0.5) * width;
-        tile.height[k] = static_cast<std::uint16_t>(std::clamp(std::lround(land(x, y)), 0l, 256l));
+        tile.height[k] = static_cast<std::int16_t>(std::clamp(std::lround(land(x, y)), 0l, 256l));
         tile.ground[k] = static_cast<world::BlockId>(1 + (static_cast<int>(std::floor(x / 512)) & 1));
     }
     return tile;
@@ -317,6 +317,32 @@ TEST(LandMap, TheGroundHasItsColor) {
     };
     EXPECT_EQ(at(100), glm::vec3(1, 0, 0));
     EXPECT_EQ(at(700), glm::vec3(0, 1, 1));
+}
+
+// Land of a world that lies lower has the same shadows, lower.
+TEST(LandMap, ShadowsFollowTheHeightsOfTheWorld) {
+    constexpr world::Heights kDeep{-1808, -1552};
+    LandMap low = mapWith(), deep(colors(), kDeep);
+    deep.setReach(kReach);
+    const world::ChunkPos camera{5, -9};
+    fill(low, ranges, camera);
+    for (const world::ChunkPos tile : deep.clipmap().missing(camera, deep.reach(), SIZE_MAX)) {
+        world::LandTile land = tileOf(ranges, tile);
+        for (std::int16_t& height : land.height) height = static_cast<std::int16_t>(height + kDeep.bottom);
+        deep.set(tile, land);
+    }
+    low.update(camera, lightAt(0.7, 0.1), kAll);
+    deep.update(camera, lightAt(0.7, 0.1), kAll);
+    EXPECT_EQ(deep.lowestEdge(), low.lowestEdge() + kDeep.bottom);
+    for (int number = 0; number < kAll; ++number) {
+        const LandLevel &a = low.level(number), &b = deep.level(number);
+        ASSERT_EQ(a.edges.size(), b.edges.size());
+        for (std::size_t k = 0; k < a.edges.size(); ++k) {
+            ASSERT_NEAR(b.edges[k].begin, a.edges[k].begin + kDeep.bottom, 0.02f) << number << ' ' << k;
+            ASSERT_NEAR(b.edges[k].edge, a.edges[k].edge, 0.02f);
+            ASSERT_NEAR(b.sky[k], a.sky[k], 1e-4f);
+        }
+    }
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "terrane/render/frame/renderer.h"
 #include "tests/gpu/gl_fixture.h"
 #include "tests/render/content.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::render {
 namespace {
@@ -227,6 +228,8 @@ TEST_F(LightCornerTest, SmoothLightDoesNotLeak) {
 
 class LightStoreTest : public gpu::GlTest {};
 
+constexpr std::size_t kEntryBytes = 8 * 4, kBrickBytes = 8 * 1024 + kEntryBytes;
+
 TEST_F(LightStoreTest, UploadsTheBricksThatChanged) {
     std::array<world::Section::Value, world::kBlocksPerSection> values{};
     light::ChunkLight light;
@@ -236,19 +239,24 @@ TEST_F(LightStoreTest, UploadsTheBricksThatChanged) {
         light.setBrick(n, world::Section::fromValues(values));
     }
     LightStore store(2);
-    store.set({0, 0}, light, 0b1);  // a chunk that is new is taken as a whole
+    const auto brick = [](int number) {
+        world::SectionSet set;
+        set.add(number);
+        return set;
+    };
+    store.set({0, 0}, light, brick(0));  // a chunk that is new is taken as a whole
     EXPECT_EQ(store.uploadedTiles(), 4u * 8);
     const std::size_t bytes = store.usedBytes();
     light.setBrick(2, world::Section(7));
     light.setBrick(3, light.brick(0));
-    store.set({0, 0}, light, 0b100);
+    store.set({0, 0}, light, brick(2));
     EXPECT_EQ(store.uploadedTiles(), 4u * 8) << "one value needs no light tile";
-    EXPECT_EQ(store.usedBytes(), bytes - 8 * 1024);
-    store.set({0, 0}, light, 0b1000);
+    EXPECT_EQ(store.usedBytes(), bytes - kBrickBytes);
+    store.set({0, 0}, light, brick(3));
     EXPECT_EQ(store.uploadedTiles(), 5u * 8);
-    EXPECT_EQ(store.usedBytes(), bytes - 8 * 1024);
+    EXPECT_EQ(store.usedBytes(), bytes - kBrickBytes);
     store.remove({0, 0});
-    EXPECT_EQ(store.usedBytes(), bytes - 4 * 8 * 1024);
+    EXPECT_EQ(store.usedBytes(), bytes - 4 * kBrickBytes);
 }
 
 light::ChunkLight noiseLight() {
@@ -269,12 +277,12 @@ TEST_F(LightImageTest, APoolThatCannotGrowKeepsWhatFits) {
     LightStore store(2, 1);
     const std::size_t gridBytes = store.usedBytes();
     const light::ChunkLight noise = noiseLight();
-    for (int x = 0; x < 40; ++x) store.set({x % 8, x / 8}, noise);
-    EXPECT_EQ(store.usedBytes(), gridBytes + kPoolBytes);
+    for (int x = 0; x < 40; ++x) store.set({x % 8, x / 8}, noise, {});
+    EXPECT_EQ(store.usedBytes(), gridBytes + kPoolBytes + 40 * 16 * kEntryBytes);
     EXPECT_EQ(store.uploadedTiles(), 4096u);
     for (int x = 0; x < 40; ++x) store.remove({x % 8, x / 8});
     EXPECT_EQ(store.usedBytes(), gridBytes);
-    store.set({0, 0}, noise);
+    store.set({0, 0}, noise, {});
     EXPECT_EQ(store.uploadedTiles(), 4096u + 128);
 }
 

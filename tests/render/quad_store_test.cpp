@@ -16,13 +16,14 @@ class QuadStoreTest : public gpu::GlTest {};
 
 using world::ChunkPos;
 
-// Quads with unique numbers by chunk. One mesh section.
-mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count) {
+// Quads with unique numbers by chunk. One mesh section of 16 layers.
+mesh::ChunkMesh numberedMesh(std::uint32_t seed, std::uint32_t count, int bottom = 0) {
     mesh::ChunkMesh mesh;
     for (std::uint32_t k = 0; k < count; ++k) mesh.quads.push_back({seed, k});
     mesh.meshSections.resize(1);
     mesh.meshSections[0].ranges[0][0] = {0, count};
-    mesh.meshSections[0].maxZ = 16;
+    mesh.meshSections[0].bottom = mesh.meshSections[0].minZ = bottom;
+    mesh.meshSections[0].top = mesh.meshSections[0].maxZ = bottom + 16;
     return mesh;
 }
 
@@ -169,8 +170,7 @@ TEST_F(QuadStoreTest, EditsReplaceOnlyTheirMeshSections) {
             const world::BlockPos pos{random(0, 16), random(1, 16), 30 + random(2, 40)};
             area.center.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
                                  mesh::anyId(shared::hash2(step, 3, 8)));
-            const mesh::MeshSectionSet meshSections =
-                mesh::meshSectionsTouchedBy(pos, height)[0].meshSections;
+            const mesh::MeshSectionSet meshSections = mesh::meshSectionsTouchedBy(pos)[0].meshSections;
             const mesh::ChunkMesh part = buildMeshSections(area.input(options), meshSections, scratch);
             const std::uint64_t before = store.uploadedBytes();
             ASSERT_TRUE(store.set({0, 0}, part, meshSections));
@@ -246,13 +246,31 @@ TEST_F(QuadStoreTest, NeverPassesItsBudget) {
 
 TEST_F(QuadStoreTest, AMeshSectionThatFindsNoRoomIsEmpty) {
     QuadStore store({.arenaQuads = 100, .maxArenas = 1});
-    mesh::ChunkMesh two = numberedMesh(1, 60);
-    two.meshSections.push_back(mesh::movedTo(60, {}));
-    ASSERT_TRUE(store.set({0, 0}, two));
-    mesh::ChunkMesh upper{numberedMesh(2, 50).quads,
-                          {mesh::MeshSection{}, numberedMesh(2, 50).meshSections[0]}};
-    EXPECT_FALSE(store.set({0, 0}, upper, 0b10));
-    expectStored(store, {0, 0}, two);
+    const mesh::ChunkMesh lower = numberedMesh(1, 60);
+    ASSERT_TRUE(store.set({0, 0}, lower));
+    EXPECT_FALSE(store.set({0, 0}, numberedMesh(2, 50, 16), mesh::MeshSectionSet::all({16, 32})));
+    expectStored(store, {0, 0}, lower);
+    EXPECT_TRUE(store.set({0, 0}, numberedMesh(2, 40, 16), mesh::MeshSectionSet::all({16, 32})));
+    EXPECT_FALSE(store.set({0, 0}, numberedMesh(2, 41, 16), mesh::MeshSectionSet::all({16, 32})));
+    expectStored(store, {0, 0}, lower);
+}
+
+// Mesh sections come in any order; they are in that of their heights.
+TEST_F(QuadStoreTest, MeshSectionsOfAnyHeights) {
+    QuadStore store;
+    for (const int bottom : {2032, -2048, 16, -16, 0}) {
+        const world::Heights heights{bottom, bottom + 16};
+        ASSERT_TRUE(store.set({0, 0}, numberedMesh(3, 10, bottom), mesh::MeshSectionSet::all(heights)));
+    }
+    const auto stored = store.meshSectionsOf({0, 0});
+    ASSERT_EQ(stored.size(), 5u);
+    EXPECT_TRUE(std::ranges::is_sorted(stored, {}, &mesh::MeshSection::bottom));
+    EXPECT_EQ(store.usedBytes(), 50u * shared::kQuadBytes);
+    ASSERT_TRUE(store.set({0, 0}, {}, mesh::MeshSectionSet::all({-2048, 0})));
+    EXPECT_EQ(store.meshSectionsOf({0, 0}).front().bottom, 0);
+    EXPECT_EQ(store.usedBytes(), 30u * shared::kQuadBytes);
+    ASSERT_TRUE(store.set({0, 0}, {}));
+    EXPECT_TRUE(store.chunks().empty());
 }
 
 TEST_F(QuadStoreTest, MeshSectionsNameEachQuadOnce) {
@@ -260,7 +278,8 @@ TEST_F(QuadStoreTest, MeshSectionsNameEachQuadOnce) {
     mesh::ChunkMesh mesh = numberedMesh(1, 9);
     mesh.quads.pop_back();
     EXPECT_THROW(store.set({0, 0}, mesh), std::invalid_argument);
-    EXPECT_THROW(store.set({0, 0}, numberedMesh(1, 9), 0b10), std::invalid_argument)
+    EXPECT_THROW(store.set({0, 0}, numberedMesh(1, 9), mesh::MeshSectionSet::all({16, 32})),
+                 std::invalid_argument)
         << "quads of another mesh section";
     EXPECT_TRUE(store.chunks().empty());
 }

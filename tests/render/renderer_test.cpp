@@ -322,8 +322,7 @@ TEST_F(RendererTest, EditsOfMeshSectionsLookAsIfAllWasMeshedAgain) {
         const std::string_view name = kNames[static_cast<std::size_t>(random(3, kNames.size()))];
         chunk.setBlock(world::blockIndex(pos.x, pos.y, pos.z),
                        name == "air" ? world::kAir : contentBlock(name));
-        const mesh::MeshSectionSet meshSections =
-            mesh::meshSectionsTouchedBy(pos, kLowMeshSection)[0].meshSections;
+        const mesh::MeshSectionSet meshSections = mesh::meshSectionsTouchedBy(pos)[0].meshSections;
         const mesh::ChunkMesh part = buildMeshSections(input, meshSections, scratch);
         const std::uint64_t before = renderer_->uploadedQuadBytes();
         ASSERT_TRUE(renderer_->setChunk({0, 0}, part, meshSections));

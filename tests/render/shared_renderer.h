@@ -24,6 +24,7 @@ inline Renderer& emptyRenderer(const gpu::DeviceInfo& device) {
     Renderer& renderer = made->at(key);
     for (const auto& done : {renderer.useTint(false), renderer.useLand(false)})
         if (!done) throw std::runtime_error(done.error().message);
+    renderer.setHeights({});
     renderer.setMemoryBudget(SIZE_MAX);  // removes all chunks
     renderer.setViewDistance(16);
     return renderer;

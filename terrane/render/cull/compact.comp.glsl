@@ -53,7 +53,7 @@ uint writeCommands(uvec2 quads, uint slot, uint at, uint end) {
         uint part = min(quads.y, kMaxQuadsPerCommand);
         if (at < end) {
             commands[at] = DrawCommand(6u * part, 1u, 0u, 0, at);
-            records[at] = DrawRecord(meshSections[slot].chunk, meshSections[slot].level, quads.x);
+            records[at] = DrawRecord(meshSections[slot].chunk, meshSections[slot].place, quads.x);
         }
         ++at;
         quads += uvec2(part, -part);

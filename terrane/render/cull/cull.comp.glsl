@@ -77,10 +77,10 @@ void main() {
     if (number >= cull.meshSectionCount) return;
     uint slot = order[number];
     uint heights = meshSections[slot].heights;
-    uint level = meshSections[slot].level;
+    uint level = placeLevel(meshSections[slot].place);
     vec2 corner = chunkCorner(meshSections[slot].chunk, level, cull.cameraChunk);
     float width = float(kChunkSize) * columnBlocks(level);
-    vec3 low = vec3(corner, float(heights & 0xFFFFu)), high = vec3(corner + width, float(heights >> 16));
+    vec3 low = vec3(corner, float(lowHeight(heights))), high = vec3(corner + width, float(highHeight(heights)));
 
     bool isInView = true;
     vec3 wavingLow = low - kWaving, wavingHigh = high + kWaving;

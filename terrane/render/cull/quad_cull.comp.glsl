@@ -53,7 +53,8 @@ vec2 directionTo(vec2 v) {
     return v / max(length(v), 1e-6);
 }
 
-Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
+// `slabCorner`: of the chunk, at the lowest layer of the quad's slab.
+Footprint footprintOf(Quad quad, vec3 slabCorner, float columnWidth) {
     uint number = quadShapeFace(quad);
     int face = 4 * int(number);
     ShapeFace shape = ShapeFace(texelFetch(shapeFaces, face), texelFetch(shapeFaces, face + 1),
@@ -62,7 +63,7 @@ Footprint footprintOf(Quad quad, vec2 chunkCorner, float columnWidth) {
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     vec3 cellBlocks = vec3(vec2(columnWidth), 1.0);
     vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
-    vec3 corner = cellBlocks * shapeFaceCorner(shape, cell, vec2(0.0), extent).xyz + vec3(chunkCorner, 0.0);
+    vec3 corner = cellBlocks * shapeFaceCorner(shape, cell, vec2(0.0), extent).xyz + slabCorner;
     vec4 clip[4];
     clip[0] = cull.viewProjection * vec4(corner, 1.0);
     vec4 alongU = cull.viewProjection * vec4(cellBlocks * shape.axisU.xyz * extent.x, 0.0);
@@ -121,8 +122,8 @@ bvec2 isBehind(Footprint print) {
 }
 
 // Whether a quad can be seen now, and whether it may be soon.
-bvec2 isVisible(Quad quad, vec2 chunkCorner, float columnWidth) {
-    Footprint print = footprintOf(quad, chunkCorner, columnWidth);
+bvec2 isVisible(Quad quad, vec3 slabCorner, float columnWidth) {
+    Footprint print = footprintOf(quad, slabCorner, columnWidth);
     if (!print.isBefore) return bvec2(true);
     bvec2 behind = isBehind(print);
     return bvec2(isInView(print, 0.0) && hasSample(print) && !behind.x, isInView(print, kSoonPixels) && !behind.y);
@@ -131,8 +132,9 @@ bvec2 isVisible(Quad quad, vec2 chunkCorner, float columnWidth) {
 void testMeshSection(uint number) {
     uint word = visible[number], slot = order[number];
     if (word >> kArenaBits != arena) return;
-    uint level = meshSections[slot].level;
-    vec2 corner = chunkCorner(meshSections[slot].chunk, level, cull.cameraChunk);
+    uint level = placeLevel(meshSections[slot].place);
+    vec3 corner = vec3(chunkCorner(meshSections[slot].chunk, level, cull.cameraChunk),
+                       float(placeBase(meshSections[slot].place)));
     for (uint range = 0u; range < kTestedRanges; ++range) {
         uvec2 part = meshSections[slot].ranges[range];
         uint direction = min(range % kRangesOfTwoBuckets, kFaceDirections - 1u);

@@ -17,8 +17,8 @@ MaybePass makeCull(FrameBuilder&), makeShadowMap(FrameBuilder&), makeSurfaces(Fr
     makeDepthPyramid(FrameBuilder&), makeLateCull(FrameBuilder&), makeLateSurfaces(FrameBuilder&),
     makeHoleFill(FrameBuilder&), makeFigures(FrameBuilder&), makeOcclusion(FrameBuilder&),
     makeSky(FrameBuilder&), makeShade(FrameBuilder&), makePeel(FrameBuilder&), makeShadeLayers(FrameBuilder&),
-    makeGodRays(FrameBuilder&), makeDepthOfField(FrameBuilder&), makeFinal(FrameBuilder&),
-    makeDebugView(FrameBuilder&);
+    makeClouds(FrameBuilder&), makeGodRays(FrameBuilder&), makeDepthOfField(FrameBuilder&),
+    makeFinal(FrameBuilder&), makeDebugView(FrameBuilder&);
 
 namespace {
 
@@ -42,6 +42,7 @@ constexpr PassRow kPasses[] = {
     {"shade", makeShade},                  // lights the G-buffer over the sky
     {"peel", makePeel},                    // separates blended faces into layers
     {"shade layers", makeShadeLayers},     // lights the layers and blends them over the image
+    {"clouds", makeClouds},                // draws clouds that are before surfaces
     {"god rays", makeGodRays},             //
     {"depth of field", makeDepthOfField},  //
     {"final", makeFinal},                  // applies effects and display colors

@@ -72,7 +72,8 @@ base::Result<void> Renderer::setTextures(const world::BlockRegistry& blocks, con
     spec.features.hasFaceSampling = needsFaceSampling(blocks, loaded);
     TERRANE_TRY(rebuild(spec));
     topColors_ = std::move(colors);
-    if (land_.isUsed()) land_ = LandTextures::create(topColors_);  // its tiles come again, with these colors
+    if (land_.isUsed())
+        land_ = LandTextures::create(topColors_, heights_);  // its tiles come again, with these colors
     resources_.setTextures(blocks, std::move(loaded));
     forgetShadows();
     return {};
@@ -122,7 +123,7 @@ base::Result<void> Renderer::useLand(bool isUsed) {
     FrameSpec spec = frame_.spec;
     spec.features.hasLand = isUsed;
     TERRANE_TRY(rebuild(spec));
-    land_ = isUsed ? LandTextures::create(topColors_) : LandTextures();
+    land_ = isUsed ? LandTextures::create(topColors_, heights_) : LandTextures();
     return {};
 }
 
@@ -140,6 +141,8 @@ void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) 
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
     frame.firstLightTile = {kTilesOfChunk * (chunk.x & mask), kTilesOfChunk * (chunk.y & mask)};
     frame.lightGridTiles = kTilesOfChunk * light_.gridChunks();
+    frame.bottom = heights_.bottom;
+    frame.top = heights_.top;
     ring_.writeUniform(shared::kFrameBinding, frame);
     tints_.writeUniforms(input.camera, ring_);
     sky_.update(input.environment, view.cameraPosition.z, ring_);
@@ -189,6 +192,7 @@ FrameContext Renderer::prepare(const FrameInput& input) {
                          .fullscreen = fullscreen_,
                          .culling = cullInput(input, view),
                          .hasShadows = isShadowed,
+                         .top = heights_.top,
                          .nearestDepth = frame_.targets.depth.get()};
     light_.addTo(context.worldTextures);
     noise_.addTo(context.worldTextures);
@@ -219,6 +223,13 @@ std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
 
 void Renderer::presentToWindow(glm::ivec2 windowSize) const {
     gpu::blitToWindow(*frame_.image, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
+}
+
+void Renderer::setHeights(world::Heights heights) {
+    if (heights == heights_) return;
+    heights_ = heights;
+    if (land_.isUsed()) land_ = LandTextures::create(topColors_, heights_);
+    clearChunks();
 }
 
 // Chunks of the renderer and their memory budget.
@@ -276,7 +287,7 @@ void Renderer::notePeak() {
     peakBytes_ = std::max(peakBytes_, others + quads_.takePeakBytes() + light_.takePeakBytes());
 }
 
-void Renderer::showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed) {
+void Renderer::showQuads(world::ChunkPos pos, const mesh::MeshSectionSet& changed) {
     if (!hidden_.contains(pos)) meshSections_.set(pos, quads_.meshSectionsOf(pos), changed);
 }
 
@@ -288,7 +299,8 @@ void Renderer::setShown(world::ChunkPos pos, bool isShown) {
     }
 }
 
-bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
+                        const mesh::MeshSectionSet& meshSections) {
     shareBudget();
     const bool hasRoom = quads_.set(pos, mesh, meshSections);
     showQuads(pos, meshSections);
@@ -304,7 +316,12 @@ bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSecti
     return hasRoom;
 }
 
-bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
+bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light) {
+    return setLight(pos, light, world::SectionSet::all(heights_));
+}
+
+bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light,
+                        const world::SectionSet& bricks) {
     shareBudget();
     const bool hasRoom = light_.set(pos, light, bricks);
     notePeak();
@@ -328,7 +345,7 @@ void Renderer::setViewDistance(int chunks) {
         const std::size_t room = budgetBytes_ - std::min(budgetBytes_, taken);
         mostBytes = std::min(lightShare(room), room - std::min(room, used.quads));
     }
-    light_ = LightStore(chunks, 0, mostBytes);
+    light_ = LightStore(chunks, 0, mostBytes, heights_);
     notePeak();
 }
 

@@ -38,6 +38,10 @@ class Renderer {
     // Loads all shaders again, for the next frame. On failure the old ones stay.
     base::Result<void> reloadShaders();
 
+    // Sets the heights of the world that is drawn, 0…255 at first. Comes before its chunks; removes all
+    // chunks and the tiles of the land.
+    void setHeights(world::Heights heights);
+
     // Sets the most bytes that the renderer may take on the GPU: quads and light do not grow beyond it. Comes
     // before configure() and setViewDistance(), which allocate memory; removes all chunks.
     void setMemoryBudget(std::size_t bytes);
@@ -51,7 +55,7 @@ class Renderer {
     // Sets the quads of these mesh sections for the next frame; `mesh` has none of others. Returns false if
     // there is no room within the budget: the mesh sections are not shown then.
     bool setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
-                  mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
+                  const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections);
     // Does the same for the whole chunk without the quads: before the next frame a shader writes them into
     // quadBuffers(), to the ranges of meshSectionsOf().
     bool reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes);
@@ -60,8 +64,10 @@ class Renderer {
     }
     gpu::ArenaBuffers quadBuffers() const { return quads_.buffers(); }  // until the next change
     // Sets the light of a chunk of level 0, within `viewDistance` of setViewDistance(). Chunks without light
-    // are drawn as under the open sky. `bricks` and result: see LightStore.
-    bool setLight(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks = 0xFFFF);
+    // are drawn as under the open sky. Result: see LightStore.
+    bool setLight(world::ChunkPos pos, const light::ChunkLight& light);
+    // Does the same for the bricks that may differ from the last call.
+    bool setLight(world::ChunkPos pos, const light::ChunkLight& light, const world::SectionSet& bricks);
     void removeChunk(world::ChunkPos pos);
     // Sets whether tinted faces take a tint. All tiles are removed; the tint is neutral where no tile is set.
     // If the shaders cannot be compiled it fails and changes nothing.
@@ -123,7 +129,7 @@ class Renderer {
     void forgetShadows() {
         if (frame_.shadowMap) frame_.shadowMap->invalidate();
     }
-    void showQuads(world::ChunkPos pos, mesh::MeshSectionSet changed);
+    void showQuads(world::ChunkPos pos, const mesh::MeshSectionSet& changed);
     void shareBudget();
     void notePeak();
 
@@ -152,6 +158,7 @@ class Renderer {
     gpu::DeviceInfo device_;
     TextureLimits textureLimits_;
     QuadStoreSizes quadSizes_;
+    world::Heights heights_;
     int viewDistance_ = 0;  // chunks
     std::size_t budgetBytes_ = SIZE_MAX, stagingBytes_ = 0, peakBytes_ = 0;
 };

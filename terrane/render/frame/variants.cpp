@@ -213,6 +213,14 @@ std::vector<SkyVariant> SkyVariant::all() {
     return only(variants, [](const SkyVariant& v) { return !(v.hasClouds && v.isDirect); });
 }
 
+gpu::ShaderDefines CloudVariant::defines() const {
+    return defined({{"MSAA_SAMPLES", samples}});
+}
+
+std::vector<CloudVariant> CloudVariant::all() {
+    return withSamples<CloudVariant>();
+}
+
 gpu::ShaderDefines MaskVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples}, {"MASK", number(of)}});
 }
@@ -335,6 +343,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
         {"shading/shade.frag", [] { return definesOf(ShadeVariant::all()); }},
         {"shading/pixel_mask.frag", [] { return definesOf(MaskVariant::all()); }},
         {"sky/sky.frag", [] { return definesOf(SkyVariant::all()); }},
+        {"sky/clouds.frag", [] { return definesOf(CloudVariant::all()); }},
         {"effects/ambient_occlusion.frag", [] { return definesOf(OcclusionVariant::all()); }},
         {"effects/occlusion_blur.frag", [] { return definesOf(OcclusionBlurVariant::all()); }},
         {"effects/depth_of_field.frag", [] { return definesOf(DepthOfFieldVariant::all()); }},

@@ -102,6 +102,14 @@ struct SkyVariant {
     static std::vector<SkyVariant> all();
 };
 
+// clouds.frag.glsl
+struct CloudVariant {
+    int samples = 1;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<CloudVariant> all();
+};
+
 enum class MaskOf : std::uint8_t { Surfaces = MASK_SURFACES, Sky = MASK_SKY, Layers = MASK_LAYERS };
 struct MaskVariant {
     int samples = 4;

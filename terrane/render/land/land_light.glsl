@@ -32,7 +32,7 @@ Land landAt(vec3 position) {
     vec3 at = landPlace(position.xy);
     vec4 ground = textureLod(landGrounds, at, 0.0);
     vec2 texel = textureLod(landShadows, at, 0.0).rg;
-    float begin = kLandLowest + kLandHeights * texel.r, edge = kLandMaxEdge * texel.g;
+    float begin = landFrame.heights.x + landFrame.heights.y * texel.r, edge = kLandMaxEdge * texel.g;
     float share = clamp((position.z - begin) / max(edge, 0.01), 0.0, 1.0);
     if (at.z < 0.0) return kOpenLand;
     return Land(ground, share * share * (3.0 - 2.0 * share));

@@ -58,7 +58,7 @@ void sweepShadows(const LandHeights& land, glm::vec3 direction,
                   "sweepShadows: heights and shadows are squares of one size");
     const float across = std::hypot(direction.x, direction.y);
     if (across < kOverhead) {
-        std::ranges::fill(shadows, LandShadow{kNoShadow, 0});
+        std::ranges::fill(shadows, LandShadow{land.bottom + kNoShadow, 0});
         return;
     }
     const Walk walk = walkFrom(direction, land.side);
@@ -205,16 +205,16 @@ void forBorder(const F& f) {
 
 // Half of the disc is visible at the height of the shadow. Heights may be off by `error`: surfaces that much
 // lower are lit too.
-LandEdge edgeOf(const LandShadow& shadow, float roughness, float discRadius) {
+LandEdge edgeOf(const LandShadow& shadow, float roughness, float discRadius, float lowest) {
     const float error = roughness + kBlockError;
     const float half = std::min(std::tan(discRadius) * shadow.distance, (shared::kLandMaxEdge - error) / 2);
-    return {std::max(shadow.height - error - half, shared::kLandLowest), error + 2 * half};
+    return {std::max(shadow.height - error - half, lowest), error + 2 * half};
 }
 
 }  // namespace
 
-LandMap::LandMap(world::TopColors colors)
-    : colors_(std::move(colors)), columns_(kTexels * shared::kLandLevels) {}
+LandMap::LandMap(world::TopColors colors, world::Heights heights)
+    : colors_(std::move(colors)), heights_(heights), columns_(kTexels * shared::kLandLevels) {}
 
 void LandMap::setReach(double blocks) {
     reach_ = blocks;
@@ -298,15 +298,17 @@ void LandMap::takeColumns(int number, glm::ivec2 corner) {
 void LandMap::sweep(int number) {
     LandLevel& level = levels_[static_cast<std::size_t>(number)];
     const LandLevel* coarser = coarserThan(number);
+    const LandHeights land{kSide, static_cast<float>(kLandClipmap.texelBlocks(number)), level.heights,
+                           static_cast<float>(heights_.bottom)};
     const auto outside = [&](glm::vec2 place) {
-        return coarser ? shadowAt(*coarser, inCoarser(level, *coarser, place)) : LandShadow{kNoShadow, 0};
+        return coarser ? shadowAt(*coarser, inCoarser(level, *coarser, place))
+                       : LandShadow{land.bottom + kNoShadow, 0};
     };
     level.shadows.resize(kTexels);
-    const LandHeights land{kSide, static_cast<float>(kLandClipmap.texelBlocks(number)), level.heights};
     sweepShadows(land, light_.direction, outside, level.shadows);
     level.edges.resize(kTexels);
     for (std::size_t k = 0; k < kTexels; ++k)
-        level.edges[k] = edgeOf(level.shadows[k], level.roughness[k], light_.discRadius);
+        level.edges[k] = edgeOf(level.shadows[k], level.roughness[k], light_.discRadius, lowestEdge());
     blendEdges(number);
 }
 
@@ -320,7 +322,7 @@ void LandMap::blendEdges(int number) {
     const LandLevel* coarser = coarserThan(number);
     forBorder([&](int x, int y, float share) {
         LandEdge edge{0, 0};
-        if (!coarser) edge = LandEdge{};
+        if (!coarser) edge.begin = lowestEdge();
         if (coarser) {
             forFourAround(inCoarser(level, *coarser, {x, y}), [&](std::size_t k, float weight) {
                 edge.begin += weight * coarser->edges[k].begin;

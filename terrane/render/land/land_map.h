@@ -17,6 +17,7 @@
 
 #include "terrane/render/land/clipmap.h"
 #include "terrane/shared/land.h"
+#include "terrane/world/heights.h"
 #include "terrane/world/tint.h"
 
 namespace terrane::render {
@@ -28,12 +29,13 @@ namespace terrane::render {
 struct LandShadow {
     float height, distance;
 };
-constexpr float kNoShadow = -1000.0f;  // blocks: below all land
+constexpr float kNoShadow = -1000.0f;  // blocks from the world's bottom: below all land
 
 struct LandHeights {
     int side = 0;  // texels
     float texelBlocks = 1;
     std::span<const float> blocks;  // row after row
+    float bottom = 0;               // of the world
 };
 
 // Computes the shadows. `direction` points to the light and has unit length. `outside` returns the shadow at
@@ -57,7 +59,7 @@ struct LandLight {
 
 // Light begins at the height `begin` and is full `edge` blocks above.
 struct LandEdge {
-    float begin = shared::kLandLowest, edge = 1;
+    float begin = 0, edge = 1;
 };
 
 // 256 × 256 texels row by row, not wrapped. Empty if the level does not exist.
@@ -79,7 +81,10 @@ struct LandChange {
 
 class LandMap {
   public:
-    explicit LandMap(world::TopColors colors);
+    explicit LandMap(world::TopColors colors, world::Heights heights = {});
+    world::Heights heights() const { return heights_; }
+    // Edges of shadows begin from here on.
+    float lowestEdge() const { return static_cast<float>(heights_.bottom) - shared::kLandBeyond; }
     const Clipmap& clipmap() const { return clipmap_; }
     const LandLevel& level(int level) const { return levels_[static_cast<std::size_t>(level)]; }
 
@@ -94,7 +99,7 @@ class LandMap {
   private:
     static constexpr std::size_t kTexels = static_cast<std::size_t>(Clipmap::kTexels) * Clipmap::kTexels;
     struct Column {
-        std::uint16_t height = 0;
+        std::int16_t height = 0;
         std::array<std::uint8_t, 3> ground{};  // linear, 255 is 1
     };
 
@@ -110,6 +115,7 @@ class LandMap {
 
     Clipmap clipmap_{kLandClipmap};
     world::TopColors colors_;
+    world::Heights heights_;
     std::vector<Column> columns_;  // wrapped, level after level
     std::array<LandLevel, shared::kLandLevels> levels_;
     std::array<bool, shared::kLandLevels> hasNewTiles_{}, needsSweep_{};

@@ -17,18 +17,29 @@ T packed(float share) {
     return static_cast<T>(std::clamp(share, 0.0f, 1.0f) * kMax + 0.5f);
 }
 
-using ShadowTexel = std::array<std::uint16_t, 2>;
-using GroundTexel = std::array<std::uint8_t, 4>;
-
-std::vector<ShadowTexel> shadowTexels(const LandLevel& level) {
-    std::vector<ShadowTexel> texels;
-    texels.reserve(level.edges.size());
-    for (const LandEdge& edge : level.edges) {
-        texels.push_back({packed<std::uint16_t>((edge.begin - shared::kLandLowest) / shared::kLandHeights),
-                          packed<std::uint16_t>(edge.edge / shared::kLandMaxEdge)});
-    }
-    return texels;
+// Heights of edges, as in LandFrame.
+glm::vec2 edgeHeights(const LandMap& map) {
+    return {map.lowestEdge(), static_cast<float>(map.heights().layers()) + 2 * shared::kLandBeyond};
 }
+
+// See shared/land.h.
+bool needsFloats(const LandMap& map) {
+    return edgeHeights(map).y / 65536 > 1.0f / 32;
+}
+
+// Of each texel the share of the height, then that of the edge.
+std::vector<float> shadowShares(const LandMap& map, const LandLevel& level) {
+    const glm::vec2 heights = edgeHeights(map);
+    std::vector<float> shares;
+    shares.reserve(2 * level.edges.size());
+    for (const LandEdge& edge : level.edges) {
+        shares.push_back((edge.begin - heights.x) / heights.y);
+        shares.push_back(edge.edge / shared::kLandMaxEdge);
+    }
+    return shares;
+}
+
+using GroundTexel = std::array<std::uint8_t, 4>;
 
 std::vector<GroundTexel> groundTexels(const LandLevel& level) {
     std::vector<GroundTexel> texels;
@@ -43,11 +54,11 @@ std::vector<GroundTexel> groundTexels(const LandLevel& level) {
 
 }  // namespace
 
-LandTextures LandTextures::create(world::TopColors colors) {
+LandTextures LandTextures::create(world::TopColors colors, world::Heights heights) {
     constexpr gpu::Texture2DArray::Shape kShape{{Clipmap::kTexels, Clipmap::kTexels}, shared::kLandLevels, 1};
     LandTextures made;
-    made.map_ = LandMap(std::move(colors));
-    made.shadows_ = gpu::Texture2DArray(kShape, GL_RG16, "land shadows");
+    made.map_ = LandMap(std::move(colors), heights);
+    made.shadows_ = gpu::Texture2DArray(kShape, needsFloats(made.map_) ? GL_RG32F : GL_RG16, "land shadows");
     made.ground_ = gpu::Texture2DArray(kShape, GL_RGBA8, "land ground");
     made.sampler_ = gpu::Sampler({}, "land");
     return made;
@@ -58,8 +69,14 @@ void LandTextures::update(const Camera& camera, const LandLight& light, int limi
     TERRANE_ZONE("land light");
     for (const auto& [number, hasNewGround] : map_.update(cameraChunk(camera), light, limit)) {
         const LandLevel& level = map_.level(number);
-        const auto shadows = shadowTexels(level);
-        shadows_.upload(0, number, GL_RG, GL_UNSIGNED_SHORT, std::as_bytes(std::span(shadows)));
+        const std::vector<float> shadows = shadowShares(map_, level);
+        if (needsFloats(map_)) {
+            shadows_.upload(0, number, GL_RG, GL_FLOAT, std::as_bytes(std::span(shadows)));
+        } else {
+            std::vector<std::uint16_t> texels(shadows.size());
+            std::ranges::transform(shadows, texels.begin(), packed<std::uint16_t>);
+            shadows_.upload(0, number, GL_RG, GL_UNSIGNED_SHORT, std::as_bytes(std::span(texels)));
+        }
         if (!hasNewGround) continue;
         const auto ground = groundTexels(level);
         ground_.upload(0, number, GL_RGBA, GL_UNSIGNED_BYTE, std::as_bytes(std::span(ground)));
@@ -80,6 +97,7 @@ void LandTextures::addTo(gpu::TextureSet& textures) const {
 // In doubles: a level's corner may be 2^31 blocks away from 0.
 shared::LandFrame landFrame(const LandMap& map, const Camera& camera) {
     shared::LandFrame frame{};
+    frame.heights = glm::vec4(edgeHeights(map), 0, 0);
     const world::ChunkPos chunk = cameraChunk(camera);
     for (int number = 0; number < LandTextures::kAllLevels; ++number) {
         const LandLevel& level = map.level(number);

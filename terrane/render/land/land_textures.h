@@ -1,5 +1,5 @@
-// The land around the camera as textures (shared/land.h): one layer of 256² texels a level, 4.2 MB. The
-// renderer uses it on the context's thread.
+// The land around the camera as textures (shared/land.h): one layer of 256² texels a level, 4.2 MB, or 6.3 in
+// worlds of more than 1,792 layers. The renderer uses it on the context's thread.
 #pragma once
 
 #include "terrane/gpu/mapped_ring.h"
@@ -13,7 +13,7 @@ class LandTextures {
     static constexpr int kAllLevels = static_cast<int>(shared::kLandLevels);
 
     LandTextures() = default;  // none
-    static LandTextures create(world::TopColors colors);
+    static LandTextures create(world::TopColors colors, world::Heights heights);
     bool isUsed() const { return shadows_.id() != 0; }
     LandMap& map() { return map_; }
     const LandMap& map() const { return map_; }

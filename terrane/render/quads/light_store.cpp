@@ -18,9 +18,9 @@ constexpr int kPoolTiles = static_cast<int>(shared::kLightPoolTiles);
 constexpr int kTilesPerSlab = kPoolTiles * kPoolTiles;
 constexpr std::size_t kSlabBytes = std::size_t{kTilesPerSlab} * 1024;
 constexpr int kMaxSlabs = static_cast<int>((std::size_t{1} << 30) / kSlabBytes);  // 256: 1 GiB
-// Light tiles of a chunk in a landscape; growing a pool that is too small takes a tenth of a second on
-// software renderers.
-constexpr int kTilesAChunk = 28;
+// Light tiles of a chunk in a landscape, and bricks with several values; growing a pool that is too small
+// takes a tenth of a second on software renderers.
+constexpr int kTilesAChunk = 28, kBricksAChunk = 6;
 constexpr std::size_t kTileBlocks = shared::kLightTileSize * shared::kLightTileSize * shared::kLightTileSize;
 
 constexpr std::size_t kMiddle = kTile / 2 * (1 + kTile + kTile * kTile);
@@ -37,9 +37,8 @@ gpu::Texture3D makePool(int slabs) {
     return pool;
 }
 
-int slabsFor(int viewDistance) {
-    const int side = 2 * viewDistance + 1;
-    return (side * side * kTilesAChunk + kTilesPerSlab - 1) / kTilesPerSlab;
+int chunksWithin(int viewDistance) {
+    return (2 * viewDistance + 1) * (2 * viewDistance + 1);
 }
 
 int slabsOfDriver() {
@@ -59,24 +58,23 @@ TileValues tileOf(const std::array<std::uint16_t, world::kBlocksPerSection>& bri
     return tile;
 }
 
-// Entries of a whole chunk. Light tiles are ordered by brick: the eight of a brick are consecutive.
-constexpr auto filled(std::uint32_t entry) {
-    std::array<std::uint32_t, shared::kLightTilesPerChunk> entries{};
-    entries.fill(entry);
-    return entries;
+bool isUniform(std::uint32_t entry) {
+    return (entry & shared::kLightUniformBit) != 0;
 }
 
 }  // namespace
 
-LightStore::LightStore(int viewDistance, int maxSlabs, std::size_t maxBytes)
-    : maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()), maxBytes_(maxBytes) {
+LightStore::LightStore(int viewDistance, int maxSlabs, std::size_t maxBytes, world::Heights heights)
+    : heights_(heights), maxSlabs_(maxSlabs > 0 ? maxSlabs : slabsOfDriver()), maxBytes_(maxBytes) {
     gridChunks_ = static_cast<int>(std::bit_ceil(static_cast<unsigned>(2 * (viewDistance + 2) + 1)));
     shown_.resize(static_cast<std::size_t>(gridChunks_) * static_cast<std::size_t>(gridChunks_));
-    const int side = 2 * gridChunks_, high = static_cast<int>(shared::kLightTilesHigh);
-    grid_ = gpu::Texture3D({side, side, high}, GL_R32UI, "light grid");
+    grid_ = gpu::Texture3D({gridChunks_, gridChunks_, heights.sections()}, GL_R32UI, "light grid");
     const shared::uint unknown = shared::kLightUnknown;
     glClearTexImage(grid_.id(), 0, GL_RED_INTEGER, GL_UNSIGNED_INT, &unknown);
-    pool_ = makePool(std::min({slabsFor(viewDistance), maxSlabs_, std::max(1, slabsWithin(maxBytes_))}));
+    const int chunks = chunksWithin(viewDistance);
+    growEntries(static_cast<std::size_t>(chunks * kBricksAChunk));
+    const int slabs = (chunks * kTilesAChunk + kTilesPerSlab - 1) / kTilesPerSlab;
+    pool_ = makePool(std::min({slabs, maxSlabs_, std::max(1, slabsWithin(maxBytes_))}));
 }
 
 // Slabs that fit beside the existing textures.
@@ -90,9 +88,9 @@ int LightStore::slabs() const {
 }
 
 std::optional<std::uint32_t> LightStore::allocateTile() {
-    if (!free_.empty()) {
-        const std::uint32_t tile = free_.back();
-        free_.pop_back();
+    if (!freeTiles_.empty()) {
+        const std::uint32_t tile = freeTiles_.back();
+        freeTiles_.pop_back();
         return tile;
     }
     const bool isFull = tileCount_ == static_cast<std::size_t>(slabs()) * kTilesPerSlab;
@@ -106,19 +104,45 @@ bool LightStore::growPool() {
     if (grown <= slabs()) return false;
     const glm::ivec3 size = pool_.size();
     gpu::Texture3D larger = makePool(grown);
-    peakBytes_ = textureBytes() + larger.sizeBytes();
+    peakBytes_ = std::max(peakBytes_, textureBytes() + larger.sizeBytes());
     glCopyImageSubData(pool_.id(), GL_TEXTURE_3D, 0, 0, 0, 0, larger.id(), GL_TEXTURE_3D, 0, 0, 0, 0, size.x,
                        size.y, size.z);
     pool_ = std::move(larger);
     return true;
 }
 
-void LightStore::uploadTile(std::uint32_t tile, const std::uint16_t* values) {
+void LightStore::uploadTile(std::uint32_t tile, std::span<const std::uint16_t> values) {
     const auto n = static_cast<int>(tile);
     const glm::ivec3 at{n % kPoolTiles, n / kPoolTiles % kPoolTiles, n / kTilesPerSlab};
     pool_.uploadPart(at * kTile, glm::ivec3(kTile), GL_BGRA, GL_UNSIGNED_SHORT_4_4_4_4_REV,
-                     std::as_bytes(std::span(values, kTileBlocks)));
+                     std::as_bytes(values));
     ++uploadedTiles_;
+}
+
+std::optional<std::uint32_t> LightStore::allocateEntries() {
+    if (!freeBricks_.empty()) {
+        const std::uint32_t number = freeBricks_.back();
+        freeBricks_.pop_back();
+        return number;
+    }
+    const std::size_t bricks = brickEntries_.size();
+    const bool isFull = entries_.sizeBytes() == bricks * sizeof(BrickEntries);
+    if (isFull && !growEntries(2 * bricks)) return std::nullopt;
+    brickEntries_.emplace_back();
+    return static_cast<std::uint32_t>(bricks);
+}
+
+// Pending draws keep the old buffer alive.
+bool LightStore::growEntries(std::size_t bricks) {
+    const std::size_t bytes = bricks * sizeof(BrickEntries), before = textureBytes();
+    const bool isWithin = before <= maxBytes_ && bytes <= maxBytes_ - before;
+    if (!brickEntries_.empty() && !isWithin) return false;
+    if (bricks * std::tuple_size_v < BrickEntries >> gpu::BufferTexture::maxElements()) return false;
+    peakBytes_ = std::max(peakBytes_, before + bytes);
+    entries_ = gpu::Buffer(bytes, GL_DYNAMIC_STORAGE_BIT, "light entries");
+    entryTexels_ = gpu::BufferTexture(entries_, GL_R32UI, "light entries");
+    if (!brickEntries_.empty()) entries_.uploadVector(0, brickEntries_);
+    return true;
 }
 
 std::size_t LightStore::placeOf(world::ChunkPos pos) const {
@@ -126,24 +150,51 @@ std::size_t LightStore::placeOf(world::ChunkPos pos) const {
     return static_cast<std::size_t>((pos.y & mask) * gridChunks_ + (pos.x & mask));
 }
 
-void LightStore::uploadEntries(world::ChunkPos pos, const Entries& entries) {
+void LightStore::uploadColumn(world::ChunkPos pos, const Column& column) {
     const int mask = gridChunks_ - 1;
-    grid_.uploadPart({2 * (pos.x & mask), 2 * (pos.y & mask), 0}, {2, 2, shared::kLightTilesHigh},
-                     GL_RED_INTEGER, GL_UNSIGNED_INT, std::as_bytes(std::span(entries)));
+    grid_.uploadPart({pos.x & mask, pos.y & mask, 0}, {1, 1, heights_.sections()}, GL_RED_INTEGER,
+                     GL_UNSIGNED_INT, std::as_bytes(std::span(column)));
 }
 
-void LightStore::release(std::span<const std::uint32_t> entries) {
-    std::copy_if(entries.begin(), entries.end(), std::back_inserter(free_),
-                 [](std::uint32_t entry) { return (entry & shared::kLightUniformBit) == 0; });
+LightStore::Column LightStore::unknownColumn() const {
+    return Column(static_cast<std::size_t>(heights_.sections()), shared::kLightUnknown);
 }
 
-bool LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, const light::LightBrick& brick) {
-    bool hasRoom = true;
-    release(entries);
+void LightStore::releaseTiles(const BrickEntries& entries) {
+    for (const std::uint32_t entry : entries)
+        if (!isUniform(entry)) freeTiles_.push_back(entry);
+}
+
+void LightStore::release(std::uint32_t entry) {
+    if (isUniform(entry)) return;
+    releaseTiles(brickEntries_[entry]);
+    freeBricks_.push_back(entry);
+}
+
+bool LightStore::setBrick(std::uint32_t& entry, const light::LightBrick& brick) {
     if (brick.isUniform()) {
-        std::fill(entries.begin(), entries.end(), shared::kLightUniformBit | brick.uniformValue());
+        release(entry);
+        entry = shared::kLightUniformBit | brick.uniformValue();
         return true;
     }
+    if (isUniform(entry)) {
+        const auto number = allocateEntries();
+        if (!number) {
+            entry = shared::kLightUniformBit |
+                    brick.get(world::kBlocksPerSection / 2 + world::kChunkSize * 8 + 8);
+            return false;
+        }
+        entry = *number;
+    } else {
+        releaseTiles(brickEntries_[entry]);
+    }
+    const bool hasRoom = setTiles(brickEntries_[entry], brick);
+    entries_.upload(entry * sizeof(BrickEntries), std::as_bytes(std::span(brickEntries_[entry])));
+    return hasRoom;
+}
+
+bool LightStore::setTiles(BrickEntries& entries, const light::LightBrick& brick) {
+    bool hasRoom = true;
     std::array<std::uint16_t, world::kBlocksPerSection> unpacked;
     brick.unpack(unpacked);
     for (int k = 0; k < static_cast<int>(kTilesPerBrick); ++k) {
@@ -156,25 +207,26 @@ bool LightStore::setBrick(std::span<std::uint32_t, kTilesPerBrick> entries, cons
         }
         const auto tile = allocateTile();
         entry = tile.value_or(shared::kLightUniformBit | values[kMiddle]);
-        if (tile) uploadTile(*tile, values.data());
         hasRoom &= tile.has_value();
+        if (tile) uploadTile(*tile, values);
     }
     return hasRoom;
 }
 
-bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::uint16_t bricks) {
+bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, const world::SectionSet& bricks) {
     TERRANE_ZONE("upload light");
     base::require(pos.level == 0, "Renderer::setLight: only chunks of level 0 have light");
-    const auto [it, isNew] = chunks_.try_emplace(pos, filled(shared::kLightUnknown));
-    const std::span entries(it->second);
+    base::require(light.heights() == heights_,
+                  "Renderer::setLight: the light has other heights than the world: see Renderer::setHeights");
+    const auto [it, isNew] = chunks_.try_emplace(pos);
+    Column& column = it->second;
+    if (isNew) column = unknownColumn();
     bool hasRoom = true;
-    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
-        if (!isNew && (bricks >> n & 1) == 0) continue;
-        hasRoom &=
-            setBrick(entries.subspan(kTilesPerBrick * static_cast<std::size_t>(n)).first<kTilesPerBrick>(),
-                     light.brick(n));
+    for (std::size_t k = 0; k < column.size(); ++k) {
+        const int number = heights_.firstSection() + static_cast<int>(k);
+        if (isNew || bricks.has(number)) hasRoom &= setBrick(column[k], light.brick(number));
     }
-    uploadEntries(pos, it->second);
+    uploadColumn(pos, column);
     shown_[placeOf(pos)] = pos;
     return hasRoom;
 }
@@ -182,17 +234,19 @@ bool LightStore::set(world::ChunkPos pos, const light::ChunkLight& light, std::u
 void LightStore::remove(world::ChunkPos pos) {
     const auto found = chunks_.find(pos);
     if (found == chunks_.end()) return;
-    release(found->second);
+    for (const std::uint32_t entry : found->second) release(entry);
     chunks_.erase(found);
     // Keeps the entries of a chunk that took the place meanwhile.
     std::optional<world::ChunkPos>& shown = shown_[placeOf(pos)];
     if (shown != pos) return;
     shown.reset();
-    uploadEntries(pos, filled(shared::kLightUnknown));
+    uploadColumn(pos, unknownColumn());
 }
 
 void LightStore::addTo(gpu::TextureSet& textures) const {
-    textures.add(shared::kLightGridUnit, grid_.id()).add(shared::kLightPoolUnit, pool_.id());
+    textures.add(shared::kLightGridUnit, grid_.id())
+        .add(shared::kLightEntriesUnit, entryTexels_.id())
+        .add(shared::kLightPoolUnit, pool_.id());
 }
 
 }  // namespace terrane::render

@@ -15,7 +15,7 @@ std::int64_t chunksBetween(std::int32_t from, std::int32_t to, std::uint8_t leve
 
 }  // namespace
 
-void MeshSectionOrder::add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights) {
+void MeshSectionOrder::add(std::uint32_t slot, world::ChunkPos pos, std::int32_t heights) {
     if (slot >= numbers_.size()) numbers_.resize(slot + 1);
     assert(numbers_[slot] == 0 && "a slot has one mesh section");
     numbers_[slot] = ++lastNumber_;

@@ -12,9 +12,9 @@ namespace terrane::render {
 
 class MeshSectionOrder {
   public:
-    // Adds a mesh section in a free slot. `heights`: see shared::MeshSectionRecord; any values that order the
-    // mesh sections of a chunk by height.
-    void add(std::uint32_t slot, world::ChunkPos pos, std::uint32_t heights);
+    // Adds a mesh section in a free slot. `heights`: see shared::MeshSectionRecord, as a signed number; any
+    // values that order the mesh sections of a chunk by height.
+    void add(std::uint32_t slot, world::ChunkPos pos, std::int32_t heights);
     void remove(std::uint32_t slot);
 
     // Sorts slots by the distance of their mesh section from the chunk `center` of level 0, nearest first.
@@ -29,7 +29,8 @@ class MeshSectionOrder {
         std::uint32_t distance;  // squared chunks of level 0 over the ground
         std::int32_t x, y;
         std::uint8_t level;
-        std::uint32_t heights, slot, number;
+        std::int32_t heights;
+        std::uint32_t slot, number;
         auto operator<=>(const Entry&) const = default;
     };
 

@@ -22,19 +22,11 @@ constexpr std::uint32_t kBlendedRanges =
 shared::MeshSectionRecord recordOf(world::ChunkPos pos, const mesh::MeshSection& meshSection) {
     shared::MeshSectionRecord record{};
     record.chunk = {pos.x, pos.y};
-    record.level = pos.level;
-    record.heights = static_cast<std::uint32_t>(meshSection.minZ | meshSection.maxZ << 16);
+    record.place = shared::packPlace(pos.level, shared::quadSlab(meshSection.bottom));
+    record.heights = shared::packHeights(meshSection.minZ, meshSection.maxZ);
     std::ranges::transform(mesh::rangesOf(meshSection), record.ranges,
                            [](mesh::QuadRange quads) { return glm::uvec2(quads.first, quads.count); });
     return record;
-}
-
-world::ChunkPos posOf(const shared::MeshSectionRecord& record) {
-    return {record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)};
-}
-
-bool isEmpty(const shared::MeshSectionRecord& record) {
-    return std::ranges::all_of(record.ranges, [](glm::uvec2 range) { return range.y == 0; });
 }
 
 bool hasBlendedQuads(const shared::MeshSectionRecord& record) {
@@ -72,40 +64,37 @@ void MeshSectionTable::addCommands(const shared::MeshSectionRecord& record, std:
 }
 
 void MeshSectionTable::set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
-                           mesh::MeshSectionSet changed) {
-    if (chunks_[pos].size() != meshSections.size()) {
-        remove(pos);
-        changed = mesh::kAllMeshSections;
+                           const mesh::MeshSectionSet& changed) {
+    const std::vector<Slot> before = std::move(chunks_[pos]);
+    std::vector<Slot>& slots = chunks_[pos];
+    slots.clear();
+    auto old = before.begin();
+    const auto freeBelow = [&](int bottom) {
+        for (; old != before.end() && old->bottom < bottom; ++old) free(old->number);
+    };
+    for (const mesh::MeshSection& meshSection : meshSections) {
+        freeBelow(meshSection.bottom);
+        // If the mesh section keeps its slot, the order stays: it depends on the place only, not on the
+        // quads.
+        const bool isKept = old != before.end() && old->bottom == meshSection.bottom;
+        const std::uint32_t slot = isKept ? (old++)->number : allocateSlot();
+        slots.push_back({meshSection.bottom, slot});
+        if (isKept && !changed.has(meshSection)) continue;
+        const shared::MeshSectionRecord record = recordOf(pos, meshSection);
+        if (isKept) {
+            clear(slot);
+        } else {
+            order_.add(slot, pos, static_cast<std::int32_t>(record.heights));
+            ++count_;
+        }
+        fill(slot, record);
     }
-    std::vector<std::uint32_t>& slotsOfChunk = chunks_[pos];
-    slotsOfChunk.resize(meshSections.size(), kNoSlot);
-    for (std::size_t r = 0; r < meshSections.size(); ++r) {
-        if (mesh::hasMeshSection(changed, r)) setMeshSection(slotsOfChunk[r], recordOf(pos, meshSections[r]));
-    }
-    if (meshSections.empty()) chunks_.erase(pos);
+    freeBelow(world::kHighestTop);
+    if (slots.empty()) chunks_.erase(pos);
 }
 
-// If the mesh section keeps its slot, the order stays: it depends on the place only, not on the quads.
-void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record) {
-    if (slot != kNoSlot) {
-        changes_.push_back(casterBoxOf(cpuRecords_[slot]));
-        addCommands(cpuRecords_[slot], -1);
-        if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
-    }
-    const bool hadSlot = slot != kNoSlot, needsSlot = !isEmpty(record);
-    if (hadSlot && !needsSlot) {
-        order_.remove(slot);
-        cpuRecords_[slot] = {};
-        free_.push_back(slot);
-        slot = kNoSlot;
-        --count_;
-    }
-    if (!hadSlot && needsSlot) {
-        slot = allocateSlot();
-        order_.add(slot, posOf(record), record.heights);
-        ++count_;
-    }
-    if (!needsSlot) return;
+// The slot is clear.
+void MeshSectionTable::fill(std::uint32_t slot, const shared::MeshSectionRecord& record) {
     changes_.push_back(casterBoxOf(record));
     cpuRecords_[slot] = record;
     changed_.push_back(slot);
@@ -113,10 +102,24 @@ void MeshSectionTable::setMeshSection(std::uint32_t& slot, const shared::MeshSec
     addCommands(record, 1);
 }
 
+void MeshSectionTable::clear(std::uint32_t slot) {
+    changes_.push_back(casterBoxOf(cpuRecords_[slot]));
+    addCommands(cpuRecords_[slot], -1);
+    if (hasBlendedQuads(cpuRecords_[slot])) std::erase(blended_, slot);
+    cpuRecords_[slot] = {};
+}
+
+void MeshSectionTable::free(std::uint32_t slot) {
+    clear(slot);
+    order_.remove(slot);
+    free_.push_back(slot);
+    --count_;
+}
+
 void MeshSectionTable::remove(world::ChunkPos pos) {
     const auto found = chunks_.find(pos);
     if (found == chunks_.end()) return;
-    for (std::uint32_t& slot : found->second) setMeshSection(slot, {});
+    for (const Slot& slot : found->second) free(slot.number);
     chunks_.erase(found);
 }
 
@@ -159,12 +162,13 @@ std::vector<ScreenRect> MeshSectionTable::blendedRects(world::ChunkPos center,
     ScreenGrid covered(size);
     for (const std::uint32_t slot : blended_) {
         const shared::MeshSectionRecord& r = cpuRecords_[slot];
-        const glm::vec2 corner = shared::chunkCorner(r.chunk, r.level, {center.x, center.y});
+        const shared::uint level = shared::placeLevel(r.place);
+        const glm::vec2 corner = shared::chunkCorner(r.chunk, level, {center.x, center.y});
         const glm::vec3 min =
-            glm::vec3(corner, r.heights & 0xFFFF) - shared::kWaving;  // as in cull.comp.glsl
-        const glm::vec3 max =
-            glm::vec3(corner + world::kChunkSize * shared::columnBlocks(r.level), r.heights >> 16) +
-            shared::kWaving;
+            glm::vec3(corner, shared::lowHeight(r.heights)) - shared::kWaving;  // as in cull.comp.glsl
+        const glm::vec3 max = glm::vec3(corner + world::kChunkSize * shared::columnBlocks(level),
+                                        shared::highHeight(r.heights)) +
+                              shared::kWaving;
         if (mayBeVisible(planes, min, max)) covered.cover(screenRectOf(min, max, viewProjection, size));
         if (covered.isFull()) break;
     }

@@ -26,9 +26,9 @@ class MeshSectionTable {
     explicit MeshSectionTable(std::uint32_t arenaQuads = UINT32_MAX);
 
     // Sets the mesh sections of a chunk. `meshSections`: all that it has in the QuadStore (none removes it).
-    // `changed`: those that differ from before.
+    // `changed`: those that may differ from before.
     void set(world::ChunkPos pos, std::span<const mesh::MeshSection> meshSections,
-             mesh::MeshSectionSet changed = mesh::kAllMeshSections);
+             const mesh::MeshSectionSet& changed = mesh::kAllMeshSections);
     void remove(world::ChunkPos pos);
 
     // Uploads changed records and sorts the mesh sections by their distance from the chunk, nearest first.
@@ -39,7 +39,7 @@ class MeshSectionTable {
     const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
     void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
 
-    // Returns the records by slot; heights are 0 if the slot is free.
+    // Returns the records by slot; heights are 0 if the slot is free, and only then.
     std::span<const shared::MeshSectionRecord> slotRecords() const { return cpuRecords_; }
     // Returns the boxes of mesh sections that were replaced, removed or added since the last call, before and
     // after the change.
@@ -61,16 +61,22 @@ class MeshSectionTable {
                                          glm::ivec2 size) const;
 
   private:
-    static constexpr std::uint32_t kNoSlot = UINT32_MAX;
+    // A mesh section with quads.
+    struct Slot {
+        int bottom;  // its lowest layer
+        std::uint32_t number;
+    };
 
     std::uint32_t allocateSlot();
-    void setMeshSection(std::uint32_t& slot, const shared::MeshSectionRecord& record);
+    void fill(std::uint32_t slot, const shared::MeshSectionRecord& record);
+    void clear(std::uint32_t slot);
+    void free(std::uint32_t slot);
     void addCommands(const shared::MeshSectionRecord& record, std::int32_t sign);
     void uploadRecords();
     void uploadOrder();
 
-    // Slots by mesh section, kNoSlot if it has no quads.
-    std::unordered_map<world::ChunkPos, std::vector<std::uint32_t>, world::ChunkPosHash> chunks_;
+    // Lowest first.
+    std::unordered_map<world::ChunkPos, std::vector<Slot>, world::ChunkPosHash> chunks_;
     std::vector<shared::MeshSectionRecord> cpuRecords_;
     std::vector<std::uint32_t> free_, changed_, blended_;  // slots
     std::vector<CasterBox> changes_;

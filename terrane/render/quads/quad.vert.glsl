@@ -103,11 +103,12 @@ void main() {
     Quad quad = quadOf(gl_VertexID);
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
-    vec4 cell = vec4(quadX(quad), quadY(quad), quadZ(quad), 0.0);
+    uint place = uint(drawRecord.z);
+    vec4 cell = vec4(quadX(quad), quadY(quad), int(quadZ(quad)) + placeBase(place), 0.0);
     MaterialRecord material = materialOf(quad);
     ShapeFace face = shapeFaceOf(quad, material);
     ivec2 chunk = drawRecord.xy;
-    uint level = uint(drawRecord.z);
+    uint level = placeLevel(place);
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
 #if PASS == PASS_SHADOWS

@@ -75,15 +75,16 @@ QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) {
     return arena;
 }
 
-bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::MeshSectionSet meshSections) {
+bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
+                    const mesh::MeshSectionSet& meshSections) {
     base::require(quadsOf(mesh.meshSections) == mesh.quads.size(),
                   "Renderer::setChunk: the mesh sections do not name each quad once");
     if (!reserve(pos, mesh.meshSections, meshSections)) return false;
     if (mesh.quads.empty()) return true;
     const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
-    std::size_t lowest = 0;
-    while (!mesh::hasMeshSection(meshSections, lowest)) ++lowest;
-    const std::uint32_t first = mesh::firstQuad(stored[lowest]);
+    const auto lowest = std::ranges::find_if(mesh.meshSections, mesh::quadCount);
+    const std::uint32_t first =
+        mesh::firstQuad(*std::ranges::find(stored, lowest->bottom, &mesh::MeshSection::bottom));
     arenas_[ranges_.arenaOf(first)].buffer.uploadVector(
         std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
     uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
@@ -91,33 +92,29 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh, mesh::Mesh
 }
 
 bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
-                        mesh::MeshSectionSet meshSections) {
-    for (std::size_t r = 0; r < meshes.size(); ++r) {
-        base::require(mesh::hasMeshSection(meshSections, r) || mesh::quadCount(meshes[r]) == 0,
+                        const mesh::MeshSectionSet& meshSections) {
+    for (const mesh::MeshSection& meshSection : meshes) {
+        base::require(meshSections.has(meshSection) || mesh::quadCount(meshSection) == 0,
                       "Renderer::setChunk: quads of a mesh section that is not set");
     }
     ChunkMeshSections& chunk = chunks_[pos];
-    if (chunk.size() != meshes.size()) {
-        free(chunk, mesh::kAllMeshSections);
-        chunk.assign(meshes.size(), {});
-    }
     free(chunk, meshSections);
     const std::uint32_t count = quadsOf(meshes);
     std::optional<std::uint32_t> first = 0;
     if (count > 0) first = hasRoomFor(meshes) ? allocate(count) : std::nullopt;
-    std::uint32_t next = first.value_or(0);
-    for (std::size_t r = 0; first && r < meshes.size(); ++r) {
-        if (!mesh::hasMeshSection(meshSections, r)) continue;
-        chunk[r] = mesh::movedTo(next, meshes[r]);
-        next += mesh::quadCount(meshes[r]);
-        const DrawnSections added = drawnOf(meshes[r]);
-        drawn_.meshSections += added.meshSections;
-        drawn_.commands += added.commands;
+    if (first) {
+        const auto middle = static_cast<std::ptrdiff_t>(chunk.size());
+        for (std::uint32_t next = *first; const mesh::MeshSection& meshSection : meshes) {
+            if (mesh::quadCount(meshSection) == 0) continue;
+            chunk.push_back(mesh::movedTo(next, meshSection));
+            next += mesh::quadCount(meshSection);
+            const DrawnSections added = drawnOf(meshSection);
+            drawn_.meshSections += added.meshSections;
+            drawn_.commands += added.commands;
+        }
+        std::ranges::inplace_merge(chunk, chunk.begin() + middle, {}, &mesh::MeshSection::bottom);
     }
-    const auto isEmpty = [](const mesh::MeshSection& meshSection) {
-        return mesh::quadCount(meshSection) == 0;
-    };
-    if (std::ranges::all_of(chunk, isEmpty)) chunks_.erase(pos);
+    if (chunk.empty()) chunks_.erase(pos);
     return first.has_value();
 }
 
@@ -128,16 +125,15 @@ void QuadStore::remove(world::ChunkPos pos) {
     chunks_.erase(it);
 }
 
-void QuadStore::free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections) {
-    for (std::size_t r = 0; r < chunk.size(); ++r) {
-        if (!mesh::hasMeshSection(meshSections, r)) continue;
-        const std::uint32_t count = mesh::quadCount(chunk[r]);
-        if (count > 0) ranges_.free(mesh::firstQuad(chunk[r]), count);
-        const DrawnSections removed = drawnOf(chunk[r]);
+void QuadStore::free(ChunkMeshSections& chunk, const mesh::MeshSectionSet& meshSections) {
+    std::erase_if(chunk, [&](const mesh::MeshSection& meshSection) {
+        if (!meshSections.has(meshSection)) return false;
+        ranges_.free(mesh::firstQuad(meshSection), mesh::quadCount(meshSection));
+        const DrawnSections removed = drawnOf(meshSection);
         drawn_.meshSections -= removed.meshSections;
         drawn_.commands -= removed.commands;
-        chunk[r] = {};
-    }
+        return true;
+    });
 }
 
 bool QuadStore::hasRoomFor(std::span<const mesh::MeshSection> meshes) const {

@@ -40,7 +40,8 @@ inline std::size_t bytesWhileGrowing(const gpu::Buffer& buffer, std::size_t need
     return buffer.sizeBytes() + grownBytes(buffer, neededBytes);
 }
 
-// The mesh sections of a chunk, lowest first. Their ranges are addresses: see gpu::ArenaAllocator.
+// The mesh sections of a chunk that have quads, lowest first. Their ranges are addresses: see
+// gpu::ArenaAllocator.
 using ChunkMeshSections = std::vector<mesh::MeshSection>;
 
 // Returns the most commands that drawing all faces of each draw bucket takes. `ranges`: as in
@@ -72,11 +73,11 @@ class QuadStore {
     // Returns false if they cannot grow further, or lists of draws would be too long: the mesh sections then
     // have no quads, since the old ones are wrong.
     bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
-             mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
+             const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections);
     // Does the same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
     // frame.
     bool reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
-                 mesh::MeshSectionSet meshSections = mesh::kAllMeshSections);
+                 const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections);
     void remove(world::ChunkPos pos);
 
     // Returns the chunks that have quads.
@@ -103,7 +104,7 @@ class QuadStore {
     };
 
     bool hasRoomFor(std::span<const mesh::MeshSection> meshes) const;
-    void free(ChunkMeshSections& chunk, mesh::MeshSectionSet meshSections);
+    void free(ChunkMeshSections& chunk, const mesh::MeshSectionSet& meshSections);
     std::optional<std::uint32_t> allocate(std::uint32_t count);
     bool grow(std::uint32_t count);
     static Arena makeArena(std::uint32_t quads);

@@ -16,17 +16,21 @@ const float kLog2E = 1.442695;
 
 // Optical depth of the air for each color, in powers of ½ (world/sky/air.h). Molecules have half as much for red as for
 // green and a fifth as much as for blue. Haze is equal for all colors: its mean density on the way is the integral of
-// its exponential density in closed form (C. Wenzel, Real-time Atmospheric Effects in Games, 2006). `share2`: square of
-// the share of the view's distance.
+// its exponential density in closed form (C. Wenzel, Real-time Atmospheric Effects in Games, 2006), and constant on the
+// part of the way below z = 0. `share2`: square of the share of the view's distance.
 vec3 airDepth(vec3 toPoint, float blocks, float share2) {
-    float rise = max(toPoint.z * air.depth.z, -80.0);
+    float camera = frame.cameraPosition.z, below = max(-camera - toPoint.z, 0.0) - max(-camera, 0.0);
+    float shareBelow = abs(toPoint.z) < 1e-3 ? float(camera < 0.0) : -below / toPoint.z;
+    float rise = max((toPoint.z + below) * air.depth.z, -80.0);
     rise = abs(rise) < 1e-3 ? 1e-3 : rise;
-    float haze = air.depth.y * ((1.0 - exp2(-kLog2E * rise)) / rise);
+    float haze = mix(air.depth.y * ((1.0 - exp2(-kLog2E * rise)) / rise), air.lightAzimuth.w, shareBelow);
     float molecules = air.depth.x * clamp(1.0 - toPoint.z * air.depth.w, 0.3, 1.7);
     // More near the end of the view, so that a short one has depth too.
     float end = 1.7 * share2 * share2;
     return (molecules * vec3(1.0, 2.0, 5.0) + haze) * blocks + end;
 }
+
+#include "terrane/render/shading/fading.glsl"
 
 struct Seen {
     vec3 color;   // through the air
@@ -41,9 +45,7 @@ Seen seenThroughAir(vec3 color, vec3 toPoint, float daylight) {
     float share2 = dot(toPoint.xy, toPoint.xy) / (frame.fogDistance * frame.fogDistance);
     vec3 depth = airDepth(toPoint, blocks, share2) * smoothstep(-0.1, 0.5, daylight);
     vec3 sky = skyColor(toPoint * inverse);
-    // Loaded chunks fill a square around the camera's.
-    float border = max(abs(toPoint.x), abs(toPoint.y)) / frame.fogDistance;
-    float fading = smoothstep(5.0 / 6.0, 1.0, max(border, 0.85 * sqrt(share2)));
+    float fading = fadingAt(toPoint, share2);
     bool isClear = (frame.switches & kSwitchDistanceFog) == 0;
     return Seen(isClear ? color : mix(sky, color, exp2(-depth)), sky, isClear ? 1.0 : 1.0 - fading);
 }

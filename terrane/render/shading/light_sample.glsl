@@ -13,7 +13,7 @@
 vec4 sampleClassic(vec3 at) {
     const float kOnNode = 1.0 / 64.0;  // this near a node the next one does not count
     const float kSteps = 256.0;        // makes sums exact, so that the place of a light tile in the pool is not visible
-    at.z = max(at.z, 0.0);
+    at.z = max(at.z, float(frame.bottom));
     ivec3 block = ivec3(floor(at));
     vec3 f = floor(kSteps * (at - vec3(block)) + 0.5) / kSteps;
     f *= vec3(greaterThan(f, vec3(kOnNode)));

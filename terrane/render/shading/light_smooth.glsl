@@ -93,7 +93,7 @@ vec4 sampleSmooth(vec3 at, vec3 normal) {
     layer.entries = uvec4(lightEntry(blockAt(layer, ivec2(0))), lightEntry(blockAt(layer, ivec2(kSpan, 0))),
                           lightEntry(blockAt(layer, ivec2(0, kSpan))), lightEntry(blockAt(layer, ivec2(kSpan))));
     bool isUniform = (layer.entries.x & kLightUniformBit) != 0u && layer.entries == layer.entries.xxxx;
-    bool isInWorld = blockAt(layer, ivec2(kSpan)).z < 256;  // above it is the sky
+    bool isInWorld = blockAt(layer, ivec2(kSpan)).z < frame.top;  // above it is the sky
     if (isUniform && isInWorld) return toned(unpackLight(layer.entries.x & 0xFFFFu));
     vec3 rest = at - vec3(layer.lowest);
     vec2 inLayer = vec2(dot(rest, vec3(layer.stepU)), dot(rest, vec3(layer.stepV)));

@@ -1,5 +1,6 @@
 // Shades the G-buffer over the sky, into the scene or directly into the image of the screen: see
 // isDirectImage().
+#include <algorithm>
 #include <array>
 
 #include "terrane/render/frame/frame.h"
@@ -142,6 +143,31 @@ MaybePass makeShade(FrameBuilder& build) {
             state.depthRange.x = shared::kFarSurfacesDepth;
             drawFullscreen(context, *programs.far, state, textures);
         }};
+}
+
+// Clouds are drawn with the sky where nothing is behind them: see clouds.frag.glsl.
+MaybePass makeClouds(FrameBuilder& build) {
+    if (!build.options().clouds) return std::nullopt;
+    const auto* program =
+        TERRANE_TRY(build.programs.fullscreen("sky/clouds", CloudVariant{build.samples()}.defines()));
+    return Pass{.reads = {build.frame.targets.depth},
+                .writes = {build.frame.targets.scene},
+                .record =
+                    [=](FrameContext& context) {
+                        const gpu::PipelineState over{.depthTest = gpu::DepthTest::Always,
+                                                      .writesDepth = false,
+                                                      .blending = gpu::Blending::Over};
+                        context.frame.scene->bind();
+                        drawFullscreen(context, *program, over,
+                                       context.shadingTextures().add(context.frame.gbufferTextures()));
+                    },
+                .isNeeded =
+                    [](FrameContext& context) {
+                        const float highest =
+                            std::max(context.view.cameraPosition.z, static_cast<float>(context.top));
+                        return !context.isUnderWater() &&
+                               highest > shared::kCloudHeight - shared::kCloudDepth;
+                    }};
 }
 
 }  // namespace terrane::render

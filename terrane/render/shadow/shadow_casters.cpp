@@ -32,7 +32,7 @@ class CasterWriter {
             const std::uint32_t part = std::min(pending_.y, shared::kMaxQuadsPerCommand);
             const auto number = static_cast<std::uint32_t>(list.commands.size());
             list.commands.push_back({6 * part, 1, 0, 0, number});
-            list.records.push_back({record_->chunk, record_->level, first});
+            list.records.push_back({record_->chunk, record_->place, first});
             first += part;
             pending_.y -= part;
         }
@@ -62,9 +62,9 @@ void addCasters(CasterWriter& writer, const shared::MeshSectionRecord& record, g
 }  // namespace
 
 CasterBox casterBoxOf(const shared::MeshSectionRecord& record) {
-    return {{record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(record.level)},
-            static_cast<int>(record.heights & 0xFFFFu),
-            static_cast<int>(record.heights >> 16)};
+    return {{record.chunk.x, record.chunk.y, static_cast<std::uint8_t>(shared::placeLevel(record.place))},
+            shared::lowHeight(record.heights),
+            shared::highHeight(record.heights)};
 }
 
 bool facesLight(int direction, glm::vec3 light) {

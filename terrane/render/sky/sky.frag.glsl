@@ -56,7 +56,7 @@ void main() {
     color += nightSky(direction, length(fwidth(direction))) * ((1.0 - sun.a) * clear * clear * clear);
 #endif
     color = mix(color, max(color, sun.rgb), sun.a);
-    color = mix(color, cloud.rgb, cloud.a * 0.92);
+    color = mix(color, cloud.rgb, cloud.a * kCloudShown);
     if (frame.waterAbove != 0u) color = throughWindow(color, direction);
 #if DIRECT == 1
     outColor = vec4(screenColor(color, ivec2(gl_FragCoord.xy)), 1.0);

@@ -126,10 +126,11 @@ shared::AirFrame airUniforms(const world::Environment& e, float altitudeZ) {
     const float altitude = std::max(altitudeZ - world::kSeaLevel, 0.0f);
     const glm::vec2 level(e.lightDirection), azimuth = level / std::max(glm::length(level), 1e-6f);
     shared::AirFrame frame{};
-    frame.lightAzimuth = glm::vec4(azimuth, e.ambientColor.y, 0);
+    const float haze = kLog2E * world::kHazeExtinction * std::exp(-altitude / world::kHazeScale);
+    frame.lightAzimuth =
+        glm::vec4(azimuth, e.ambientColor.y, haze * std::exp(std::max(altitudeZ, 0.0f) / world::kHazeScale));
     frame.aureole = glm::vec4((e.isMoon ? kMoonAureole : kSunAureole) * e.lightColor, kAureoleSharpness);
-    frame.depth = {kLog2E * world::kRayleigh.x * std::exp(-altitude / world::kRayleighScale),
-                   kLog2E * world::kHazeExtinction * std::exp(-altitude / world::kHazeScale),
+    frame.depth = {kLog2E * world::kRayleigh.x * std::exp(-altitude / world::kRayleighScale), haze,
                    1 / world::kHazeScale, 0.5f / world::kRayleighScale};
     return frame;
 }
