@@ -2,7 +2,7 @@
 """Reads a chunk of a save by docs/file-format.md alone. Usage: read_save.py SAVE.sqlite CX CY [OUT.bin [LEVEL]]
 
 Prints how many blocks of each type the chunk has; OUT.bin ("": none) gets the blocks as u16, in the order of
-x + 16 y + 256 z. Reads formats 1 to 3. Debian: apt-get install python3-zstandard python3-xxhash
+x + 16 y + 256 z, from the bottom of the world. Reads formats 1 to 4. Debian: apt-get install python3-zstandard python3-xxhash
 """
 import collections
 import functools
@@ -25,26 +25,41 @@ def check_names(names, settings):
         raise ValueError("the checksum of settings and names is wrong")
 
 
-def unpack(data, seed):
+def unpack(data, seed, wanted):
     checksum, version, length = struct.unpack_from("<QBI", data)
-    if xxhash.xxh64_intdigest(data[8:], seed) != checksum or version != 1:
+    if xxhash.xxh64_intdigest(data[8:], seed) != checksum or version != wanted:
         raise ValueError("the checksum is wrong, or the version unknown")
     return zstandard.ZstdDecompressor().decompress(data[13:], max_output_size=length)
 
 
-def read_blocks(content):
-    """Ids of the save. All heads come first, 16 of blocks and 16 of block state: bits a block and the palette."""
-    heads, blocks, at = [], [], 0
-    for _ in range(32):
-        bits = content[at]
-        count = struct.unpack_from("<H", content, at + 1)[0] if 0 < bits < 16 else int(bits == 0)
-        at += 3 if 0 < bits < 16 else 1
-        heads.append((bits, struct.unpack_from(f"<{count}H", content, at)))
-        at += 2 * count
-    for bits, palette in heads[:16]:
+def read_head(content, at):
+    """Bits a block, the palette, and where the head ends."""
+    bits = content[at]
+    count = struct.unpack_from("<H", content, at + 1)[0] if 0 < bits < 16 else int(bits == 0)
+    at += 3 if 0 < bits < 16 else 1
+    return bits, struct.unpack_from(f"<{count}H", content, at), at + 2 * count
+
+
+def read_blocks(content, heights):
+    """Ids of the save. All heads come first, those of blocks and those of block state; format 4 has them in runs."""
+    parts, blocks, at = [], [], 0
+    sections = 16
+    if heights:
+        if struct.unpack_from("<hh", content) != heights:
+            raise ValueError("the chunk has other heights than the world")
+        sections, at = (heights[1] - heights[0]) // 16, 4
+    for _ in range(2):
+        runs = []
+        while sum(count for count, _, _ in runs) < sections:
+            count = content[at] + 1 if heights else 1
+            bits, palette, at = read_head(content, at + bool(heights))
+            runs.append((count, bits, palette))
+        parts.append(runs)
+    for count, bits, palette in parts[0]:
         body = content[at:at + SECTION * bits // 8]
         at += len(body)
-        blocks.extend(palette * SECTION if bits == 0 else struct.unpack(f"<{SECTION}H", body) if bits == 16 else
+        blocks.extend(palette * SECTION * count if bits == 0 else
+                      struct.unpack(f"<{SECTION}H", body) if bits == 16 else
                       [palette[byte >> shift & (1 << bits) - 1] for byte in body for shift in range(0, 8, bits)])
     return blocks
 
@@ -52,16 +67,19 @@ def read_blocks(content):
 def main(path, cx, cy, out="", level="0"):
     save = sqlite3.connect(f"file:{path}?mode=ro", uri=True)
     file_format = save.execute("PRAGMA user_version").fetchone()[0]
-    if file_format not in (1, 2, 3):
-        sys.exit(f"{path}: no save of format 1 to 3")
+    if file_format not in (1, 2, 3, 4):
+        sys.exit(f"{path}: no save of format 1 to 4")
     names = dict(save.execute("SELECT id, name FROM blocks"))
-    if file_format == 3:
-        check_names(names, dict(save.execute("SELECT name, value FROM settings")))
+    settings = dict(save.execute("SELECT name, value FROM settings"))
+    if file_format >= 3:
+        check_names(names, settings)
+    heights = (int(settings["bottom"]), int(settings["top"])) if file_format == 4 else None
     key = (int(level) << 56) + (int(cx) + 2**27 << 28) + int(cy) + 2**27
     row = save.execute("SELECT data, origin FROM chunks WHERE key = ?", [key]).fetchone()
     if not row:
         sys.exit(f"{path}: chunk {cx},{cy} of level {level} was not saved")
-    blocks = read_blocks(unpack(row[0], 2 * key + row[1] if file_format == 3 else 0))
+    seed = 2 * key + row[1] if file_format >= 3 else 0
+    blocks = read_blocks(unpack(row[0], seed, 2 if heights else 1), heights)
     print(*(f"{count} {names[block]}" for block, count in collections.Counter(blocks).most_common()), sep="\n")
     if out:
         with open(out, "wb") as file:

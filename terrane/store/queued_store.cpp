@@ -1,5 +1,6 @@
 #include "terrane/store/queued_store.h"
 
+#include <cassert>
 #include <utility>
 
 #include "terrane/base/log.h"
@@ -20,7 +21,7 @@ void RowMessages::tell() {
 world::ChunkPtr SavedRows::editedChunk(world::ChunkPos pos) {
     const StoredRow row = read_(pos);
     if (row && (!*row || (*row)->provenance != Provenance::Edited)) return nullptr;
-    LoadedChunk loaded = decodeRow(row, ids_, budget_);
+    LoadedChunk loaded = decodeRow(row, ids_, heights_, budget_);
     if (loaded.state == LoadedChunk::State::Damaged) foundDamage_ = true;
     if (result_ && !row && row.error().code != base::ErrorCode::Damaged)
         result_ = tl::unexpected(row.error());
@@ -74,7 +75,7 @@ ChunkPosSet QueuedStore::unreadOf(const SaveBatch& batch) {
 }
 
 LoadedChunk QueuedStore::loadStored(const StoredRow& row, world::ChunkPos pos) {
-    LoadedChunk loaded = decodeRow(row, rows_->ids(), budget_);
+    LoadedChunk loaded = decodeRow(row, rows_->ids(), rows_->identity().heights, budget_);
     setUnread(pos, loaded.isUnreadable);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     const std::string reason =
@@ -129,6 +130,7 @@ bool QueuedStore::contains(world::ChunkPos pos) {
 }
 
 SaveNumber QueuedStore::save(world::ChunkPos pos, world::ChunkPtr chunk, Provenance provenance) {
+    assert(chunk->heights() == identity().heights && "a chunk of this world");
     if (provenance == Provenance::Generated && isUnreadable(pos)) return queue_->status().queued;
     return queue_->add(pos, {std::move(chunk), provenance, version_});
 }
@@ -161,7 +163,7 @@ void QueuedStore::setDerivedRows(DerivedRows rows) {
 }
 
 base::Result<DerivedBatch> QueuedStore::derive(const std::vector<ChunkRow>& edited, const ReadRow& read) {
-    SavedRows saved(read, rows_->ids(), budget_);
+    SavedRows saved(read, rows_->ids(), rows_->identity().heights, budget_);
     DerivedBatch derived;
     if (!edited.empty() && derivedRows_.derive) derived.rows = derivedRows_.derive(edited, saved.reader());
     if (!saved.result()) return tl::unexpected(saved.result().error());
@@ -206,7 +208,7 @@ base::Result<void> QueuedStore::deriveAll(std::string_view rules) {
 }
 
 LoadedChunk RowsReader::decode(const StoredRow& row, world::ChunkPos pos) {
-    LoadedChunk loaded = decodeRow(row, rows_->ids(), budget_);
+    LoadedChunk loaded = decodeRow(row, rows_->ids(), rows_->identity().heights, budget_);
     if (loaded.state != LoadedChunk::State::Damaged) return loaded;
     loaded.problem = fmt::format("{}: {}: {}", rows_->name(), nameOf(pos), loaded.problem);
     if (!loaded.isOverBudget || budget_.isFirstRefusal()) base::logWarning("{}", loaded.problem);

@@ -97,8 +97,8 @@ class ChunkRows : public ReadableRows {
 // Reads a database for DerivedRows::derive(), and records errors.
 class SavedRows {
   public:
-    SavedRows(ReadRow read, const BlockIdMap& ids, EntityBudget& budget)
-        : read_(std::move(read)), ids_(ids), budget_(budget) {}
+    SavedRows(ReadRow read, const BlockIdMap& ids, world::Heights heights, EntityBudget& budget)
+        : read_(std::move(read)), ids_(ids), heights_(heights), budget_(budget) {}
 
     world::ChunkPtr editedChunk(world::ChunkPos pos);
     ReadEdited reader() {
@@ -112,6 +112,7 @@ class SavedRows {
   private:
     ReadRow read_;
     const BlockIdMap& ids_;
+    world::Heights heights_;
     EntityBudget& budget_;
     bool foundDamage_ = false;
     base::Result<void> result_;

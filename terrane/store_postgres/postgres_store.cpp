@@ -123,20 +123,20 @@ constexpr Statement kSizes = {
     "SELECT (SELECT count(*) FROM quarantine), pg_total_relation_size('chunks'::regclass) + "
     "pg_total_relation_size('quarantine'::regclass)"};
 
-std::string problemOf(const store::KeyedRow& row, const store::BlockIdMap& ids) {
+std::string problemOf(const store::KeyedRow& row, const WorldContents& world) {
     if (!world::isInWorld(store::posOf(row.key))) return fmt::format("the key {} is not a position", row.key);
     if (!row.row.problem.empty()) return row.row.problem;
-    const auto chunk = store::decodeChunk(row.row.data, ids, row.row.seed);
+    const auto chunk = store::decodeChunk(row.row.data, world.ids, world.identity.heights, row.row.seed);
     return chunk ? "" : chunk.error().message;
 }
 
-void addRow(store::CheckReport& report, const store::KeyedRow& row, const store::BlockIdMap& ids) {
+void addRow(store::CheckReport& report, const store::KeyedRow& row, const WorldContents& world) {
     ++report.chunks;
     const bool isTile = row.key >= store::kFirstTileKey;
     if (isTile) ++report.tiles;
     if (!isTile && row.row.provenance == store::Provenance::Edited) ++report.editedChunks;
     report.chunkBytes += row.row.data.size();
-    if (std::string problem = problemOf(row, ids); !problem.empty())
+    if (std::string problem = problemOf(row, world); !problem.empty())
         store::addDamage(report, store::posOf(row.key), std::move(problem));
 }
 
@@ -145,7 +145,7 @@ base::Result<void> checkChunks(WorldConnection& world, store::CheckReport& repor
     while (true) {
         const auto rows = TERRANE_TRY(readRowsAfter(world.connection, key, kRowsCheckedAtOnce));
         if (rows.empty()) return {};
-        for (const store::KeyedRow& row : rows) addRow(report, row, world.contents.ids);
+        for (const store::KeyedRow& row : rows) addRow(report, row, world.contents);
         key = rows.back().key;
     }
 }

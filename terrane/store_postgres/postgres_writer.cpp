@@ -109,7 +109,8 @@ base::Result<void> PostgresWriter::deriveRows(const store::DerivedRows& rows, st
     TERRANE_TRY(lockForTransaction(connection_, pool_.address(), WorldLock::Tiles));
     TERRANE_TRY(connection_.change(kDeleteTiles, Parameters().number(store::kFirstTileKey)));
     auto edited = TERRANE_TRY(readEditedChunks(connection_));
-    store::SavedRows saved([this](ChunkPos pos) { return readRow(connection_, pos); }, contents_.ids, budget);
+    store::SavedRows saved([this](ChunkPos pos) { return readRow(connection_, pos); }, contents_.ids,
+                           contents_.identity.heights, budget);
     const auto write = [&](std::span<const ChunkRow> group) {
         return saved.result() ? writeDerived(group) : saved.result();
     };
@@ -235,19 +236,20 @@ base::Result<void> PostgresWriter::quarantine(const store::DamagedRow& row) {
 
 namespace {
 
-std::string problemOf(const StoredChunk& row) {
+std::string problemOf(const StoredChunk& row, world::Heights heights) {
     if (!row.problem.empty()) return row.problem;
-    const auto good = store::verifyChunk(row.data, row.seed);
+    const auto good = store::verifyChunk(row.data, heights, row.seed);
     return good ? std::string() : good.error().message;
 }
 
 // Why a row from readRows() is no valid chunk; empty: it is. readRows() leaves out long data, so such a row
 // is read again.
-base::Result<std::string> problemOf(Connection& connection, ChunkPos pos, const StoredChunk& row) {
-    if (row.problem.empty()) return problemOf(row);
+base::Result<std::string> problemOf(Connection& connection, ChunkPos pos, const StoredChunk& row,
+                                    world::Heights heights) {
+    if (row.problem.empty()) return problemOf(row, heights);
     const StoredRow whole = readRow(connection, pos);
     if (!whole) return tl::unexpected(whole.error());
-    return *whole ? problemOf(**whole) : std::string();
+    return *whole ? problemOf(**whole, heights) : std::string();
 }
 
 }  // namespace
@@ -258,7 +260,8 @@ base::Result<void> PostgresWriter::quarantineDamaged(std::span<const std::int64_
         const auto rows = TERRANE_TRY(readRows(connection_, keys.first(std::min(kKeysAtOnce, keys.size()))));
         for (const store::KeyedRow& row : rows) {
             const ChunkPos pos = store::posOf(row.key);
-            const auto problem = TERRANE_TRY(problemOf(connection_, pos, row.row));
+            const auto problem =
+                TERRANE_TRY(problemOf(connection_, pos, row.row, contents_.identity.heights));
             if (problem.empty()) continue;
             messages_.warn(fmt::format("{}: {}: {}; its old data is kept in the table quarantine",
                                        connection_.shown(), store::nameOf(pos), problem));

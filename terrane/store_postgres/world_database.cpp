@@ -23,6 +23,7 @@ constexpr const char* kBeginSnapshot = "BEGIN TRANSACTION ISOLATION LEVEL REPEAT
 constexpr Statement kCanWrite = {
     "SELECT has_table_privilege('chunks', 'INSERT') AND has_table_privilege('chunks', 'UPDATE') "
     "AND has_table_privilege('settings', 'INSERT'), current_setting('transaction_read_only') = 'on'"};
+constexpr Statement kSetFormat = {"UPDATE terrane_format SET format = $1"};
 constexpr Statement kSettings = {"SELECT name, value FROM settings"};
 constexpr Statement kHistory = {"SELECT newest, newest - saved, openings FROM history"};
 constexpr Statement kRaiseOpenings = {"UPDATE history SET openings = openings + 1 RETURNING openings"};
@@ -60,7 +61,7 @@ base::Result<void> addNames(Connection& connection, const std::vector<SavedName>
 base::Result<void> createWorld(Connection& connection, const Address& address,
                                const store::SaveAccess& access) {
     TERRANE_TRY(migrateInTransaction(connection, address.schema, 0));
-    std::vector<Command> commands;
+    std::vector<Command> commands{{&kSetFormat, Parameters().integer(formatFor(access.create->heights))}};
     for (const auto& [name, value] : store::metadataOf(*access.create))
         commands.push_back({&kPutSetting, Parameters().text(name).text(value)});
     TERRANE_TRY(connection.changeAll(commands));
@@ -70,15 +71,16 @@ base::Result<void> createWorld(Connection& connection, const Address& address,
 base::Result<void> makeCurrent(Connection& connection, const Address& address,
                                const store::SaveAccess& access, WorldContents& contents) {
     auto format = TERRANE_TRY(formatOf(connection));
-    contents.format = newestFormat();
+    contents.format = std::max(format, newestFormat());
     if (format == 0) {
         if (!access.create) return base::fail(ErrorCode::NotFound, "{}: there is no world", address.shown);
         contents.isNew = true;
+        contents.format = formatFor(access.create->heights);
         return doAlone(connection, address, [&] {
             return inTransaction(connection, [&] { return createWorld(connection, address, access); });
         });
     }
-    if (format == newestFormat()) return {};
+    if (format >= newestFormat()) return {};
     auto done = doAlone(connection, address, [&] { return migrate(connection, address.schema, format); });
     if (done) base::logInfo("{}: migrated from format {} to {}", address.shown, format, newestFormat());
     return done;
@@ -120,6 +122,8 @@ base::Result<void> readContents(Connection& connection, const world::BlockRegist
     TERRANE_TRY(checkColumns(connection));
     auto metadata = TERRANE_TRY(readMetadata(connection));
     auto identity = TERRANE_TRY(store::identityFrom(metadata, connection.shown()));
+    TERRANE_TRY(
+        store::requireFormat(contents.format, formatFor(identity.heights), identity, connection.shown()));
     const auto names = TERRANE_TRY(readBlockNames(connection));
     auto ids = store::BlockIdMap::make(blocks, names);
     if (!ids) return base::fail(ids.error().code, "{}: {}", connection.shown(), ids.error().message);

@@ -7,6 +7,7 @@
 
 #include "terrane/store/chunks/bytes.h"
 #include "tests/store/store_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::store {
 namespace {
@@ -22,8 +23,8 @@ Bytes encode(const Chunk& chunk, const BlockIdMap& ids = allIds()) {
 }
 
 // The reader's error for bytes with a valid checksum.
-std::string errorOf(Bytes bytes) {
-    const auto chunk = decodeChunk(bytes, allIds());
+std::string errorOf(const Bytes& bytes, world::Heights heights = {}) {
+    const auto chunk = decodeChunk(bytes, allIds(), heights);
     return chunk ? "" : chunk.error().message;
 }
 
@@ -34,12 +35,21 @@ Bytes withChecksum(Bytes bytes) {
 }
 
 // The frame of docs/file-format.md around any content.
-Bytes frame(ByteView plain, std::uint8_t version = kChunkVersion) {
+Bytes frame(ByteView plain, std::uint8_t version = kLowChunkVersion) {
     Bytes bytes(8);
     appendNumber(bytes, version);
     appendNumber(bytes, static_cast<std::uint32_t>(plain.size()));
     appendCompressed(bytes, plain);
     return withChecksum(bytes);
+}
+
+// The content of an encoded chunk, without header and compression.
+Bytes contentOf(const Bytes& encoded) {
+    std::uint32_t length = 0;
+    std::memcpy(&length, encoded.data() + 9, sizeof length);
+    Bytes plain(length);
+    EXPECT_TRUE(decompress(ByteView(encoded).subspan(13), plain));
+    return plain;
 }
 
 // Uniform sections of id 0 and block state 0, then `rest`.
@@ -53,7 +63,7 @@ TEST(ChunkCodec, RandomChunksComeBack) {
     std::mt19937 random(1);
     for (int round = 0; round < 100; ++round) {
         const Chunk chunk = randomChunk(random);
-        const auto back = decodeChunk(encode(chunk), allIds());
+        const auto back = decodeChunk(encode(chunk), allIds(), {});
         ASSERT_TRUE(back) << back.error().message;
         ASSERT_EQ(*back, chunk);
     }
@@ -66,7 +76,7 @@ TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
         const Chunk chunk = randomChunk(random);
         Chunk detour = chunk;
         for (int step = 0; step < 400; ++step) {
-            const auto i = static_cast<world::BlockIndex>(random());
+            const auto i = randomIndex(random);
             if (chunk.blockEntityData(i)) continue;
             detour.setBlock(i, static_cast<world::BlockId>(random()));
             if (step % 8 == 0) detour.setBlockEntityData(i, randomBytes(random, 3));
@@ -79,7 +89,7 @@ TEST(ChunkCodec, EqualChunksGiveEqualBytes) {
         }
         ASSERT_EQ(detour, chunk);
         ASSERT_EQ(encode(detour), encode(chunk));
-        ASSERT_EQ(encode(*decodeChunk(encode(chunk), allIds())), encode(chunk));
+        ASSERT_EQ(encode(*decodeChunk(encode(chunk), allIds(), {})), encode(chunk));
     }
 }
 
@@ -91,7 +101,7 @@ TEST(ChunkCodec, EveryBlockWithBlockEntityData) {
     Chunk chunk;
     for (int i = 0; i < world::kBlocksPerChunk; ++i)
         chunk.setBlockEntityData(static_cast<world::BlockIndex>(i), world::BlockEntityData(2, std::byte(i)));
-    const auto back = decodeChunk(encode(chunk), allIds());
+    const auto back = decodeChunk(encode(chunk), allIds(), {});
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(*back, chunk);
 }
@@ -119,7 +129,7 @@ TEST(ChunkCodec, IdsFollowTheNames) {
     const auto registry = registryOf({"dirt", "sand", "stone"});
     const auto reader = BlockIdMap::make(registry, writer->added());
     ASSERT_TRUE(reader);
-    const auto seen = decodeChunk(bytes, *reader);
+    const auto seen = decodeChunk(bytes, *reader, {});
     ASSERT_TRUE(seen) << seen.error().message;
     EXPECT_EQ(seen->block(0), registry.find("stone")->id);
     EXPECT_EQ(seen->block(4), registry.find("dirt")->id);
@@ -140,7 +150,7 @@ TEST(ChunkCodec, DenseSectionsAreMappedToo) {
     Chunk chunk;
     chunk.setSection(7, Section::fromValues(values));
     ASSERT_TRUE(chunk.section(7).isDense());
-    const auto back = decodeChunk(encode(chunk, *ids), *ids);
+    const auto back = decodeChunk(encode(chunk, *ids), *ids, {});
     ASSERT_TRUE(back) << back.error().message;
     EXPECT_EQ(*back, chunk);
 }
@@ -152,7 +162,7 @@ TEST(ChunkCodec, IdsWithoutNamesAreErrors) {
     const auto bytes = encodeChunk(chunk, *few);
     ASSERT_FALSE(bytes);
     EXPECT_THAT(bytes.error().message, HasSubstr("77"));
-    const auto back = decodeChunk(encode(chunk), *few);
+    const auto back = decodeChunk(encode(chunk), *few, {});
     ASSERT_FALSE(back);
     EXPECT_THAT(back.error().message, HasSubstr("block id 77 has no name"));
 }
@@ -174,7 +184,7 @@ TEST(ChunkCodec, ReadsVersion1) {
         expected.setBlock(static_cast<world::BlockIndex>(9000 + 7 * i), static_cast<world::BlockId>(i * 3));
     expected.setBlockState(9007, 500);
     expected.setBlockEntityData(65535, {std::byte{'a'}, std::byte{'b'}});
-    const auto chunk = decodeChunk(bytes, allIds());
+    const auto chunk = decodeChunk(bytes, allIds(), {});
     ASSERT_TRUE(chunk) << chunk.error().message;
     EXPECT_EQ(*chunk, expected);
 }
@@ -248,10 +258,7 @@ TEST(ChunkCodec, DamagedContent) {
     std::mt19937 random(5);
     for (int round = 0; round < 30; ++round) {
         const Bytes good = encode(randomChunk(random));
-        std::uint32_t length = 0;
-        std::memcpy(&length, good.data() + 9, sizeof length);
-        Bytes plain(length);
-        ASSERT_TRUE(decompress(ByteView(good).subspan(13), plain));
+        const Bytes plain = contentOf(good);
         for (int step = 0; step < 30; ++step) {
             Bytes bad = plain;
             // The interesting parts are at both ends: section heads, and lengths of block entity data.
@@ -262,6 +269,204 @@ TEST(ChunkCodec, DamagedContent) {
             EXPECT_NE(errorOf(frame(bad)), "") << "cut off";
         }
     }
+}
+
+Bytes tallFrame(ByteView plain) {
+    return frame(plain, kTallChunkVersion);
+}
+
+// The beginning of the content of a tall chunk, then runs of uniform sections of these lengths.
+Bytes plainTall(world::Heights heights, const std::vector<int>& runs, ByteView rest = {}) {
+    Bytes plain;
+    appendNumber(plain, static_cast<std::int16_t>(heights.bottom));
+    appendNumber(plain, static_cast<std::int16_t>(heights.top));
+    for (const int sections : runs) {
+        appendNumber(plain, static_cast<std::uint8_t>(sections - 1));
+        appendNumber(plain, std::uint8_t{0});
+        appendNumber(plain, std::uint16_t{0});
+    }
+    append(plain, rest);
+    return plain;
+}
+
+// Against plain arrays that are written block by block.
+TEST(TallChunkCodec, RandomBlocksComeBack) {
+    std::mt19937 random(11);
+    for (int round = 0; round < 60; ++round) {
+        const int sections = 1 + static_cast<int>(random() % (round % 4 == 0 ? 256 : 24));
+        const int first = -128 + static_cast<int>(random() % static_cast<unsigned>(257 - sections));
+        const world::Heights heights{first * 16, (first + sections) * 16};
+        const auto count = static_cast<std::size_t>(heights.layers() * world::kBlocksPerLayer);
+        std::vector<world::BlockId> blocks(count);
+        std::vector<std::uint16_t> states(count);
+        Chunk chunk(heights);
+        for (int n = heights.firstSection(); n < heights.endSection(); ++n) {
+            if (random() % 3 != 0) continue;
+            const auto id = static_cast<world::BlockId>(random() % 3);
+            chunk.setSection(n, Section(id));
+            std::fill_n(blocks.begin() + (n - first) * world::kBlocksPerSection, world::kBlocksPerSection,
+                        id);
+        }
+        const world::BlockIndex bottom = heights.bottom * world::kBlocksPerLayer;
+        for (int step = 0; step < 3000; ++step) {
+            const world::BlockIndex i = randomIndex(random, heights);
+            const auto at = static_cast<std::size_t>(i - bottom);
+            chunk.setBlock(i, blocks[at] = static_cast<world::BlockId>(random() % 2000));
+            chunk.setBlockState(i, states[at] = static_cast<std::uint16_t>(random() % 4 == 0 ? random() : 0));
+        }
+        for (const world::BlockIndex i : {bottom, bottom + static_cast<int>(count) - 1})
+            chunk.setBlockEntityData(i, randomBytes(random, 5));
+        const auto back = decodeChunk(encode(chunk), allIds(), heights);
+        ASSERT_TRUE(back) << back.error().message;
+        ASSERT_EQ(back->heights(), heights);
+        for (std::size_t at = 0; at < count; ++at) {
+            const world::BlockIndex i = bottom + static_cast<world::BlockIndex>(at);
+            ASSERT_EQ(back->block(i), blocks[at]) << describe(heights) << " " << i;
+            ASSERT_EQ(back->blockState(i), states[at]);
+        }
+        ASSERT_EQ(*back, chunk) << "also block entity data";
+        ASSERT_EQ(encode(*back), encode(chunk));
+    }
+}
+
+TEST(TallChunkCodec, AllRepresentationsComeBack) {
+    std::mt19937 random(12);
+    for (int round = 0; round < 20; ++round)
+        for (const world::Heights heights : kTallHeights) {
+            if (heights.layers() > 1000 && round > 2) continue;
+            const Chunk chunk = randomChunk(random, heights);
+            const auto back = decodeChunk(encode(chunk), allIds(), heights);
+            ASSERT_TRUE(back) << back.error().message;
+            ASSERT_EQ(*back, chunk);
+        }
+}
+
+// The bytes of docs/file-format.md.
+TEST(TallChunkCodec, ContentOfAUniformChunk) {
+    constexpr world::Heights kHeights{-64, 320};
+    Chunk chunk(kHeights);
+    for (int n = -4; n < 2; ++n) chunk.setSection(n, Section(7));
+    Bytes expected;
+    for (const int number : {-64, 320}) appendNumber(expected, static_cast<std::int16_t>(number));
+    for (const auto& [sections, id] :
+         {std::pair{6, 7}, {18, 0}, {24, 0}}) {  // two runs of blocks, one of states
+        appendNumber(expected, static_cast<std::uint8_t>(sections - 1));
+        appendNumber(expected, std::uint8_t{0});
+        appendNumber(expected, static_cast<std::uint16_t>(id));
+    }
+    appendNumber(expected, std::uint32_t{0});
+    EXPECT_EQ(contentOf(encode(chunk)), expected);
+    EXPECT_EQ(encode(chunk)[8], std::byte{kTallChunkVersion});
+}
+
+// A column of 4,096 layers takes nearly the bytes of its content.
+TEST(TallChunkCodec, BytesFollowContent) {
+    std::mt19937 random(13);
+    constexpr world::Heights kTall{-2048, 2048};
+    for (int round = 0; round < 10; ++round) {
+        Chunk low, tall(kTall);
+        for (int n = 0; n < 6; ++n) low.setSection(n, randomSection(random, 3 + n));
+        for (int n = kTall.firstSection(); n < 0; ++n) tall.setSection(n, Section(1));
+        for (int n = 0; n < 16; ++n) tall.setSection(n, low.section(n));
+        EXPECT_NEAR(encode(tall).size(), encode(low).size(), 32);
+    }
+    EXPECT_LT(encode(Chunk(kTall)).size(), 40u);
+}
+
+TEST(TallChunkCodec, EveryTruncationIsRefused) {
+    std::mt19937 random(14);
+    constexpr world::Heights kHeights{-64, 64};
+    Chunk chunk(kHeights);
+    chunk.setSection(-4, Section(1));
+    chunk.setSection(-3, Section(1));
+    chunk.setSection(0, randomSection(random, 2));
+    chunk.setBlockStateSection(2, randomSection(random, 5));
+    chunk.setBlockEntityData(kHeights.bottom * 256, randomBytes(random, 3));
+    const Bytes whole = encode(chunk), content = contentOf(whole);
+    ASSERT_EQ(errorOf(tallFrame(content), kHeights), "");
+    for (std::size_t length = 0; length < content.size(); ++length)
+        ASSERT_NE(errorOf(tallFrame(ByteView(content).first(length)), kHeights), "") << length;
+    for (std::size_t length = 8; length < whole.size(); ++length)
+        ASSERT_NE(errorOf(withChecksum({whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(length)}),
+                          kHeights),
+                  "")
+            << length;
+    Bytes longer = content;
+    longer.push_back({});
+    EXPECT_THAT(errorOf(tallFrame(longer), kHeights), HasSubstr("1 bytes too many"));
+}
+
+TEST(TallChunkCodec, SaysWhatIsWrong) {
+    constexpr world::Heights kHeights{-64, 320};
+    const Bytes none(4);
+    EXPECT_EQ(errorOf(tallFrame(plainTall(kHeights, {24, 24}, none)), kHeights), "");
+    EXPECT_EQ(errorOf(tallFrame(plainTall(kHeights, {1, 23, 20, 4}, none)), kHeights), "");
+    EXPECT_THAT(errorOf(tallFrame(plainTall({-64, 336}, {25, 25}, none)), kHeights),
+                HasSubstr("the chunk has bottom -64 and top 336, its world -64 and 320"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall({0, 384}, {24, 24}, none)), kHeights), HasSubstr("bottom 0"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {25, 24}, none)), kHeights),
+                HasSubstr("more than 24 sections"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {256, 24}, none)), kHeights),
+                HasSubstr("more than 24 sections"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {24, 23, 2}, none)), kHeights),
+                HasSubstr("more than 24 sections"));
+    EXPECT_NE(errorOf(tallFrame(plainTall(kHeights, {23, 24}, none)), kHeights), "") << "too few sections";
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {}, Bytes(10, std::byte{1}))), kHeights),
+                HasSubstr("palette of 257"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {}, Bytes(10, std::byte{16}))), kHeights),
+                HasSubstr("17 sections of 16 bits per block have one head"));
+    EXPECT_THAT(errorOf(frame(plainAir(none)), kHeights), HasSubstr("chunk version 1, expected 2"));
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {24, 24}, none))),
+                HasSubstr("chunk version 2, expected 1"));
+    Bytes many;
+    appendNumber(many, std::uint32_t{98305});
+    EXPECT_THAT(errorOf(tallFrame(plainTall(kHeights, {24, 24}, many)), kHeights), HasSubstr("98305 blocks"));
+}
+
+TEST(TallChunkCodec, HostileIndicesAreRefused) {
+    constexpr world::Heights kHeights{-64, 320};
+    const auto errorOfBlocks = [&](const std::vector<std::int32_t>& indices) {
+        Bytes large;
+        appendNumber(large, static_cast<std::uint32_t>(indices.size()));
+        for (const std::int32_t index : indices) {
+            appendNumber(large, index);
+            appendNumber(large, std::uint32_t{0});
+        }
+        return errorOf(tallFrame(plainTall(kHeights, {24, 24}, large)), kHeights);
+    };
+    EXPECT_EQ(errorOfBlocks({-64 * 256, -1, 0, 320 * 256 - 1}), "");
+    for (const std::int32_t index : {-64 * 256 - 1, 320 * 256, INT32_MIN, INT32_MAX})
+        EXPECT_THAT(errorOfBlocks({index}), HasSubstr("is not in the chunk")) << index;
+    EXPECT_THAT(errorOfBlocks({5, 5}), HasSubstr("out of order"));
+    EXPECT_THAT(errorOfBlocks({5, -5}), HasSubstr("out of order"));
+}
+
+TEST(TallChunkCodec, DamagedContent) {
+    std::mt19937 random(15);
+    for (int round = 0; round < 20; ++round) {
+        const world::Heights heights = kTallHeights[random() % std::size(kTallHeights)];
+        if (heights.layers() > 1000 && round > 2) continue;
+        const Bytes plain = contentOf(encode(randomChunk(random, heights)));
+        for (int step = 0; step < 30; ++step) {
+            Bytes bad = plain;
+            const std::size_t near = random() % std::min<std::size_t>(bad.size(), 300);
+            bad[random() % 2 ? near : bad.size() - 1 - near] = static_cast<std::byte>(random());
+            (void)errorOf(tallFrame(bad), heights);
+            bad.resize(random() % plain.size());
+            EXPECT_NE(errorOf(tallFrame(bad), heights), "") << "cut off";
+        }
+    }
+}
+
+TEST(TallChunkCodec, EntityDataOfTheHighestWorlds) {
+    constexpr world::Heights kTall{-2048, 2048};
+    Chunk chunk(kTall);
+    chunk.setBlockEntityData(-2048 * 256, world::BlockEntityData(30u << 20));
+    EXPECT_TRUE(encodeChunk(chunk, allIds()));
+    chunk.setBlockEntityData(2048 * 256 - 1, world::BlockEntityData(3u << 20));
+    const auto bytes = encodeChunk(chunk, allIds());
+    ASSERT_FALSE(bytes);
+    EXPECT_THAT(bytes.error().message, HasSubstr("block entity data"));
 }
 
 TEST(ChunkCodec, SealsNothingShorterThanAHeader) {

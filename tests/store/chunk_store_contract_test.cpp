@@ -1,4 +1,5 @@
 #include "tests/store/chunk_store_contract.h"
+#include "tests/support/default_heights.h"
 
 #include <gmock/gmock.h>
 
@@ -59,8 +60,7 @@ TEST_P(ChunkStoreContract, AllThatAChunkHasComesBack) {
             if (random() % 2) chunk.setBlockStateSection(n, randomSection(random, 40));
         }
         for (std::size_t count = random() % 30; count > 0; --count)
-            chunk.setBlockEntityData(static_cast<world::BlockIndex>(random()),
-                                     randomBytes(random, random() % 300));
+            chunk.setBlockEntityData(randomIndex(random), randomBytes(random, random() % 300));
         store->save({x, -x}, std::make_shared<world::Chunk>(chunk), Provenance::Edited);
         chunks.push_back(std::move(chunk));
     }

@@ -50,11 +50,11 @@ TEST(EntityBudget, ManySmallPiecesAreCounted) {
         chunk.setBlockEntityData(static_cast<world::BlockIndex>(i), world::BlockEntityData(1));
     const Bytes bytes = *encodeChunk(chunk, allIds());
     EntityBudget small(kMiB), large(10 * kMiB);
-    const auto refused = decodeChunk(bytes, allIds(), 0, &small);
+    const auto refused = decodeChunk(bytes, allIds(), {}, 0, &small);
     ASSERT_FALSE(refused);
     EXPECT_EQ(refused.error().code, base::ErrorCode::OutOfResources);
     EXPECT_EQ(small.usedBytes(), 0u);
-    const auto taken = decodeChunk(bytes, allIds(), 0, &large);
+    const auto taken = decodeChunk(bytes, allIds(), {}, 0, &large);
     ASSERT_TRUE(taken);
     EXPECT_EQ(*taken, chunk);
 }

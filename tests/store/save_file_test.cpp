@@ -237,7 +237,7 @@ TEST_F(SaveFileTest, SqliteFileOfAnotherProgram) {
 TEST_F(SaveFileTest, NewerFormat) {
     makeSave();
     runSql(path_, "PRAGMA user_version = 99");
-    expectRefused("in format 99, this program reads up to format 3");
+    expectRefused("in format 99, this program reads up to format 4");
 }
 
 TEST_F(SaveFileTest, CutOff) {

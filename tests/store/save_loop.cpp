@@ -90,7 +90,8 @@ base::Result<void> verifyTiles(const char* path, const world::BlockRegistry& reg
             tiles.emplace(pos, store::Bytes(data.begin(), data.end()));
             continue;
         }
-        auto chunk = store::decodeChunk(data, file->ids, store::checksumSeed(pos, true));
+        auto chunk =
+            store::decodeChunk(data, file->ids, file->identity.heights, store::checksumSeed(pos, true));
         if (!chunk) return tl::unexpected(chunk.error());
         chunks.push_back({pos, std::make_shared<world::Chunk>(std::move(*chunk))});
     }

@@ -74,9 +74,10 @@ TEST_F(MigrationTest, Kinds) {
     auto database = Database::open(path_, OpenMode::ReadWrite);
     ASSERT_TRUE(database);
     EXPECT_EQ(*classify(*database), SaveKind::Old);
-    EXPECT_EQ(*classify(*database, 1), SaveKind::Current);
-    EXPECT_EQ(*classify(*database, 2), SaveKind::Old);
-    EXPECT_FALSE(classify(*database, 0)) << "newer than the program";
+    EXPECT_EQ(*classify(*database, {1, 1}), SaveKind::Current);
+    EXPECT_EQ(*classify(*database, {1, 2}), SaveKind::Current);
+    EXPECT_EQ(*classify(*database, {2, 2}), SaveKind::Old);
+    EXPECT_FALSE(classify(*database, {0, 0})) << "newer than the program";
 }
 
 TEST(Database, ACopyReplacesNoFile) {

@@ -17,6 +17,7 @@
 #include "terrane/store/sqlite/sqlite.h"
 #include "terrane/world/blocks/block_registry.h"
 #include "tests/base/temp_folder.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::store {
 
@@ -68,18 +69,27 @@ inline world::BlockEntityData randomBytes(std::mt19937& random, std::size_t size
     return data;
 }
 
+inline world::BlockIndex randomIndex(std::mt19937& random, world::Heights heights = {}) {
+    const auto blocks = static_cast<std::uint32_t>(heights.layers() * world::kBlocksPerLayer);
+    return heights.bottom * world::kBlocksPerLayer + static_cast<world::BlockIndex>(random() % blocks);
+}
+
+// Other heights than 0…255: the usual ones of tall worlds, the highest and lowest ones, and such that 0 is
+// not in them.
+inline constexpr world::Heights kTallHeights[] = {{-64, 320}, {-2048, 2048}, {512, 1024}, {-1024, -512},
+                                                  {0, 16},    {0, 272},      {16, 256}};
+
 // A chunk with sections in all representations, block states and block entity data.
-inline world::Chunk randomChunk(std::mt19937& random) {
+inline world::Chunk randomChunk(std::mt19937& random, world::Heights heights = {}) {
     constexpr int kDistinct[] = {1, 1, 1, 2, 3, 4, 9, 16, 17, 200, 256, 257, 3000};
-    world::Chunk chunk;
-    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
+    world::Chunk chunk(heights);
+    for (int n = heights.firstSection(); n < heights.endSection(); ++n) {
         chunk.setSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
         if (random() % 4 == 0)
             chunk.setBlockStateSection(n, randomSection(random, kDistinct[random() % std::size(kDistinct)]));
     }
     for (std::size_t count = random() % 2 * (random() % 50); count > 0; --count)
-        chunk.setBlockEntityData(static_cast<world::BlockIndex>(random()),
-                                 randomBytes(random, random() % 300));
+        chunk.setBlockEntityData(randomIndex(random, heights), randomBytes(random, random() % 300));
     return chunk;
 }
 

@@ -44,6 +44,50 @@ TEST(RequireSame, SaysHowTheyDiffer) {
     other = kIdentity;
     other.generatorVersion = 4;
     EXPECT_THAT(requireSame(kIdentity, other, "a.sqlite").error().message, HasSubstr("version 3"));
+    other = kIdentity;
+    other.heights = {-64, 320};
+    EXPECT_EQ(requireSame(kIdentity, other, "a.sqlite").error().message,
+              "a.sqlite: has the layers 0 to 255, not -64 to 319");
+}
+
+TEST(Metadata, HeightsAreWrittenOnlyIfTheyAreNotUsual) {
+    EXPECT_EQ(metadataOf(kIdentity).size(), 3u);
+    for (const world::Heights heights : {world::Heights{-64, 320}, {-2048, 2048}, {512, 1024}, {0, 16}}) {
+        WorldIdentity tall = kIdentity;
+        tall.heights = heights;
+        const Metadata metadata = metadataOf(tall);
+        EXPECT_EQ(metadata.at("bottom"), std::to_string(heights.bottom));
+        EXPECT_EQ(metadata.at("top"), std::to_string(heights.top));
+        EXPECT_EQ(identityFrom(metadata, "a").value(), tall);
+    }
+    EXPECT_TRUE(isReserved("bottom"));
+    EXPECT_TRUE(isReserved("top"));
+}
+
+TEST(Metadata, WrongHeightsAreDamage) {
+    const auto errorOf = [](const char* bottom, const char* top) {
+        Metadata metadata = metadataOf(kIdentity);
+        if (bottom) metadata["bottom"] = bottom;
+        if (top) metadata["top"] = top;
+        const auto identity = identityFrom(metadata, "a.sqlite");
+        if (identity) return std::string();
+        EXPECT_EQ(identity.error().code, ErrorCode::Damaged);
+        EXPECT_EQ(identity.error().message.find('\n'), std::string::npos);
+        return identity.error().message;
+    };
+    EXPECT_EQ(errorOf("-64", nullptr), "a.sqlite: damaged: the setting top is missing");
+    EXPECT_EQ(errorOf(nullptr, "320"), "a.sqlite: damaged: the setting bottom is missing");
+    EXPECT_THAT(errorOf("-64", "320 "), HasSubstr("the setting top is \"320 \", expected a number"));
+    EXPECT_THAT(errorOf("99999999999", "320"), HasSubstr("expected a number"));
+    for (const auto& [bottom, top] : {std::pair{"5", "320"},
+                                      {"0", "0"},
+                                      {"64", "0"},
+                                      {"-2064", "0"},
+                                      {"0", "2064"},
+                                      {"-2147483648", "2147483647"}})
+        EXPECT_THAT(errorOf(bottom, top), HasSubstr("a.sqlite: damaged: a world's bottom and top are"))
+            << bottom << " " << top;
+    EXPECT_EQ(errorOf("-64", "320"), "");
 }
 
 // A program with the generators flat, in this version, and overworld.
@@ -71,6 +115,20 @@ TEST(CompareWorld, AnotherWorldIsRefused) {
         EXPECT_THAT(seed.error().message, HasSubstr("seed 7, not 8"));
         EXPECT_THAT(compare({.seed = {}, .generator = "overworld", .regenerate = regenerate}).error().message,
                     HasSubstr("generator flat, not overworld"));
+    }
+}
+
+TEST(CompareWorld, OtherHeightsAreRefused) {
+    RequestedWorld requested;
+    requested.heights = world::Heights();
+    EXPECT_TRUE(compare(requested));
+    requested.heights = world::Heights{0, 512};
+    for (const Regenerate regenerate : {Regenerate::None, Regenerate::AllButEdited, Regenerate::All}) {
+        requested.regenerate = regenerate;
+        const auto by = compare(requested);
+        ASSERT_FALSE(by);
+        EXPECT_EQ(by.error().code, ErrorCode::Incompatible);
+        EXPECT_EQ(by.error().message, "a.sqlite: has the layers 0 to 255, not 0 to 511");
     }
 }
 

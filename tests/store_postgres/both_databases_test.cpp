@@ -1,6 +1,7 @@
 // PostgreSQL and SQLite give equal results for the same random saves.
 #include "terrane/store/sqlite/sqlite_store.h"
 #include "tests/store_postgres/world_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::store_postgres {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <cassert>
+#include <limits>
 #include <optional>
 #include <utility>
 
@@ -23,10 +25,6 @@ constexpr std::size_t kHeaderBytes = sizeof(std::uint64_t) + sizeof(std::uint8_t
 std::uint64_t checksum(ByteView bytes, std::uint64_t seed) {
     const ByteView rest = bytes.subspan(sizeof(std::uint64_t));
     return XXH64(rest.data(), rest.size(), seed);
-}
-
-constexpr std::size_t wordCount(int bits) {
-    return static_cast<std::size_t>(world::kBlocksPerSection * bits / 64);
 }
 
 // Writes sections. `Map` maps a value to its saved value, or to BlockIdMap::kNone.
@@ -67,43 +65,96 @@ class SectionWriter {
 
 constexpr auto kSameValue = [](Value v) { return std::uint32_t{v}; };
 
-base::Result<void> appendBlockEntityData(Bytes& out, const world::Chunk& chunk,
-                                         std::span<const world::BlockIndex> large) {
+// Index of a block in version 1; other versions have the whole world::BlockIndex.
+using LowIndex = std::uint16_t;
+
+std::size_t entryBytes(std::uint8_t version) {
+    return (version == kLowChunkVersion ? sizeof(LowIndex) : sizeof(world::BlockIndex)) +
+           sizeof(std::uint32_t);
+}
+
+// Before compression, for everything but block entity data: a layer takes up to 1 KiB of blocks and block
+// states, and up to 2 KiB of indices and lengths of block entity data.
+std::size_t roomBesideEntityData(world::Heights heights) {
+    constexpr std::size_t kBytesALayer = 8192;
+    return kBytesALayer * static_cast<std::size_t>(heights.layers());
+}
+
+// Before compression, for the sections of blocks and block states: a layer takes up to 1 KiB, and a little
+// for heads.
+std::size_t maxSectionBytes(world::Heights heights) {
+    constexpr std::size_t kBytesALayer = 2048;
+    return kBytesALayer * static_cast<std::size_t>(heights.layers());
+}
+
+base::Result<void> appendBlockEntityData(Bytes& out, const world::Chunk& chunk) {
+    const std::vector<world::BlockIndex> large = chunk.blocksWithBlockEntityData();
     std::size_t totalBytes = 0;
     for (const world::BlockIndex i : large) totalBytes += chunk.blockEntityData(i)->size();
-    constexpr std::size_t kMaxBytes = kMaxChunkBytes - (2u << 20);  // the rest is for sections and lengths
-    if (totalBytes > kMaxBytes)
+    const std::size_t maxBytes = kMaxChunkBytes - roomBesideEntityData(chunk.heights());
+    if (totalBytes > maxBytes)
         return base::fail("the chunk has {} bytes of block entity data, a save keeps at most {}", totalBytes,
-                          kMaxBytes);
+                          maxBytes);
+    const bool isLow = chunkVersion(chunk.heights()) == kLowChunkVersion;
     appendNumber(out, static_cast<std::uint32_t>(large.size()));
     for (const world::BlockIndex i : large) {
-        appendNumber(out, i);
+        if (isLow)
+            appendNumber(out, static_cast<LowIndex>(i));
+        else
+            appendNumber(out, i);
         appendNumber(out, static_cast<std::uint32_t>(chunk.blockEntityData(i)->size()));
     }
     for (const world::BlockIndex i : large) append(out, *chunk.blockEntityData(i));
     return {};
 }
 
-base::Result<void> appendPlain(Bytes& out, const world::Chunk& chunk, const BlockIdMap& ids) {
-    const std::vector<world::BlockIndex> large = chunk.blocksWithBlockEntityData();
-    std::array<Section, world::kSectionsPerChunk> blocks, blockState;
-    for (int n = 0; n < world::kSectionsPerChunk; ++n) {
-        const auto k = static_cast<std::size_t>(n);
-        blocks[k] = chunk.section(n);
-        blocks[k].compact();
-        blockState[k] = chunk.blockStates(n);
-        blockState[k].compact();
+// Sections one above the other that are the same and uniform, or a single section.
+struct Run {
+    Section section;  // compact
+    int count = 0;
+};
+
+// The sections that `sectionOf` returns for their numbers, from below. In version 1 each is a run.
+template <class SectionOf>
+std::vector<Run> runsOf(world::Heights heights, SectionOf sectionOf) {
+    const bool hasRuns = chunkVersion(heights) != kLowChunkVersion;
+    std::vector<Run> runs;
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
+        Section section = sectionOf(number);
+        section.compact();
+        if (hasRuns && !runs.empty() && section.isUniform() && section.isSame(runs.back().section))
+            ++runs.back().count;
+        else
+            runs.push_back({std::move(section), 1});
     }
+    return runs;
+}
+
+base::Result<void> appendPlain(Bytes& out, const world::Chunk& chunk, const BlockIdMap& ids) {
+    const world::Heights heights = chunk.heights();
+    const std::vector<Run> blocks = runsOf(heights, [&](int number) { return chunk.section(number); });
+    const std::vector<Run> states = runsOf(heights, [&](int number) { return chunk.blockStates(number); });
     SectionWriter blockWriter(out, [&](Value id) { return ids.toSaved(id); });
-    SectionWriter dataWriter(out, kSameValue);
+    SectionWriter stateWriter(out, kSameValue);
+    const bool isLow = chunkVersion(heights) == kLowChunkVersion;
+    const auto appendHeads = [&](const std::vector<Run>& runs, auto& writer) {
+        for (const Run& run : runs) {
+            if (!isLow) appendNumber(out, static_cast<std::uint8_t>(run.count - 1));
+            writer.head(run.section);
+        }
+    };
+    if (!isLow) {
+        appendNumber(out, static_cast<std::int16_t>(heights.bottom));
+        appendNumber(out, static_cast<std::int16_t>(heights.top));
+    }
     // Heads first, then the words: 2 % smaller than section by section.
-    for (const Section& section : blocks) blockWriter.head(section);
-    for (const Section& section : blockState) dataWriter.head(section);
-    for (const Section& section : blocks) blockWriter.words(section);
-    for (const Section& section : blockState) dataWriter.words(section);
+    appendHeads(blocks, blockWriter);
+    appendHeads(states, stateWriter);
+    for (const Run& run : blocks) blockWriter.words(run.section);
+    for (const Run& run : states) stateWriter.words(run.section);
     if (blockWriter.unmapped())
         return base::fail("block id {} stands for no block type", *blockWriter.unmapped());
-    return appendBlockEntityData(out, chunk, large);
+    return appendBlockEntityData(out, chunk);
 }
 
 struct SectionHead {
@@ -137,11 +188,13 @@ base::Result<SectionHead> readHead(ByteReader& reader) {
     }
 }
 
-base::Result<Section> readSection(ByteReader& reader, SectionHead head) {
+base::Result<Section> readSection(ByteReader& reader, const SectionHead& head) {
     if (head.bits == 0) return Section(head.uniformValue);
-    std::vector<std::uint64_t> words(wordCount(head.bits));
-    reader.copyTo(std::as_writable_bytes(std::span(words)));
-    auto section = Section::fromPacked(head.bits, std::move(head.palette), std::move(words));
+    std::array<std::uint64_t, world::kBlocksPerSection * 16 / 64> room{};
+    const auto words =
+        std::span(room).first(static_cast<std::size_t>(world::kBlocksPerSection * head.bits / 64));
+    reader.copyTo(std::as_writable_bytes(words));
+    auto section = Section::fromPacked(head.bits, head.palette, words);
     if (!section)
         return base::fail(base::ErrorCode::Damaged, "a section's palette of {} bits does not fit its blocks",
                           head.bits);
@@ -159,7 +212,7 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
     if (head.bits == 0) map(head.uniformValue);
     for (Value& id : head.palette) map(id);
     const bool isDense = head.bits == 16;
-    auto section = readSection(reader, std::move(head));
+    auto section = readSection(reader, head);
     if (section && isDense) {
         std::array<Value, world::kBlocksPerSection> values;
         section->unpack(values);
@@ -172,16 +225,21 @@ base::Result<Section> readBlocks(ByteReader& reader, SectionHead head, const Blo
 }
 
 base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, EntityBudget* budget) {
+    const world::Heights heights = chunk.heights();
+    const std::uint8_t version = chunkVersion(heights);
     const auto count = reader.number<std::uint32_t>();
-    if (count > world::kBlocksPerChunk)
+    if (count > static_cast<std::uint32_t>(heights.layers() * world::kBlocksPerLayer))
         return base::fail(base::ErrorCode::Damaged, "{} blocks have block entity data", count);
-    constexpr std::size_t kEntryBytes = sizeof(world::BlockIndex) + sizeof(std::uint32_t);
-    ByteReader entries(reader.take(count * kEntryBytes));
-    int last = -1;
+    ByteReader entries(reader.take(count * entryBytes(version)));
+    std::int64_t last = std::numeric_limits<std::int64_t>::min();
     for (std::uint32_t n = 0; n < count && !reader.isPastEnd(); ++n) {
-        const auto index = entries.number<world::BlockIndex>();
+        const world::BlockIndex index =
+            version == kLowChunkVersion ? entries.number<LowIndex>() : entries.number<world::BlockIndex>();
         if (index <= last)
             return base::fail(base::ErrorCode::Damaged, "block entity data of blocks is out of order");
+        if (!heights.contains(index >> 8))
+            return base::fail(base::ErrorCode::Damaged, "block {} with block entity data is not in the chunk",
+                              index);
         last = index;
         auto data = TERRANE_TRY(holdData(reader.take(entries.number<std::uint32_t>()), budget));
         chunk.shareBlockEntityData(index, std::move(data));
@@ -189,24 +247,57 @@ base::Result<void> readBlockEntityData(ByteReader& reader, world::Chunk& chunk, 
     return {};
 }
 
-base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids, EntityBudget* budget) {
-    ByteReader reader(bytes);
-    std::array<SectionHead, 2 * world::kSectionsPerChunk> heads;
-    for (SectionHead& head : heads) {
-        auto read = TERRANE_TRY(readHead(reader));
-        head = std::move(read);
+struct HeadRun {
+    SectionHead head;
+    int count = 0;
+};
+
+// Reads the heads of a chunk's sections, of blocks or of block states, from below.
+base::Result<std::vector<HeadRun>> readHeads(ByteReader& reader, world::Heights heights) {
+    const bool hasRuns = chunkVersion(heights) != kLowChunkVersion;
+    std::vector<HeadRun> runs;
+    for (int sections = 0; sections < heights.sections() && !reader.isPastEnd();) {
+        HeadRun run;
+        run.count = hasRuns ? reader.number<std::uint8_t>() + 1 : 1;
+        run.head = TERRANE_TRY(readHead(reader));
+        sections += run.count;
+        if (sections > heights.sections())
+            return base::fail(base::ErrorCode::Damaged, "the chunk has more than {} sections",
+                              heights.sections());
+        if (run.count > 1 && run.head.bits != 0)
+            return base::fail(base::ErrorCode::Damaged, "{} sections of {} bits per block have one head",
+                              run.count, run.head.bits);
+        runs.push_back(std::move(run));
     }
-    world::Chunk chunk;
-    for (int n = 0; n < 2 * world::kSectionsPerChunk && !reader.isPastEnd(); ++n) {
-        SectionHead& head = heads[static_cast<std::size_t>(n)];
-        const bool isBlocks = n < world::kSectionsPerChunk;
-        auto section = TERRANE_TRY(isBlocks ? readBlocks(reader, std::move(head), ids)
-                                            : readSection(reader, std::move(head)));
-        if (isBlocks) {
-            chunk.setSection(n, std::move(section));
-        } else {
-            chunk.setBlockStateSection(n - world::kSectionsPerChunk, std::move(section));
-        }
+    return runs;
+}
+
+base::Result<void> checkSaved(ByteReader& reader, world::Heights heights) {
+    if (chunkVersion(heights) == kLowChunkVersion) return {};
+    const int bottom = reader.number<std::int16_t>(), top = reader.number<std::int16_t>();
+    if (heights == world::Heights{bottom, top}) return {};
+    return base::fail(base::ErrorCode::Damaged, "the chunk has bottom {} and top {}, its world {} and {}",
+                      bottom, top, heights.bottom, heights.top);
+}
+
+base::Result<world::Chunk> readPlain(ByteView bytes, const BlockIdMap& ids, world::Heights heights,
+                                     EntityBudget* budget) {
+    ByteReader reader(bytes);
+    TERRANE_TRY(checkSaved(reader, heights));
+    auto blocks = TERRANE_TRY(readHeads(reader, heights));
+    auto states = TERRANE_TRY(readHeads(reader, heights));
+    world::Chunk chunk(heights);
+    int number = heights.firstSection();
+    for (HeadRun& run : blocks) {
+        if (reader.isPastEnd()) break;
+        const auto section = TERRANE_TRY(readBlocks(reader, std::move(run.head), ids));
+        for (int k = 0; k < run.count; ++k) chunk.setSection(number++, section);
+    }
+    number = heights.firstSection();
+    for (const HeadRun& run : states) {
+        if (reader.isPastEnd()) break;
+        const auto section = TERRANE_TRY(readSection(reader, run.head));
+        for (int k = 0; k < run.count; ++k) chunk.setBlockStateSection(number++, section);
     }
     TERRANE_TRY(readBlockEntityData(reader, chunk, budget));
     if (reader.isPastEnd()) return base::fail(base::ErrorCode::Damaged, "the chunk ends too early");
@@ -226,7 +317,7 @@ base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids
     Bytes out;
     out.reserve(plain.size() + kHeaderBytes);
     appendNumber(out, std::uint64_t{0});
-    appendNumber(out, kChunkVersion);
+    appendNumber(out, chunkVersion(chunk.heights()));
     appendNumber(out, static_cast<std::uint32_t>(plain.size()));
     appendCompressed(out, plain);
     sealChunk(out, seed);
@@ -240,21 +331,22 @@ void sealChunk(std::span<std::byte> bytes, std::uint64_t seed) {
     std::memcpy(bytes.data(), &sum, sizeof sum);
 }
 
-base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed) {
+base::Result<void> verifyChunk(ByteView bytes, world::Heights heights, std::uint64_t seed) {
     if (bytes.size() < kHeaderBytes)
         return base::fail(base::ErrorCode::Damaged, "{} bytes are too few for a chunk", bytes.size());
     ByteReader reader(bytes);
     const auto sum = reader.number<std::uint64_t>();
     if (sum != checksum(bytes, seed)) return base::fail(base::ErrorCode::Damaged, "the checksum is wrong");
     const auto version = reader.number<std::uint8_t>();
-    if (version != kChunkVersion)
-        return base::fail(base::ErrorCode::Damaged, "chunk version {}, expected {}", version, kChunkVersion);
+    if (version != chunkVersion(heights))
+        return base::fail(base::ErrorCode::Damaged, "chunk version {}, expected {}", version,
+                          chunkVersion(heights));
     return {};
 }
 
-base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, std::uint64_t seed,
-                                       EntityBudget* budget) {
-    TERRANE_TRY(verifyChunk(bytes, seed));
+base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, world::Heights heights,
+                                       std::uint64_t seed, EntityBudget* budget) {
+    TERRANE_TRY(verifyChunk(bytes, heights, seed));
     ByteReader reader(bytes.subspan(sizeof(std::uint64_t) + sizeof(std::uint8_t)));
     const auto plainBytes = reader.number<std::uint32_t>();
     if (plainBytes > kMaxChunkBytes)
@@ -264,13 +356,14 @@ base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids, st
     if (budget && plainBytes > kMaxScratchBytes) {
         alone = budget->lockLargeChunks();
         // Everything except the sections will be held: check the budget before decompressing.
-        if (!budget->hasRoomFor(plainBytes - kMaxScratchBytes)) return overBudget(*budget);
+        const std::size_t sections = std::max(kMaxScratchBytes, maxSectionBytes(heights));
+        if (plainBytes > sections && !budget->hasRoomFor(plainBytes - sections)) return overBudget(*budget);
     }
     Scratch scratch;
     Bytes& plain = scratch.bytes();
     plain.resize(plainBytes);
     TERRANE_TRY(decompress(reader.rest(), plain));
-    return readPlain(plain, ids, budget);
+    return readPlain(plain, ids, heights, budget);
 }
 
 }  // namespace terrane::store

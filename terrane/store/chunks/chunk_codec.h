@@ -14,7 +14,8 @@
 namespace terrane::store {
 
 // Per-thread scratch memory for uncompressed chunks.
-// A thread frees scratch memory beyond this. Sections take 9 KB on average, 0.5 MiB at most.
+// A thread frees scratch memory beyond this. Sections take 9 KB on average; those of 256 layers take 0.25 MiB
+// at most, those of 4,096 layers 4 MiB.
 constexpr std::size_t kMaxScratchBytes = 1u << 20;
 
 // The calling thread's scratch memory, empty at first. A thread may have one object at a time.
@@ -35,9 +36,14 @@ class Scratch {
     }
 };
 
-constexpr std::uint8_t kChunkVersion = 1;
+// The version of chunk data follows from the heights of the world: version 1 has 16 sections and 16-bit
+// indices of blocks, version 2 any heights.
+constexpr std::uint8_t kLowChunkVersion = 1, kTallChunkVersion = 2;
+constexpr std::uint8_t chunkVersion(world::Heights heights) {
+    return heights == world::Heights() ? kLowChunkVersion : kTallChunkVersion;
+}
 
-// Maximum size before compression: sections take at most 0.5 MiB, the rest is block entity data.
+// Maximum size before compression: sections take at most 4 MiB, the rest is block entity data.
 constexpr std::size_t kMaxChunkBytes = 64u << 20;
 
 // Fails if the block entity data exceeds the limit, or a block's id is not mapped. `seed` is the
@@ -45,13 +51,14 @@ constexpr std::size_t kMaxChunkBytes = 64u << 20;
 [[nodiscard]] base::Result<Bytes> encodeChunk(const world::Chunk& chunk, const BlockIdMap& ids,
                                               std::uint64_t seed = 0);
 
-// Decodes any bytes. The error for invalid bytes gives the reason, without a position. Returns OutOfResources
-// if the block entity data exceed the budget.
+// Decodes any bytes of a world of these heights. The error for invalid bytes gives the reason, without a
+// position. Returns OutOfResources if the block entity data exceed the budget.
 [[nodiscard]] base::Result<world::Chunk> decodeChunk(ByteView bytes, const BlockIdMap& ids,
-                                                     std::uint64_t seed = 0, EntityBudget* budget = nullptr);
+                                                     world::Heights heights, std::uint64_t seed = 0,
+                                                     EntityBudget* budget = nullptr);
 
 // Checks only header and checksum, in 0.1 µs.
-[[nodiscard]] base::Result<void> verifyChunk(ByteView bytes, std::uint64_t seed = 0);
+[[nodiscard]] base::Result<void> verifyChunk(ByteView bytes, world::Heights heights, std::uint64_t seed = 0);
 
 // Sets the checksum of an encoded chunk for this seed.
 void sealChunk(std::span<std::byte> bytes, std::uint64_t seed);

@@ -1,7 +1,7 @@
 // Limits the block entity data of a store's chunks in memory. Its compression ratio is unbounded, so a small
-// file could exhaust memory; the sections of a chunk take 256 KiB at most. Data counts from reading a chunk
-// until its last owner is gone; copies of chunks share it. Any thread may call the functions; the data may
-// outlive the budget.
+// file could exhaust memory; the sections of a chunk of 256 layers take 256 KiB at most. Data counts from
+// reading a chunk until its last owner is gone; copies of chunks share it. Any thread may call the functions;
+// the data may outlive the budget.
 #pragma once
 
 #include <atomic>

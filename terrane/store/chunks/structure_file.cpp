@@ -55,7 +55,7 @@ std::size_t dataBytes(const Structure& structure) {
 }
 
 base::Result<void> checkLimits(const Structure& s) {
-    if (!isSize(s.size.x) || !isSize(s.size.y) || s.size.z < 1 || s.size.z > world::kChunkHeight)
+    if (!isSize(s.size.x) || !isSize(s.size.y) || s.size.z < 1 || s.size.z > world::kMostLayers)
         return damagedStructure(
             fmt::format("{} × {} × {} blocks are not a structure", s.size.x, s.size.y, s.size.z));
     if (s.blockCount() > world::kMaxStructureBlocks)

@@ -126,7 +126,7 @@ std::string problemOf(const Statement& row, const SaveFile& file) {
     if (!world::isInWorld(posOf(row.number(0))))
         return fmt::format("the key {} is not a position", row.number(0));
     const std::uint64_t seed = seedOf(posOf(row.number(0)), row.number(1), file.format);
-    const auto chunk = decodeChunk(row.blob(2), file.ids, seed);
+    const auto chunk = decodeChunk(row.blob(2), file.ids, file.identity.heights, seed);
     return chunk ? "" : chunk.error().message;
 }
 

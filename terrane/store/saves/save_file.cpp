@@ -1,5 +1,6 @@
 #include "terrane/store/saves/save_file.h"
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -222,13 +223,19 @@ base::Result<void> regenerate(SaveFile& file, const fs::path& path, const Regene
     return {};
 }
 
-// Reads settings and block names, and verifies their checksum.
+// Reads format, settings and block names, and verifies their checksum.
 base::Result<std::vector<SavedName>> readNamed(SaveFile& file) {
+    const std::string& path = file.database.path();
+    const auto version = TERRANE_TRY(file.database.queryNumber("PRAGMA user_version"));
+    file.format = version.value_or(0);
+    if (file.format < kOldestReadable)
+        return base::fail(ErrorCode::Incompatible, "{}: unknown format {}", path, file.format);
     auto metadata = TERRANE_TRY(readMetadata(file.database));
     auto names = TERRANE_TRY(readBlockNames(file.database));
-    auto identity = TERRANE_TRY(identityFrom(metadata, file.database.path()));
-    if (file.format >= kFirstWithChecksums)
-        TERRANE_TRY(verifyMetadata(metadata, names, file.database.path()));
+    auto identity = TERRANE_TRY(identityFrom(metadata, path));
+    TERRANE_TRY(
+        requireFormat(std::max(file.format, kFormatVersion), formatFor(identity.heights), identity, path));
+    if (file.format >= kFirstWithChecksums) TERRANE_TRY(verifyMetadata(metadata, names, path));
     file.metadata = std::move(metadata);
     file.identity = std::move(identity);
     return names;
@@ -272,14 +279,6 @@ void reportUnknown(const SaveFile& file) {
                      file.database.path(), names.size(), names.front());
 }
 
-// Reads the format of a save that is opened for reading.
-base::Result<void> readFormat(SaveFile& file) {
-    const auto version = TERRANE_TRY(file.database.queryNumber("PRAGMA user_version"));
-    file.format = version.value_or(0);
-    if (file.format >= kOldestReadable) return {};
-    return base::fail(ErrorCode::Incompatible, "{}: unknown format {}", file.database.path(), file.format);
-}
-
 // A shared lock, or the program that writes.
 struct ReadLock {
     std::optional<FileLock> lock;
@@ -321,7 +320,6 @@ base::Result<SaveFile> openReadable(const fs::path& name) {
     auto kind = TERRANE_TRY(classify(file.database));
     if (kind == SaveKind::Empty) return notASave(path);
     TERRANE_TRY(checkSchema(file.database));
-    TERRANE_TRY(readFormat(file));
     return file;
 }
 

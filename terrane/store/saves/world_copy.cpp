@@ -35,10 +35,10 @@ std::optional<std::int64_t> lastKeyOf(std::string_view mark) {
     return key;
 }
 
-std::string problemOf(const KeyedRow& row) {
+std::string problemOf(const KeyedRow& row, world::Heights heights) {
     if (!world::isInWorld(posOf(row.key))) return fmt::format("the key {} is not a position", row.key);
     if (!row.row.problem.empty()) return row.row.problem;
-    const auto good = verifyChunk(row.row.data, row.row.seed);
+    const auto good = verifyChunk(row.row.data, heights, row.row.seed);
     return good ? std::string() : good.error().message;
 }
 
@@ -54,7 +54,7 @@ base::Result<std::vector<KeyedRow>> goodRowsAfter(ReadableRows& world, std::int6
                               world.name());
     if (!rows.empty()) key = rows.back().key;
     std::erase_if(rows, [&](const KeyedRow& row) {
-        const std::string problem = problemOf(row);
+        const std::string problem = problemOf(row, world.identity().heights);
         if (problem.empty()) return false;
         if (report.damaged++ == 0)
             report.firstDamage = fmt::format("{}: {}", nameOf(posOf(row.key)), problem);

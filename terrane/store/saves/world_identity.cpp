@@ -12,7 +12,8 @@ namespace {
 
 using base::ErrorCode;
 
-constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version";
+constexpr const char *kSeed = "seed", *kGenerator = "generator", *kGeneratorVersion = "generator_version",
+                     *kBottom = "bottom", *kTop = "top";
 
 // Error messages call metadata "settings", like the table in the file.
 base::Result<std::string> textOf(const Metadata& metadata, const char* name, const std::string& where) {
@@ -37,6 +38,17 @@ base::Result<T> numberOf(const Metadata& metadata, const char* name, const std::
                       name, text);
 }
 
+// Worlds of 0…255 have neither entry.
+base::Result<world::Heights> heightsFrom(const Metadata& metadata, const std::string& where) {
+    if (!metadata.contains(kBottom) && !metadata.contains(kTop)) return world::Heights();
+    world::Heights heights;
+    heights.bottom = TERRANE_TRY(numberOf<int>(metadata, kBottom, where));
+    heights.top = TERRANE_TRY(numberOf<int>(metadata, kTop, where));
+    if (const auto good = world::checkHeights(heights); !good)
+        return base::fail(ErrorCode::Damaged, "{}: damaged: {}", where, good.error().message);
+    return heights;
+}
+
 bool isWholeNumber(std::string_view text) {
     if (text.starts_with('-') || text.starts_with('+')) text.remove_prefix(1);
     return !text.empty() && text.find_first_not_of("0123456789") == text.npos;
@@ -56,8 +68,8 @@ base::Result<WrittenSeed> seedFrom(std::string_view text) {
 }
 
 bool isReserved(std::string_view name) {
-    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kDerivedRowsMark ||
-           name == kChecksum;
+    return name == kSeed || name == kGenerator || name == kGeneratorVersion || name == kBottom ||
+           name == kTop || name == kDerivedRowsMark || name == kChecksum;
 }
 
 bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_view value) {
@@ -71,16 +83,30 @@ bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_v
 }
 
 Metadata metadataOf(const WorldIdentity& identity) {
-    return {{kSeed, std::to_string(identity.seed)},
-            {kGenerator, identity.generator},
-            {kGeneratorVersion, std::to_string(identity.generatorVersion)}};
+    Metadata metadata{{kSeed, std::to_string(identity.seed)},
+                      {kGenerator, identity.generator},
+                      {kGeneratorVersion, std::to_string(identity.generatorVersion)}};
+    if (identity.heights != world::Heights()) {
+        metadata.emplace(kBottom, std::to_string(identity.heights.bottom));
+        metadata.emplace(kTop, std::to_string(identity.heights.top));
+    }
+    return metadata;
 }
 
 base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where) {
     const auto seed = TERRANE_TRY(numberOf<std::uint64_t>(metadata, kSeed, where));
     const auto version = TERRANE_TRY(numberOf<int>(metadata, kGeneratorVersion, where));
     const auto generator = TERRANE_TRY(textOf(metadata, kGenerator, where));
-    return WorldIdentity{seed, generator, version};
+    const auto heights = TERRANE_TRY(heightsFrom(metadata, where));
+    return WorldIdentity{seed, generator, version, heights};
+}
+
+base::Result<void> requireFormat(std::int64_t format, std::int64_t required, const WorldIdentity& identity,
+                                 const std::string& where) {
+    if (format == required) return {};
+    return base::fail(ErrorCode::Damaged,
+                      "{}: damaged: in format {}, but worlds of the layers {} have format {}", where, format,
+                      world::describe(identity.heights), required);
 }
 
 base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& requested,
@@ -91,6 +117,9 @@ base::Result<void> requireSame(const WorldIdentity& saved, const WorldIdentity& 
     if (saved.seed != requested.seed)
         return base::fail(ErrorCode::Incompatible, "{}: made with seed {}, not {}", where, saved.seed,
                           requested.seed);
+    if (saved.heights != requested.heights)
+        return base::fail(ErrorCode::Incompatible, "{}: has the layers {}, not {}", where,
+                          world::describe(saved.heights), world::describe(requested.heights));
     if (saved.generatorVersion != requested.generatorVersion)
         return base::fail(
             ErrorCode::Incompatible,
@@ -110,7 +139,8 @@ base::Result<Regeneration> compareWorld(const WorldIdentity& saved, const Reques
     }
     const bool takesAnyVersion = requested.regenerate != Regenerate::None || requested.followsGenerator;
     const WorldIdentity expected{requested.seed.value_or(saved.seed), generator,
-                                 takesAnyVersion ? saved.generatorVersion : version};
+                                 takesAnyVersion ? saved.generatorVersion : version,
+                                 requested.heights.over(saved.heights)};
     TERRANE_TRY(requireSame(saved, expected, where));
     if (requested.regenerate != Regenerate::None || saved.generatorVersion == version)
         return Regeneration{requested.regenerate, version};

@@ -13,6 +13,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/store/chunks/block_id_map.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::store {
 
@@ -22,6 +23,7 @@ struct WorldIdentity {
     std::uint64_t seed = 0;
     std::string generator;
     int generatorVersion = 0;
+    world::Heights heights = {};
 
     bool operator==(const WorldIdentity&) const = default;
 };
@@ -48,6 +50,7 @@ enum class Regenerate : std::uint8_t {
 struct RequestedWorld {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
+    world::RequestedHeights heights = {};
     Regenerate regenerate = Regenerate::None;
     // For the development of generators: if the generator's version differs, chunks without edits are
     // regenerated, and no backup is made.
@@ -104,7 +107,13 @@ bool fitsMetadata(const Metadata& metadata, std::string_view name, std::string_v
 // Returns the metadata of a new world.
 Metadata metadataOf(const WorldIdentity& identity);
 
-// Parses the identity. Fails, naming `where`, if an entry is missing or not a number.
+// Parses the identity. Fails, naming `where`, if an entry is missing or not a number, or the heights are not
+// those of a world.
 [[nodiscard]] base::Result<WorldIdentity> identityFrom(const Metadata& metadata, const std::string& where);
+
+// Fails, naming `where`, unless the world has the format that its heights require. Programs that know only
+// 0…255 read the lower format, and refuse the higher one.
+[[nodiscard]] base::Result<void> requireFormat(std::int64_t format, std::int64_t required,
+                                               const WorldIdentity& identity, const std::string& where);
 
 }  // namespace terrane::store

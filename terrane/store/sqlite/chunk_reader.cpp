@@ -11,16 +11,18 @@ namespace terrane::store {
 namespace {
 
 base::Result<world::Chunk> decodeStored(const StoredChunk& stored, const BlockIdMap& ids,
-                                        EntityBudget& budget) {
+                                        world::Heights heights, EntityBudget& budget) {
     if (!stored.problem.empty()) return base::fail(base::ErrorCode::Damaged, "{}", stored.problem);
-    return decodeChunk(stored.data, ids, stored.seed, &budget);
+    return decodeChunk(stored.data, ids, heights, stored.seed, &budget);
 }
 
 }  // namespace
 
-LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget& budget) {
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, world::Heights heights,
+                      EntityBudget& budget) {
     if (row && !*row) return {};
-    base::Result<world::Chunk> chunk = row ? decodeStored(**row, ids, budget) : tl::unexpected(row.error());
+    base::Result<world::Chunk> chunk =
+        row ? decodeStored(**row, ids, heights, budget) : tl::unexpected(row.error());
     if (chunk) {
         LoadedChunk loaded;
         loaded.state = LoadedChunk::State::Present;

@@ -47,7 +47,8 @@ std::string rowProblem(const Statement& row, int dataColumn, int originColumn);
 [[nodiscard]] base::Result<std::vector<world::ChunkPos>> readEditedChunks(Database& database);
 
 // Decodes the chunk of a row, or reports its error without file and position.
-LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, EntityBudget& budget);
+LoadedChunk decodeRow(const StoredRow& row, const BlockIdMap& ids, world::Heights heights,
+                      EntityBudget& budget);
 
 class ChunkReader {
   public:

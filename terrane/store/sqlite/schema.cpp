@@ -69,7 +69,7 @@ std::span<const Migration> migrations() {
     return kSteps;
 }
 
-base::Result<SaveKind> classify(Database& database, std::int64_t current) {
+base::Result<SaveKind> classify(Database& database, Formats current) {
     const auto tables = TERRANE_TRY(database.queryNumber("SELECT count(*) FROM sqlite_schema"));
     const auto application = TERRANE_TRY(database.queryNumber("PRAGMA application_id"));
     if (tables == 0 && application == 0) return SaveKind::Empty;
@@ -77,17 +77,17 @@ base::Result<SaveKind> classify(Database& database, std::int64_t current) {
         return base::fail(ErrorCode::Incompatible, "{}: a SQLite file of another program, not a save",
                           database.path());
     const auto version = TERRANE_TRY(database.queryNumber("PRAGMA user_version"));
-    if (version > current)
+    if (version > current.last)
         return base::fail(ErrorCode::Incompatible,
                           "{}: in format {}, this program reads up to format {}: use a newer version",
-                          database.path(), *version, current);
-    return version == current ? SaveKind::Current : SaveKind::Old;
+                          database.path(), *version, current.last);
+    return version >= current.first ? SaveKind::Current : SaveKind::Old;
 }
 
 base::Result<void> createTables(Database& database, const WorldIdentity& identity) {
     auto transaction = TERRANE_TRY(Transaction::begin(database));
-    const std::string marks =
-        fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};", kApplicationId, kFormatVersion);
+    const std::string marks = fmt::format("PRAGMA application_id = {}; PRAGMA user_version = {};",
+                                          kApplicationId, formatFor(identity.heights));
     TERRANE_TRY(database.execute(std::string(kTables) + marks));
     TERRANE_TRY(writeMetadata(database, metadataOf(identity)));
     return transaction.commit();
@@ -308,7 +308,7 @@ base::Result<std::optional<Row>> nextRow(Statement& select, std::int64_t from) {
     row.key = select.number(0);
     const bool isWhole = rowProblem(select, 2, 1).empty() && world::isInWorld(posOf(row.key));
     const ByteView data = select.blob(2);
-    if (isWhole && verifyChunk(data, kLegacySeed)) {
+    if (isWhole && verifyChunk(data, {}, kLegacySeed)) {
         row.data.assign(data.begin(), data.end());
         sealChunk(row.data, checksumSeed(posOf(row.key), select.number(1) != 0));
     }

@@ -15,7 +15,12 @@
 namespace terrane::store {
 
 constexpr std::int64_t kApplicationId = 0x5445524E;  // "TERN"; PRAGMA application_id
-constexpr std::int64_t kFormatVersion = 3;           // PRAGMA user_version
+// PRAGMA user_version: of worlds of 0…255, which programs write that know no other heights, and of worlds of
+// other heights. Their tables are the same; chunk data and world metadata differ.
+constexpr std::int64_t kFormatVersion = 3, kTallFormatVersion = 4;
+constexpr std::int64_t formatFor(world::Heights heights) {
+    return heights == world::Heights() ? kFormatVersion : kTallFormatVersion;
+}
 
 // The oldest format that can be read without migration. Saves of format 1 only have chunks of level 0.
 constexpr std::int64_t kOldestReadable = 1;
@@ -38,8 +43,13 @@ enum class SaveKind {
     Current,
 };
 
-// Fails if the file is not a save, is damaged, or has a newer format than `current`.
-[[nodiscard]] base::Result<SaveKind> classify(Database& database, std::int64_t current = kFormatVersion);
+// The formats that need no migration.
+struct Formats {
+    std::int64_t first = kFormatVersion, last = kTallFormatVersion;
+};
+
+// Fails if the file is not a save, is damaged, or has a newer format than the last one.
+[[nodiscard]] base::Result<SaveKind> classify(Database& database, Formats current = {});
 
 // Creates the tables of an empty file, all or nothing.
 [[nodiscard]] base::Result<void> createTables(Database& database, const WorldIdentity& identity);

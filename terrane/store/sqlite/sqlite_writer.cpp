@@ -61,8 +61,8 @@ base::Result<void> SqliteWriter::deriveAll(const DerivedRows& rows, std::string_
     TERRANE_TRY(file_.database.execute(deletion));
     auto edited = TERRANE_TRY(readEditedChunks(file_.database));
     // Reads through the writing connection, which sees the transaction's changes.
-    SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, kFormatVersion); },
-                    file_.ids, budget);
+    SavedRows saved([this](world::ChunkPos pos) { return readRow(use_.selectChunk, pos, file_.format); },
+                    file_.ids, file_.identity.heights, budget);
     TERRANE_TRY(deriveInGroups(rows, std::move(edited), saved.reader(), [&](std::span<const ChunkRow> group) {
         return saved.result() ? writeDerived(group) : saved.result();
     }));
@@ -161,8 +161,9 @@ base::Result<std::optional<DamagedRow>> SqliteWriter::readDamaged(world::ChunkPo
     if (!row) return std::optional<DamagedRow>();
     std::string problem = rowProblem(select, 0, 1);
     const ByteView data = select.blob(0);
-    const std::uint64_t seed = seedOf(pos, select.number(1), kFormatVersion);
-    if (auto good = verifyChunk(data, seed); problem.empty() && !good) problem = good.error().message;
+    const std::uint64_t seed = seedOf(pos, select.number(1), file_.format);
+    if (auto good = verifyChunk(data, file_.identity.heights, seed); problem.empty() && !good)
+        problem = good.error().message;
     return problem.empty() ? std::nullopt
                            : std::optional(DamagedRow{pos, hashOfRow(data), std::move(problem)});
 }
