@@ -1,8 +1,12 @@
 #include "terrane/net/wire/chunk_difference.h"
+#include "tests/support/default_heights.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
+
+#include "tests/net/bytes_of.h"
 
 namespace terrane::net {
 namespace {
@@ -41,17 +45,17 @@ void editSome(Chunk& chunk, std::mt19937& random, int count) {
     }
 }
 
-Bytes written(std::span<const ChangedBlock> blocks) {
+Bytes written(std::span<const ChangedBlock> blocks, IndexRange range = IndexRange::Any) {
     Bytes bytes;
     WireWriter wire(bytes);
-    writeBlocks(wire, blocks);
+    writeBlocks(wire, blocks, range);
     return bytes;
 }
 
-std::optional<ChunkDifference> read(ByteView bytes) {
+std::optional<ChunkDifference> read(ByteView bytes, IndexRange range = IndexRange::Any) {
     WireReader wire(bytes);
     ChunkDifference blocks;
-    readBlocks(wire, blocks);
+    readBlocks(wire, blocks, range);
     return wire.isComplete() ? std::optional(std::move(blocks)) : std::nullopt;
 }
 
@@ -73,6 +77,65 @@ TEST(ChunkDifference, AppliedGivesTheEditedChunk) {
         EXPECT_EQ(made, edited) << edits;
         EXPECT_EQ(all, difference) << edits;
     }
+}
+
+// Also at the lowest and the highest block of a chunk, of worlds of many heights.
+TEST(ChunkDifference, AnyHeights) {
+    std::mt19937 random(4);
+    for (const world::Heights heights :
+         {world::Heights{-64, 320}, {-2048, 2048}, {512, 1024}, {-1024, -512}, {0, 256}, {0, 16}}) {
+        const BlockIndex bottom = heights.bottom * world::kBlocksPerLayer,
+                         end = heights.top * world::kBlocksPerLayer;
+        Chunk generated(heights);
+        for (int n = heights.firstSection(); n < heights.endSection(); n += 2)
+            generated.setSection(n, world::Section(1));
+        Chunk edited = generated;
+        for (int k = 0; k < 2000; ++k) {
+            const BlockIndex i =
+                bottom + static_cast<BlockIndex>(random() % static_cast<unsigned>(end - bottom));
+            edited.setBlock(i, static_cast<world::BlockId>(random() % 5));
+            edited.setBlockState(i, static_cast<std::uint16_t>(random() % 3));
+        }
+        for (const BlockIndex i : {bottom, end - 1}) edited.setBlockEntityData(i, {std::byte{9}});
+        const ChunkDifference difference = chunkDifference(generated, edited);
+        EXPECT_EQ(difference.front().index, bottom);
+        EXPECT_EQ(difference.back().index, end - 1);
+        EXPECT_TRUE(isWithin(difference, heights));
+        EXPECT_FALSE(isWithin(difference, {heights.bottom + 16, std::max(heights.top, heights.bottom + 32)}));
+        Chunk made = generated;
+        for (const auto part : partsOf(difference)) {
+            const auto blocks = read(written(part));
+            ASSERT_TRUE(blocks) << describe(heights);
+            applyDifference(made, *blocks);
+        }
+        EXPECT_EQ(made, edited) << describe(heights);
+    }
+}
+
+// The history of servers keeps these bytes, those of version 2 of the protocol.
+TEST(ChunkDifference, LowIndicesHaveTheBytesOfHistories) {
+    const ChunkDifference blocks{{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, dataOf(1, 7)}}};
+    const Bytes bytes = written(blocks, IndexRange::Low);
+    EXPECT_EQ(bytes, bytesOf({2, 3, 1, 2, 0, 2, 0x0B, 0, 0, 0xFA, 0x0D, 1, 1, 0x84, 0x03, 1, 7}));
+    EXPECT_EQ(read(bytes, IndexRange::Low)->back(), blocks.back());
+}
+
+TEST(ChunkDifference, IndicesBeyondTheRangeAreRefused) {
+    const auto runAt = [](std::uint64_t gap, IndexRange range) {
+        Bytes bytes;
+        WireWriter wire(bytes);
+        for (const std::uint64_t number : {std::uint64_t{1}, std::uint64_t{5}, std::uint64_t{0},
+                                           std::uint64_t{1}, gap << 1, std::uint64_t{0}})
+            wire.number(number);
+        return read(bytes, range);
+    };
+    EXPECT_EQ(runAt(0, IndexRange::Low)->front().index, 0);
+    EXPECT_EQ(runAt(65535, IndexRange::Low)->front().index, 65535);
+    EXPECT_FALSE(runAt(65536, IndexRange::Low));
+    EXPECT_EQ(runAt(0, IndexRange::Any)->front().index, -2048 * 256);
+    EXPECT_EQ(runAt(4096 * 256 - 1, IndexRange::Any)->front().index, 2048 * 256 - 1);
+    EXPECT_FALSE(runAt(4096 * 256, IndexRange::Any));
+    EXPECT_FALSE(runAt(0x7FFFFFFF, IndexRange::Any));
 }
 
 TEST(ChunkDifference, WhatIsEqualIsNotInIt) {

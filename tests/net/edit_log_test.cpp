@@ -2,6 +2,7 @@
 
 #include <random>
 
+#include "tests/net/bytes_of.h"
 #include "tests/net/server_file_fixture.h"
 
 namespace terrane::net {
@@ -62,6 +63,39 @@ TEST_F(EditLogTest, AnEditReadsBack) {
     ASSERT_EQ(edits[0].after.size(), 2u);
     EXPECT_EQ(edits[0].after[0].value, chest);
     EXPECT_EQ(edits[0].before[1].value, valueOf("sand"));
+}
+
+TEST_F(EditLogTest, EditsOfAllHeightsReadBack) {
+    world::BlockValue chest = valueOf("chest", 3);
+    chest.data = std::make_shared<const world::BlockEntityData>(40, std::byte{5});
+    const std::vector<game::ChangedBlock> changes{{{5, -6, -2048}, valueOf("air"), chest},
+                                                  {{5, -6, -1}, valueOf("sand"), valueOf("glass")},
+                                                  {{5, -6, 70}, valueOf("air"), valueOf("sand")},
+                                                  {{5, -6, 2047}, chest, valueOf("air")}};
+    log(7, 1000, changes);
+    const auto edits = found({});
+    ASSERT_EQ(edits.size(), 1u);
+    for (std::size_t k = 0; k < changes.size(); ++k) {
+        EXPECT_EQ(world::blockPos(edits[0].chunk, edits[0].after[k].index), changes[k].pos);
+        EXPECT_EQ(edits[0].before[k].value, changes[k].before);
+        EXPECT_EQ(edits[0].after[k].value, changes[k].after);
+    }
+    const auto back = plan({.area = game::ColumnArea{5, -6, 5, -6}});
+    ASSERT_EQ(back.size(), 4u);
+    EXPECT_EQ(back[0].pos, changes[0].pos);
+    EXPECT_EQ(back[3].before, chest);
+}
+
+// Programs that know only 0…255 read these.
+TEST_F(EditLogTest, EditsWithin256LayersKeepTheirBytes) {
+    const store::BlockIdMap ids = store::BlockIdMap::make(contentBlocks(), {}).value();
+    const auto bytesAt = [&](std::int32_t z) {
+        const std::vector<game::ChangedBlock> changes{{{1, 0, z}, valueOf("air"), valueOf("air", 1)}};
+        return encodeEdit(loggedEdits(1, 7, 1000, changes).at(0), ids);
+    };
+    EXPECT_EQ(bytesAt(0), bytesOf({1, 0, 0, 1, 2, 0, 1, 0, 1, 1, 2, 0}));
+    EXPECT_EQ(bytesAt(255)[0], std::byte{1});
+    for (const std::int32_t z : {-1, 256}) EXPECT_EQ(bytesAt(z)[0], std::byte{0}) << z;
 }
 
 // Three blocks with the maximum of data exceed one part.

@@ -1,6 +1,7 @@
 // Messages of both sides, encoded by the same templates (message_codec.h).
 #include <gtest/gtest.h>
 
+#include <climits>
 #include <limits>
 #include <random>
 
@@ -26,7 +27,8 @@ std::vector<ClientMessage> clientMessages() {
         View{{-5, 70000}, 16, 512},
         Move{kPose},
         Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}},
-        Fill{8, {{{0, -2, 3}, {4, 5, 255}}, 6, 1, world::BlockId{2}, {game::ShapeKind::Line, true, false}}},
+        Fill{8,
+             {{{0, -2, -2048}, {4, 5, 2047}}, 6, 1, world::BlockId{2}, {game::ShapeKind::Line, true, false}}},
         Place{9, {1, 2, 3}, {std::byte{1}, std::byte{2}}},
         TakeBack{10, true},
         Say{"hello there"},
@@ -39,9 +41,9 @@ std::vector<ClientMessage> clientMessages() {
 std::vector<ServerMessage> serverMessages() {
     Nonce nonce{};
     nonce[5] = std::byte{3};
-    WorldOffer offer{{{42, "continents", 3}, 77, 88}, {}, {{"isles", "1.2", {}, 4096}}};
+    WorldOffer offer{{{42, "continents", 3, {-64, 320}}, 77, 88}, {}, {{"isles", "1.2", {}, 4096}}};
     offer.samples[7] = {-9, 11};
-    const ChunkDifference blocks{{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}};
+    const ChunkDifference blocks{{-5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}};
     return {Greeting{"terrane 0.2", nonce, true},
             offer,
             Joined{12, game::Role::Operator, 24, kPose},
@@ -97,6 +99,39 @@ TEST(Messages, FieldsKeepTheirValues) {
     EXPECT_EQ(std::get<Move>(*move).pose, kPose);
     const auto offer = decodeServerMessage(encode(ServerMessage(serverMessages()[1])));
     EXPECT_EQ(std::get<WorldOffer>(*offer).world.identity.generator, "continents");
+    EXPECT_EQ(std::get<WorldOffer>(*offer).world.identity.heights, (world::Heights{-64, 320}));
+}
+
+TEST(Messages, HeightsOfWorlds) {
+    WorldOffer offer;
+    for (const world::Heights good : {world::Heights{0, 256}, {-2048, 2048}, {512, 528}}) {
+        offer.world.identity.heights = good;
+        const auto read = decodeServerMessage(encode(ServerMessage(offer)));
+        ASSERT_TRUE(read);
+        EXPECT_EQ(std::get<WorldOffer>(*read).world.identity.heights, good);
+    }
+    for (const world::Heights bad :
+         {world::Heights{0, 0}, {256, 0}, {-8, 256}, {0, 255}, {-2064, 0}, {0, 2064}, {INT_MIN, INT_MAX}}) {
+        offer.world.identity.heights = bad;
+        EXPECT_FALSE(decodeServerMessage(encode(ServerMessage(offer)))) << bad.bottom << " " << bad.top;
+    }
+}
+
+// Positions above and below all worlds are no messages.
+TEST(Messages, PositionsAreInSomeWorld) {
+    const Bytes structure(1);
+    for (const std::int32_t z : {-2048, -1, 0, 2047}) {
+        const auto edit =
+            decodeClientMessage(encode(ClientMessage(Edit{1, {1, 2, z}, world::UseBlock{}, {}})));
+        ASSERT_TRUE(edit) << z;
+        EXPECT_EQ(std::get<Edit>(*edit).pos.z, z);
+    }
+    for (const std::int32_t z : {-2049, 2048, INT_MIN, INT_MAX}) {
+        const game::FillBox fill{{{0, 0, 0}, {0, 0, z}}, 1, 0, {}};
+        EXPECT_FALSE(decodeClientMessage(encode(ClientMessage(Edit{1, {1, 2, z}, world::UseBlock{}, {}}))));
+        EXPECT_FALSE(decodeClientMessage(encode(ClientMessage(Fill{1, fill})))) << z;
+        EXPECT_FALSE(decodeClientMessage(encode(ClientMessage(Place{1, {0, 0, z}, structure})))) << z;
+    }
 }
 
 // Sums of steps must not overflow, and an edit has blocks.
@@ -118,10 +153,12 @@ TEST(Messages, StepsHaveBounds) {
 // Encoded by hand according to docs/protocol.md.
 TEST(Messages, HaveTheBytesOfTheProtocol) {
     EXPECT_EQ(encode(ClientMessage(Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}})),
-              bytesOf({5, 7, 1, 4, 3, 0, 5, 2, 1, 4}));
+              bytesOf({5, 7, 1, 4, 6, 0, 5, 2, 1, 4}));
+    EXPECT_EQ(encode(ClientMessage(Edit{7, {-1, 2, -300}, world::SetBlock{5, 2}, world::BlockId{4}})),
+              bytesOf({5, 7, 1, 4, 0xD7, 0x04, 0, 5, 2, 1, 4}));
     EXPECT_EQ(
         encode(ServerMessage(BlocksChanged{{1, 2}, {{5, {3, 1, {}}}, {6, {3, 1, {}}}, {900, {2, 0, {}}}}})),
-        bytesOf({5, 0, 2, 4, 2, 3, 1, 2, 0, 2, 0x0B, 0, 0, 0xFA, 0x0D, 1, 0}));
+        bytesOf({5, 0, 2, 4, 2, 3, 1, 2, 0, 2, 0x8B, 0x80, 0x40, 0, 0, 0xFA, 0x0D, 1, 0}));
     EXPECT_EQ(encode(ServerMessage(Poses{{{1, 2, -3, 4, 5, -6, true}}})),
               bytesOf({10, 1, 1, 3, 4, 5, 8, 5, 0xFA}));
     EXPECT_EQ(encode(ServerMessage(Clock{0.5, 0})),
@@ -202,7 +239,7 @@ TEST(Messages, AnyBytesAreReadOrRefused) {
 
 TEST(WirePose, IsNearThePose) {
     std::mt19937 random(17);
-    std::uniform_real_distribution<double> place(-2147483648.0, 2147483647.0), height(-100, 400);
+    std::uniform_real_distribution<double> place(-2147483648.0, 2147483647.0), height(-2100, 2100);
     std::uniform_real_distribution<float> turn(-720, 720), up(-90, 90);
     for (int k = 0; k < 1000; ++k) {
         const world::Pose pose{{place(random), place(random), height(random)}, turn(random), up(random)};

@@ -92,6 +92,15 @@ TEST_F(PackLink, LeavesAServerThatOffersItsWorldTwice) {
     EXPECT_EQ(reason_, "the server offered its world twice");
 }
 
+TEST_F(PackLink, LeavesAServerThatSendsBlocksOutsideOfItsWorld) {
+    for (const world::BlockIndex index : {-1, 256 * 256}) {
+        untimely_ = BlocksChanged{{0, 0}, {{index, {1, 0, {}}}}};
+        run(events());
+        EXPECT_EQ(stage_, ClientLink::Stage::Ended);
+        EXPECT_EQ(reason_, "the server sent blocks above or below its world");
+    }
+}
+
 TEST_F(PackLink, JoinsWithoutPacksThatItHas) {
     LinkEvents has = events();
     has.missingPacks = [](const WorldOffer&) { return std::vector<std::uint8_t>(); };

@@ -28,15 +28,17 @@ inline std::unique_ptr<const world::BlockRegistry> ownBlocks() {
     return std::make_unique<const world::BlockRegistry>(content::loadBlocks().value());
 }
 
-inline game::SessionParts serverParts(const std::filesystem::path& world) {
+inline game::SessionParts serverParts(const std::filesystem::path& world, world::Heights heights = {}) {
     auto blocks = ownBlocks();
     const std::string generator(kTestGenerator);
     store::WorldRequest request;
-    request.create = store::WorldIdentity{1, generator, gen::versionOf(gen::builtInGenerators(), generator)};
+    request.create =
+        store::WorldIdentity{1, generator, gen::versionOf(gen::builtInGenerators(), generator), heights};
     request.versionOf = [](std::string_view name) { return gen::versionOf(gen::builtInGenerators(), name); };
     request.sharing = store::WorldSharing::Servers;
     auto store = store::openWorld(store::worldLocation(world.string()), *blocks, request).value();
-    auto generators = gen::makeLevelGenerators(generator, *blocks, 1).value();
+    auto generators =
+        gen::makeLevelGenerators(generator, *blocks, 1, gen::builtInGenerators(), heights).value();
     return {std::move(blocks), std::move(generators), std::move(store), 0};
 }
 

@@ -34,6 +34,10 @@ TEST(WorldProof, EachDifferenceIsToldInOneLine) {
     };
     EXPECT_NE(told([](auto& c) { c.identity.generator = "flat"; }).find("overworld"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.identity.generatorVersion += 1; }).find("version"), std::string::npos);
+    EXPECT_EQ(told([](auto& c) {
+                  c.identity.heights = {-64, 320};
+              }),
+              "the server's world has the layers 0 to 255, this program's -64 to 319");
     EXPECT_NE(told([](auto& c) { c.graph ^= 1; }).find("generator"), std::string::npos);
     EXPECT_NE(told([](auto& c) { c.blocks ^= 1; }).find("block types"), std::string::npos);
 }
@@ -69,6 +73,33 @@ TEST(WorldProof, DigestsTellGeneratorsAndSeedsApart) {
     EXPECT_EQ(digests("overworld", 1), digests("overworld", 1));
     EXPECT_NE(digests("overworld", 1), digests("overworld", 2));
     EXPECT_NE(digests("overworld", 1), digests("continents", 1));
+}
+
+// Two generators may differ at any depth.
+TEST(WorldProof, ADigestIsOfAllLayers) {
+    constexpr world::Heights kHeights{-2048, 2048};
+    world::Chunk a(kHeights), b(kHeights);
+    for (world::Chunk* chunk : {&a, &b}) chunk->setSection(0, world::Section(1));
+    EXPECT_EQ(chunkDigest(a), chunkDigest(b));
+    for (const int z : {-2048, -300, 2047}) {
+        b = a;
+        b.setBlock(world::blockIndex(7, 7, z), 2);
+        EXPECT_NE(chunkDigest(a), chunkDigest(b)) << z;
+    }
+    EXPECT_NE(chunkDigest(world::Chunk()), chunkDigest(a));
+}
+
+TEST(WorldProof, AnOfferOfOtherHeightsGivesTheirGenerator) {
+    WorldOffer offer;
+    offer.world = fingerprint("flat");
+    offer.world.identity.heights = {-64, 320};
+    offer.world.graph = gen::graphHash(
+        gen::makeGenerator("flat", contentBlocks(), gen::GraphRequest{0, world::Heights{-64, 320}}).value());
+    const auto generator = offeredGenerator(offer, contentBlocks());
+    ASSERT_TRUE(generator) << generator.error().message;
+    EXPECT_EQ(generator->heights(), (world::Heights{-64, 320}));
+    EXPECT_EQ(generator->generate({3, 4}).heights(), (world::Heights{-64, 320}));
+    EXPECT_NE(offer.world.graph, fingerprint("flat").graph);
 }
 
 // The digest depends only on the blocks, not on their history.

@@ -23,24 +23,23 @@ base::Result<SampleDigests> BotLand::prove(const WorldOffer& offer) {
     generator_ = std::make_unique<gen::Generator>(std::move(generator));
     offer_ = offer;
     digests_ = sampleDigests(*generator_, offer.samples);
-    heights_.clear();
+    ground_.clear();
     return digests_;
 }
 
 int BotLand::groundHeight(std::int32_t x, std::int32_t y) {
     const world::BlockPos pos{x, y, 0};
-    const auto [found, isNew] = heights_.try_emplace(world::chunkOf(pos));
+    const auto [found, isNew] = ground_.try_emplace(world::chunkOf(pos));
     if (isNew) {
         const world::Chunk chunk = generator_->generate(world::chunkOf(pos));
-        for (std::size_t column = 0; column < 256; ++column) {
-            int z = world::kChunkHeight - 1;
-            while (z > 0 && chunk.block(static_cast<world::BlockIndex>(
-                                column + 256 * static_cast<std::size_t>(z))) == world::kAir)
+        for (int column = 0; column < world::kBlocksPerLayer; ++column) {
+            int z = heights().top - 1;
+            while (z > heights().bottom && chunk.block(column + world::kBlocksPerLayer * z) == world::kAir)
                 --z;
-            found->second[column] = static_cast<std::uint8_t>(z);
+            found->second[static_cast<std::size_t>(column)] = static_cast<std::int16_t>(z);
         }
     }
-    return found->second[world::blockIndex(pos)];
+    return found->second[static_cast<std::size_t>(world::blockIndex(pos))];
 }
 
 namespace {
@@ -186,7 +185,7 @@ void Bot::build(BotTime now) {
     world::BlockPos pos = world::blockOf(pose_.position);
     pos.x += away(random_);
     pos.y += away(random_);
-    pos.z = std::min(world_.land.groundHeight(pos.x, pos.y) + up(random_), 255);
+    pos.z = world_.land.heights().clamp(world_.land.groundHeight(pos.x, pos.y) + up(random_));
     if (world_.owners.try_emplace(pos, number_).first->second != number_) return;
     const auto known = world_.acknowledged.find(pos);
     const bool isThere = known != world_.acknowledged.end() && known->second != world::kAir;

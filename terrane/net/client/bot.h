@@ -37,16 +37,18 @@ class BotLand {
     // request.
     int groundHeight(std::int32_t x, std::int32_t y);
     // Call after prove().
+    world::Heights heights() const { return generator_->heights(); }
+    // Call after prove().
     const world::BlockRegistry& blocks() const { return *content_.blocks; }
 
   private:
-    using Heights = std::array<std::uint8_t, 256>;
-
     pack::Content content_;
     std::unique_ptr<gen::Generator> generator_;
     WorldOffer offer_;
     SampleDigests digests_{};
-    std::unordered_map<world::ChunkPos, Heights, world::ChunkPosHash> heights_;
+    // z of the highest block of each column.
+    std::unordered_map<world::ChunkPos, std::array<std::int16_t, world::kBlocksPerLayer>, world::ChunkPosHash>
+        ground_;
 };
 
 using BotTime = std::chrono::steady_clock::time_point;

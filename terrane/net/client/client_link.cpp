@@ -41,6 +41,15 @@ constexpr std::chrono::seconds kLoginTime{15};
 // The server sends a message at least every five seconds.
 constexpr std::chrono::seconds kSilence{20};
 
+// Whether the blocks of a message, if it has any, are in the world's heights.
+template <class Message>
+bool fitsWorld(const Message& message, world::Heights heights) {
+    if constexpr (requires { message.blocks; })
+        return isWithin(message.blocks, heights);
+    else
+        return true;
+}
+
 }  // namespace
 
 ClientLink::ClientLink(boost::asio::io_context& context, ServerAddress address, ClientIdentity identity,
@@ -113,7 +122,9 @@ void ClientLink::onMessage(ByteView bytes) {
                    [this](const Joined& joined) { onJoined(joined); },
                    [this](const Ping& ping) { say(Pong{ping.time}); },
                    [this](const Servers& servers) { learnServers(servers); },
-                   [&](const OfWorld auto&) {
+                   [&](const OfWorld auto& ofWorld) {
+                       if (!fitsWorld(ofWorld, heights_))
+                           return end("the server sent blocks above or below its world");
                        if (stage_ == Stage::Joined) events_.message(*message);
                    },
                },
@@ -130,6 +141,7 @@ void ClientLink::onJoined(const Joined& joined) {
 
 void ClientLink::onOffer(const WorldOffer& offer) {
     if (std::exchange(hasOffer_, true)) return end("the server offered its world twice");
+    heights_ = offer.world.identity.heights;
     fetch_ = PackFetch{offer, {}, {}};
     if (events_.missingPacks) {
         auto missing = events_.missingPacks(offer);

@@ -123,6 +123,7 @@ class ClientLink {
     Bytes channel_;
     std::optional<PackFetch> fetch_;             // from WorldOffer to Proof
     bool hasOffer_ = false, hasProved_ = false;  // of this connection
+    world::Heights heights_;                     // of the offered world
     Stage stage_ = Stage::Waiting;
     std::string reason_;
     std::chrono::steady_clock::time_point now_{}, tryAt_{}, triedAt_{}, heardAt_{};

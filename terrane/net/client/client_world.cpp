@@ -235,6 +235,11 @@ void ClientWorld::sendEdit(const game::EditCommand& command, std::span<const gam
 void ClientWorld::sendBuild(const game::BuildChange& change) {
     if (!isConnected_)
         return decided_.push_back(game::BuildOutcome{game::BuildOutcome::Result::NotLoaded, 0, 0});
+    // The server would refuse it; positions beyond all worlds cannot be sent.
+    const world::Heights heights = session_.world().heights();
+    const world::BlockBox box = game::boxOf(change);
+    if (!heights.contains(box.low.z) || box.high.z < heights.bottom - 1 || box.high.z >= heights.top)
+        return decided_.push_back(game::BuildOutcome{game::BuildOutcome::Result::OutOfWorld, 0, 0});
     const CommandNumber number = ++lastCommand_;
     if (const auto* fill = std::get_if<game::FillBox>(&change)) {
         send_(Fill{number, *fill});

@@ -91,8 +91,9 @@ base::Result<void> RemoteStore::deriveAll(std::string_view) {
 
 base::Result<gen::Generator> offeredGenerator(const WorldOffer& offer, const world::BlockRegistry& blocks,
                                               const gen::GeneratorCatalogue& generators) {
-    store::WorldIdentity own{offer.world.identity.seed, {}, 0};
-    auto graph = gen::makeGenerator(offer.world.identity.generator, blocks, 0, generators);
+    store::WorldIdentity own{offer.world.identity.seed, {}, 0, offer.world.identity.heights};
+    auto graph = gen::makeGenerator(offer.world.identity.generator, blocks, gen::GraphRequest{0, own.heights},
+                                    generators);
     WorldFingerprint client{own, 0, blocksHash(blocks)};
     if (graph) {
         own.generator = offer.world.identity.generator;
@@ -110,8 +111,11 @@ base::Result<RemoteSessionParts> remoteSessionParts(const store::WorldIdentity& 
                                                     std::shared_ptr<const world::BlockRegistry> blocks,
                                                     unsigned threads,
                                                     const gen::GeneratorCatalogue& generators) {
-    auto forSession = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed, generators);
-    auto forStore = gen::makeLevelGenerators(identity.generator, *blocks, identity.seed, generators);
+    const auto make = [&] {
+        return gen::makeLevelGenerators(identity.generator, *blocks, identity.seed, generators,
+                                        identity.heights);
+    };
+    auto forSession = make(), forStore = make();
     if (!forSession || !forStore) return tl::unexpected((!forSession ? forSession : forStore).error());
     auto store = std::make_unique<RemoteStore>(identity, std::move(*forStore));
     RemoteStore* const told = store.get();

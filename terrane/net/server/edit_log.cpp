@@ -33,6 +33,15 @@ bool takeSessionIds(ChunkDifference& blocks, const store::BlockIdMap& ids) {
     return true;
 }
 
+// The first byte of an edit with blocks of other heights than 0…255. Others begin with their number of kinds
+// of blocks, at least 1.
+constexpr std::uint8_t kAnyHeights = 0;
+
+IndexRange rangeOf(const LoggedEdit& edit) {
+    const bool isLow = isWithin(edit.after, world::Heights()) && isWithin(edit.before, world::Heights());
+    return isLow ? IndexRange::Low : IndexRange::Any;
+}
+
 bool haveSameBlocks(const LoggedEdit& edit) {
     return !edit.after.empty() &&
            std::ranges::equal(edit.before, edit.after, {}, &ChangedBlock::index, &ChangedBlock::index);
@@ -43,17 +52,21 @@ bool haveSameBlocks(const LoggedEdit& edit) {
 Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids) {
     Bytes bytes;
     WireWriter wire(bytes);
-    writeBlocks(wire, withSavedIds(edit.before, ids));
-    writeBlocks(wire, withSavedIds(edit.after, ids));
+    const IndexRange range = rangeOf(edit);
+    if (range == IndexRange::Any) wire.fixed(kAnyHeights);
+    writeBlocks(wire, withSavedIds(edit.before, ids), range);
+    writeBlocks(wire, withSavedIds(edit.after, ids), range);
     return bytes;
 }
 
 base::Result<LoggedEdit> decodeEdit(const EditRow& row, const store::BlockIdMap& ids) {
     LoggedEdit edit{
         row.number, row.timeMs, static_cast<game::PlayerId>(row.player), store::posOf(row.chunkKey), {}, {}};
-    WireReader wire(row.blocks);
-    readBlocks(wire, edit.before);
-    readBlocks(wire, edit.after);
+    const bool hasAnyHeights = !row.blocks.empty() && row.blocks.front() == std::byte{kAnyHeights};
+    const IndexRange range = hasAnyHeights ? IndexRange::Any : IndexRange::Low;
+    WireReader wire(hasAnyHeights ? row.blocks.subspan(1) : row.blocks);
+    readBlocks(wire, edit.before, range);
+    readBlocks(wire, edit.after, range);
     const bool isPlace = world::isInWorld(edit.chunk) && edit.chunk.level == 0;
     const bool isRead = wire.isComplete() && isPlace && haveSameBlocks(edit);
     if (isRead && takeSessionIds(edit.before, ids) && takeSessionIds(edit.after, ids)) return edit;

@@ -67,7 +67,8 @@ KeyRange chunkKeys(const game::ColumnArea& area);
 [[nodiscard]] base::Result<void> selectSince(EditFilter& filter, const ForEachEdit& forEachEdit,
                                              std::int64_t sinceMs);
 
-// Encodes the blocks of an edit with the saved ids of `ids`.
+// Encodes the blocks of an edit with the saved ids of `ids`. Edits within 0…255 have the same bytes in worlds
+// of all heights.
 Bytes encodeEdit(const LoggedEdit& edit, const store::BlockIdMap& ids);
 // A row of the edit table. decodeEdit() returns ErrorCode::Damaged if the bytes are not valid.
 struct EditRow {

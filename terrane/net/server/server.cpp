@@ -21,7 +21,8 @@ namespace {
 constexpr std::uint64_t kTicksPerLiveChunks = 40;
 
 bool hasState(const world::Chunk& chunk) {
-    for (int section = 0; section < world::kSectionsPerChunk; ++section) {
+    const world::Heights heights = chunk.heights();
+    for (int section = heights.firstSection(); section < heights.endSection(); ++section) {
         const world::Section& states = chunk.blockStates(section);
         if (!states.isUniform() || states.uniformValue() != 0) return true;
     }
@@ -100,7 +101,8 @@ namespace {
 
 // Fails for the records of another world, whose file has been deleted: their history would change this one.
 base::Result<void> checkWorldOf(ServerRecords& records, const store::WorldIdentity& world) {
-    const std::string own = fmt::format("{} {}", world.seed, world.generator);
+    std::string own = fmt::format("{} {}", world.seed, world.generator);
+    if (world.heights != world::Heights()) own += fmt::format(", layers {}", world::describe(world.heights));
     const std::string known = TERRANE_TRY(records.text(kWorldText));
     if (known.empty()) records.setText(kWorldText, own);
     if (known.empty() || known == own) return {};

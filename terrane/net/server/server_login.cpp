@@ -196,8 +196,10 @@ world::Pose newcomersPose(game::Session& session, const ServerClients& clients, 
         pose.position.y += away(bits >> 32);
         const world::BlockPos below = world::blockOf(pose.position);
         const world::Chunk chunk = session.generator().generate(world::chunkOf(below));
-        int z = world::kChunkHeight - 1;
-        while (z > 0 && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir) --z;
+        const world::Heights heights = chunk.heights();
+        int z = heights.top - 1;
+        while (z > heights.bottom && chunk.block(world::blockIndex({below.x, below.y, z})) == world::kAir)
+            --z;
         pose.position.z = z + 1 + world::kEyeHeight;
     }
     return game::freePlaceNear(pose, session, bodiesOf(clients));

@@ -31,7 +31,8 @@ base::Result<ServerHost> openServerHost(game::SessionParts parts, std::unique_pt
                                         const ServerSettings& settings, const std::string& program,
                                         const ServerContent& content) {
     const store::WorldIdentity identity = parts.store->identity();
-    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, content.generators));
+    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks,
+                                                gen::GraphRequest{0, identity.heights}, content.generators));
     ServerOffer offer{program, worldFingerprint(identity, graph, *parts.blocks), content.packs};
     auto knownPlayers = TERRANE_TRY(KnownPlayers::read(*records));
 

@@ -9,7 +9,6 @@
 namespace terrane::net {
 namespace {
 
-using world::kBlocksPerChunk;
 using world::kBlocksPerSection;
 
 // The part of a block's value that is encoded once per run; block entity data is encoded apart.
@@ -27,12 +26,21 @@ bool isEqualSection(const world::Chunk& a, const world::Chunk& b, int number) {
     return a.section(number) == b.section(number) && a.blockStates(number) == b.blockStates(number);
 }
 
-// Bit mask of the sections that contain block entity data.
-unsigned sectionsWithData(const world::Chunk& chunk) {
-    unsigned sections = 0;
-    for (const world::BlockIndex i : chunk.blocksWithBlockEntityData())
-        sections |= 1u << (i / kBlocksPerSection);
-    return sections;
+// Adds the sections that contain block entity data.
+void addSectionsWithData(world::SectionSet& sections, const world::Chunk& chunk) {
+    for (const world::BlockIndex i : chunk.blocksWithBlockEntityData()) sections.add(world::sectionOf(i));
+}
+
+// The indices of a range, from `begin` on.
+struct Indices {
+    world::BlockIndex begin = 0, end = 0;
+};
+constexpr Indices indicesOf(world::Heights heights) {
+    return {heights.bottom * world::kBlocksPerLayer, heights.top * world::kBlocksPerLayer};
+}
+constexpr Indices indicesOf(IndexRange range) {
+    constexpr world::Heights kAll{world::kLowestBottom, world::kHighestTop};
+    return indicesOf(range == IndexRange::Low ? world::Heights() : kAll);
 }
 
 // Number of contiguous blocks from `begin` on that have the same kind.
@@ -67,11 +75,14 @@ BlockKinds kindsOf(std::span<const ChangedBlock> blocks) {
     return kinds;
 }
 
-void writeData(WireWriter& wire, std::span<const ChangedBlock> blocks) {
+void writeData(WireWriter& wire, std::span<const ChangedBlock> blocks, IndexRange range) {
     wire.number(static_cast<std::uint64_t>(std::ranges::count_if(blocks, travels)));
     for (const ChangedBlock& block : blocks) {
         if (!travels(block)) continue;
-        wire.fixed(block.index);
+        if (range == IndexRange::Low)
+            wire.fixed(static_cast<std::uint16_t>(block.index));
+        else
+            wire.number(static_cast<std::uint32_t>(block.index - indicesOf(range).begin));
         wire.data(*block.value.data, kMaxBlockData);
     }
 }
@@ -86,7 +97,8 @@ void readKinds(WireReader& wire, std::vector<BlockKind>& kinds) {
     wire.require(std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end());
 }
 
-void readRun(WireReader& wire, std::span<const BlockKind> kinds, std::uint32_t& next,
+// `next`: the end of the run before, counted from the range's first index.
+void readRun(WireReader& wire, std::span<const BlockKind> kinds, Indices indices, std::uint32_t& next,
              ChunkDifference& blocks) {
     std::uint32_t head = 0, more = 0, kind = 0;
     wire.number(head);
@@ -95,23 +107,36 @@ void readRun(WireReader& wire, std::span<const BlockKind> kinds, std::uint32_t& 
     if (kinds.size() > 1) wire.number(kind);
     const std::uint64_t begin = std::uint64_t{next} + (head >> 1);
     const std::uint64_t length = isLong ? std::uint64_t{more} + 2 : 1;
-    wire.require(begin + length <= kBlocksPerChunk && blocks.size() + length <= kMaxBlocksInPart);
+    const auto count = static_cast<std::uint64_t>(indices.end - indices.begin);
+    wire.require(begin + length <= count && blocks.size() + length <= kMaxBlocksInPart);
     wire.require(kind < kinds.size());
     if (wire.hasFailed()) return;
     for (std::uint64_t k = 0; k < length; ++k)
-        blocks.push_back(
-            {static_cast<world::BlockIndex>(begin + k), {kinds[kind].first, kinds[kind].second, {}}});
+        blocks.push_back({indices.begin + static_cast<world::BlockIndex>(begin + k),
+                          {kinds[kind].first, kinds[kind].second, {}}});
     next = static_cast<std::uint32_t>(begin + length);
 }
 
-void readData(WireReader& wire, ChunkDifference& blocks) {
+world::BlockIndex readIndex(WireReader& wire, IndexRange range) {
+    if (range == IndexRange::Low) {
+        std::uint16_t index = 0;
+        wire.fixed(index);
+        return index;
+    }
+    const Indices indices = indicesOf(range);
+    std::uint32_t fromBegin = 0;
+    wire.number(fromBegin);
+    wire.require(fromBegin < static_cast<std::uint32_t>(indices.end - indices.begin));
+    return wire.hasFailed() ? 0 : indices.begin + static_cast<world::BlockIndex>(fromBegin);
+}
+
+void readData(WireReader& wire, ChunkDifference& blocks, IndexRange range) {
     std::uint64_t count = 0, bytes = 0;
     wire.number(count);
     wire.require(count <= blocks.size());
     auto block = blocks.begin();
     for (std::uint64_t k = 0; k < count && !wire.hasFailed(); ++k) {
-        world::BlockIndex index = 0;
-        wire.fixed(index);
+        const world::BlockIndex index = readIndex(wire, range);
         block = std::ranges::lower_bound(block, blocks.end(), index, {}, &ChangedBlock::index);
         wire.require(block != blocks.end() && block->index == index);
         Bytes data;
@@ -125,12 +150,16 @@ void readData(WireReader& wire, ChunkDifference& blocks) {
 }  // namespace
 
 ChunkDifference chunkDifference(const world::Chunk& generated, const world::Chunk& edited) {
+    assert(generated.heights() == edited.heights() && "chunks of one world");
+    const world::Heights heights = edited.heights();
     ChunkDifference difference;
-    const unsigned withData = sectionsWithData(generated) | sectionsWithData(edited);
-    for (int number = 0; number < world::kSectionsPerChunk; ++number) {
-        if ((withData >> number & 1) == 0 && isEqualSection(generated, edited, number)) continue;
+    world::SectionSet withData;
+    addSectionsWithData(withData, generated);
+    addSectionsWithData(withData, edited);
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
+        if (!withData.has(number) && isEqualSection(generated, edited, number)) continue;
         for (int k = 0; k < kBlocksPerSection; ++k) {
-            const auto i = static_cast<world::BlockIndex>(number * kBlocksPerSection + k);
+            const world::BlockIndex i = number * kBlocksPerSection + k;
             world::BlockValue value = valueAt(edited, i);
             if (value != valueAt(generated, i)) difference.push_back({i, std::move(value)});
         }
@@ -138,7 +167,14 @@ ChunkDifference chunkDifference(const world::Chunk& generated, const world::Chun
     return difference;
 }
 
+bool isWithin(std::span<const ChangedBlock> blocks, world::Heights heights) {
+    const Indices indices = indicesOf(heights);
+    return blocks.empty() ||
+           (blocks.front().index >= indices.begin && blocks.back().index < indices.end);  // they are sorted
+}
+
 void applyDifference(world::Chunk& chunk, std::span<const ChangedBlock> difference) {
+    assert(isWithin(difference, chunk.heights()) && "the blocks are in the chunk");
     for (const auto& [index, value] : difference) {
         chunk.setBlock(index, value.id);
         chunk.setBlockState(index, value.state);
@@ -183,8 +219,9 @@ std::vector<std::span<const ChangedBlock>> partsOf(std::span<const ChangedBlock>
     return parts;
 }
 
-void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks) {
+void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks, IndexRange range) {
     assert(blocks.size() <= kMaxBlocksInPart && "a part of a difference");
+    const world::BlockIndex first = indicesOf(range).begin;
     const BlockKinds kinds = kindsOf(blocks);
     wire.list(kinds.list, kMaxBlocksInPart, [&](const BlockKind& kind) {
         wire.number(kind.first);
@@ -196,24 +233,26 @@ void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks) {
     std::uint32_t next = 0;
     for (std::size_t k = 0; k < blocks.size();) {
         const std::size_t length = runLength(blocks, k);
-        wire.number((blocks[k].index - next) << 1 | (length > 1));
+        const auto begin = static_cast<std::uint32_t>(blocks[k].index - first);
+        wire.number((begin - next) << 1 | (length > 1));
         if (length > 1) wire.number(length - 2);
         if (kinds.list.size() > 1) wire.number(kinds.numbers.at(kindOf(blocks[k].value)));
-        next = static_cast<std::uint32_t>(blocks[k].index + length);
+        next = begin + static_cast<std::uint32_t>(length);
         k += length;
     }
-    writeData(wire, blocks);
+    writeData(wire, blocks, range);
 }
 
-void readBlocks(WireReader& wire, ChunkDifference& blocks) {
+void readBlocks(WireReader& wire, ChunkDifference& blocks, IndexRange range) {
     blocks.clear();
     std::vector<BlockKind> kinds;
     readKinds(wire, kinds);
     std::uint64_t runs = 0;
     wire.number(runs);
     std::uint32_t next = 0;
-    for (std::uint64_t k = 0; k < runs && !wire.hasFailed(); ++k) readRun(wire, kinds, next, blocks);
-    readData(wire, blocks);
+    for (std::uint64_t k = 0; k < runs && !wire.hasFailed(); ++k)
+        readRun(wire, kinds, indicesOf(range), next, blocks);
+    readData(wire, blocks, range);
 }
 
 }  // namespace terrane::net

@@ -39,8 +39,15 @@ constexpr std::size_t kMaxDataInPart = 65536;
 // Splits a difference into parts that each fit a message, in order. An empty difference gives one empty part.
 std::vector<std::span<const ChangedBlock>> partsOf(std::span<const ChangedBlock> difference);
 
-// Run-length encoded: a wall of 16 blocks takes 3 bytes, a single block 2 to 5.
-void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks);
-void readBlocks(WireReader& wire, ChunkDifference& blocks);
+// Whether all blocks are in these heights.
+bool isWithin(std::span<const ChangedBlock> blocks, world::Heights heights);
+
+// Which indices the bytes can name. `Low`: those of z = 0…255, from 0 on, with 16 bits at block entity data.
+// `Any`: those of all heights, from the lowest one on.
+enum class IndexRange : std::uint8_t { Low, Any };
+
+// Run-length encoded: a wall of 16 blocks takes 3 bytes, a single block 2 to 5. All blocks are in the range.
+void writeBlocks(WireWriter& wire, std::span<const ChangedBlock> blocks, IndexRange range = IndexRange::Any);
+void readBlocks(WireReader& wire, ChunkDifference& blocks, IndexRange range = IndexRange::Any);
 
 }  // namespace terrane::net

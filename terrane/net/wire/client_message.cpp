@@ -17,14 +17,11 @@ constexpr std::string_view kClientNames[] = {"Hello", "Login",      "Proof", "Vi
 // Kinds of changes to a block, in the order of the encoding.
 enum class ChangeKind : std::uint8_t { SetBlock, SetEntityData, UseBlock, Count };
 
-// x and y as integers, z as a byte.
-template <class Wire>
-void describePos(Wire& wire, Of<world::BlockPos> auto& pos) {
-    auto z = static_cast<std::uint8_t>(pos.z);
+void describePos(auto& wire, Of<world::BlockPos> auto& pos) {
     wire.integer(pos.x);
     wire.integer(pos.y);
-    wire.fixed(z);
-    if constexpr (Wire::kReads) pos.z = z;
+    wire.integer(pos.z);
+    wire.require(pos.z >= world::kLowestBottom && pos.z < world::kHighestTop);
 }
 
 void describe(auto& wire, Of<Hello> auto& m) {

@@ -29,6 +29,9 @@ void describe(auto& wire, Of<WorldOffer> auto& m) {
     wire.fixed(m.world.identity.seed);
     wire.text(m.world.identity.generator, kMaxGeneratorBytes);
     wire.integer(m.world.identity.generatorVersion);
+    wire.integer(m.world.identity.heights.bottom);
+    wire.integer(m.world.identity.heights.top);
+    wire.require(world::isValid(m.world.identity.heights));
     wire.fixed(m.world.graph);
     wire.fixed(m.world.blocks);
     for (auto& pos : m.samples) describeChunkPos(wire, pos);

@@ -32,6 +32,9 @@ std::string differenceOf(const WorldFingerprint& server, const WorldFingerprint&
     if (theirs.generator != ours.generator)
         return fmt::format("the server's world is made by the generator {}, which this program does not have",
                            theirs.generator);
+    if (theirs.heights != ours.heights)
+        return fmt::format("the server's world has the layers {}, this program's {}",
+                           world::describe(theirs.heights), world::describe(ours.heights));
     if (theirs.generatorVersion != ours.generatorVersion)
         return fmt::format("the server has version {} of the generator {}, this program version {}",
                            theirs.generatorVersion, theirs.generator, ours.generatorVersion);
@@ -58,9 +61,11 @@ SamplePositions samplePositions(std::uint64_t random) {
 
 std::uint64_t chunkDigest(const world::Chunk& chunk) {
     std::string bytes;
-    bytes.reserve(world::kBlocksPerChunk * sizeof(world::BlockId));
+    const world::Heights heights = chunk.heights();
+    bytes.reserve(static_cast<std::size_t>(heights.layers()) * world::kBlocksPerLayer *
+                  sizeof(world::BlockId));
     std::array<world::Section::Value, world::kBlocksPerSection> values;
-    for (int number = 0; number < world::kSectionsPerChunk; ++number) {
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
         chunk.section(number).unpack(values);
         bytes.append(reinterpret_cast<const char*>(values.data()), sizeof(values));
     }

@@ -38,7 +38,8 @@ using SampleDigests = std::array<std::uint64_t, kSampleChunks>;
 
 // Positions within 2^20 chunks of the origin, which depend on `random`.
 SamplePositions samplePositions(std::uint64_t random);
-// xxHash64 of the chunk's blocks, 65,536 × 16 bits in the order of their index.
+// xxHash64 of all blocks of the chunk, 16 bits each in the order of their index: generators that differ at
+// any depth have different digests.
 std::uint64_t chunkDigest(const world::Chunk& chunk);
 SampleDigests sampleDigests(const gen::Generator& generator, const SamplePositions& positions);
 
