@@ -37,16 +37,16 @@ const terrane = (() => {
 
   // A server has tiles of the whole world, a folder of files only those of an area
   // (terrane/map/map_tile.h). Second argument: the tile's bounds in pixels of zoom 0.
-  const height = 256 * world.isometricHeight;
+  const [lowest, highest] = [world.bottom, world.top].map(z => z * world.isometricHeight);
   const area = world.area ?? {x0: -2147483648, y0: -2147483648, x1: 2147483648, y1: 2147483648};
   const meet = (low, high, otherLow, otherHigh) => low < otherHigh && otherLow < high;
   function isInArea(name, {min, max}) {
     if (name !== 'isometric') return meet(min.x, max.x, -area.x1, -area.x0) && meet(min.y, max.y, area.y0, area.y1);
-    const bottom = max.y + height;
+    const top = min.y + lowest, bottom = max.y + highest;
     return meet(min.x, max.x, -area.x1 - area.y1, -area.x0 - area.y0) &&
-      meet(min.y, max.y, (area.y0 - area.x1) / 2 - height, (area.y1 - area.x0) / 2) &&
-      meet(-max.x / 2 - bottom, -min.x / 2 - min.y, area.x0, area.x1) &&
-      meet(min.y - max.x / 2, bottom - min.x / 2, area.y0, area.y1);
+      meet(min.y, max.y, (area.y0 - area.x1) / 2 - highest, (area.y1 - area.x0) / 2 - lowest) &&
+      meet(-max.x / 2 - bottom, -min.x / 2 - top, area.x0, area.x1) &&
+      meet(top - max.x / 2, bottom - min.x / 2, area.y0, area.y1);
   }
 
   // Tiles are numbered by the blocks that they show. A changed tile is reloaded in place to avoid flicker.

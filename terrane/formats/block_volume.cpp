@@ -33,11 +33,11 @@ NamedVolume toNames(const BlockVolume& volume, const BlockMapping& mapping) {
 base::Result<world::Structure> toStructure(const BlockVolume& volume, const world::BlockRegistry& blocks) {
     world::Structure structure;
     structure.size = volume.size;
-    if (structure.blockCount() > world::kMaxStructureBlocks || volume.size.z > world::kChunkHeight)
+    if (structure.blockCount() > world::kMaxStructureBlocks || volume.size.z > world::kMostLayers)
         return base::fail(base::ErrorCode::OutOfResources,
                           "{}×{}×{} blocks are more than a structure has: {}, and {} in height",
                           volume.size.x, volume.size.y, volume.size.z, world::kMaxStructureBlocks,
-                          world::kChunkHeight);
+                          world::kMostLayers);
     // The structure's palette has distinct entries in the order in which cells first use them.
     std::vector<std::uint32_t> entryOf(volume.palette.size(), UINT32_MAX);
     std::unordered_map<std::uint32_t, std::uint32_t> known;  // by id and state

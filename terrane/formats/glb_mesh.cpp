@@ -68,7 +68,12 @@ base::Result<void> GlbMesh::add(const mesh::ChunkMesh& mesh, glm::ivec3 corner) 
         return base::fail(base::ErrorCode::OutOfResources,
                           "more than {} faces; choose a smaller area, or a box without the ground",
                           kMaxGlbQuads);
-    for (const shared::Quad quad : mesh.quads) addQuad(quad, corner);
+    for (const mesh::MeshSection& section : mesh.meshSections) {
+        const glm::ivec3 origin = corner + glm::ivec3(0, 0, mesh::quadBase(section));
+        for (const shared::Quad quad :
+             std::span(mesh.quads).subspan(mesh::firstQuad(section), mesh::quadCount(section)))
+            addQuad(quad, origin);
+    }
     return {};
 }
 

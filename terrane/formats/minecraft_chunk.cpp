@@ -174,15 +174,54 @@ base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyI
     return result;
 }
 
+std::optional<SectionRange> sectionRangeOf(const NbtCompound& root) {
+    const auto* level = root.get<NbtCompound>("Level");
+    const auto* sections = (level ? *level : root).get<NbtList>(level ? "Sections" : "sections");
+    std::optional<SectionRange> range;
+    for (const NbtTag& tag : sections ? std::span<const NbtTag>(sections->tags) : std::span<const NbtTag>()) {
+        const auto* compound = std::get_if<NbtCompound>(&tag.value);
+        const auto y = compound ? compound->integer("Y") : std::nullopt;
+        if (!y || *y < INT8_MIN || *y > INT8_MAX) continue;
+        if (!compound->find("block_states") && !compound->find("Palette") && !compound->find("Blocks"))
+            continue;
+        const int number = static_cast<int>(*y);
+        if (!range) range = {number, number};
+        range = {std::min(range->lowest, number), std::max(range->highest, number)};
+    }
+    return range;
+}
+
 namespace {
 
 constexpr int kSide = world::kChunkSize;
 // Data version of snapshot 17w47a: from then on the upper half of a door has its facing, too.
 constexpr int kNamesSince = 1451;
 
-// The blocks and states of a whole chunk: 256 KiB.
-struct ChunkValues {
-    std::array<world::Section::Value, world::kBlocksPerChunk> ids{}, states{};
+using SectionValues = std::array<world::Section::Value, world::kBlocksPerSection>;
+
+// The blocks and states of a chunk: 16 KiB for each section that has some.
+class ChunkValues {
+  public:
+    explicit ChunkValues(world::Heights heights)
+        : heights_(heights), sections_(static_cast<std::size_t>(heights.sections())) {}
+
+    struct Sections {
+        SectionValues ids{}, states{};
+    };
+    world::Heights heights() const { return heights_; }
+    // Null if the section has no blocks; its number is one of the heights.
+    Sections* find(int number) { return sections_[place(number)].get(); }
+    Sections& at(int number) {
+        auto& section = sections_[place(number)];
+        if (!section) section = std::make_unique<Sections>();
+        return *section;
+    }
+
+  private:
+    std::size_t place(int number) const { return static_cast<std::size_t>(number - heights_.firstSection()); }
+
+    world::Heights heights_;
+    std::vector<std::unique_ptr<Sections>> sections_;
 };
 
 // Blocks of a section's palette entries, each looked up once.
@@ -202,18 +241,21 @@ void countBlocks(const AnvilSection& section, const BlockMapping& mapping, Impor
 // Our x is Minecraft's -x: the blocks of a row are in reverse order.
 void putSection(const AnvilSection& section, std::span<const BlockAndState> palette, int shift,
                 ChunkValues& values, ImportCounts& counts) {
+    const world::Heights heights = values.heights();
     for (int k = 0; k < kAnvilSectionBlocks; ++k) {
         const BlockAndState block =
             palette[section.blocks.empty() ? 0 : section.blocks[static_cast<std::size_t>(k)]];
         if (block.id == world::kAir) continue;
         const int z = section.y * kSide + k / (kSide * kSide) + shift;
-        if (!world::isInHeight(z)) {
-            ++(z < 0 ? counts.below : counts.above);
+        if (!heights.contains(z)) {
+            ++(z < heights.bottom ? counts.below : counts.above);
             continue;
         }
-        const auto at = world::blockIndex(kSide - 1 - k % kSide, k / kSide % kSide, z);
-        values.ids[at] = block.id;
-        values.states[at] = block.state;
+        const world::BlockIndex at = world::blockIndex(kSide - 1 - k % kSide, k / kSide % kSide, z);
+        const auto inSection = static_cast<std::size_t>(world::indexInSection(at));
+        ChunkValues::Sections& target = values.at(world::sectionOf(at));
+        target.ids[inSection] = block.id;
+        target.states[inSection] = block.state;
     }
 }
 
@@ -221,21 +263,29 @@ void putSection(const AnvilSection& section, std::span<const BlockAndState> pale
 // upper half.
 void completeDoors(world::BlockId door, world::BlockId top, ChunkValues& values) {
     constexpr std::size_t kLayer = kSide * kSide;
-    for (std::size_t k = kLayer; k < values.ids.size(); ++k)
-        if (values.ids[k] == top && values.ids[k - kLayer] == door)
-            values.states[k] = values.states[k - kLayer];
+    for (int number = values.heights().firstSection(); number < values.heights().endSection(); ++number) {
+        ChunkValues::Sections* upper = values.find(number);
+        if (!upper) continue;
+        for (std::size_t k = 0; k < upper->ids.size(); ++k) {
+            if (upper->ids[k] != top) continue;
+            const bool isLowest = k < kLayer;
+            const bool hasBelow = !isLowest || number > values.heights().firstSection();
+            const ChunkValues::Sections* lower = !hasBelow  ? nullptr
+                                                 : isLowest ? values.find(number - 1)
+                                                            : upper;
+            const std::size_t below = isLowest ? k + upper->ids.size() - kLayer : k - kLayer;
+            if (lower && lower->ids[below] == door) upper->states[k] = lower->states[below];
+        }
+    }
 }
 
-world::Chunk chunkFrom(const ChunkValues& values) {
-    world::Chunk chunk;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
-        const auto part = [first](std::span<const world::Section::Value> all) {
-            const auto section = all.subspan(first, world::kBlocksPerSection);
-            return world::Section::fromValues(section.first<world::kBlocksPerSection>());
-        };
-        chunk.setSection(s, part(values.ids));
-        chunk.setBlockStateSection(s, part(values.states));
+world::Chunk chunkFrom(ChunkValues& values) {
+    world::Chunk chunk(values.heights());
+    for (int number = values.heights().firstSection(); number < values.heights().endSection(); ++number) {
+        const ChunkValues::Sections* section = values.find(number);
+        if (!section) continue;
+        chunk.setSection(number, world::Section::fromValues(section->ids));
+        chunk.setBlockStateSection(number, world::Section::fromValues(section->states));
     }
     return chunk;
 }
@@ -255,18 +305,19 @@ void addUses(std::span<const NamedState> palette, std::span<const std::uint64_t>
     }
 }
 
-world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift, ImportCounts& counts) {
-    const auto values = std::make_unique<ChunkValues>();
+world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, const AnvilPlacement& placement,
+                     ImportCounts& counts) {
+    ChunkValues values(placement.heights);
     for (const AnvilSection& section : chunk.sections) {
         countBlocks(section, mapping, counts);
-        putSection(section, mappedPalette(section, mapping), shift, *values, counts);
+        putSection(section, mappedPalette(section, mapping), placement.shift, values, counts);
     }
     for (const auto& [kind, count] : chunk.blockEntities)
         counts.blockEntities[kind] += static_cast<std::uint64_t>(count);
     if (chunk.dataVersion < kNamesSince) {
-        for (const auto& [door, top] : mapping.doors()) completeDoors(door, top, *values);
+        for (const auto& [door, top] : mapping.doors()) completeDoors(door, top, values);
     }
-    return chunkFrom(*values);
+    return chunkFrom(values);
 }
 
 }  // namespace terrane::formats

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -36,12 +37,19 @@ struct AnvilChunk {
 // Decodes a chunk. Returns Damaged if a part is missing or a block has no palette entry.
 [[nodiscard]] base::Result<AnvilChunk> decodeAnvilChunk(const NbtCompound& root, const LegacyIds& ids);
 
+// The lowest and the highest section with blocks, air too, of a chunk that may be damaged. Nothing if it has
+// none.
+struct SectionRange {
+    int lowest = 0, highest = 0;
+};
+[[nodiscard]] std::optional<SectionRange> sectionRangeOf(const NbtCompound& root);
+
 // Sums over all chunks.
 struct ImportCounts {
     std::map<std::string, std::uint64_t> blocks;         // all blocks read, by name without properties
     std::map<std::string, std::uint64_t> unknown;        // of these: those that became "missing"
     std::map<std::string, std::uint64_t> blockEntities;  // left out, by kind
-    std::uint64_t below = 0, above = 0;  // blocks other than air outside our heights, left out
+    std::uint64_t below = 0, above = 0;  // blocks other than air outside the world's heights, left out
 };
 
 // Returns the position of Minecraft's chunk x, z in our axes, -x - 1, z; the import may move it.
@@ -51,8 +59,14 @@ struct ImportCounts {
 void addUses(std::span<const NamedState> palette, std::span<const std::uint64_t> uses,
              const BlockMapping& mapping, ImportCounts& counts);
 
-// Converts a chunk: height z is Minecraft's y + `shift`. Blocks outside 0…255 are counted and left out.
-[[nodiscard]] world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping, int shift,
-                                   ImportCounts& counts);
+// Where heights go: z is Minecraft's y + `shift`, in a world of these heights.
+struct AnvilPlacement {
+    int shift = 0;
+    world::Heights heights = {};
+};
+
+// Converts a chunk. Blocks outside the world's heights are counted and left out.
+[[nodiscard]] world::Chunk toChunk(const AnvilChunk& chunk, const BlockMapping& mapping,
+                                   const AnvilPlacement& placement, ImportCounts& counts);
 
 }  // namespace terrane::formats

@@ -44,7 +44,7 @@ class Plan {
     void add(BlockPos pos, BlockValue value) {
         const BlockValue now = world::blockValue(world_, pos);
         if (now == value) return;
-        if (protectsFloor_ && pos.z == 0 && now.id != world::kAir) {
+        if (protectsFloor_ && pos.z == world_.heights().bottom && now.id != world::kAir) {
             ++plan_.skipped;
             return;
         }
@@ -126,7 +126,8 @@ BuildOutcome::Result check(const world::World& world, const BuildChange& change)
     using Result = BuildOutcome::Result;
     const BlockBox box = boxOf(change);
     if (box.high.x < box.low.x || box.high.y < box.low.y || box.high.z < box.low.z) return Result::Empty;
-    if (!world::isInHeight(box.low.z) || !world::isInHeight(box.high.z) || !isWhole(box, change))
+    const world::Heights heights = world.heights();
+    if (!heights.contains(box.low.z) || !heights.contains(box.high.z) || !isWhole(box, change))
         return Result::OutOfWorld;
     // First each side: the product of larger ones overflows.
     const auto isLong = [](std::int64_t low, std::int64_t high) {

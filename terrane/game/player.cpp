@@ -12,6 +12,8 @@ namespace {
 constexpr double kWorldStart = -2147483648.0, kWorldEnd = 2147483648.0 - 1.0 / 64;
 // Seconds; a longer stall moves a player no farther.
 constexpr double kLongestFrame = 0.25;
+// Blocks below and above the world as far as one flies.
+constexpr double kRoomBelow = 64, kRoomAbove = 768;
 
 float axis(bool positive, bool negative) {
     return static_cast<float>(positive) - static_cast<float>(negative);
@@ -45,12 +47,12 @@ void Player::move(const world::World& world, const world::BlockRegistry& blocks,
                   double seconds) {
     seconds = std::min(seconds, kLongestFrame);
     if (movement_ == Movement::Noclip)
-        passThrough(keys, seconds);
+        passThrough(world.heights(), keys, seconds);
     else
         moveAmongBlocks(world, blocks, keys, seconds);
 }
 
-void Player::passThrough(const MoveKeys& keys, double seconds) {
+void Player::passThrough(world::Heights heights, const MoveKeys& keys, double seconds) {
     const float speed = keys.run ? kNoclipRunSpeed : kNoclipSpeed;
     const glm::vec2 along = directionOf(keys);
     const glm::vec3 motion = world::lookDirection(pose_.yaw, pose_.pitch) * along.y +
@@ -61,7 +63,7 @@ void Player::passThrough(const MoveKeys& keys, double seconds) {
     pose_.position += glm::dvec3(motion / std::max(length, 1.0f)) * (speed * seconds);
     pose_.position.x = std::clamp(pose_.position.x, kWorldStart, kWorldEnd);
     pose_.position.y = std::clamp(pose_.position.y, kWorldStart, kWorldEnd);
-    pose_.position.z = std::clamp(pose_.position.z, -64.0, 1024.0);
+    pose_.position.z = std::clamp(pose_.position.z, heights.bottom - kRoomBelow, heights.top + kRoomAbove);
 }
 
 void Player::moveAmongBlocks(const world::World& world, const world::BlockRegistry& blocks,

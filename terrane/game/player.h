@@ -43,7 +43,7 @@ class Player {
               double seconds);
 
   private:
-    void passThrough(const MoveKeys& keys, double seconds);
+    void passThrough(world::Heights heights, const MoveKeys& keys, double seconds);
     void moveAmongBlocks(const world::World& world, const world::BlockRegistry& blocks, const MoveKeys& keys,
                          double seconds);
 

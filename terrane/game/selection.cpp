@@ -17,7 +17,7 @@ std::optional<BlockBox> Selection::box() const {
                     {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}};
 }
 
-bool Selection::moveEnd(End end, int blocks) {
+bool Selection::moveEnd(End end, int blocks, world::Heights heights) {
     const auto before = box();
     if (!before) return false;
     if (!first_) first_ = second_;
@@ -25,8 +25,8 @@ bool Selection::moveEnd(End end, int blocks) {
     // In a box of one layer the second corner moves.
     const bool isFirst = end == End::Top ? first_->z > second_->z : first_->z < second_->z;
     std::int32_t& z = isFirst ? first_->z : second_->z;
-    const std::int64_t lowest = end == End::Top ? before->low.z : 0;
-    const std::int64_t highest = end == End::Top ? world::kChunkHeight - 1 : before->high.z;
+    const std::int64_t lowest = end == End::Top ? before->low.z : heights.bottom;
+    const std::int64_t highest = end == End::Top ? heights.top - 1 : before->high.z;
     // A corner may be above or below the world, where the player stands: it moves only toward the world.
     z = static_cast<std::int32_t>(std::clamp(std::int64_t{z} + blocks, std::min<std::int64_t>(lowest, z),
                                              std::max<std::int64_t>(highest, z)));
@@ -50,10 +50,10 @@ void Selection::mirror(const world::BlockRegistry& blocks, float yaw) {
     if (clipboard_) setClipboard(world::mirroredStructure(*clipboard_, blocks, sidewaysAxis(yaw)));
 }
 
-std::optional<BlockPos> Selection::pasteCorner(BlockPos middle) const {
+std::optional<BlockPos> Selection::pasteCorner(BlockPos middle, world::Heights heights) const {
     if (!clipboard_) return std::nullopt;
     const glm::ivec3 size = clipboard_->size;
-    const int z = std::max(0, std::min(middle.z, world::kChunkHeight - size.z));
+    const int z = std::max(heights.bottom, std::min(middle.z, heights.top - size.z));
     return world::offsetBy({middle.x, middle.y, z}, -(size.x - 1) / 2, -(size.y - 1) / 2, 0);
 }
 

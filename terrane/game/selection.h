@@ -19,7 +19,7 @@ class Selection {
     // Moves the top or the bottom of the box by blocks up (positive) or down. It passes neither the other end
     // nor the height of the world. Returns whether the box changed.
     enum class End : std::uint8_t { Top, Bottom };
-    bool moveEnd(End end, int blocks);
+    bool moveEnd(End end, int blocks, world::Heights heights);
 
     // The shape that fills take in the box. A line goes from the first corner to the second.
     void setShape(ShapeKind shape) { shape_ = shape; }
@@ -41,7 +41,7 @@ class Selection {
     bool isPasting() const { return isPasting_; }
     // Returns the lowest corner of a clipboard with the middle of its bottom layer at a block; moved into the
     // height of the world as far as it fits. Returns nothing without a clipboard.
-    std::optional<world::BlockPos> pasteCorner(world::BlockPos middle) const;
+    std::optional<world::BlockPos> pasteCorner(world::BlockPos middle, world::Heights heights) const;
 
   private:
     std::optional<world::BlockPos> first_, second_;

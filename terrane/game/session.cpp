@@ -21,7 +21,7 @@ constexpr double kBlockRadius = 1;
 constexpr double kMaxTickSeconds = 1;
 
 bool isLoaded(const world::World& world, world::BlockPos pos) {
-    return world::isInHeight(pos.z) && world.maybeChunkAt(world::chunkOf(pos));
+    return world.heights().contains(pos.z) && world.maybeChunkAt(world::chunkOf(pos));
 }
 
 // Whether the area has columns of the chunk or of those beside it.
@@ -41,6 +41,7 @@ Session::Session(SessionParts parts)
       generators_(std::move(parts.generators)),
       generator_(*generators_.at(0).value()),
       store_(std::move(parts.store)),
+      world_(generator_.heights()),
       jobs_(parts.threads),
       pipeline_({jobs_,
                  *blocks_,
@@ -198,7 +199,7 @@ std::optional<EditResult> Session::refusalOfBreaking(const EditCommand& command)
     const bool isPlayers = command.player != kNoPlayer;
     if (!isPlayers || there == world::kAir || !std::holds_alternative<world::SetBlock>(command.change))
         return std::nullopt;
-    if (command.pos.z == 0) return EditResult::Protected;
+    if (command.pos.z == world_.heights().bottom) return EditResult::Protected;
     const auto* holder = world::behaviorWith(blocks_->type(there), &world::BlockBehavior::items);
     if (!holder) return std::nullopt;
     const auto items = holder->items(world_, *blocks_, command.pos);

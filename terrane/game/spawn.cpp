@@ -17,12 +17,15 @@ namespace {
 constexpr int kMiddle = world::kChunkSize / 2;
 constexpr int kRings = 7, kSpacing = 6;  // chunks between candidates
 
+// Of a block that hides the view; below the world if there is none.
 int highest(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x, int y) {
-    for (int z = world::kChunkHeight - 1; z >= 0; --z) {
+    const world::Heights heights = chunk.heights();
+    int z = heights.top - 1;
+    for (; z >= heights.bottom; --z) {
         const world::BlockType& type = blocks.type(chunk.block(world::blockIndex(x, y, z)));
-        if (!type.collision.empty() || type.shape == world::Shape::Liquid) return z;
+        if (!type.collision.empty() || type.shape == world::Shape::Liquid) break;
     }
-    return -1;
+    return z;
 }
 
 // Whether a block is ground to stand on.
@@ -31,11 +34,12 @@ using IsGround = std::function<bool(const world::BlockType&)>;
 // The height to stand at; none if it is wet, steep or under trees.
 std::optional<int> pleasantHeight(const world::Chunk& chunk, const world::BlockRegistry& blocks,
                                   const IsGround& isGround) {
-    int least = world::kChunkHeight, most = -1;
+    const world::Heights heights = chunk.heights();
+    int least = heights.top, most = heights.bottom - 1;
     for (int y = 3; y < 13; ++y) {
         for (int x = 3; x < 13; ++x) {
             const int z = highest(chunk, blocks, x, y);
-            if (z < 0) return std::nullopt;
+            if (z < heights.bottom) return std::nullopt;
             if (!isGround(blocks.type(chunk.block(world::blockIndex(x, y, z))))) return std::nullopt;
             least = std::min(least, z);
             most = std::max(most, z);
@@ -123,7 +127,7 @@ world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistr
     if (!place) place = findPleasant(generator, blocks, isFirm);
     if (!place) {
         const int ground = highest(generator.generate({}), blocks, kMiddle, kMiddle);
-        place = standingAt({}, std::clamp(ground, 0, world::kChunkHeight - 1));
+        place = standingAt({}, generator.heights().clamp(ground));
     }
     place->yaw = viewFrom(generator, blocks, place->position);
     return *place;
@@ -143,6 +147,8 @@ class ChunksNow {
         return session_.blocks().type(found->second->block(world::blockIndex(pos)));
     }
 
+    world::Heights heights() const { return session_.world().heights(); }
+
   private:
     world::ChunkPtr read(world::ChunkPos pos) {
         if (world::ChunkPtr loaded = session_.world().maybeChunkAt(pos)) return loaded;
@@ -160,7 +166,7 @@ bool isFree(const world::BlockType& type) {
 
 // Whether a body whose feet are in this block stands on firm ground, in nothing.
 bool canStandIn(ChunksNow& chunks, world::BlockPos feet) {
-    if (feet.z < 1 || feet.z + 1 >= world::kChunkHeight) return false;
+    if (!chunks.heights().contains(feet.z - 1) || !chunks.heights().contains(feet.z + 1)) return false;
     return chunks.typeAt({feet.x, feet.y, feet.z - 1}).opaqueCube && isFree(chunks.typeAt(feet)) &&
            isFree(chunks.typeAt({feet.x, feet.y, feet.z + 1}));
 }
@@ -175,8 +181,8 @@ std::optional<world::BlockPos> onLevel(ChunksNow& chunks, world::BlockPos feet) 
 
 // The feet of a body in this column: under the sky or under leaves.
 std::optional<world::BlockPos> onSurface(ChunksNow& chunks, world::BlockPos column) {
-    int z = world::kChunkHeight - 1;
-    while (z > 0 && !chunks.typeAt({column.x, column.y, z}).opaqueCube) --z;
+    int z = chunks.heights().top - 1;
+    while (z > chunks.heights().bottom && !chunks.typeAt({column.x, column.y, z}).opaqueCube) --z;
     const world::BlockPos feet{column.x, column.y, z + 1};
     return canStandIn(chunks, feet) ? std::optional(feet) : std::nullopt;
 }
@@ -241,11 +247,12 @@ world::Pose freePlaceNear(const world::Pose& spawn, Session& session, std::span<
 
 std::optional<world::Pose> poseOnSurface(const world::World& world, const world::BlockRegistry& blocks,
                                          const world::Pose& pose) {
-    if (pose.position.z >= 0) return std::nullopt;
+    const int bottom = world.heights().bottom;
+    if (pose.position.z >= bottom) return std::nullopt;
     const world::BlockPos at = world::blockOf(pose.position);
     const world::ChunkPtr chunk = world.maybeChunkAt(world::chunkOf(pose.position));
-    const int ground = chunk ? highest(*chunk, blocks, at.x & 15, at.y & 15) : -1;
-    if (ground < 0) return std::nullopt;
+    const int ground = chunk ? highest(*chunk, blocks, at.x & 15, at.y & 15) : bottom - 1;
+    if (ground < bottom) return std::nullopt;
     world::Pose lifted = pose;
     lifted.position.z = ground + 1 + world::kEyeHeight;
     return lifted;

@@ -35,10 +35,12 @@ world::Chunk clipped(const world::Chunk& chunk, world::ChunkPos pos, const world
     if (!world::isInWorld(pos)) return chunk;  // empty
     const world::BlockPos low = world::blockPos(pos, 0);
     world::Chunk result = chunk;
-    for (int k = 0; k < world::kBlocksPerChunk; ++k) {
-        const auto index = static_cast<world::BlockIndex>(k);
-        const std::int64_t x = std::int64_t{low.x} + (k & 15), y = std::int64_t{low.y} + (k >> 4 & 15);
-        const int z = k >> 8;
+    const world::Heights heights = chunk.heights();
+    for (world::BlockIndex index = world::blockIndex(0, 0, heights.bottom);
+         index < world::blockIndex(0, 0, heights.top); ++index) {
+        const std::int64_t x = std::int64_t{low.x} + (index & 15),
+                           y = std::int64_t{low.y} + (index >> 4 & 15);
+        const int z = index >> 8;
         const bool isInside = x >= box.low.x && x <= box.high.x && y >= box.low.y && y <= box.high.y &&
                               z >= box.low.z && z <= box.high.z;
         if (!isInside && result.block(index) != world::kAir) result.setBlock(index, world::kAir);
@@ -106,25 +108,25 @@ std::string describe(glm::ivec3 size) {
     return fmt::format("{}×{}×{} blocks", size.x, size.y, size.z);
 }
 
-std::string bytesOf(const std::vector<std::uint16_t>& values) {
-    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(std::uint16_t)};
+template <class Value>
+std::string bytesOf(const std::vector<Value>& values) {
+    return {reinterpret_cast<const char*>(values.data()), values.size() * sizeof(Value)};
 }
 
 // Row by row, y ascending.
 struct SurfaceHeights {
     int width = 0, height = 0;  // columns
-    std::vector<std::uint16_t> values;
+    std::vector<std::int16_t> values;
 };
 
-std::uint16_t heightOf(const world::Chunk& chunk, const world::BlockRegistry& blocks, int column,
-                       const world::BlockBox& box) {
+std::int16_t heightOf(const world::Chunk& chunk, const world::BlockRegistry& blocks, int column,
+                      const world::BlockBox& box) {
     for (int z = box.high.z; z >= box.low.z; --z) {
-        const world::BlockType& type =
-            blocks.type(chunk.block(static_cast<world::BlockIndex>(column + 256 * z)));
+        const world::BlockType& type = blocks.type(chunk.block(column + world::kBlocksPerLayer * z));
         if (!type.collision.empty() || type.shape == world::Shape::Liquid)
-            return static_cast<std::uint16_t>(z);
+            return static_cast<std::int16_t>(z);
     }
-    return 0;
+    return static_cast<std::int16_t>(chunk.heights().bottom);
 }
 
 base::Result<SurfaceHeights> readHeights(const ExportSource& source, const Progress& progress) {
@@ -190,7 +192,8 @@ base::Result<ExportedFile> exportNpyHeights(const ExportSource& source, const fs
     const auto heights = TERRANE_TRY(readHeights(source, progress));
     const std::vector<std::size_t> shape{static_cast<std::size_t>(heights.height),
                                          static_cast<std::size_t>(heights.width)};
-    return writeResult(output, base::encodeNpy({"<u2", shape, bytesOf(heights.values)}),
+    const char* type = source.generator.heights().bottom < 0 ? "<i2" : "<u2";
+    return writeResult(output, base::encodeNpy({type, shape, bytesOf(heights.values)}),
                        fmt::format("{}×{} columns", heights.width, heights.height));
 }
 
@@ -199,11 +202,13 @@ base::Result<ExportedFile> exportPngHeights(const ExportSource& source, const fs
     const auto heights = TERRANE_TRY(readHeights(source, progress));
     formats::GrayImage image{heights.width, heights.height, bits, {}};
     const auto width = static_cast<std::size_t>(heights.width);
+    // The world's lowest layer is black, its highest one white.
+    const world::Heights world = source.generator.heights();
+    const int white = bits == 16 ? 65535 : 255, range = world.layers() - 1;
     for (std::size_t row = 0; row < static_cast<std::size_t>(heights.height); ++row) {
         for (std::size_t x = width; x-- > 0;) {
-            // Maps 255 to 65,535.
-            const std::uint16_t height = heights.values[row * width + x];
-            image.values.push_back(bits == 16 ? static_cast<std::uint16_t>(height * 257) : height);
+            const int above = heights.values[row * width + x] - world.bottom;
+            image.values.push_back(static_cast<std::uint16_t>(above * white / range));
         }
     }
     return writeResult(output, formats::encodeGrayPng(image),

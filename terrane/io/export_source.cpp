@@ -44,7 +44,7 @@ base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, co
         const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - box.low.y;
         if (x < 0 || x >= volume.size.x || y < 0 || y >= volume.size.y) continue;
         for (int z = 0; z < volume.size.z; ++z) {
-            const auto index = static_cast<world::BlockIndex>(k + 256 * (box.low.z + z));
+            const world::BlockIndex index = k + world::kBlocksPerLayer * (box.low.z + z);
             const auto entry = TERRANE_TRY(palette.entryOf({chunk.block(index), chunk.blockState(index)}));
             volume
                 .cells[static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z))] =
@@ -54,14 +54,22 @@ base::Result<void> copyChunk(const world::BlockBox& box, world::ChunkPos pos, co
     return {};
 }
 
-}  // namespace
-
-world::BlockBox boxOf(const world::ChunkArea& area) {
-    const world::BlockPos high = world::blockPos({area.x1 - 1, area.y1 - 1}, 0);
+base::Result<world::BlockBox> boxOf(const std::variant<world::ChunkArea, world::BlockBox>& blocks,
+                                    world::Heights heights) {
+    if (const auto* box = std::get_if<world::BlockBox>(&blocks)) {
+        if (heights.contains(box->low.z) && heights.contains(box->high.z)) return *box;
+        return base::fail(base::ErrorCode::BadInput,
+                          "--box: the world's heights are from {} to {}, got {} to {}", heights.bottom,
+                          heights.top, box->low.z, std::int64_t{box->high.z} + 1);
+    }
+    const auto& area = std::get<world::ChunkArea>(blocks);
+    const world::BlockPos low = world::blockPos({area.x0, area.y0}, 0),
+                          high = world::blockPos({area.x1 - 1, area.y1 - 1}, 0);
     constexpr int kLast = world::kChunkSize - 1;
-    return {world::blockPos({area.x0, area.y0}, 0),
-            {high.x + kLast, high.y + kLast, world::kChunkHeight - 1}};
+    return world::BlockBox{{low.x, low.y, heights.bottom}, {high.x + kLast, high.y + kLast, heights.top - 1}};
 }
+
+}  // namespace
 
 base::Result<ExportSource> openExport(ExportOptions& options) {
     const auto content = loadContent(options.world, options.save);
@@ -70,8 +78,10 @@ base::Result<ExportSource> openExport(ExportOptions& options) {
     if (!textures) return tl::unexpected(textures.error());
     auto save = TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadOnly, *content));
     auto generator = TERRANE_TRY(makeGenerator(options.world, *content));
-    return ExportSource{content->blocks,      std::move(*textures), std::move(save),
-                        std::move(generator), options.box,          threadCount(options.world)};
+    const auto box = TERRANE_TRY(boxOf(options.blocks, generator.heights()));
+    return ExportSource{
+        content->blocks,           std::move(*textures), std::move(save), std::move(generator), box,
+        threadCount(options.world)};
 }
 
 world::ChunkArea chunksOf(const world::BlockBox& box) {

@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <variant>
 
 #include "terrane/base/result.h"
 #include "terrane/formats/block_volume.h"
@@ -19,7 +20,8 @@ namespace terrane::io {
 struct ExportOptions {
     WorldOptions world;
     SaveOptions save;
-    world::BlockBox box;       // within the world's heights
+    // The blocks to write: all heights of an area of chunks, or a box.
+    std::variant<world::ChunkArea, world::BlockBox> blocks;
     std::string resourcePack;  // folder, for formats with colors or textures; empty: none
 };
 
@@ -32,16 +34,13 @@ struct ExportSource {
     unsigned threads = 1;
 };
 
-// Sets seed and generator in `options` to the world's.
+// Sets seed, generator and heights in `options` to the world's. Fails if the box is not within the heights.
 [[nodiscard]] base::Result<ExportSource> openExport(ExportOptions& options);
 
 // Calls `take` for each chunk of the box, until it fails or `progress` stops it.
 using TakeChunk = std::function<base::Result<void>(world::ChunkPos pos, const world::Chunk& chunk)>;
 [[nodiscard]] base::Result<void> forEachChunk(const ExportSource& source, const Progress& progress,
                                               const TakeChunk& take);
-
-// The box of all heights of an area.
-[[nodiscard]] world::BlockBox boxOf(const world::ChunkArea& area);
 
 // The chunks that intersect the box.
 [[nodiscard]] world::ChunkArea chunksOf(const world::BlockBox& box);

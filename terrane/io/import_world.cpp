@@ -43,9 +43,9 @@ base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content 
     world.content = std::move(content);
     auto store =
         TERRANE_TRY(openSave(options.world, options.save, store::WorldAccess::ReadWrite, world.content));
-    auto generators =
-        TERRANE_TRY(gen::makeLevelGenerators(options.world.effectiveGenerator(), *world.content.blocks,
-                                             options.world.effectiveSeed(), world.content.generators));
+    auto generators = TERRANE_TRY(gen::makeLevelGenerators(
+        options.world.effectiveGenerator(), *world.content.blocks, options.world.effectiveSeed(),
+        world.content.generators, store->identity().heights));
     world.generators = std::make_unique<gen::LevelGenerators>(std::move(generators));
     world.store = std::move(store);
     world.threads = threadCount(options.world);

@@ -48,8 +48,8 @@ struct ImportWorld {
 };
 
 // `content`: loaded by the caller first, so that errors of a mapping are found before a world is created.
-// Opens the world, creating it if needed; sets seed and generator in `options` to its own. Distant tiles
-// follow the imported chunks.
+// Opens the world, creating it if needed; sets seed, generator and heights in `options` to its own. Distant
+// tiles follow the imported chunks.
 [[nodiscard]] base::Result<ImportWorld> openImportWorld(ImportOptions& options, pack::Content content);
 
 }  // namespace terrane::io

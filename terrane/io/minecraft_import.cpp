@@ -12,6 +12,7 @@
 #include "terrane/formats/file_kind.h"
 #include "terrane/io/import_world.h"
 #include "terrane/io/open_session.h"
+#include "terrane/store_postgres/any_world.h"
 
 namespace terrane::io {
 
@@ -162,6 +163,21 @@ namespace {
 // And those saved in a transaction.
 constexpr std::size_t kDecodedAtOnce = 16, kSavedAtOnce = 128;
 
+std::vector<int> chunksIn(const RegionSource& region, std::string_view bytes,
+                          const std::optional<world::ChunkArea>& area) {
+    std::vector<int> numbers;
+    for (int number = 0; number < formats::kRegionChunks; ++number)
+        if (isInArea(region.pos, number, area) && formats::regionHasChunk(bytes, number))
+            numbers.push_back(number);
+    return numbers;
+}
+
+base::Result<formats::NbtRoot> readChunkNbt(const RegionSource& region, std::string_view bytes, int number) {
+    const auto nbt = TERRANE_TRY(
+        formats::readRegionChunk(bytes, number, [&] { return readExternalChunk(region, number); }));
+    return formats::decodeNbt(nbt);
+}
+
 struct DecodedChunk {
     world::ChunkPos pos;
     world::ChunkPtr chunk;  // null if there is a problem, or edits in the world
@@ -195,16 +211,12 @@ class MinecraftImporter {
     // `shouldContinue` takes the number of the region's chunks that are done.
     base::Result<void> importRegion(const RegionSource& region,
                                     const std::function<bool(std::size_t)>& shouldContinue) {
-        std::vector<int> wanted;
-        for (int number = 0; number < formats::kRegionChunks; ++number)
-            if (isInArea(region.pos, number, options_.area)) wanted.push_back(number);
-        if (wanted.empty()) return {};
         const auto bytes = base::readFile(region.path, formats::kMaxRegionBytes);
         if (!bytes) {
             noteDamage(report_, bytes.error().message);
             return {};
         }
-        std::erase_if(wanted, [&](int number) { return !formats::regionHasChunk(*bytes, number); });
+        const std::vector<int> wanted = chunksIn(region, *bytes, options_.area);
         std::size_t unsaved = 0;
         for (std::size_t first = 0; first < wanted.size(); first += kDecodedAtOnce) {
             const auto part =
@@ -248,10 +260,7 @@ class MinecraftImporter {
                             number / formats::kRegionSide, error.message);
             return std::move(result);
         };
-        const auto nbt =
-            formats::readRegionChunk(bytes, number, [&] { return readExternalChunk(region, number); });
-        if (!nbt) return problem(nbt.error());
-        const auto root = formats::decodeNbt(*nbt);
+        const auto root = readChunkNbt(region, bytes, number);
         if (!root) return problem(root.error());
         const auto chunk = formats::decodeAnvilChunk(root->compound, ids_);
         if (!chunk) return problem(chunk.error());
@@ -268,8 +277,8 @@ class MinecraftImporter {
         result.isThere = edited_.contains(result.pos);
         if (result.isThere || chunk->sections.empty()) return result;
         result.isFinished = chunk->isFinished;
-        result.chunk = std::make_shared<const world::Chunk>(
-            formats::toChunk(*chunk, mapping_, options_.shift, result.counts));
+        result.chunk = std::make_shared<const world::Chunk>(formats::toChunk(
+            *chunk, mapping_, {options_.shift, world_.store->identity().heights}, result.counts));
         return result;
     }
 
@@ -284,6 +293,55 @@ class MinecraftImporter {
 
 }  // namespace
 
+namespace {
+
+// The sections with blocks of all chunks; those that cannot be read have none, and the import reports them.
+base::Result<std::optional<formats::SectionRange>> sectionsOf(std::span<const RegionSource> regions,
+                                                              const std::optional<world::ChunkArea>& area,
+                                                              unsigned threads, const Progress& progress) {
+    base::JobSystem jobs(threads);
+    std::optional<formats::SectionRange> all;
+    const auto add = [&](const std::optional<formats::SectionRange>& range) {
+        if (!range) return;
+        all = !all ? *range
+                   : formats::SectionRange{std::min(all->lowest, range->lowest),
+                                           std::max(all->highest, range->highest)};
+    };
+    for (const RegionSource& region : regions) {
+        if (progress && !progress(0, regions.size() * formats::kRegionChunks))
+            return base::fail("stopped before the first chunk");
+        const auto bytes = base::readFile(region.path, formats::kMaxRegionBytes);
+        if (!bytes) continue;
+        const std::vector<int> numbers = chunksIn(region, *bytes, area);
+        std::vector<std::optional<formats::SectionRange>> ranges(numbers.size());
+        TERRANE_TRY(base::parallelFor(jobs, numbers.size(), [&](std::size_t k) {
+            const auto root = readChunkNbt(region, *bytes, numbers[k]);
+            if (root) ranges[k] = formats::sectionRangeOf(root->compound);
+        }));
+        for (const auto& range : ranges) add(range);
+    }
+    return all;
+}
+
+// The heights of a new world that loses no block: 0 to 255, and all sections of the chunks.
+world::Heights heightsFor(const std::optional<formats::SectionRange>& sections, int shift) {
+    world::Heights heights;
+    if (!sections) return heights;
+    const auto border = [](std::int64_t z) {
+        return static_cast<int>(std::clamp<std::int64_t>(z, world::kLowestBottom, world::kHighestTop));
+    };
+    const auto down = [](std::int64_t z) { return z >> 4 << 4; };
+    heights.bottom = std::min(heights.bottom, border(down(std::int64_t{sections->lowest} * 16 + shift)));
+    heights.top = std::max(heights.top, border(down(std::int64_t{sections->highest} * 16 + 16 + shift + 15)));
+    return heights;
+}
+
+bool isNewWorld(const ImportOptions& options) {
+    return !store_postgres::anyWorldMetadata(store::worldLocation(options.save.world)).has_value();
+}
+
+}  // namespace
+
 base::Result<ImportReport> importMinecraft(ImportOptions& options, const MinecraftOptions& minecraft,
                                            const Progress& progress) {
     auto regions = TERRANE_TRY(regionsOf(options.source, minecraft.dimension));
@@ -293,6 +351,11 @@ base::Result<ImportReport> importMinecraft(ImportOptions& options, const Minecra
     const auto ids = TERRANE_TRY(formats::builtInLegacyIds());
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto mapping = TERRANE_TRY(formats::loadMapping(*content.blocks, options.mapping));
+    if (!options.world.heights.bottom && !options.world.heights.top && isNewWorld(options)) {
+        const auto sections =
+            TERRANE_TRY(sectionsOf(regions, minecraft.area, threadCount(options.world), progress));
+        options.world.heights = heightsFor(sections, minecraft.shift);
+    }
     auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
     MinecraftImporter importer(minecraft, world, mapping, ids);
     TERRANE_TRY(importer.run(regions, progress));

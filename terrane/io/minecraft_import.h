@@ -43,7 +43,9 @@ struct MinecraftOptions {
 };
 
 // Chunks with edits in the world are kept, so a stopped run can continue. Chunks that cannot be read are
-// skipped, counted in the report and logged. Sets seed and generator in `options` to the world's.
+// skipped, counted in the report and logged. Unless `options` name heights, a new world gets those that hold
+// all sections of the chunks, which are read for that first. Sets seed, generator and heights in `options` to
+// the world's.
 [[nodiscard]] base::Result<ImportReport> importMinecraft(ImportOptions& options,
                                                          const MinecraftOptions& minecraft,
                                                          const Progress& progress = {});

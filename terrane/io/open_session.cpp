@@ -46,9 +46,19 @@ base::Result<pack::Content> loadInstalledContent(const WorldOptions& options) {
     return content;
 }
 
-store::WorldIdentity identityOf(const WorldOptions& options, const pack::Content& content) {
+base::Result<store::WorldIdentity> identityOf(const WorldOptions& options, const pack::Content& content) {
     const std::string generator = options.effectiveGenerator();
-    return {options.effectiveSeed(), generator, gen::versionOf(content.generators, generator)};
+    const auto heights =
+        TERRANE_TRY(gen::heightsOf(generator, *content.blocks, options.heights, content.generators));
+    return store::WorldIdentity{options.effectiveSeed(), generator,
+                                gen::versionOf(content.generators, generator), heights};
+}
+
+base::Result<world::Heights> heightsOfWorld(const WorldOptions& options, const SaveOptions& save,
+                                            const pack::Content& content) {
+    if (const auto metadata = store_postgres::anyWorldMetadata(store::worldLocation(save.world)))
+        return TERRANE_TRY(store::identityFrom(*metadata, save.world)).heights;
+    return TERRANE_TRY(identityOf(options, content)).heights;
 }
 
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options, const SaveOptions& save,
@@ -61,14 +71,16 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
         if (save.regenerate != store::Regenerate::None || save.storeGenerated)
             return base::fail(base::ErrorCode::BadInput,
                               "no world is named that could be regenerated or keep a choice");
+        options.heights = TERRANE_TRY(identityOf(options, content)).heights;
         return nullptr;
     }
     // An unknown generator is an error before a save is created.
     (void)TERRANE_TRY(makeGraph(options, content));
     store::WorldRequest request;
     request.access = access;
-    if (access != store::WorldAccess::ReadOnly) request.create = identityOf(options, content);
-    request.world = {options.seed, options.generator, save.regenerate, save.followsGenerator};
+    if (access != store::WorldAccess::ReadOnly) request.create = TERRANE_TRY(identityOf(options, content));
+    request.world = {options.seed, options.generator, options.heights, save.regenerate,
+                     save.followsGenerator};
     request.versionOf = [&](std::string_view name) { return gen::versionOf(content.generators, name); };
     request.sharing = sharing;
     auto opened =
@@ -76,12 +88,14 @@ base::Result<std::unique_ptr<store::ChunkStore>> openSave(WorldOptions& options,
     if (access != store::WorldAccess::ReadOnly) pack::savePackNames(*opened, content);
     options.seed = opened->identity().seed;
     options.generator = opened->identity().generator;
+    options.heights = opened->identity().heights;
     return opened;
 }
 
 base::Result<gen::GeneratorGraph> makeGraph(const WorldOptions& options, const pack::Content& content,
                                             int level) {
-    return gen::makeGenerator(options.effectiveGenerator(), *content.blocks, level, content.generators);
+    return gen::makeGenerator(options.effectiveGenerator(), *content.blocks, {level, options.heights},
+                              content.generators);
 }
 
 base::Result<gen::Generator> makeGenerator(const WorldOptions& options, const pack::Content& content,
@@ -107,9 +121,10 @@ base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOpti
                                            store::WorldAccess access, store::WorldSharing sharing) {
     auto content = TERRANE_TRY(loadContent(options, save));
     auto opened = TERRANE_TRY(openSave(options, save, access, content, sharing));
-    auto generators = TERRANE_TRY(gen::makeLevelGenerators(options.effectiveGenerator(), *content.blocks,
-                                                           options.effectiveSeed(), content.generators));
-    if (!opened) opened = std::make_unique<store::MemoryStore>(identityOf(options, content));
+    auto generators =
+        TERRANE_TRY(gen::makeLevelGenerators(options.effectiveGenerator(), *content.blocks,
+                                             options.effectiveSeed(), content.generators, options.heights));
+    if (!opened) opened = std::make_unique<store::MemoryStore>(TERRANE_TRY(identityOf(options, content)));
     game::SessionParts parts{content.blocks, std::move(generators), std::move(opened), threadCount(options)};
     parts.storesGenerated = storesGenerated(*parts.store, save);
     return OpenedWorld{std::move(content), std::move(parts)};

@@ -19,11 +19,16 @@ namespace terrane::io {
 // a line in the log.
 [[nodiscard]] base::Result<pack::Content> loadInstalledContent(const WorldOptions& options);
 
-// The identity of a new world made with these options.
-store::WorldIdentity identityOf(const WorldOptions& options, const pack::Content& content);
+// The identity of a new world made with these options. Fails as gen::heightsOf().
+base::Result<store::WorldIdentity> identityOf(const WorldOptions& options, const pack::Content& content);
+
+// The heights of the world that openSave() would open or create. Fails as identityOf().
+base::Result<world::Heights> heightsOfWorld(const WorldOptions& options, const SaveOptions& save,
+                                            const pack::Content& content);
 
 // Opens the named world, creating it unless access is ReadOnly; null if none is named. Fails, and leaves the
-// world unchanged, if `options` ask for another seed or generator; sets both in `options` to the world's.
+// world unchanged, if `options` ask for another seed, generator or heights; sets them in `options` to the
+// world's.
 base::Result<std::unique_ptr<store::ChunkStore>> openSave(
     WorldOptions& options, const SaveOptions& save, store::WorldAccess access, const pack::Content& content,
     store::WorldSharing sharing = store::WorldSharing::Alone);
@@ -40,7 +45,7 @@ struct OpenedWorld {
 };
 
 // The parts of a session that uses workers for all jobs. Without a named world edits are lost at exit. Sets
-// seed and generator in `options` to the world's.
+// seed, generator and heights in `options` to the world's.
 base::Result<OpenedWorld> openSessionParts(WorldOptions& options, const SaveOptions& save,
                                            store::WorldAccess access,
                                            store::WorldSharing sharing = store::WorldSharing::Alone);

@@ -20,7 +20,8 @@ namespace {
 // Chunks loaded and saved at a time.
 constexpr std::size_t kPlacedBatch = 64;
 
-base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos corner) {
+base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos corner,
+                             world::Heights heights) {
     const auto isBeyond = [](std::int32_t low, std::int32_t size) {
         return std::int64_t{low} + size - 1 > INT32_MAX;
     };
@@ -29,10 +30,10 @@ base::Result<void> checkFits(const formats::BlockVolume& volume, world::BlockPos
                           "--at: {}×{}×{} blocks at {},{},{} reach past the end of the world", volume.size.x,
                           volume.size.y, volume.size.z, corner.x, corner.y, corner.z);
     const std::int64_t top = std::int64_t{corner.z} + volume.size.z - 1;
-    if (top >= 0 && corner.z < world::kChunkHeight) return {};
+    if (top >= heights.bottom && corner.z < heights.top) return {};
     return base::fail(base::ErrorCode::BadInput,
-                      "--at: the heights {} to {} are outside the world's, 0 to {}: nothing is imported",
-                      corner.z, top, world::kChunkHeight - 1);
+                      "--at: the heights {} to {} are outside the world's, {}: nothing is imported", corner.z,
+                      top, world::describe(heights));
 }
 
 // Copies the blocks of the volume in one chunk; `corner` is the volume's lowest block.
@@ -44,24 +45,25 @@ void putVolume(const formats::BlockVolume& volume, world::BlockPos corner, bool 
         const std::int64_t y = std::int64_t{low.y} + k / world::kChunkSize - corner.y;
         if (x < 0 || x >= volume.size.x || y < 0 || y >= volume.size.y) continue;
         for (int z = 0; z < volume.size.z; ++z) {
-            if (!world::isInHeight(corner.z + z)) continue;
+            if (!chunk.heights().contains(corner.z + z)) continue;
             const auto cell =
                 static_cast<std::size_t>(x + volume.size.x * (y + std::int64_t{volume.size.y} * z));
             const formats::BlockAndState block = volume.palette[volume.cells[cell]];
             if (skipsAir && block.id == world::kAir) continue;
-            const auto index = static_cast<world::BlockIndex>(k + 256 * (corner.z + z));
+            const world::BlockIndex index = k + world::kBlocksPerLayer * (corner.z + z);
             chunk.setBlock(index, block.id);
             if (block.state != 0) chunk.setBlockState(index, block.state);
         }
     }
 }
 
-void countOutside(const formats::BlockVolume& volume, int cornerZ, formats::ImportCounts& counts) {
+void countOutside(const formats::BlockVolume& volume, int cornerZ, world::Heights heights,
+                  formats::ImportCounts& counts) {
     const std::size_t layer =
         static_cast<std::size_t>(volume.size.x) * static_cast<std::size_t>(volume.size.y);
     for (int z = 0; z < volume.size.z; ++z) {
-        if (world::isInHeight(cornerZ + z)) continue;
-        std::uint64_t& count = cornerZ + z < 0 ? counts.below : counts.above;
+        if (heights.contains(cornerZ + z)) continue;
+        std::uint64_t& count = cornerZ + z < heights.bottom ? counts.below : counts.above;
         for (const std::uint16_t cell :
              std::span(volume.cells).subspan(static_cast<std::size_t>(z) * layer, layer))
             count += volume.palette[cell].id != world::kAir ? 1 : 0;
@@ -143,10 +145,11 @@ base::Result<ImportReport> importVolume(ImportOptions& options, const VolumeOpti
     // Read before a world is created.
     auto content = TERRANE_TRY(loadContent(options.world, options.save));
     const auto volume = TERRANE_TRY(readSource(options, content, volumeOptions.format, report.counts));
-    TERRANE_TRY(checkFits(volume, volumeOptions.corner));
+    const auto heights = TERRANE_TRY(heightsOfWorld(options.world, options.save, content));
+    TERRANE_TRY(checkFits(volume, volumeOptions.corner, heights));
     auto world = TERRANE_TRY(openImportWorld(options, std::move(content)));
     TERRANE_TRY(placeVolume(volumeOptions, world, volume, progress));
-    countOutside(volume, volumeOptions.corner.z, report.counts);
+    countOutside(volume, volumeOptions.corner.z, heights, report.counts);
     report.chunks = chunksOver(volume, volumeOptions.corner).size();
     return report;
 }

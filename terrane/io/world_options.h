@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "terrane/store/saves/world_identity.h"
+#include "terrane/world/heights.h"
 
 namespace terrane::io {
 
@@ -24,6 +25,7 @@ struct WorldOptions {
     std::optional<std::string> generator;
     std::string otherwise = kDefaultGenerator;  // of the scene, for programs that draw one
     std::vector<std::string> content;           // packs: names or paths
+    world::RequestedHeights heights = {};       // else the generator's; once a world is opened, its own
     unsigned threads = 0;                       // 0: as many as the machine has
 
     std::uint64_t effectiveSeed() const { return seed.value_or(kDefaultSeed); }

@@ -64,8 +64,12 @@ struct Box {
 
 class ChunkPainter {
   public:
-    ChunkPainter(Canvas& canvas, int zoom, const MapColors& colors)
-        : canvas_(canvas), colors_(colors), p_(columnPixels(zoom)), height_(pixelsOfHeight(zoom)) {}
+    ChunkPainter(Canvas& canvas, int zoom, double bottom, const MapColors& colors)
+        : canvas_(canvas),
+          colors_(colors),
+          p_(columnPixels(zoom)),
+          height_(pixelsOfHeight(zoom)),
+          bottom_(bottom) {}
 
     // From the farthest column to the nearest one.
     void paint(ChunkPos chunk, const Surface& surface, world::PackedColor tint) {
@@ -92,7 +96,7 @@ class ChunkPainter {
             paintLiquid(x, y, column.underZ,
                         colorOfLiquid(colors_[column.under], under, under, kUnseenDepth));
         else if (column.under != world::kAir)
-            paintBox(x, y, {0, column.underZ + 1.0, under});
+            paintBox(x, y, {bottom_, column.underZ + 1.0, under});
         if (kindOf(column.top) != SurfaceKind::Crown) return;
         const int thick = std::clamp(static_cast<int>(static_cast<float>(above) * kCrownShare), 1, kMaxCrown);
         paintBox(x, y, {column.topZ + 1.0 - thick, column.topZ + 1.0, top});
@@ -103,7 +107,7 @@ class ChunkPainter {
     }
 
     void paintLiquid(std::int64_t x, std::int64_t y, int z, const glm::vec3& color) {
-        paintBox(x, y, {0, z + kLiquidHeight, color});
+        paintBox(x, y, {bottom_, z + kLiquidHeight, color});
     }
 
     void paintBox(std::int64_t x, std::int64_t y, const Box& box) {
@@ -129,23 +133,24 @@ class ChunkPainter {
 
     Canvas& canvas_;
     const MapColors& colors_;
-    int p_;  // pixels of a column, which is twice as wide
-    double height_;
+    int p_;                                          // pixels of a column, which is twice as wide
+    double height_, bottom_;                         // pixels of a block; z of the world's bottom
     std::unordered_map<BlockId, glm::vec3> tinted_;  // of the chunk
 };
 
 }  // namespace
 
-std::vector<ChunkPos> visibleChunks(const IsometricTile& tile) {
-    // A chunk is visible if its columns, from the world's ground to its top, reach into the tile.
+std::vector<ChunkPos> visibleChunks(const IsometricTile& tile, world::Heights heights) {
+    // A chunk is visible if its columns, from the world's bottom to its top, reach into the tile.
     const double width = world::kChunkSize * columnPixels(tile.zoom);  // half of a chunk's, pixels
-    const double highest = world::kChunkHeight * pixelsOfHeight(tile.zoom);
+    const double lowest = heights.bottom * pixelsOfHeight(tile.zoom),
+                 highest = heights.top * pixelsOfHeight(tile.zoom);
     const double left = static_cast<double>(tile.x) * kTilePixels,
                  top = static_cast<double>(tile.y) * kTilePixels;
     // With a = -x - y and b = y - x, in chunks, a chunk reaches from (a - 2)·width to a·width, and so on.
     const auto firstA = static_cast<std::int64_t>(std::floor(left / width));
     const auto lastA = static_cast<std::int64_t>(std::ceil((left + kTilePixels) / width)) + 2;
-    const auto firstB = static_cast<std::int64_t>(std::floor(2 * top / width)) - 1;
+    const auto firstB = static_cast<std::int64_t>(std::floor(2 * (top + lowest) / width)) - 1;
     const auto lastB = static_cast<std::int64_t>(std::ceil(2 * (top + kTilePixels + highest) / width)) + 1;
     std::vector<ChunkPos> chunks;
     for (std::int64_t b = firstB; b <= lastB; ++b) {
@@ -160,16 +165,17 @@ std::vector<ChunkPos> visibleChunks(const IsometricTile& tile) {
     return chunks;
 }
 
-std::vector<IsometricTile> isometricTilesShowing(ChunkPos chunk, int zoom) {
+std::vector<IsometricTile> isometricTilesShowing(ChunkPos chunk, int zoom, world::Heights heights) {
     const double width = world::kChunkSize * columnPixels(zoom);
-    const double highest = world::kChunkHeight * pixelsOfHeight(zoom);
+    const double lowest = heights.bottom * pixelsOfHeight(zoom), highest = heights.top * pixelsOfHeight(zoom);
     const double right = -static_cast<double>(std::int64_t{chunk.x} + chunk.y) * width;
     const double middle = 0.5 * static_cast<double>(std::int64_t{chunk.y} - chunk.x) * width;
     const auto tileAt = [](double pixel) {
         return static_cast<std::int32_t>(std::floor(pixel / kTilePixels));
     };
     std::vector<IsometricTile> tiles;
-    for (std::int32_t y = tileAt(middle - 0.5 * width - highest); y <= tileAt(middle + 0.5 * width); ++y)
+    const std::int32_t lastY = tileAt(middle + 0.5 * width - lowest);
+    for (std::int32_t y = tileAt(middle - 0.5 * width - highest); y <= lastY; ++y)
         for (std::int32_t x = tileAt(right - 2 * width); x <= tileAt(right); ++x)
             tiles.push_back({zoom, x, y});
     return tiles;
@@ -177,7 +183,7 @@ std::vector<IsometricTile> isometricTilesShowing(ChunkPos chunk, int zoom) {
 
 base::Image paintIsometric(const IsometricTile& tile, const IsometricLand& land, const MapColors& colors) {
     Canvas canvas(tile);
-    ChunkPainter painter(canvas, tile.zoom, colors);
+    ChunkPainter painter(canvas, tile.zoom, land.heights.bottom, colors);
     for (std::size_t k = 0; k < land.chunks.size(); ++k)
         painter.paint(land.chunks[k], *land.surfaces[k], land.tints[k]);
     return std::move(canvas.image);

@@ -23,15 +23,17 @@ struct IsometricTile {
     std::int32_t x = 0, y = 0;
 };
 
-// Returns the chunks of level levelOf(zoom) that may be visible in a tile, the farthest from the eye first.
-std::vector<world::ChunkPos> visibleChunks(const IsometricTile& tile);
+// Returns the chunks of level levelOf(zoom) in a world of these heights that may be visible in a tile, the
+// farthest from the eye first.
+std::vector<world::ChunkPos> visibleChunks(const IsometricTile& tile, world::Heights heights);
 
 // Returns the tiles of a zoom in which the chunk may be visible. The zoom has the chunk's level.
-std::vector<IsometricTile> isometricTilesShowing(world::ChunkPos chunk, int zoom);
+std::vector<IsometricTile> isometricTilesShowing(world::ChunkPos chunk, int zoom, world::Heights heights);
 
 // The input of a tile: `chunks` is the result of visibleChunks(); `surfaces` and `tints` have one entry for
 // each chunk.
 struct IsometricLand {
+    world::Heights heights;
     std::span<const world::ChunkPos> chunks;
     std::span<const SurfacePtr> surfaces;
     std::span<const world::PackedColor> tints;

@@ -20,10 +20,16 @@ struct Stop {
     Rgb color;
 };
 constexpr int kSea = static_cast<int>(gen::kSeaLevel);
-constexpr Stop kStops[] = {{0, {10, 16, 60}},           {kSea - 1, {70, 130, 200}},
-                           {kSea, {60, 140, 70}},       {kSea + 30, {170, 190, 90}},
-                           {kSea + 70, {190, 140, 80}}, {kSea + 110, {130, 90, 70}},
-                           {255, {255, 255, 255}}};
+constexpr Stop kStops[] = {{world::kLowestBottom, {0, 0, 0}},
+                           {0, {10, 16, 60}},
+                           {kSea - 1, {70, 130, 200}},
+                           {kSea, {60, 140, 70}},
+                           {kSea + 30, {170, 190, 90}},
+                           {kSea + 70, {190, 140, 80}},
+                           {kSea + 110, {130, 90, 70}},
+                           {255, {255, 255, 255}},
+                           {700, {180, 200, 240}},
+                           {world::kHighestTop - 1, {150, 90, 220}}};
 
 // By the number of the biome.
 constexpr Rgb kBiomeColors[] = {{38, 84, 124},   {72, 180, 190},  {240, 220, 150}, {170, 200, 90},
@@ -58,15 +64,15 @@ Rgb biomeColor(std::size_t number) {
 }
 
 base::Image paintHeights(const PaintedArea& area) {
-    std::array<Rgb, world::kChunkHeight> colors;
-    for (int z = 0; z < world::kChunkHeight; ++z) colors[static_cast<std::size_t>(z)] = heightColor(z);
+    std::array<Rgb, world::kMostLayers> colors;  // from the lowest bottom
+    for (std::size_t k = 0; k < colors.size(); ++k)
+        colors[k] = heightColor(world::kLowestBottom + static_cast<int>(k));
+    const auto contour = [](int z) { return (z - world::kLowestBottom) / kContourBlocks; };
     return imageOf(gridOf(area), [&](int x, int y, glm::ivec2) {
         const int z = area.surfaces.at(x, y).underZ;
-        const auto step = [&](int toX, int toY) {
-            return area.surfaces.at(toX, toY).underZ / kContourBlocks;
-        };
-        const bool isContour = z / kContourBlocks > step(x + 1, y) || z / kContourBlocks > step(x, y - 1);
-        const Rgb color = colors[static_cast<std::size_t>(z)];
+        const auto step = [&](int toX, int toY) { return contour(area.surfaces.at(toX, toY).underZ); };
+        const bool isContour = contour(z) > step(x + 1, y) || contour(z) > step(x, y - 1);
+        const Rgb color = colors[static_cast<std::size_t>(z - world::kLowestBottom)];
         if (!isContour) return color;
         return Rgb{between(0, color.red, kContourDarkness), between(0, color.green, kContourDarkness),
                    between(0, color.blue, kContourDarkness)};
@@ -125,19 +131,20 @@ base::Result<MapPainter> MapPainter::create(Parts parts) {
 
 MapPainter::MapPainter(Parts parts, MapColors colors)
     : kinds_(std::make_unique<SurfaceKinds>(surfaceKinds(parts.blocks))),
+      heights_(parts.generators.heights()),
       colors_(std::move(colors)),
       biomes_(std::move(parts.biomes)),
       surfaces_(std::make_unique<SurfaceSource>(
           SurfaceSource::Parts{parts.generators, *kinds_, parts.store, parts.cache})),
       tints_(std::make_unique<TintSource>(parts.generators)) {}
 
-std::vector<ChunkPos> MapPainter::chunksFor(const MapTile& tile) {
+std::vector<ChunkPos> chunksFor(const MapTile& tile, world::Heights heights) {
     if (tile.layer == Layer::Biome) return {};
-    if (tile.layer == Layer::Isometric) return visibleChunks({tile.zoom, tile.x, tile.y});
+    if (tile.layer == Layer::Isometric) return visibleChunks({tile.zoom, tile.x, tile.y}, heights);
     return chunksTouching(columnsOf(tile));
 }
 
-std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
+std::vector<MapTile> tilesShowing(ChunkPos chunk, world::Heights heights) {
     std::vector<MapTile> tiles;
     for (int zoom = kMinZoom; zoom <= kMaxZoom; ++zoom) {
         if (levelOf(zoom) != chunk.level) continue;
@@ -153,7 +160,7 @@ std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
                      ++tx)
                     tiles.push_back({layer, zoom, tx, ty});
         }
-        for (const IsometricTile& tile : isometricTilesShowing(chunk, zoom))
+        for (const IsometricTile& tile : isometricTilesShowing(chunk, zoom, heights))
             tiles.push_back({Layer::Isometric, zoom, tile.x, tile.y});
     }
     return tiles;
@@ -162,12 +169,12 @@ std::vector<MapTile> MapPainter::tilesShowing(ChunkPos chunk) {
 base::Result<base::Image> MapPainter::isometricImage(const MapTile& tile,
                                                      std::span<const EditedChunk> edited) {
     const IsometricTile pixels{tile.zoom, tile.x, tile.y};
-    const std::vector<ChunkPos> chunks = visibleChunks(pixels);
+    const std::vector<ChunkPos> chunks = visibleChunks(pixels, heights_);
     const auto surfaces = surfaces_->surfaces(chunks, edited);
     if (!surfaces) return tl::unexpected(surfaces.error());
     std::vector<world::PackedColor> tints;
     for (const ChunkPos chunk : chunks) tints.push_back(tints_->of(chunk));
-    return paintIsometric(pixels, {chunks, *surfaces, tints}, colors_);
+    return paintIsometric(pixels, {heights_, chunks, *surfaces, tints}, colors_);
 }
 
 base::Result<base::Image> MapPainter::image(const MapTile& tile, std::span<const EditedChunk> edited) {

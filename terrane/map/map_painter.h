@@ -21,7 +21,8 @@
 namespace terrane::map {
 
 // Overlays of a map show heights and biomes as colors. Rows and columns are those of paint.h. The color of
-// ground at a height, 0…255: blue below the sea, then green, yellow, brown and white.
+// ground at a height is the same in every world: blue below the sea, the darker the deeper, then green,
+// yellow, brown and white, and above 255 more and more violet.
 Rgb heightColor(int z);
 // Returns the color of a biome by its number (gen/generators/biomes.h).
 Rgb biomeColor(std::size_t number);
@@ -47,6 +48,12 @@ int marginOf(Layer layer);
 // Returns the columns that a tile seen from above is painted from: its own and the margin.
 ColumnRect columnsOf(const MapTile& tile);
 
+// Returns the chunks whose surfaces a tile of a world of these heights shows; callers pass the edited ones to
+// MapPainter::paint(). The result is empty for a tile of biomes, which edits do not change.
+std::vector<world::ChunkPos> chunksFor(const MapTile& tile, world::Heights heights);
+// Returns the tiles that show the chunk: of all layers but biomes, and of the zooms of the chunk's level.
+std::vector<MapTile> tilesShowing(world::ChunkPos chunk, world::Heights heights);
+
 class MapPainter {
   public:
     struct Parts {
@@ -63,11 +70,7 @@ class MapPainter {
     // Returns the digest of all inputs of images besides the land: colors of blocks, and the way of painting.
     std::uint64_t colorDigest() const;
     bool hasLayer(Layer layer) const { return layer != Layer::Biome || biomes_.has_value(); }
-    // Returns the chunks whose surfaces a tile shows; callers pass the edited ones to paint(). The result is
-    // empty for a tile of biomes, which edits do not change.
-    static std::vector<world::ChunkPos> chunksFor(const MapTile& tile);
-    // Returns the tiles that show the chunk: of all layers but biomes, and of the zooms of the chunk's level.
-    static std::vector<MapTile> tilesShowing(world::ChunkPos chunk);
+    world::Heights heights() const { return heights_; }  // of the world
     // Paints a PNG file. `edited`: the edited ones of chunksFor().
     [[nodiscard]] base::Result<std::string> paint(const MapTile& tile, std::span<const EditedChunk> edited);
 
@@ -89,6 +92,7 @@ class MapPainter {
     base::Result<base::Image> image(const MapTile& tile, std::span<const EditedChunk> edited);
 
     std::unique_ptr<SurfaceKinds> kinds_;  // the source refers to them
+    world::Heights heights_;
     MapColors colors_;
     std::optional<gen::Biomes> biomes_;
     std::unique_ptr<SurfaceSource> surfaces_;

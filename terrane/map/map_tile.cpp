@@ -69,16 +69,19 @@ PixelRect pixelsOf(const MapTile& tile) {
 PixelRect seenPixels(const BlockRect& area) {
     const auto x0 = static_cast<double>(area.x0), x1 = static_cast<double>(area.x1);
     const auto y0 = static_cast<double>(area.y0), y1 = static_cast<double>(area.y1);
-    return {{-x1 - y1, -x0 - y0}, {(y0 - x1) / 2 - kIsometricHeight * world::kChunkHeight, (y1 - x0) / 2}};
+    return {{-x1 - y1, -x0 - y0},
+            {(y0 - x1) / 2 - kIsometricHeight * area.heights.top,
+             (y1 - x0) / 2 - kIsometricHeight * area.heights.bottom}};
 }
 
 // Two convex shapes meet unless an edge of one of them separates them: the tile's edges are lines of equal X
-// or Y, the area's of equal x or y (of the ground, and of the world's top).
+// or Y, the area's of equal x or y (of the world's bottom, and of its top).
 bool isSeen(const MapTile& tile, const BlockRect& area) {
     const PixelRect pixels = pixelsOf(tile), seen = seenPixels(area);
-    const double bottom = pixels.y.high + kIsometricHeight * world::kChunkHeight;
-    const Range x{-pixels.x.high / 2 - bottom, -pixels.x.low / 2 - pixels.y.low};
-    const Range y{pixels.y.low - pixels.x.high / 2, bottom - pixels.x.low / 2};
+    const double top = pixels.y.low + kIsometricHeight * area.heights.bottom;
+    const double bottom = pixels.y.high + kIsometricHeight * area.heights.top;
+    const Range x{-pixels.x.high / 2 - bottom, -pixels.x.low / 2 - top};
+    const Range y{top - pixels.x.high / 2, bottom - pixels.x.low / 2};
     return meet(pixels.x, seen.x) && meet(pixels.y, seen.y) &&
            meet(x, {static_cast<double>(area.x0), static_cast<double>(area.x1)}) &&
            meet(y, {static_cast<double>(area.y0), static_cast<double>(area.y1)});
@@ -107,9 +110,9 @@ TileRange tilesAround(Layer layer, int zoom, const BlockRect& area) {
 
 }  // namespace
 
-BlockRect blocksOf(const world::ChunkArea& chunks) {
+BlockRect blocksOf(const world::ChunkArea& chunks, world::Heights heights) {
     constexpr std::int64_t kSize = world::kChunkSize;
-    return {chunks.x0 * kSize, chunks.y0 * kSize, chunks.x1 * kSize, chunks.y1 * kSize};
+    return {chunks.x0 * kSize, chunks.y0 * kSize, chunks.x1 * kSize, chunks.y1 * kSize, heights};
 }
 
 bool shows(const MapTile& tile, const BlockRect& area) {

@@ -60,13 +60,14 @@ struct MapTileHash {
 bool isInWorld(const MapTile& tile);
 
 // The tiles of a map of an area. All are plain values; any thread may use them. Blocks x0 … x1 - 1, y0 … y1 -
-// 1.
+// 1, of a world of these heights.
 struct BlockRect {
     std::int64_t x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    world::Heights heights = {};
 };
-BlockRect blocksOf(const world::ChunkArea& chunks);  // of level 0
+BlockRect blocksOf(const world::ChunkArea& chunks, world::Heights heights);  // chunks of level 0
 
-// Returns whether some of the area, up to the world's top, may be visible in a tile.
+// Returns whether some of the area, from the world's bottom to its top, may be visible in a tile.
 bool shows(const MapTile& tile, const BlockRect& area);
 // Returns the tiles that show the area, from the widest zoom to the finest. Layers of one place follow each
 // other, since they are painted from the same surfaces. Returns nothing outside the world.

@@ -62,13 +62,13 @@ class LookDown {
         if (kind == SurfaceKind::Nothing) return false;
         if (column.top == world::kAir) {
             column.top = block;
-            column.topZ = static_cast<std::uint8_t>(z);
+            column.topZ = static_cast<std::int16_t>(z);
         }
         const bool counts = kind == SurfaceKind::Ground ||
                             (kind == SurfaceKind::Liquid && kindOf(kinds_, column.top) == SurfaceKind::Crown);
         if (!counts) return false;
         column.under = block;
-        column.underZ = static_cast<std::uint8_t>(z);
+        column.underZ = static_cast<std::int16_t>(z);
         return true;
     }
 
@@ -104,7 +104,7 @@ Surface surfaceOf(const world::Chunk& chunk, const SurfaceKinds& kinds) {
     LookDown look(kinds);
     gen::RequestedColumns requested;
     std::array<BlockId, world::kBlocksPerSection> blocks;
-    for (int s = world::kSectionsPerChunk; s-- > 0;) {
+    for (int s = chunk.heights().endSection(); s-- > chunk.heights().firstSection();) {
         const world::Section& section = chunk.section(s);
         if (isAllNothing(section, kinds)) continue;
         section.unpack(blocks);

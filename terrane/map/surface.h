@@ -28,7 +28,7 @@ struct SurfaceColumn {
     world::BlockId top = world::kAir;  // the topmost block that is not Nothing; air where there is none
     // The topmost Ground at or below it, under a Crown the topmost Ground or Liquid; air if there is none.
     world::BlockId under = world::kAir;
-    std::uint8_t topZ = 0, underZ = 0;  // the z of these two blocks; 0 where there is none
+    std::int16_t topZ = 0, underZ = 0;  // the z of these two blocks; 0 where there is none
 
     bool operator==(const SurfaceColumn&) const = default;
 };

@@ -19,21 +19,20 @@ namespace terrane::map {
 
 namespace {
 
-// A column is four numbers in six planes of bytes, one plane after the other, which zstd makes small: the
-// height as the difference to a prediction from its neighbors, the depth beneath it, the top block's id in
-// two bytes, and the difference of the lower block's id in two more, which is 0 nearly everywhere on land.
-enum Plane { HeightPlane, DepthPlane, TopLow, TopHigh, UnderLow, UnderHigh, kPlanes };
+// A column is four numbers of two bytes in eight planes, one plane after the other, which zstd makes small:
+// the height as the difference to a prediction from its neighbors, the depth beneath it, the top block's id,
+// and the difference of the lower block's id, which is 0 nearly everywhere on land.
+enum Plane { HeightLow, HeightHigh, DepthLow, DepthHigh, TopLow, TopHigh, UnderLow, UnderHigh, kPlanes };
 constexpr std::size_t kPlaneBytes = kColumnsOfBlob, kRawBytes = kPlanes * kPlaneBytes;
 
 // The prediction from earlier columns: in a plane each height is west + south - southwest.
 template <class HeightAt>
-std::uint8_t predictedHeight(std::size_t k, HeightAt heightAt) {
+int predictedHeight(std::size_t k, HeightAt heightAt) {
     const bool hasWest = k % kBlobColumns != 0, hasSouth = k >= kBlobColumns;
     if (hasWest && hasSouth)
-        return static_cast<std::uint8_t>(std::clamp(
-            heightAt(k - 1) + heightAt(k - kBlobColumns) - heightAt(k - kBlobColumns - 1), 0, 255));
-    if (hasWest) return static_cast<std::uint8_t>(heightAt(k - 1));
-    return hasSouth ? static_cast<std::uint8_t>(heightAt(k - kBlobColumns)) : 0;
+        return heightAt(k - 1) + heightAt(k - kBlobColumns) - heightAt(k - kBlobColumns - 1);
+    if (hasWest) return heightAt(k - 1);
+    return hasSouth ? heightAt(k - kBlobColumns) : 0;
 }
 
 std::uint64_t checksum(store::ByteView bytes) {
@@ -55,13 +54,14 @@ store::Bytes encodeSurfaces(std::span<const SurfaceColumn> columns) {
     for (std::size_t k = 0; k < kColumnsOfBlob; ++k) {
         const SurfaceColumn& column = columns[k];
         const auto height = [&](std::size_t n) { return static_cast<int>(columns[n].topZ); };
-        const auto underChange = static_cast<unsigned>(column.under) - column.top;
-        plane(HeightPlane, k) = low(static_cast<unsigned>(column.topZ) - predictedHeight(k, height));
-        plane(DepthPlane, k) = low(static_cast<unsigned>(column.topZ) - column.underZ);
-        plane(TopLow, k) = low(column.top);
-        plane(TopHigh, k) = high(column.top);
-        plane(UnderLow, k) = low(underChange);
-        plane(UnderHigh, k) = high(underChange);
+        const auto put = [&](Plane lowPlane, int value) {
+            plane(lowPlane, k) = low(static_cast<unsigned>(value));
+            plane(static_cast<Plane>(lowPlane + 1), k) = high(static_cast<unsigned>(value));
+        };
+        put(HeightLow, column.topZ - predictedHeight(k, height));
+        put(DepthLow, column.topZ - column.underZ);
+        put(TopLow, column.top);
+        put(UnderLow, column.under - column.top);
     }
     store::Bytes bytes;
     store::appendNumber(bytes, checksum(std::as_bytes(std::span(raw))));
@@ -77,15 +77,17 @@ base::Result<std::vector<SurfaceColumn>> decodeSurfaces(store::ByteView bytes) {
     if (checksum(std::as_bytes(std::span(raw))) != expected)
         return base::fail(base::ErrorCode::Damaged, "surfaces: wrong checksum");
     std::vector<SurfaceColumn> columns(kColumnsOfBlob);
-    const auto plane = [&](Plane p, std::size_t k) { return unsigned{raw[p * kPlaneBytes + k]}; };
+    // The number of two planes; sums of it wrap at 16 bits.
+    const auto number = [&](Plane lowPlane, std::size_t k) {
+        return raw[lowPlane * kPlaneBytes + k] | raw[(lowPlane + 1) * kPlaneBytes + k] << 8;
+    };
     for (std::size_t k = 0; k < kColumnsOfBlob; ++k) {
         const auto height = [&](std::size_t n) { return static_cast<int>(columns[n].topZ); };
         SurfaceColumn& column = columns[k];
-        column.topZ = low(plane(HeightPlane, k) + predictedHeight(k, height));
-        column.underZ = low(column.topZ - plane(DepthPlane, k));
-        column.top = static_cast<world::BlockId>(plane(TopLow, k) | plane(TopHigh, k) << 8);
-        column.under =
-            static_cast<world::BlockId>(column.top + (plane(UnderLow, k) | plane(UnderHigh, k) << 8));
+        column.topZ = static_cast<std::int16_t>(number(HeightLow, k) + predictedHeight(k, height));
+        column.underZ = static_cast<std::int16_t>(column.topZ - number(DepthLow, k));
+        column.top = static_cast<world::BlockId>(number(TopLow, k));
+        column.under = static_cast<world::BlockId>(column.top + number(UnderLow, k));
     }
     return columns;
 }
@@ -93,7 +95,7 @@ base::Result<std::vector<SurfaceColumn>> decodeSurfaces(store::ByteView bytes) {
 namespace {
 
 // The version of surfaces and rows: files of another version are replaced.
-constexpr std::string_view kForm = "2";
+constexpr std::string_view kForm = "3";
 
 // The share of the file's bytes that rows may take. The rest is for pages of SQLite's own: the schema and the
 // inner pages of the tables.

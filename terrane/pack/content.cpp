@@ -193,8 +193,8 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
             return base::fail(base::ErrorCode::BadInput, "{}: the scripts of the packs take more than {} s",
                               displayPath(pack, path), kLongestRecording.count());
         const auto version = TERRANE_TRY(lua::scriptVersion(*script, names, blocks));
-        const auto record = [script, names](const world::BlockRegistry& registry, int level) {
-            return lua::recordScript(*script, names, registry, level);
+        const auto record = [script, names](const world::BlockRegistry& registry, gen::GraphRequest request) {
+            return lua::recordScript(*script, names, registry, request);
         };
         generators.push_back({name, version, record});
     }

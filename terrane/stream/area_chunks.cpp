@@ -28,7 +28,7 @@ std::vector<store::LoadedChunk> storedOf(std::span<const world::ChunkPos> positi
 base::Result<std::vector<world::Chunk>> chunksAt(std::span<const world::ChunkPos> positions,
                                                  store::ReadableStore* save, const gen::Generator& generator,
                                                  base::JobSystem& jobs) {
-    std::vector<world::Chunk> chunks(positions.size());
+    std::vector<world::Chunk> chunks(positions.size(), world::Chunk(generator.heights()));
     const std::size_t perJob = save ? kChunksOfJob : 1, jobCount = (positions.size() + perJob - 1) / perJob;
     std::vector<std::string> problems(jobCount);
     TERRANE_TRY(base::parallelFor(jobs, jobCount, [&](std::size_t job) {

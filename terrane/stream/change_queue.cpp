@@ -14,10 +14,15 @@ ChunkChange& ChangeQueue::change(ChunkPos pos) {
     return it->second;
 }
 
-void ChangeQueue::setLight(ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks) {
+void ChangeQueue::setLight(ChunkPos pos, light::ChunkLightPtr light, const world::SectionSet& bricks) {
     ChunkChange& changed = change(pos);
     changed.light = std::move(light);
     changed.bricks |= bricks;
+}
+
+void ChangeQueue::setLight(ChunkPos pos, light::ChunkLightPtr light) {
+    const auto all = world::SectionSet::all(light->heights());
+    setLight(pos, std::move(light), all);
 }
 
 void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections) {
@@ -33,7 +38,7 @@ void ChangeQueue::setMesh(ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshS
 void ChangeQueue::requestMesh(ChunkPos pos) {
     ChunkChange& changed = change(pos);
     changed.mesh = nullptr;
-    changed.meshSections = 0;
+    changed.meshSections = {};
     changed.needsMesh = true;
 }
 

@@ -14,7 +14,9 @@ namespace terrane::stream {
 class ChangeQueue {
   public:
     // Sets new light of a chunk, changed in `bricks`.
-    void setLight(world::ChunkPos pos, light::ChunkLightPtr light, std::uint16_t bricks);
+    void setLight(world::ChunkPos pos, light::ChunkLightPtr light, const world::SectionSet& bricks);
+    // Sets new light that changed in all bricks.
+    void setLight(world::ChunkPos pos, light::ChunkLightPtr light);
     // Sets new quads of `meshSections`. Other sections of a waiting mesh stay.
     void setMesh(world::ChunkPos pos, MeshPtr mesh, mesh::MeshSectionSet meshSections);
     // Requests that the receiver of the change makes the mesh.

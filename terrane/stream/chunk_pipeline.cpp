@@ -32,7 +32,7 @@ constexpr std::chrono::milliseconds kBatchPause{1};
 }  // namespace
 
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
-    : parts_(parts), beyond_(borderChunk(parts.blocks)), workers_(parts_) {
+    : parts_(parts), beyond_(borderChunk(parts.blocks, parts.world.heights())), workers_(parts_) {
     if (parts_.batchGenerator) parts_.source.generator = nullptr;
 }
 
@@ -133,7 +133,7 @@ void ChunkPipeline::onLoaded(ChunkPos pos, std::shared_ptr<world::Chunk> chunk, 
 void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh) {
     if (!finishLighting(table_, pos)) return;
     findRecord(table_, pos)->light = light;
-    changes_.setLight(pos, std::move(light), kAllBricks);
+    changes_.setLight(pos, std::move(light));
     if (mesh) {
         changes_.setMesh(pos, std::move(mesh), mesh::kAllMeshSections);
     } else {
@@ -253,8 +253,7 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             invalidateLighting(table_, chunk);
         }
         if (edit.before == edit.after) {  // only its state or data changed
-            requestEditedMesh(table_, chunk,
-                              mesh::MeshSectionSet{1} << (edit.pos.z / meshOptions_.meshSectionHeight));
+            requestEditedMesh(table_, chunk, mesh::meshSectionsTouchedBy(edit.pos).front().meshSections);
         } else {
             record->localLight = nullptr;
             toRelight_.add(edit);
@@ -268,10 +267,8 @@ void ChunkPipeline::relight() {
     const std::vector<world::BlockEdit> edits = std::exchange(toRelight_, {}).edits;
     std::map<ChunkPos, mesh::MeshSectionSet> touched;
     for (const world::BlockEdit& edit : edits) {
-        for (const auto& [chunk, meshSections] :
-             mesh::meshSectionsTouchedBy(edit.pos, meshOptions_.meshSectionHeight)) {
+        for (const auto& [chunk, meshSections] : mesh::meshSectionsTouchedBy(edit.pos))
             touched[chunk] |= meshSections;
-        }
     }
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
@@ -336,7 +333,7 @@ void ChunkPipeline::saveAll() {
 
 void ChunkPipeline::resendLight() {
     for (const auto& [pos, record] : table_.records) {
-        if (record.light) changes_.setLight(pos, record.light, kAllBricks);
+        if (record.light) changes_.setLight(pos, record.light);
     }
 }
 
@@ -356,7 +353,7 @@ ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
 }
 
 std::optional<light::LightValue> ChunkPipeline::lightAt(world::BlockPos pos) const {
-    if (!world::isInHeight(pos.z)) return std::nullopt;
+    if (!parts_.world.heights().contains(pos.z)) return std::nullopt;
     const ChunkRecord* record = findRecord(table_, world::chunkOf(pos));
     if (!record || !record->light) return std::nullopt;
     return record->light->at(world::blockIndex(pos));

@@ -52,8 +52,8 @@ struct ChunkRecord {
     light::ChunkLightPtr light{};      // of visible chunks
 
     // Meshing again, of visible chunks.
-    mesh::MeshSectionSet toMesh = 0;  // sections that wait to be meshed
-    std::uint64_t meshJob = 0;        // the job that meshes all of it; 0: none, or its result is outdated
+    mesh::MeshSectionSet toMesh{};  // sections that wait to be meshed
+    std::uint64_t meshJob = 0;      // the job that meshes all of it; 0: none, or its result is outdated
 };
 
 struct ChunkTable {

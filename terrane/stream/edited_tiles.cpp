@@ -25,29 +25,39 @@ namespace {
 constexpr int kColumns = world::kChunkSize * world::kChunkSize;
 constexpr int kHalf = world::kChunkSize / 2;
 
-// Blocks of a whole chunk, by block index.
-using ChunkBlocks = std::vector<BlockId>;
+// Blocks of a whole chunk.
+struct ChunkBlocks {
+    world::Heights heights;
+    std::vector<BlockId> values;  // by z from the bottom, y, x
+
+    std::size_t indexOf(int x, int y, int z) const {
+        return static_cast<std::size_t>(world::blockIndex(x, y, z - heights.bottom));
+    }
+    bool isEmpty() const { return values.empty(); }
+};
 
 ChunkBlocks unpackChunk(const world::Chunk& chunk) {
-    ChunkBlocks blocks(world::kBlocksPerChunk);
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
-        chunk.section(s).unpack(std::span(blocks).subspan(first).first<world::kBlocksPerSection>());
+    ChunkBlocks blocks{chunk.heights(), {}};
+    blocks.values.resize(static_cast<std::size_t>(blocks.heights.layers()) * kColumns);
+    for (int s = blocks.heights.firstSection(); s < blocks.heights.endSection(); ++s) {
+        const std::size_t first = blocks.indexOf(0, 0, s * world::kSectionSize);
+        chunk.section(s).unpack(std::span(blocks.values).subspan(first).first<world::kBlocksPerSection>());
     }
     return blocks;
 }
 
-// The lowest ground of all columns: z of the first opaque block from above, 0 if a column has none.
+// The lowest ground of all columns: z of the first opaque block from above; the world's bottom if a column
+// has none.
 int lowestGround(const world::DownsampleRule& rule, const ChunkBlocks& blocks) {
     std::bitset<kColumns> found;
-    for (int z = world::kChunkHeight - 1; z > 0; --z) {
-        const BlockId* layer = &blocks[world::blockIndex(0, 0, z)];
+    for (int z = blocks.heights.top - 1; z > blocks.heights.bottom; --z) {
+        const BlockId* layer = &blocks.values[blocks.indexOf(0, 0, z)];
         for (std::size_t i = 0; i < kColumns; ++i) {
             if (!found[i] && rule.kind(layer[i]).isOpaque) found.set(i);
         }
         if (found.all()) return z;
     }
-    return 0;
+    return blocks.heights.bottom;
 }
 
 // One child of a tile, with and without edits.
@@ -61,9 +71,9 @@ ChildBlocks compareBlocks(const world::DownsampleRule& rule, const world::Chunk&
                           const world::Chunk& generated) {
     ChildBlocks child{.edited = unpackChunk(edited), .generated = unpackChunk(generated)};
     const int ground = std::min(lowestGround(rule, child.edited), lowestGround(rule, child.generated));
-    child.seenFrom = std::max(0, ground - kVisibleDepth);
-    for (std::size_t i = world::blockIndex(0, 0, child.seenFrom); i < child.edited.size(); ++i) {
-        if (child.edited[i] != child.generated[i]) child.hasChanged.set(i % kColumns);
+    child.seenFrom = std::max(edited.heights().bottom, ground - kVisibleDepth);
+    for (std::size_t i = child.edited.indexOf(0, 0, child.seenFrom); i < child.edited.values.size(); ++i) {
+        if (child.edited.values[i] != child.generated.values[i]) child.hasChanged.set(i % kColumns);
     }
     return child;
 }
@@ -74,8 +84,9 @@ world::BlockColumn parentColumn(const world::DownsampleRule& rule, const ChunkBl
     std::array<world::BlockColumn, 4> four;
     for (int k = 0; k < 4; ++k) {
         auto& column = four[static_cast<std::size_t>(k)];
-        const std::size_t first = world::blockIndex(x + (k & 1), y + (k >> 1), 0);
-        for (std::size_t z = 0; z < column.size(); ++z) column[z] = blocks[first + z * kColumns];
+        column.resize(static_cast<std::size_t>(blocks.heights.layers()));
+        const std::size_t first = blocks.indexOf(x + (k & 1), y + (k >> 1), blocks.heights.bottom);
+        for (std::size_t z = 0; z < column.size(); ++z) column[z] = blocks.values[first + z * kColumns];
     }
     world::BlockColumn out;
     world::downsampleColumn(rule, four, at, out);
@@ -87,7 +98,7 @@ void writeColumns(const world::DownsampleRule& rule, const ChildBlocks& child, C
                   ChunkBlocks& blocks) {
     for (int n = 0; n < kHalf * kHalf; ++n) {
         const int x = n % kHalf * 2, y = n / kHalf * 2;
-        const std::size_t first = world::blockIndex(x, y, 0);
+        const auto first = static_cast<std::size_t>(world::blockIndex(x, y, 0));
         constexpr std::size_t kBeside = world::kChunkSize;
         if (!child.hasChanged[first] && !child.hasChanged[first + 1] && !child.hasChanged[first + kBeside] &&
             !child.hasChanged[first + kBeside + 1]) {
@@ -98,21 +109,20 @@ void writeColumns(const world::DownsampleRule& rule, const ChildBlocks& child, C
                                   tile.level};
         const auto edited = parentColumn(rule, child.edited, x, y, at);
         const auto generated = parentColumn(rule, child.generated, x, y, at);
-        if (std::equal(edited.begin() + child.seenFrom, edited.end(), generated.begin() + child.seenFrom)) {
-            continue;
-        }
-        const std::size_t to = world::blockIndex(tileX, tileY, 0);
-        for (std::size_t z = 0; z < edited.size(); ++z) blocks[to + z * kColumns] = edited[z];
+        const int seen = child.seenFrom - blocks.heights.bottom;
+        if (std::equal(edited.begin() + seen, edited.end(), generated.begin() + seen)) continue;
+        const std::size_t to = blocks.indexOf(tileX, tileY, blocks.heights.bottom);
+        for (std::size_t z = 0; z < edited.size(); ++z) blocks.values[to + z * kColumns] = edited[z];
     }
 }
 
 // The tile with these blocks, without block state; null if its blocks are the same.
 ChunkPtr withBlocks(const world::Chunk& tile, const ChunkBlocks& blocks) {
     std::shared_ptr<world::Chunk> changed;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
-        const auto first = static_cast<std::size_t>(s) * world::kBlocksPerSection;
-        auto section =
-            world::Section::fromValues(std::span(blocks).subspan(first).first<world::kBlocksPerSection>());
+    for (int s = blocks.heights.firstSection(); s < blocks.heights.endSection(); ++s) {
+        const std::size_t first = blocks.indexOf(0, 0, s * world::kSectionSize);
+        auto section = world::Section::fromValues(
+            std::span(blocks.values).subspan(first).first<world::kBlocksPerSection>());
         if (section == tile.section(s)) continue;
         if (!changed) changed = std::make_shared<world::Chunk>(tile);
         changed->setSection(s, std::move(section));
@@ -152,10 +162,10 @@ ChunkPtr editedTileOf(GeneratedChunks& generated, const world::DownsampleRule& r
         if (!child) continue;
         const auto compared = compareBlocks(rule, *child, generated.at(childOf(tile, quarter)));
         if (compared.hasChanged.none()) continue;
-        if (blocks.empty()) blocks = unpackChunk(generated.at(tile));
+        if (blocks.isEmpty()) blocks = unpackChunk(generated.at(tile));
         writeColumns(rule, compared, tile, quarter, blocks);
     }
-    return blocks.empty() ? nullptr : withBlocks(generated.at(tile), blocks);
+    return blocks.isEmpty() ? nullptr : withBlocks(generated.at(tile), blocks);
 }
 
 bool isSameTile(const ChunkPtr& a, const ChunkPtr& b) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <map>
+#include <set>
 #include <unordered_map>
 
 namespace terrane::stream {
@@ -119,21 +120,21 @@ std::vector<light::LightChange> relightEdits(ChunkTable& table, const world::Wor
                                              std::span<const world::BlockEdit> edits,
                                              const light::LightTable& lights) {
     SortedEdits sorted = sortEdits(table, world, edits);
-    std::map<ChunkPos, std::uint16_t> changed;
+    std::map<ChunkPos, world::SectionSet> changed;
     thread_local light::LightScratch scratch;
     for (const light::LightChange& change : light::relight(sorted.lit, sorted.inLit, lights, scratch)) {
         findRecord(table, change.pos)->light = sorted.lit.at(change.pos).light;
         changed[change.pos] = change.bricks;
     }
-    std::map<ChunkPos, std::uint16_t> fromScratch;
+    std::set<ChunkPos> fromScratch;
     for (const ChunkPos center : sorted.unlit) {
         for (const ChunkPos pos : neighborhood(center)) {
-            if (isAt(table, pos, ChunkStage::Visible)) fromScratch[pos] = kAllBricks;
+            if (isAt(table, pos, ChunkStage::Visible)) fromScratch.insert(pos);
         }
     }
-    for (const auto& [pos, bricks] : fromScratch) {
+    for (const ChunkPos pos : fromScratch) {
         findRecord(table, pos)->light = lightOf(neighborhoodOf(table, world, pos), lights);
-        changed[pos] = bricks;
+        changed[pos] = world::SectionSet::all(world.heights());
     }
     std::vector<light::LightChange> changes;
     for (const auto& [pos, bricks] : changed) changes.push_back({pos, bricks});

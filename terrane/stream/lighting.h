@@ -42,7 +42,6 @@ void invalidateLighting(ChunkTable& table, world::ChunkPos pos);
 void requestLighting(ChunkTable& table, world::ChunkPos pos);
 
 // Brings the light of visible chunks up to date after edits, on the world's thread.
-constexpr std::uint16_t kAllBricks = 0xFFFF;  // of a chunk, a bit each
 
 // Returns the chunk and its neighbors with the local light that is known.
 ChunkNeighborhood neighborhoodOf(const ChunkTable& table, const world::World& world, world::ChunkPos pos);

@@ -15,7 +15,7 @@ using world::ChunkPos;
 // Null if there is nothing to mesh any more.
 ChunkRecord* waitingRecord(ChunkTable& table, ChunkPos pos) {
     ChunkRecord* record = findRecord(table, pos);
-    return record && record->toMesh != 0 ? record : nullptr;
+    return record && !record->toMesh.isEmpty() ? record : nullptr;
 }
 
 }  // namespace
@@ -42,7 +42,7 @@ std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit) {
     for (; popped.size() < limit && !table.editedMeshes.empty(); table.editedMeshes.pop_front()) {
         const ChunkPos pos = table.editedMeshes.front();
         if (ChunkRecord* record = waitingRecord(table, pos)) {
-            popped.push_back({pos, std::exchange(record->toMesh, 0)});
+            popped.push_back({pos, std::exchange(record->toMesh, {})});
         }
     }
     return popped;
@@ -55,7 +55,7 @@ std::vector<MeshJob> popMeshJobs(ChunkTable& table, std::size_t limit) {
         ChunkRecord* record = waitingRecord(table, pos);
         // A chunk that an edit touched in part is among the edited ones.
         if (!record || record->toMesh != mesh::kAllMeshSections) continue;
-        record->toMesh = 0;
+        record->toMesh = {};
         record->meshJob = ++table.lastMeshJob;
         popped.push_back({pos, record->meshJob});
     }
@@ -84,12 +84,12 @@ SideSet openSides(const TileView& view, ChunkPos pos) {
     return sides;
 }
 
-world::ChunkPtr borderChunk(const world::BlockRegistry& blocks) {
+world::ChunkPtr borderChunk(const world::BlockRegistry& blocks, world::Heights heights) {
     const auto types = blocks.types();
     const auto found = std::ranges::find(types, world::Shape::Liquid, &world::BlockType::shape);
-    auto chunk = std::make_shared<world::Chunk>();
+    auto chunk = std::make_shared<world::Chunk>(heights);
     if (found == types.end()) return chunk;
-    for (int number = 0; number < world::kSectionsPerChunk; ++number)
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number)
         chunk->setSection(number, world::Section(found->id));
     return chunk;
 }

@@ -20,7 +20,7 @@ void requestWholeMesh(ChunkTable& table, world::ChunkPos pos);
 
 struct MeshRequest {
     world::ChunkPos pos;
-    mesh::MeshSectionSet meshSections = 0;  // all if the chunk waited for a mesh job or was in one
+    mesh::MeshSectionSet meshSections{};  // all if the chunk waited for a mesh job or was in one
 };
 // Removes and returns up to `limit` chunks that edits touched; the caller meshes them at once.
 std::vector<MeshRequest> popEditedMeshes(ChunkTable& table, std::size_t limit);
@@ -52,7 +52,7 @@ SideSet openSides(const TileView& view, world::ChunkPos pos);
 
 // Returns the neighbor beyond an open side for meshing: all water, since faces of opaque blocks are drawn
 // toward it and those of water are not. Air if there is no liquid.
-world::ChunkPtr borderChunk(const world::BlockRegistry& blocks);
+world::ChunkPtr borderChunk(const world::BlockRegistry& blocks, world::Heights heights);
 
 // Requests new meshes of chunks whose open sides changed.
 void remeshBorders(ChunkTable& table, const TileView& before, const TileView& now);

@@ -15,11 +15,11 @@ namespace terrane::stream {
 struct ChunkChange {
     world::ChunkPos pos;
     MeshPtr mesh;
-    mesh::MeshSectionSet meshSections = 0;  // of the mesh that changed; the others have no quads in it
-    bool needsMesh = false;                 // the taker of the change is to make the mesh: see MeshPolicy
+    mesh::MeshSectionSet meshSections{};  // of the mesh that changed; the others have no quads in it
+    bool needsMesh = false;               // the taker of the change is to make the mesh: see MeshPolicy
     light::ChunkLightPtr light;
-    std::uint16_t bricks = 0;  // of the light that changed, a bit each
-    bool isHidden = false;     // it is no longer on screen
+    world::SectionSet bricks{};  // of the light that changed
+    bool isHidden = false;       // it is no longer on screen
 };
 
 struct Progress {

@@ -38,7 +38,7 @@ std::vector<ChunkPos> popVisibleWhere(ChunkTable& table, const IsPopped& isPoppe
         if (record.stage != ChunkStage::Visible || !isPopped(pos)) continue;
         setStage(table, pos, record, ChunkStage::Loaded);
         record.light = nullptr;
-        record.toMesh = 0;
+        record.toMesh = {};
         record.meshJob = 0;
         popped.push_back(pos);
     }

@@ -18,40 +18,44 @@ namespace {
 using world::BlockId;
 using world::BlockIndex;
 
-// The height of the sections, in blocks, above which all is air.
-int heightOf(const world::Chunk& tile) {
-    int number = world::kSectionsPerChunk;
-    while (number > 0 && tile.section(number - 1) == world::Section(world::kAir)) --number;
+// The layer above which all is air.
+int topOf(const world::Chunk& tile) {
+    int number = tile.heights().endSection();
+    while (number > tile.heights().firstSection() &&
+           tile.section(number - 1).isSame(world::Section(world::kAir)))
+        --number;
     return number * world::kSectionSize;
 }
 
 struct Column {
     int surface = 0;  // its highest block
-    int floor = 0;    // the highest block below the liquid; none: -1
+    int floor = 0;    // the highest block below the liquid; none: below the world
 };
 
 // Surface and floor of the liquid that is open to the sky; equal if there is none.
-Column liquidAt(const world::Chunk& tile, const world::BlockRegistry& blocks, int x, int y, int height) {
+Column liquidAt(const world::Chunk& tile, const world::BlockRegistry& blocks, int x, int y, int top) {
     const auto block = [&](int z) { return tile.block(world::blockIndex(x, y, z)); };
-    int z = height - 1;
-    while (z >= 0 && block(z) == world::kAir) --z;
+    const int bottom = tile.heights().bottom;
+    int z = top - 1;
+    while (z >= bottom && block(z) == world::kAir) --z;
     Column column{z, z};
-    if (z < 0) return column;
-    const BlockId top = block(z);
-    if (blocks.type(top).shape != world::Shape::Liquid) return column;
-    while (column.floor >= 0 && block(column.floor) == top) --column.floor;
+    if (z < bottom) return column;
+    const BlockId highest = block(z);
+    if (blocks.type(highest).shape != world::Shape::Liquid) return column;
+    while (column.floor >= bottom && block(column.floor) == highest) --column.floor;
     return column;
 }
 
 }  // namespace
 
 void raiseDeepFloor(world::Chunk& tile, const world::BlockRegistry& blocks) {
-    const int height = heightOf(tile);
+    const int top = topOf(tile);
     BlockId ground = world::kAir;  // of the first such column
     for (int y = 0; y < world::kChunkSize; ++y) {
         for (int x = 0; x < world::kChunkSize; ++x) {
-            const Column column = liquidAt(tile, blocks, x, y, height);
-            if (column.floor < 0 || column.surface - column.floor <= kMaxVisibleDepth) continue;
+            const Column column = liquidAt(tile, blocks, x, y, top);
+            if (column.floor < tile.heights().bottom || column.surface - column.floor <= kMaxVisibleDepth)
+                continue;
             const BlockId floor = tile.block(world::blockIndex(x, y, column.floor));
             if (!blocks.type(floor).opaqueCube) continue;
             if (ground == world::kAir) ground = floor;
@@ -66,7 +70,7 @@ using world::ChunkPos;
 namespace {
 
 // Tiles are far away: few mesh sections are better than a fine cull.
-constexpr int kMeshSectionHeight = world::kChunkHeight / 2;
+constexpr int kMeshSectionHeight = mesh::kMaxMeshSectionHeight;
 // Enough that no worker waits for the next frame: a tile takes about a third of a millisecond.
 constexpr std::size_t kJobsPerWorker = 64;
 // Tiles come after all chunks, but the coarsest ones before all: without them there is no land beyond the

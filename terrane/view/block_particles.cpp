@@ -12,7 +12,7 @@ constexpr float kLongestStep = 0.05f;  // seconds: no particle passes through a 
 
 bool isSolid(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& point) {
     const world::BlockPos at = world::blockOf(point);
-    return world::isInHeight(at.z) && !blocks.type(world.block(at)).collision.empty();
+    return world.heights().contains(at.z) && !blocks.type(world.block(at)).collision.empty();
 }
 
 }  // namespace

@@ -63,7 +63,8 @@ void useBackEnds(game::SessionParts& parts, const GpuBackEnds& backEnds) {
 base::Result<std::unique_ptr<GpuBackEnds>> useGpuBackEnds(game::SessionParts& parts,
                                                           const gen::GeneratorCatalogue& generators) {
     const store::WorldIdentity& identity = parts.store->identity();
-    auto graph = TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, 0, generators));
+    auto graph =
+        TERRANE_TRY(gen::makeGenerator(identity.generator, *parts.blocks, {0, identity.heights}, generators));
     auto made = makeGpuBackEnds(gpu::builtInShaders(""), graph, identity.seed, *parts.blocks);
     if (made) useBackEnds(parts, **made);
     return made;

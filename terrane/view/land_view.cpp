@@ -14,7 +14,9 @@ namespace {
 // Empty beyond the world's edge.
 world::LandTile tileOf(const gen::LevelGenerators& generators, const world::BlockRegistry& blocks,
                        world::ChunkPos pos) {
-    if (!world::isInWorld(pos)) return {};
+    world::LandTile empty;
+    empty.height.fill(static_cast<std::int16_t>(generators.heights().bottom));
+    if (!world::isInWorld(pos)) return empty;
     try {
         world::LandTile tile = world::landTileOf(generators.generate(pos), blocks);
         constexpr std::size_t kMiddle = world::LandTile::kColumns / 2 + world::kChunkSize / 2;
@@ -22,7 +24,7 @@ world::LandTile tileOf(const gen::LevelGenerators& generators, const world::Bloc
         return tile;
     } catch (const std::exception& error) {
         base::logWarning("the land around {},{} is not known: {}", pos.x, pos.y, error.what());
-        return {};
+        return empty;
     }
 }
 

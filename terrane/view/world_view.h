@@ -47,7 +47,9 @@ class WorldView {
           renderer_(renderer),
           far_(session, renderer),
           tints_(session, renderer),
-          land_(session, renderer) {}
+          land_(session, renderer) {
+        renderer.setHeights(session.world().heights());
+    }
 
     // Meshes whole chunks on the GPU, within a time budget for each frame, for a session whose pipeline
     // leaves them to its caller (stream::MeshPolicy). Call it before the first upload.

@@ -18,10 +18,10 @@ namespace {
 // Chunks in memory at once for a digest, about 10 KiB each.
 constexpr std::int64_t kChunksOfDigest = 1024;
 
-BlockArea areaOfChunk(world::ChunkPos pos) {
+BlockArea areaOfChunk(world::ChunkPos pos, world::Heights heights) {
     const std::int64_t x = std::int64_t{pos.x} * world::kChunkSize,
                        y = std::int64_t{pos.y} * world::kChunkSize;
-    return {x, y, 0, x + world::kChunkSize, y + world::kChunkSize, world::kChunkHeight};
+    return {x, y, heights.bottom, x + world::kChunkSize, y + world::kChunkSize, heights.top};
 }
 
 bool hasHigherLevel(std::span<const world::ChunkPos> chunks) {
@@ -60,9 +60,9 @@ base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::Ch
                          [&](std::int64_t number) { return chunks[static_cast<std::size_t>(number)]; }};
     return readChunks(world, list, shouldContinue, [&](std::int64_t number, const world::Chunk& chunk) {
         const world::ChunkPos pos = list.at(number);
-        constexpr std::size_t kBlocks = world::kBlocksPerChunk;
-        copyBlocks(chunk, pos, areaOfChunk(pos),
-                   blocks.subspan(static_cast<std::size_t>(number) * kBlocks, kBlocks));
+        const BlockArea area = areaOfChunk(pos, chunk.heights());
+        const auto count = static_cast<std::size_t>(area.blockCount());
+        copyBlocks(chunk, pos, area, blocks.subspan(static_cast<std::size_t>(number) * count, count));
     });
 }
 

@@ -22,8 +22,8 @@ namespace terrane::volume {
                                             std::span<std::uint16_t> states,
                                             const ShouldContinue& shouldContinue);
 
-// Whole chunks of any level, in the order of `chunks`: `blocks` has 65,536 for each, by z, y, x, and begins
-// as zeros. BadInput if a chunk is outside the world.
+// Whole chunks of any level, in the order of `chunks`: `blocks` has 256 a layer for each, by z, y, x, and
+// begins as zeros. BadInput if a chunk is outside the world.
 [[nodiscard]] base::Result<void> readChunkArrays(OpenedWorld& world, std::span<const world::ChunkPos> chunks,
                                                  std::span<world::BlockId> blocks,
                                                  const ShouldContinue& shouldContinue);

@@ -22,10 +22,10 @@ base::Result<void> checkAxis(char axis, std::int64_t first, std::int64_t end, st
 
 }  // namespace
 
-base::Result<void> checkArea(const BlockArea& area) {
+base::Result<void> checkArea(const BlockArea& area, world::Heights heights) {
     TERRANE_TRY(checkAxis('x', area.x0, area.x1, kFirstBlock, kEndBlock));
     TERRANE_TRY(checkAxis('y', area.y0, area.y1, kFirstBlock, kEndBlock));
-    TERRANE_TRY(checkAxis('z', area.z0, area.z1, 0, world::kChunkHeight));
+    TERRANE_TRY(checkAxis('z', area.z0, area.z1, heights.bottom, heights.top));
     // Sides are at most 2^32: products are compared by division.
     if (area.width() > kMaxAreaBlocks / area.depth() / area.height())
         return base::fail(base::ErrorCode::BadInput, "area: {} × {} × {} blocks are more than {}",

@@ -26,8 +26,9 @@ struct BlockArea {
 // 2 GiB of block ids, 4 GiB of light.
 constexpr std::int64_t kMaxAreaBlocks = std::int64_t{1} << 30;
 
-// Returns BadInput unless the area lies within the world, has a block, and at most kMaxAreaBlocks of them.
-[[nodiscard]] base::Result<void> checkArea(const BlockArea& area);
+// Returns BadInput unless the area lies within a world of these heights, has a block, and at most
+// kMaxAreaBlocks of them.
+[[nodiscard]] base::Result<void> checkArea(const BlockArea& area, world::Heights heights);
 
 // Returns the chunks of level 0 that a checked area touches.
 world::ChunkArea chunksOver(const BlockArea& area);

@@ -48,6 +48,7 @@ class OpenedWorld {
         return generators_.at(level);
     }
     store::ChunkStore& store() { return *store_; }
+    world::Heights heights() const { return generators_.heights(); }
     base::JobSystem& jobs() { return jobs_; }
     map::SurfaceSource& surfaces() { return surfaces_; }
     const gen::Biomes* biomes();                    // null if the generator has none

@@ -42,10 +42,10 @@ void copyRow(const std::uint16_t* from, std::uint16_t* to, std::size_t count) {
 }
 
 int firstSection(const ChunkPart& part) {
-    return part.z0 / world::kSectionSize;
+    return part.z0 >> 4;
 }
 int endSection(const ChunkPart& part) {
-    return (part.z1 - 1) / world::kSectionSize + 1;
+    return ((part.z1 - 1) >> 4) + 1;
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ std::int64_t pieceCount(const ColumnArea& area) {
 }
 
 void copyPiece(const map::SurfaceArea& piece, const ColumnArea& area, SurfaceLayer layer,
-               const SurfaceArrays& arrays) {
+               world::Heights heights, const SurfaceArrays& arrays) {
     for (int y = 0; y < piece.rect.height; ++y)
         for (int x = 0; x < piece.rect.width; ++x) {
             const map::SurfaceColumn& column = piece.at(x, y);
@@ -36,7 +36,7 @@ void copyPiece(const map::SurfaceArea& piece, const ColumnArea& area, SurfaceLay
             const auto to = static_cast<std::size_t>((piece.rect.y0 + y - area.y0) * (area.x1 - area.x0) +
                                                      piece.rect.x0 + x - area.x0);
             if (!arrays.heights.empty())
-                arrays.heights[to] = id == world::kAir ? kNoHeight : static_cast<std::int16_t>(z);
+                arrays.heights[to] = id == world::kAir ? noHeight(heights) : static_cast<std::int16_t>(z);
             if (!arrays.blocks.empty()) arrays.blocks[to] = id;
         }
 }
@@ -70,7 +70,7 @@ base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, Surf
                            const map::ColumnRect rect = pieceOf(area, number);
                            const auto edited = TERRANE_TRY(world.editedAmong(map::chunksTouching(rect)));
                            const auto piece = TERRANE_TRY(world.surfaces().area(rect, edited));
-                           copyPiece(piece, area, layer, arrays);
+                           copyPiece(piece, area, layer, world.heights(), arrays);
                            return {};
                        });
 }

@@ -9,7 +9,10 @@
 
 namespace terrane::volume {
 
-constexpr std::int16_t kNoHeight = -1;                       // of a column without such a block
+// The height of a column without such a block: below the world.
+constexpr std::int16_t noHeight(world::Heights heights) {
+    return static_cast<std::int16_t>(heights.bottom - 1);
+}
 constexpr std::int64_t kMaxColumns = std::int64_t{1} << 28;  // 512 MiB of heights
 
 // Columns of a level, x0 … x1 − 1 and y0 … y1 − 1, each 2^level blocks wide.
@@ -30,7 +33,7 @@ enum class SurfaceLayer : std::uint8_t {
 
 // Arrays by y, then x. Either may be empty.
 struct SurfaceArrays {
-    std::span<std::int16_t> heights;   // z of the block, or kNoHeight
+    std::span<std::int16_t> heights;   // z of the block, or noHeight()
     std::span<world::BlockId> blocks;  // its id, or air
 };
 [[nodiscard]] base::Result<void> readSurfaces(OpenedWorld& world, const ColumnArea& area, SurfaceLayer layer,

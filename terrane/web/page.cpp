@@ -48,6 +48,8 @@ std::string textOf(const PageInfo& info) {
                  {"generator", info.identity.generator},
                  {"seaLevel", gen::kSeaLevel},
                  {"isometricHeight", map::kIsometricHeight},
+                 {"bottom", info.identity.heights.bottom},
+                 {"top", info.identity.heights.top},
                  {"spawn", jsonOf(info.spawn)},
                  {"places", jsonOf(info.places)},
                  {"layers", info.layers},

@@ -51,7 +51,8 @@ std::optional<bool> ServerPlayers::isUnderGround(const world::Pose& pose) const 
     if (!session_.pipeline().maybeLoadChunkAt(world::chunkOf(pose.position))) return std::nullopt;
     const world::BlockPos eyes = world::blockOf(pose.position);
     int roof = 0;
-    for (std::int32_t z = std::max(eyes.z + 1, 0); z < world::kChunkHeight && roof < kRoof; ++z)
+    const world::Heights heights = session_.world().heights();
+    for (std::int32_t z = std::max(eyes.z + 1, heights.bottom); z < heights.top && roof < kRoof; ++z)
         roof += session_.blocks().type(session_.world().block({eyes.x, eyes.y, z})).opaqueCube;
     return roof >= kRoof;
 }

@@ -59,7 +59,7 @@ int leastZoom(const map::BlockRect& area) {
 }
 
 int minZoomOf(const StaticMapSettings& settings) {
-    return std::min(leastZoom(map::blocksOf(settings.area)), settings.maxZoom);
+    return std::min(leastZoom(map::blocksOf(settings.area, settings.heights)), settings.maxZoom);
 }
 
 class TileWriter {
@@ -71,7 +71,7 @@ class TileWriter {
     void write(const MapTile& tile) {
         if (hasFailed_) return;
         const fs::path file = folder_ / map::pathOf(tile);
-        const std::vector<map::EditedChunk> edited = edited_.among(map::MapPainter::chunksFor(tile));
+        const std::vector<map::EditedChunk> edited = edited_.among(map::chunksFor(tile, painter_.heights()));
         std::error_code error;
         if (edited.empty() && fs::exists(file, error)) return;
         const auto png = painter_.paint(tile, edited);
@@ -118,8 +118,8 @@ base::Result<bool> writeTiles(std::span<const MapTile> tiles, TileWriter& writer
 }  // namespace
 
 std::int64_t imageCountOf(const StaticMapSettings& settings) {
-    return map::countTiles(map::blocksOf(settings.area), settings.layers, minZoomOf(settings),
-                           settings.maxZoom);
+    return map::countTiles(map::blocksOf(settings.area, settings.heights), settings.layers,
+                           minZoomOf(settings), settings.maxZoom);
 }
 
 base::Result<std::vector<Layer>> layersOf(const std::vector<std::string>& names,
@@ -154,7 +154,7 @@ base::Result<StaticMapWritten> writeStaticMap(io::MapWorld& world, map::MapPaint
         fmt::format("{} {:016x}", originOf(identity, *opened.blocks), painter.colorDigest());
     TERRANE_TRY(prepareFolder(settings.folder, origin));
 
-    const map::BlockRect area = map::blocksOf(settings.area);
+    const map::BlockRect area = map::blocksOf(settings.area, settings.heights);
     PageInfo facts{.identity = identity, .name = settings.title, .spawn = spawn};
     facts.places = allPlaces(*opened.store, settings.places);
     for (const Layer layer : settings.layers) facts.layers.emplace_back(map::nameOf(layer));

@@ -20,6 +20,7 @@ struct StaticMapSettings {
     std::filesystem::path folder;
     std::string title = "Terrane";    // display name of the world
     world::ChunkArea area;            // of level 0
+    world::Heights heights = {};      // of the world
     std::vector<map::Layer> layers;   // from layersOf()
     int maxZoom = 0;                  // of the finest images
     std::vector<game::Place> places;  // in addition to those saved in the world

@@ -61,8 +61,8 @@ TileService::Ticket TileService::request(const MapTile& tile, Ready ready) {
 
 // Collects the edited chunks here, on the web's thread: the worker sees a consistent state.
 void TileService::start(const MapTile& tile, const RenderPtr& render) {
-    const auto edited =
-        std::make_shared<const std::vector<map::EditedChunk>>(editedAmong(map::MapPainter::chunksFor(tile)));
+    const auto edited = std::make_shared<const std::vector<map::EditedChunk>>(
+        editedAmong(map::chunksFor(tile, parts_.painter.heights())));
     const auto work = [this, tile, render, edited, alive = isAlive_] {
         const auto begin = std::chrono::steady_clock::now();
         auto png = std::make_shared<base::Result<std::string>>(paintTile(parts_.painter, tile, *edited));
@@ -122,7 +122,7 @@ void TileService::addEdited(std::span<const world::ChunkPos> chunks) {
 
 void TileService::invalidate(std::span<const world::ChunkPos> chunks) {
     for (const world::ChunkPos chunk : chunks)
-        for (const MapTile& tile : map::MapPainter::tilesShowing(chunk)) invalidate(tile);
+        for (const MapTile& tile : map::tilesShowing(chunk, parts_.painter.heights())) invalidate(tile);
 }
 
 std::vector<map::EditedChunk> TileService::editedAmong(std::span<const world::ChunkPos> chunks) const {

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "tests/support/default_heights.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::game {
@@ -34,25 +35,25 @@ TEST(Selection, ABoxGoesFromCornerToCorner) {
 TEST(Selection, TheEndsOfTheBoxMoveUpAndDown) {
     using End = Selection::End;
     Selection selection;
-    EXPECT_FALSE(selection.moveEnd(End::Top, 1)) << "no box";
+    EXPECT_FALSE(selection.moveEnd(End::Top, 1, {})) << "no box";
     selection.setFirst({0, 0, 70});
-    EXPECT_TRUE(selection.moveEnd(End::Top, 4));
+    EXPECT_TRUE(selection.moveEnd(End::Top, 4, {}));
     EXPECT_EQ(selection.box()->low.z, 70);
     EXPECT_EQ(selection.box()->high.z, 74);
-    EXPECT_TRUE(selection.moveEnd(End::Bottom, -2));
+    EXPECT_TRUE(selection.moveEnd(End::Bottom, -2, {}));
     EXPECT_EQ(selection.box()->low.z, 68);
-    EXPECT_TRUE(selection.moveEnd(End::Top, -99)) << "to a single layer";
+    EXPECT_TRUE(selection.moveEnd(End::Top, -99, {})) << "to a single layer";
     EXPECT_EQ(selection.box()->high.z, 68);
-    EXPECT_FALSE(selection.moveEnd(End::Bottom, 1));
-    EXPECT_TRUE(selection.moveEnd(End::Top, 9999));
+    EXPECT_FALSE(selection.moveEnd(End::Bottom, 1, {}));
+    EXPECT_TRUE(selection.moveEnd(End::Top, 9999, {}));
     EXPECT_EQ(selection.box()->high.z, world::kChunkHeight - 1);
-    EXPECT_TRUE(selection.moveEnd(End::Bottom, std::numeric_limits<int>::min()));
+    EXPECT_TRUE(selection.moveEnd(End::Bottom, std::numeric_limits<int>::min(), {}));
     EXPECT_EQ(selection.box()->low.z, 0);
-    EXPECT_FALSE(selection.moveEnd(End::Top, std::numeric_limits<int>::max()));
+    EXPECT_FALSE(selection.moveEnd(End::Top, std::numeric_limits<int>::max(), {}));
     EXPECT_EQ(selection.box()->blockCount(), world::kChunkHeight);
     selection.setSecond({0, 0, 400});  // a player flies there
-    EXPECT_TRUE(selection.moveEnd(End::Top, -1));
-    EXPECT_FALSE(selection.moveEnd(End::Top, 0));
+    EXPECT_TRUE(selection.moveEnd(End::Top, -1, {}));
+    EXPECT_FALSE(selection.moveEnd(End::Top, 0, {}));
     EXPECT_EQ(selection.box()->high.z, 399);
 }
 
@@ -71,7 +72,7 @@ TEST(Selection, NothingIsPastedThatWasNotCopied) {
     Selection selection;
     EXPECT_FALSE(selection.beginPaste());
     EXPECT_FALSE(selection.isPasting());
-    EXPECT_FALSE(selection.pasteCorner({0, 0, 0}));
+    EXPECT_FALSE(selection.pasteCorner({0, 0, 0}, {}));
     selection.turn(contentBlocks());
     selection.mirror(contentBlocks(), 0);
     EXPECT_FALSE(selection.clipboard());
@@ -105,9 +106,9 @@ TEST(Selection, LeftAndRightAreThoseOfWhoLooks) {
 TEST(Selection, APasteStandsOnTheBlockAndStaysInTheWorld) {
     Selection selection;
     selection.setClipboard(row());
-    EXPECT_EQ(selection.pasteCorner({10, 20, 30}), (BlockPos{9, 20, 30}));
-    EXPECT_EQ(selection.pasteCorner({10, 20, 255}), (BlockPos{9, 20, 254}));
-    EXPECT_EQ(selection.pasteCorner({10, 20, -1}), (BlockPos{9, 20, 0}));
+    EXPECT_EQ(selection.pasteCorner({10, 20, 30}, {}), (BlockPos{9, 20, 30}));
+    EXPECT_EQ(selection.pasteCorner({10, 20, 255}, {}), (BlockPos{9, 20, 254}));
+    EXPECT_EQ(selection.pasteCorner({10, 20, -1}, {}), (BlockPos{9, 20, 0}));
 }
 
 }  // namespace

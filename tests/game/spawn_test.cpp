@@ -11,6 +11,7 @@
 #include "terrane/gen/language/builder.h"
 #include "terrane/world/character.h"
 #include "tests/game/session_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::game {
 namespace {

@@ -65,7 +65,7 @@ TEST_P(WorldEdgeTest, BoxesAreFilledTakenBackAndCopied) {
 
     Selection selection;
     selection.setClipboard(*structure);
-    (void)selection.pasteCorner(a);  // may lie outside; placing it there is refused
+    (void)selection.pasteCorner(a, {});  // may lie outside; placing it there is refused
     const BuildOutcome cut = session_.build({kVisitor, PlaceStructure{structure, a}});
     EXPECT_EQ(cut.result, GetParam().x < 0 && GetParam().y < 0 ? BuildOutcome::Result::Done
                                                                : BuildOutcome::Result::OutOfWorld);

@@ -34,13 +34,14 @@ struct PixelBox {
 };
 
 // The bounds of the eight corners of the chunk's box, by the formula of the header.
-PixelBox boxOf(ChunkPos chunk, int zoom) {
+PixelBox boxOf(ChunkPos chunk, int zoom, world::Heights heights) {
     const double scale = zoom > 0 ? std::exp2(zoom) : 1, height = kIsometricHeight * std::exp2(zoom);
     PixelBox box{1e300, 1e300, -1e300, -1e300};
     for (int corner = 0; corner < 8; ++corner) {
         const double x = 16.0 * chunk.x + (corner & 1) * 16, y = 16.0 * chunk.y + (corner >> 1 & 1) * 16;
         const double pixelX = scale * (-x - y);
-        const double pixelY = scale * (y - x) / 2 - height * (corner >> 2) * 256;
+        const double pixelY =
+            scale * (y - x) / 2 - height * (corner >> 2 == 0 ? heights.bottom : heights.top);
         box = {std::min(box.x0, pixelX), std::min(box.y0, pixelY), std::max(box.x1, pixelX),
                std::max(box.y1, pixelY)};
     }
@@ -63,23 +64,27 @@ ChunkPos randomChunk(std::mt19937& random, int zoom) {
     return {number(), number(), static_cast<std::uint8_t>(level)};
 }
 
+constexpr world::Heights kSomeHeights[] = {{}, {-64, 320}, {-1024, 1024}, {512, 768}, {-512, -256}};
+
 TEST(Isometric, TilesSeeingAChunkAreThoseInWhichItIsSeen) {
     std::mt19937 random(1);
     for (int round = 0; round < 400; ++round) {
         const int zoom = static_cast<int>(random() % 13) + kMinZoom;
         const ChunkPos chunk = randomChunk(random, zoom);
-        const std::vector<IsometricTile> tiles = isometricTilesShowing(chunk, zoom);
+        const world::Heights heights = kSomeHeights[random() % std::size(kSomeHeights)];
+        const std::vector<IsometricTile> tiles = isometricTilesShowing(chunk, zoom, heights);
         for (const IsometricTile& tile : tiles)
-            ASSERT_TRUE(contains(visibleChunks(tile), chunk))
+            ASSERT_TRUE(contains(visibleChunks(tile, heights), chunk))
                 << testing::PrintToString(chunk) << " in tile " << tile.x << ", " << tile.y;
         // Around each of them, too: all that the chunk's box reaches into.
-        const PixelBox box = boxOf(chunk, zoom);
+        const PixelBox box = boxOf(chunk, zoom, heights);
         const IsometricTile first = tiles.front(), last = tiles.back();
         for (std::int32_t y = first.y - 2; y <= last.y + 2; ++y)
             for (std::int32_t x = first.x - 2; x <= last.x + 2; ++x)
                 ASSERT_TRUE(!box.touches({zoom, x, y}) || contains(tiles, {zoom, x, y}))
                     << testing::PrintToString(chunk) << " in tile " << x << ", " << y;
-        EXPECT_LE(tiles.size(), zoom > 0 ? 40u : 9u) << "few more than are touched";
+        const auto rows = static_cast<std::size_t>(heights.layers() / 256);
+        EXPECT_LE(tiles.size(), (zoom > 0 ? 40u : 9u) * rows) << "few more than are touched";
     }
 }
 
@@ -87,17 +92,19 @@ TEST(Isometric, ChunksSeenAreAllThatReachIntoATile) {
     std::mt19937 random(2);
     for (int round = 0; round < 100; ++round) {
         const int zoom = static_cast<int>(random() % 13) + kMinZoom;
-        const std::vector<IsometricTile> seeing = isometricTilesShowing(randomChunk(random, zoom), zoom);
+        const world::Heights heights = kSomeHeights[random() % std::size(kSomeHeights)];
+        const std::vector<IsometricTile> seeing =
+            isometricTilesShowing(randomChunk(random, zoom), zoom, heights);
         const IsometricTile tile = seeing[random() % seeing.size()];
-        const std::vector<ChunkPos> chunks = visibleChunks(tile);
+        const std::vector<ChunkPos> chunks = visibleChunks(tile, heights);
         for (const ChunkPos chunk : chunks) {
             ASSERT_TRUE(world::isInWorld(chunk));
             ASSERT_EQ(chunk.level, levelOf(zoom));
-            ASSERT_TRUE(!boxOf(chunk, zoom).touches(tile) ||
-                        contains(isometricTilesShowing(chunk, zoom), tile));
+            ASSERT_TRUE(!boxOf(chunk, zoom, heights).touches(tile) ||
+                        contains(isometricTilesShowing(chunk, zoom, heights), tile));
             // The chunks around those that are in the list have to be in it as well, where they are seen.
             for (const ChunkPos near : world::chunksWithin(chunk, 1))
-                ASSERT_TRUE(!world::isInWorld(near) || !boxOf(near, zoom).touches(tile) ||
+                ASSERT_TRUE(!world::isInWorld(near) || !boxOf(near, zoom, heights).touches(tile) ||
                             contains(chunks, near))
                     << testing::PrintToString(near);
         }
@@ -109,9 +116,9 @@ TEST(Isometric, ChunksSeenAreAllThatReachIntoATile) {
 TEST(Isometric, NoChunkIsSeenBeyondTheWorld) {
     for (const std::int32_t far :
          {std::numeric_limits<std::int32_t>::min(), 1 << 30, std::numeric_limits<std::int32_t>::max()}) {
-        EXPECT_TRUE(visibleChunks({0, far, 0}).empty());
-        EXPECT_TRUE(visibleChunks({2, 0, far}).empty());
-        EXPECT_TRUE(visibleChunks({-10, far, far}).empty());
+        EXPECT_TRUE(visibleChunks({0, far, 0}, {}).empty());
+        EXPECT_TRUE(visibleChunks({2, 0, far}, {}).empty());
+        EXPECT_TRUE(visibleChunks({-10, far, far}, {}).empty());
     }
 }
 
@@ -137,7 +144,7 @@ TEST(Isometric, AColumnStandsWhereTheFormulaSays) {
         const std::array<SurfacePtr, 1> surfaces{std::make_shared<const Surface>(surface)};
         const world::PackedColor tint = world::kNeutralTint;
         const base::Image image =
-            paintIsometric(tile, {std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, redAndGreen());
+            paintIsometric(tile, {{}, std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, redAndGreen());
         ASSERT_EQ(image.width, 256);
         ASSERT_EQ(image.height, 256);
         // Its top is ten blocks above the ground, its sides beneath, the southern one at the left.
@@ -161,9 +168,9 @@ TEST(Isometric, WhatIsNearerHidesWhatIsFarther) {
     const std::array<SurfacePtr, 1> surfaces{std::make_shared<const Surface>(surface)};
     const world::PackedColor tint = world::kNeutralTint;
     int red = 0, green = 0;
-    for (const IsometricTile& tile : isometricTilesShowing(chunk, 0)) {
+    for (const IsometricTile& tile : isometricTilesShowing(chunk, 0, {})) {
         const base::Image image =
-            paintIsometric(tile, {std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, redAndGreen());
+            paintIsometric(tile, {{}, std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, redAndGreen());
         for (std::size_t k = 0; k < image.rgba.size(); k += 4) {
             red += image.rgba[k] > 0;
             green += image.rgba[k + 1] > 0;
@@ -181,7 +188,7 @@ TEST(Isometric, TilesShowAllThatReachesIntoThem) {
         Surface surface;
         for (SurfaceColumn& column : surface) {
             column.top = column.under = static_cast<world::BlockId>(1 + random() % 2);
-            column.topZ = column.underZ = static_cast<std::uint8_t>(random() % 256);
+            column.topZ = column.underZ = static_cast<std::int16_t>(random() % 256);
         }
         return std::make_shared<const Surface>(surface);
     };
@@ -197,9 +204,9 @@ TEST(Isometric, TilesShowAllThatReachesIntoThem) {
             std::vector<SurfacePtr> surfaces;
             for (const ChunkPos chunk : chunks) surfaces.push_back(surfaceAt(chunk));
             const std::vector<world::PackedColor> tints(chunks.size(), world::kNeutralTint);
-            return paintIsometric(tile, {chunks, surfaces, tints}, colors);
+            return paintIsometric(tile, {{}, chunks, surfaces, tints}, colors);
         };
-        const std::vector<ChunkPos> seen = visibleChunks(tile);
+        const std::vector<ChunkPos> seen = visibleChunks(tile, {});
         std::vector<ChunkPos> more;
         for (const ChunkPos chunk : seen)
             for (const ChunkPos near : world::chunksWithin(chunk, 2)) more.push_back(near);
@@ -234,7 +241,7 @@ std::array<int, 4> topPixel(const SurfaceColumn& column, double z) {
     const std::array<SurfacePtr, 1> surfaces{std::make_shared<const Surface>(surface)};
     const world::PackedColor tint = world::kNeutralTint;
     return pixelAt(
-        paintIsometric(tile, {std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, colorsWithLiquids()),
+        paintIsometric(tile, {{}, std::span(&chunk, 1), surfaces, std::span(&tint, 1)}, colorsWithLiquids()),
         tile, right, down);
 }
 

@@ -77,7 +77,7 @@ TEST_P(MapEdgeTest, TheIsometricViewAtAllZooms) {
         const MapTile tile{Layer::Isometric, zoom, static_cast<std::int32_t>(std::floor(pixel.x)),
                            static_cast<std::int32_t>(std::floor(pixel.y))};
         ASSERT_TRUE(isInWorld(tile)) << zoom;
-        const std::vector<ChunkPos> chunks = MapPainter::chunksFor(tile);
+        const std::vector<ChunkPos> chunks = chunksFor(tile, {});
         EXPECT_TRUE(std::ranges::find(chunks, GetParam().chunk(levelOf(zoom))) != chunks.end()) << zoom;
         const auto png = painter_.paint(tile, {});
         ASSERT_TRUE(png) << png.error().message;
@@ -90,10 +90,10 @@ TEST_P(MapEdgeTest, TilesOfTheLastChunk) {
     for (int level = 0; level <= levelOf(kMinZoom); ++level) {
         const ChunkPos chunk = GetParam().chunk(level);
         std::size_t inWorld = 0;
-        for (const MapTile& tile : MapPainter::tilesShowing(chunk)) {
+        for (const MapTile& tile : tilesShowing(chunk, {})) {
             if (!isInWorld(tile)) continue;
             ++inWorld;
-            const std::vector<ChunkPos> chunks = MapPainter::chunksFor(tile);
+            const std::vector<ChunkPos> chunks = chunksFor(tile, {});
             EXPECT_TRUE(std::ranges::find(chunks, chunk) != chunks.end()) << pathOf(tile);
         }
         EXPECT_GE(inWorld, 4u) << level;

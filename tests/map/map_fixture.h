@@ -26,8 +26,7 @@ inline void PrintTo(ChunkPos pos, std::ostream* out) {
 namespace terrane::map {
 
 inline void PrintTo(const SurfaceColumn& column, std::ostream* out) {
-    *out << column.top << " at " << int{column.topZ} << " over " << column.under << " at "
-         << int{column.underZ};
+    *out << column.top << " at " << column.topZ << " over " << column.under << " at " << column.underZ;
 }
 
 constexpr std::uint64_t kMapSeed = 1;
@@ -68,8 +67,12 @@ inline world::ChunkPtr chunkWithPillar(const gen::LevelGenerators& generators, w
 }
 
 inline SurfaceColumn randomColumn(std::mt19937& random) {
-    return {static_cast<world::BlockId>(random()), static_cast<world::BlockId>(random()),
-            static_cast<std::uint8_t>(random()), static_cast<std::uint8_t>(random())};
+    const auto randomHeight = [&] {
+        return static_cast<std::int16_t>(world::kLowestBottom +
+                                         static_cast<int>(random() % world::kMostLayers));
+    };
+    return {static_cast<world::BlockId>(random()), static_cast<world::BlockId>(random()), randomHeight(),
+            randomHeight()};
 }
 
 }  // namespace terrane::map

@@ -53,26 +53,26 @@ TEST(MapPainter, TilesOfAChunkAreThoseThatLookAtIt) {
     std::mt19937 random(1);
     for (int round = 0; round < 300; ++round) {
         const MapTile tile = randomTile(random);
-        const std::vector<ChunkPos> chunks = MapPainter::chunksFor(tile);
+        const std::vector<ChunkPos> chunks = chunksFor(tile, {});
         ASSERT_EQ(chunks.size(), std::set<ChunkPos>(chunks.begin(), chunks.end()).size());
         for (const ChunkPos chunk : chunks) {
             ASSERT_EQ(chunk.level, levelOf(tile.zoom));
             if (!world::isInWorld(chunk) || (tile.layer == Layer::Isometric && random() % 8 > 0)) continue;
-            const std::vector<MapTile> tiles = MapPainter::tilesShowing(chunk);
+            const std::vector<MapTile> tiles = tilesShowing(chunk, {});
             // An isometric tile looks at a few more chunks than reach into it (isometric_test.cpp).
             ASSERT_TRUE(tile.layer == Layer::Isometric || isAmong(tiles, tile))
                 << nameOf(tile.layer) << " " << tile.zoom << " " << tile.x << " " << tile.y;
             for (const MapTile& other : tiles)
-                ASSERT_TRUE(isAmong(MapPainter::chunksFor(other), chunk)) << testing::PrintToString(chunk);
+                ASSERT_TRUE(isAmong(chunksFor(other, {}), chunk)) << testing::PrintToString(chunk);
             if (random() % 8 > 0) break;
         }
     }
 }
 
 TEST(MapPainter, HighLevelsHaveNoTiles) {
-    EXPECT_TRUE(MapPainter::tilesShowing({0, 0, 11}).empty());
-    EXPECT_TRUE(MapPainter::tilesShowing({0, 0, 15}).empty());
-    EXPECT_FALSE(MapPainter::tilesShowing({0, 0, 10}).empty());
+    EXPECT_TRUE(tilesShowing({0, 0, 11}, {}).empty());
+    EXPECT_TRUE(tilesShowing({0, 0, 15}, {}).empty());
+    EXPECT_FALSE(tilesShowing({0, 0, 10}, {}).empty());
 }
 
 // Four tiles that meet at a corner, painted as one image.
@@ -136,7 +136,7 @@ TEST(MapPainter, AnEditChangesTheTilesOfItsChunk) {
     MapPainter painter = painterOf("flat");
     const ChunkPos chunk{0, 15};
     const EditedChunk edited[] = {{chunk, chunkWithPillar(generatorsOf("flat"), chunk, 15, 15, "lamp_red")}};
-    for (const MapTile& tile : MapPainter::tilesShowing(chunk)) {
+    for (const MapTile& tile : tilesShowing(chunk, {})) {
         if (!painter.hasLayer(tile.layer) || tile.zoom == 1) continue;
         const bool isChanged = paintedTile(painter, tile).rgba != paintedTile(painter, tile, edited).rgba;
         const bool isItsOwn =
@@ -148,7 +148,7 @@ TEST(MapPainter, AnEditChangesTheTilesOfItsChunk) {
         EXPECT_NE(paintedTile(painter, {layer, 0, 0, 1}).rgba,
                   paintedTile(painter, {layer, 0, 0, 1}, edited).rgba);
     int changed = 0;
-    for (const MapTile& tile : MapPainter::tilesShowing(chunk))
+    for (const MapTile& tile : tilesShowing(chunk, {}))
         if (tile.layer == Layer::Isometric && tile.zoom == 0)
             changed += paintedTile(painter, tile).rgba != paintedTile(painter, tile, edited).rgba;
     EXPECT_GT(changed, 0);
@@ -258,12 +258,12 @@ TEST(MapPainter, BiomesNeedNoSurfacesAndNoEdits) {
     MapPainter whole = painterOf("continents");
     for (const int zoom : {2, 0, -5}) {
         const MapTile tile{Layer::Biome, zoom, 1, -2};
-        EXPECT_TRUE(MapPainter::chunksFor(tile).empty());
+        EXPECT_TRUE(chunksFor(tile, {}).empty());
         EXPECT_TRUE(paintedTile(painter, tile).rgba == paintedTile(whole, tile).rgba);
         EXPECT_EQ(columnsOf(tile).width, zoom == 2 ? 64 : 256) << "no margin";
     }
     for (const int level : {0, 5})
-        for (const MapTile& tile : MapPainter::tilesShowing({3, 4, static_cast<std::uint8_t>(level)}))
+        for (const MapTile& tile : tilesShowing({3, 4, static_cast<std::uint8_t>(level)}, {}))
             EXPECT_NE(tile.layer, Layer::Biome);
     EXPECT_FALSE(painter.paint({Layer::Day, 0, 0, 0}, {})) << "other layers need them";
 }

@@ -15,8 +15,13 @@ TEST(Overlays, HeightsHaveColors) {
     EXPECT_GT(heightColor(79).blue, heightColor(79).green) << "the sea";
     EXPECT_GT(heightColor(80).green, heightColor(80).blue) << "the shore";
     for (int z = 1; z < 80; ++z) EXPECT_GE(heightColor(z).blue, heightColor(z - 1).blue) << z;
-    EXPECT_EQ(heightColor(-1), heightColor(0));
-    EXPECT_EQ(heightColor(300), heightColor(255));
+    for (int z = world::kLowestBottom + 100; z <= 0; ++z)
+        EXPECT_LE(heightColor(z - 100).blue, heightColor(z).blue) << "deeper ground is darker";
+    EXPECT_LT(heightColor(-1500).blue, heightColor(0).blue);
+    for (int z = 256; z < world::kHighestTop; ++z) EXPECT_LE(heightColor(z).green, heightColor(z - 1).green);
+    EXPECT_LT(heightColor(1800).green, heightColor(1000).green);
+    EXPECT_EQ(heightColor(world::kLowestBottom - 1), heightColor(world::kLowestBottom));
+    EXPECT_EQ(heightColor(world::kHighestTop), heightColor(world::kHighestTop - 1));
 }
 
 TEST(Overlays, EachBiomeHasAColorOfItsOwn) {

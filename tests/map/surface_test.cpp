@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tests/map/map_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::map {
 namespace {
@@ -25,7 +26,7 @@ SurfaceColumn columnByBlocks(const world::Chunk& chunk, int x, int y) {
         const SurfaceKind kind = block < kSomeKinds.size() ? kSomeKinds[block] : SurfaceKind::Ground;
         if (kind == SurfaceKind::Nothing) continue;
         column.top = block;
-        column.topZ = static_cast<std::uint8_t>(z);
+        column.topZ = static_cast<std::int16_t>(z);
         if (kind == SurfaceKind::Ground) ground = {block, z};
         if (kind == SurfaceKind::Ground || kind == SurfaceKind::Liquid) groundOrLiquid = {block, z};
     }

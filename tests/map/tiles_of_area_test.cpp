@@ -19,7 +19,8 @@ BlockRect randomArea(std::mt19937& random) {
         return static_cast<std::int64_t>(random() % static_cast<unsigned>(end));
     };
     const std::int64_t x = below(4000) - 2000, y = below(4000) - 2000;
-    return {x, y, x + 1 + below(700), y + 1 + below(700)};
+    constexpr world::Heights kSome[] = {{}, {-64, 320}, {-1024, 1024}, {512, 768}};
+    return {x, y, x + 1 + below(700), y + 1 + below(700), kSome[random() % std::size(kSome)]};
 }
 
 TEST(TilesOfArea, SeenFromAboveTheyShareABlock) {
@@ -40,7 +41,7 @@ TEST(TilesOfArea, SeenFromAboveTheyShareABlock) {
     }
 }
 
-// Points of the area, from the ground to the world's top, by the formula of isometric.h.
+// Points of the area, from the world's bottom to its top, by the formula of isometric.h.
 TEST(TilesOfArea, SeenAskewTheyHaveAPointOfIt) {
     std::mt19937 random(2);
     int withPoints = 0, withoutPoints = 0;
@@ -56,7 +57,7 @@ TEST(TilesOfArea, SeenAskewTheyHaveAPointOfIt) {
                 };
                 const double x = between(area.x0, area.x1, k % kSteps),
                              y = between(area.y0, area.y1, k / kSteps % kSteps),
-                             z = between(0, 256, k / kSteps / kSteps);
+                             z = between(area.heights.bottom, area.heights.top, k / kSteps / kSteps);
                 touched.emplace(static_cast<int>(std::floor((-x - y) / size)),
                                 static_cast<int>(std::floor(((y - x) / 2 - kIsometricHeight * z) / size)));
             }
@@ -107,7 +108,7 @@ TEST(TilesOfArea, EndWithTheWorld) {
         EXPECT_TRUE(tile.layer == Layer::Isometric || (tile.x > 0 && tile.y > 0));
     }
     const BlockRect all =
-        blocksOf({world::kMinChunk, world::kMinChunk, world::kMaxChunk + 1, world::kMaxChunk + 1});
+        blocksOf({world::kMinChunk, world::kMinChunk, world::kMaxChunk + 1, world::kMaxChunk + 1}, {});
     EXPECT_EQ(all.x0, -end);
     EXPECT_EQ(all.y1, end);
     EXPECT_GT(countTiles(all, kAllLayers, kMinZoom, kMaxZoom), std::int64_t{1} << 52) << "no overflow";

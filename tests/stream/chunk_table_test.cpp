@@ -159,19 +159,25 @@ TEST_F(ChunkTableTest, WhatIsRequestedOftenIsLoadedOnce) {
     EXPECT_TRUE(popLoadRequests(table_, kAll).empty());
 }
 
+mesh::MeshSectionSet meshSections(std::initializer_list<int> numbers) {
+    mesh::MeshSectionSet set;
+    for (const int number : numbers) set.add(number);
+    return set;
+}
+
 TEST_F(ChunkTableTest, WholeChunksAreMeshedAgainByJobsAndEditsAtOnce) {
     setView(table_, {0, 0}, 1);
     settle();
     requestWholeMesh(table_, {0, 0});
     requestWholeMesh(table_, {1, 0});
-    requestEditedMesh(table_, {1, 0}, 0b10);
-    requestEditedMesh(table_, {-1, 0}, 0b100);
-    requestEditedMesh(table_, {-1, 0}, 0b1);
-    requestEditedMesh(table_, {40, 0}, 0b1);
+    requestEditedMesh(table_, {1, 0}, meshSections({1}));
+    requestEditedMesh(table_, {-1, 0}, meshSections({-200}));
+    requestEditedMesh(table_, {-1, 0}, meshSections({0}));
+    requestEditedMesh(table_, {40, 0}, meshSections({0}));
     const auto edited = popEditedMeshes(table_, kAll);
     ASSERT_EQ(edited.size(), 2u) << "absent chunks are passed over";
     EXPECT_EQ(edited[0].meshSections, mesh::kAllMeshSections) << "all of it had to be meshed";
-    EXPECT_EQ(edited[1].meshSections, 0b101u);
+    EXPECT_EQ(edited[1].meshSections, meshSections({0, -200}));
     const auto jobs = popMeshJobs(table_, kAll);
     ASSERT_EQ(jobs.size(), 1u);
     EXPECT_EQ(jobs[0].pos, (ChunkPos{0, 0}));
@@ -185,7 +191,7 @@ TEST_F(ChunkTableTest, AnEditOutdatesTheJobThatMeshesTheChunk) {
     settle();
     requestWholeMesh(table_, {0, 0});
     const auto jobs = popMeshJobs(table_, kAll);
-    requestEditedMesh(table_, {0, 0}, 0b10);
+    requestEditedMesh(table_, {0, 0}, meshSections({1}));
     EXPECT_EQ(popEditedMeshes(table_, kAll)[0].meshSections, mesh::kAllMeshSections);
     EXPECT_FALSE(finishMeshJob(table_, jobs[0]));
 }

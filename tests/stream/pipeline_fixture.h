@@ -10,6 +10,7 @@
 #include "terrane/gen/language/builder.h"
 #include "terrane/stream/chunk_pipeline.h"
 #include "tests/base/wait_until.h"
+#include "tests/support/default_heights.h"
 #include "tests/world/content_blocks.h"
 
 namespace terrane::stream {
@@ -92,8 +93,7 @@ class PipelineTest : public testing::Test {
     static light::ChunkLightPtr withBricks(const light::ChunkLightPtr& old, const ChunkChange& change) {
         if (!old) return change.light;
         auto light = std::make_shared<light::ChunkLight>(*old);
-        for (int n = 0; n < world::kSectionsPerChunk; ++n)
-            if ((change.bricks >> n & 1) != 0) light->setBrick(n, change.light->brick(n));
+        change.bricks.forEach([&](int n) { light->setBrick(n, change.light->brick(n)); });
         return light;
     }
 

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "terrane/mesh/chunk_mesher.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::stream {
 namespace {

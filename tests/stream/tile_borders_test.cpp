@@ -42,7 +42,8 @@ class TileBordersTest : public PipelineTest {
     mesh::ChunkMesh expected(const TileView& view, ChunkPos pos) const {
         mesh::MeshBlocks blocks = meshBlocksOf(chunksAround(world_, pos));
         for (std::size_t side = 0; side < 4; ++side) {
-            if ((openSides(view, pos) >> side & 1) != 0) blocks[1 + side] = borderChunk(contentBlocks());
+            if ((openSides(view, pos) >> side & 1) != 0)
+                blocks[1 + side] = borderChunk(contentBlocks(), world_.heights());
         }
         return *meshOf(blocks, contentBlocks(), {});
     }

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "terrane/view/camera_path.h"
+#include "tests/support/default_heights.h"
 #include "tests/support/depth.h"
 #include "tests/view/drawn_session.h"
 

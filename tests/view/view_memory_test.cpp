@@ -72,8 +72,9 @@ class ViewMemoryTest : public gpu::GlTest {
         EXPECT_EQ(frames(player, {{-980, -60, 100}, 30, -12}, kRequested), 0);
         EXPECT_EQ(player.view->viewDistance(), reached);
         EXPECT_EQ(frames(player, kCamera, kRequested), 0);
-        // Chunks behind the fog may be others: the fog rounds to a step beside the sky.
-        EXPECT_LE(largestDifference(draw(player, kCamera), image), 1);
+        // Chunks behind the fog may be others: the fog rounds to a step of the HDR image beside the sky, and
+        // a step of its few bits is up to two of the screen's.
+        EXPECT_LE(largestDifference(draw(player, kCamera), image), 2);
     }
 };
 

@@ -8,10 +8,11 @@ namespace {
 constexpr std::int64_t kWorldEnd = std::int64_t{1} << 31;
 
 TEST(BlockArea, AnAreaOfTheWorldIsTaken) {
-    EXPECT_TRUE(checkArea({0, 0, 0, 1, 1, 1}));
-    EXPECT_TRUE(checkArea({-kWorldEnd, -kWorldEnd, 0, -kWorldEnd + 2048, -kWorldEnd + 2048, 256}));
-    EXPECT_TRUE(checkArea({kWorldEnd - 1, kWorldEnd - 1, 255, kWorldEnd, kWorldEnd, 256}));
-    EXPECT_TRUE(checkArea({0, 0, 0, 1 << 15, 1 << 15, 1}));
+    EXPECT_TRUE(checkArea({0, 0, 0, 1, 1, 1}, {}));
+    EXPECT_TRUE(checkArea({-kWorldEnd, -kWorldEnd, 0, -kWorldEnd + 2048, -kWorldEnd + 2048, 256}, {}));
+    EXPECT_TRUE(checkArea({kWorldEnd - 1, kWorldEnd - 1, 255, kWorldEnd, kWorldEnd, 256}, {}));
+    EXPECT_TRUE(checkArea({0, 0, 0, 1 << 15, 1 << 15, 1}, {}));
+    EXPECT_TRUE(checkArea({0, 0, -64, 1, 1, 320}, {-64, 320}));
 }
 
 TEST(BlockArea, OthersAreRefused) {
@@ -27,10 +28,13 @@ TEST(BlockArea, OthersAreRefused) {
         {INT64_MIN, INT64_MIN, 0, INT64_MAX, INT64_MAX, 256},
     };
     for (const BlockArea& area : refused) {
-        const auto checked = checkArea(area);
+        const auto checked = checkArea(area, {});
         ASSERT_FALSE(checked) << area.x0 << " " << area.x1;
         EXPECT_EQ(checked.error().code, base::ErrorCode::BadInput);
     }
+    EXPECT_FALSE(checkArea({0, 0, -65, 1, 1, 0}, {-64, 320}));
+    EXPECT_FALSE(checkArea({0, 0, 0, 1, 1, 321}, {-64, 320}));
+    EXPECT_FALSE(checkArea({0, 0, 0, 1, 1, 1}, {512, 1024}));
 }
 
 TEST(BlockArea, ChunksOfAnArea) {

@@ -5,6 +5,7 @@
 
 #include "terrane/volume/read_chunks.h"
 #include "terrane/world/chunk.h"
+#include "tests/support/default_heights.h"
 #include "tests/volume/volume_fixture.h"
 
 namespace terrane::volume {

@@ -81,7 +81,7 @@ TEST(ReadSurfaces, AColumnWithoutBlocksHasNoHeight) {
     const auto world = openWorld("flat");
     ASSERT_TRUE(writeArea(*world, {3, 4, 0, 4, 5, 256}, {std::span(&world::kAir, 1)}, {}));
     const Read read = surfacesOf(*world, {0, 3, 4, 5, 5});
-    EXPECT_THAT(read.heights, testing::ElementsAre(kNoHeight, 80));
+    EXPECT_THAT(read.heights, testing::ElementsAre(noHeight({}), 80));
     EXPECT_THAT(read.blocks, testing::ElementsAre(world::kAir, contentBlock("grass")));
 }
 

@@ -5,6 +5,7 @@
 
 #include "terrane/volume/areas.h"
 #include "terrane/volume/read_surfaces.h"
+#include "tests/support/default_heights.h"
 #include "tests/volume/volume_fixture.h"
 
 namespace terrane::volume {
@@ -28,7 +29,7 @@ class AreaEdgeTest : public testing::TestWithParam<AreaCorner> {};
 TEST_P(AreaEdgeTest, BlocksAreWrittenAndRead) {
     const auto world = openWorld("flat");
     const BlockArea area = areaAt(GetParam(), 20);
-    ASSERT_TRUE(checkArea(area));
+    ASSERT_TRUE(checkArea(area, {}));
     const std::vector<world::BlockId> before = blocksOf(*world, area);
     const world::BlockId sand = contentBlock("sand");
     EXPECT_EQ(std::ranges::count(before, sand), 0);
@@ -80,11 +81,11 @@ INSTANTIATE_TEST_SUITE_P(Corners, AreaEdgeTest,
 TEST(AreaEdge, NothingLiesBeyond) {
     for (const std::int64_t less : {-1, 0, 1}) {
         const bool isIn = less >= 0;
-        EXPECT_EQ(checkArea({kEdge - less - 1, 0, 0, kEdge - less, 1, 1}).has_value(), isIn);
-        EXPECT_EQ(checkArea({0, less - kEdge, 0, 1, less - kEdge + 1, 1}).has_value(), isIn);
+        EXPECT_EQ(checkArea({kEdge - less - 1, 0, 0, kEdge - less, 1, 1}, {}).has_value(), isIn);
+        EXPECT_EQ(checkArea({0, less - kEdge, 0, 1, less - kEdge + 1, 1}, {}).has_value(), isIn);
     }
-    EXPECT_FALSE(checkArea({-kEdge, -kEdge, 0, kEdge, kEdge, 256})) << "2^72 blocks";
-    EXPECT_FALSE(checkArea({INT64_MIN, INT64_MIN, INT64_MIN, INT64_MAX, INT64_MAX, INT64_MAX}));
+    EXPECT_FALSE(checkArea({-kEdge, -kEdge, 0, kEdge, kEdge, 256}, {})) << "2^72 blocks";
+    EXPECT_FALSE(checkArea({INT64_MIN, INT64_MIN, INT64_MIN, INT64_MAX, INT64_MAX, INT64_MAX}, {}));
 }
 
 }  // namespace

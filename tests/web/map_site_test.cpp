@@ -8,6 +8,7 @@
 #include "terrane/store/overlay_store.h"
 #include "tests/base/temp_folder.h"
 #include "tests/map/map_fixture.h"
+#include "tests/support/default_heights.h"
 #include "tests/web/web_fixture.h"
 
 namespace terrane::web {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/net/server_fixture.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::web {
 namespace {
