@@ -1,4 +1,5 @@
 #include "bench/level_figures.h"
+#include "tests/support/default_heights.h"
 
 #include <fmt/format.h>
 

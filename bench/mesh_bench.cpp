@@ -36,8 +36,9 @@ void meshChunks(benchmark::State& state, const bench::NamedInput& input, mesh::M
         benchmark::DoNotOptimize(meshChunk(inputs[next], scratch));
         next = (next + 1) % inputs.size();
     }
+    const int voxels = world::kBlocksPerLayer * inputs.front().center->heights().layers();
     state.counters["time/voxel"] = benchmark::Counter(
-        world::kBlocksPerChunk, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+        voxels, benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
     state.counters["quads"] = static_cast<double>(quadCount) / static_cast<double>(inputs.size());
     state.SetLabel(digest.hex());
 }

@@ -56,7 +56,7 @@ void onGpu(benchmark::State& state, const bench::MeshWorld& world) {
         mesher.count(inputs);
         std::vector<std::uint32_t> firstQuads;
         std::uint32_t total = 0;
-        for (const mesh::MeshSection& meshSection : mesher.meshSections()) {
+        for (const mesh::MeshSection& meshSection : mesher.meshSections().all) {
             firstQuads.push_back(total);
             total += mesh::quadCount(meshSection);
         }

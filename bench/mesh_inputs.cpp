@@ -9,6 +9,7 @@
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gen/language/builder.h"
 #include "terrane/shared/hash.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::bench {
 namespace {
@@ -105,6 +106,20 @@ MeshWorld terrain() {
     return fromBlocks(terrainAt);
 }
 
+// The terrain in a world of 4,096 layers: stone below, air above.
+MeshWorld tallTerrain() {
+    constexpr world::Heights kTall{world::kLowestBottom, world::kHighestTop};
+    std::vector<world::Chunk> chunks;
+    for (const world::Chunk& low : terrain().chunks) {
+        world::Chunk& chunk = chunks.emplace_back(kTall);
+        for (int number = kTall.firstSection(); number < low.heights().firstSection(); ++number)
+            chunk.setSection(number, world::Section(blockId("stone")));
+        for (int number = low.heights().firstSection(); number < low.heights().endSection(); ++number)
+            chunk.setSection(number, low.section(number));
+    }
+    return MeshWorld(std::move(chunks));
+}
+
 // Nothing but ground of four types.
 MeshWorld perlinHills() {
     gen::GeneratorBuilder builder("hills", blocks());
@@ -166,6 +181,7 @@ constexpr std::array kInputs = {NamedInput{"ocean", scene<0>},
                                 NamedInput{"landscape", scene<2>},
                                 NamedInput{"cave", scene<3>},
                                 NamedInput{"terrain", terrain},
+                                NamedInput{"tall_terrain", tallTerrain},
                                 NamedInput{"perlin_hills", perlinHills},
                                 NamedInput{"perlin_caves", perlinCaves},
                                 NamedInput{"random_cubes", randomCubes},

@@ -13,6 +13,7 @@
 #include "terrane/gen/generator.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/light/chunk_light.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::bench {
 

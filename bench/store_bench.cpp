@@ -79,7 +79,7 @@ void decode(benchmark::State& state) {
     const std::vector<store::Bytes> all = encodeAll();
     for (auto _ : state)
         for (const store::Bytes& bytes : all)
-            benchmark::DoNotOptimize(orExit(store::decodeChunk(bytes, ids())));
+            benchmark::DoNotOptimize(orExit(store::decodeChunk(bytes, ids(), {})));
     setRate(state);
 }
 BENCHMARK(decode)->Unit(benchmark::kMillisecond);
@@ -87,7 +87,7 @@ BENCHMARK(decode)->Unit(benchmark::kMillisecond);
 void verify(benchmark::State& state) {
     const std::vector<store::Bytes> all = encodeAll();
     for (auto _ : state)
-        for (const store::Bytes& bytes : all) benchmark::DoNotOptimize(store::verifyChunk(bytes));
+        for (const store::Bytes& bytes : all) benchmark::DoNotOptimize(store::verifyChunk(bytes, {}));
     setRate(state);
 }
 BENCHMARK(verify)->Unit(benchmark::kMillisecond);

@@ -31,8 +31,8 @@ char letterOf(const std::string& block) {
 }
 
 std::string topBlock(const world::Chunk& chunk, const world::BlockRegistry& blocks, int x, int y) {
-    int z = world::kChunkHeight - 1;
-    while (z > 0 && chunk.block(world::blockIndex(x, y, z)) == world::kAir) --z;
+    int z = chunk.heights().top - 1;
+    while (z > chunk.heights().bottom && chunk.block(world::blockIndex(x, y, z)) == world::kAir) --z;
     return blocks.type(chunk.block(world::blockIndex(x, y, z))).name;
 }
 

@@ -53,11 +53,12 @@ void writeOreHills(gen::GeneratorBuilder& g) {
 
 gen::GeneratorCatalogue makeCatalogue() {
     gen::GeneratorCatalogue catalogue = gen::builtInGenerators();
-    catalogue.push_back({kGenerator, kGeneratorVersion, [](const world::BlockRegistry& blocks, int level) {
-                             gen::GeneratorBuilder g(kGenerator, blocks, level);
-                             writeOreHills(g);
-                             return g.finish();
-                         }});
+    catalogue.push_back(
+        {kGenerator, kGeneratorVersion, [](const world::BlockRegistry& blocks, gen::GraphRequest request) {
+             gen::GeneratorBuilder g(kGenerator, blocks, request);
+             writeOreHills(g);
+             return g.finish();
+         }});
     return catalogue;
 }
 
@@ -73,7 +74,8 @@ base::Result<game::SessionParts> openWorld(const std::string& path) {
     auto store = store::openWorld(store::worldLocation(path), *blocks, request);
     if (!store) return tl::unexpected(store.error());
     const store::WorldIdentity& world = (*store)->identity();
-    auto generators = gen::makeLevelGenerators(world.generator, *blocks, world.seed, catalogue);
+    auto generators =
+        gen::makeLevelGenerators(world.generator, *blocks, world.seed, catalogue, world.heights);
     if (!generators) return tl::unexpected(generators.error());
     const unsigned workers = std::max(2u, std::thread::hardware_concurrency()) - 1;
     return game::SessionParts{blocks, std::move(*generators), std::move(*store), workers};

@@ -45,11 +45,12 @@ struct Site {
     }
     // The highest block of the ground or the sea.
     int groundAt(int x, int y) const {
-        int z = world::kChunkHeight - 1;
+        const world::Heights heights = session.world().heights();
+        int z = heights.top - 1;
         const auto isGround = [&](const std::string& name) {
             return name == "water" || (session.blocks().find(name)->opaqueCube && !name.ends_with("_log"));
         };
-        while (z > 0 && !isGround(nameAt({x, y, z}))) --z;
+        while (z > heights.bottom && !isGround(nameAt({x, y, z}))) --z;
         return z;
     }
     bool isWater(int x, int y) const { return nameAt({x, y, groundAt(x, y)}) == "water"; }
@@ -64,7 +65,8 @@ void loadAround(game::Session& session, world::ChunkPos middle) {
 
 // Whether 7 × 7 blocks from the corner on are dry and nearly level.
 bool isGoodGround(const Site& site, int x, int y, int& ground) {
-    int lowest = world::kChunkHeight, highest = 0;
+    const world::Heights heights = site.session.world().heights();
+    int lowest = heights.top, highest = heights.bottom;
     for (int k = 0; k < 49; ++k) {
         const int px = x + k % 7, py = y + k / 7;
         if (site.isWater(px, py)) return false;
@@ -170,7 +172,8 @@ base::Result<int> build(const std::string& path, BlockPos middle) {
     auto opened = store::openWorld(store::worldLocation(path), *blocks, request);
     if (!opened) return tl::unexpected(opened.error());
     const store::WorldIdentity& world = (*opened)->identity();
-    auto generators = gen::makeLevelGenerators(world.generator, *blocks, world.seed);
+    auto generators = gen::makeLevelGenerators(world.generator, *blocks, world.seed, gen::builtInGenerators(),
+                                               world.heights);
     if (!generators) return tl::unexpected(generators.error());
     game::Session session({std::move(blocks), std::move(*generators), std::move(*opened), 2});
     loadAround(session, {middle.x >> 4, middle.y >> 4});

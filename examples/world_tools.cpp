@@ -64,7 +64,7 @@ base::Result<void> importModel(const fs::path& folder) {
 }
 
 base::Result<void> exportArea(const fs::path& folder) {
-    io::ExportOptions options{flatLand(), worldIn(folder), io::boxOf(kArea), ""};
+    io::ExportOptions options{flatLand(), worldIn(folder), kArea, ""};
     const auto source = TERRANE_TRY(io::openExport(options));
     const auto mesh = TERRANE_TRY(io::exportGlb(source, folder / "area.glb"));
     const auto heights = TERRANE_TRY(io::exportNpyHeights(source, folder / "heights.npy"));
@@ -72,14 +72,14 @@ base::Result<void> exportArea(const fs::path& folder) {
 
     // Blocks of an area of any size as a NumPy array, square by square.
     base::JobSystem jobs(source.threads);
-    auto file = TERRANE_TRY(io::VolumeFile::create(folder / "blocks.npy", kArea));
+    auto file = TERRANE_TRY(io::VolumeFile::create(folder / "blocks.npy", kArea, source.generator.heights()));
     for (std::int64_t k = 0; k < io::squareCount(kArea); ++k) {
         io::LoadedSquare square(io::squareOf(kArea, k));
         TERRANE_TRY(square.load(source.save.get(), source.generator, jobs));
         TERRANE_TRY(file.write(square.area(), [&](int x, int y, auto values) {
             const world::Chunk& chunk = square.chunk(x / world::kChunkSize, y / world::kChunkSize);
-            for (int z = 0; z < world::kChunkHeight; ++z)
-                values[static_cast<std::size_t>(z)] = chunk.block(world::blockIndex(x & 15, y & 15, z));
+            for (int z = chunk.heights().bottom; std::uint16_t & value : values)
+                value = chunk.block(world::blockIndex(x & 15, y & 15, z++));
         }));
     }
     return file.finish();
@@ -130,7 +130,7 @@ base::Result<void> serve(const fs::path& folder) {
     net::ServerLoop loop;
     loop.stopRequested = [&] { return !players.decidedMs.empty() || Clock::now() > end; };
     loop.onTick = [&](double milliseconds) {
-        statistics.addTick(*host.state, milliseconds);
+        statistics.addTick(net::countsOf(*host.state), milliseconds);
         map->tick(milliseconds);
         player.update(Clock::now());
     };

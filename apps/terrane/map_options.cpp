@@ -151,6 +151,7 @@ base::Result<void> writeStaticMap(io::WorldOptions& worldOptions, const io::Save
     const web::StaticMapSettings settings{.folder = options.folder,
                                           .title = web::titleOf(save.world),
                                           .area = area,
+                                          .heights = worldOptions.heights.over({}),
                                           .layers = std::move(*layers),
                                           .maxZoom = options.maxZoom,
                                           .places = std::move(places)};

@@ -170,6 +170,14 @@ void addWorldOptions(CLI::App& command, io::WorldOptions& options) {
                                 fmt::join(gen::namesOf(gen::builtInGenerators()), ", ")))
         ->type_name("CHOICE")
         ->default_str(io::WorldOptions::kDefaultGenerator);
+    const auto addHeight = [&](const char* name, std::optional<int>& height, const char* description) {
+        command.add_option(name, height, description)
+            ->type_name("Z")
+            ->default_str("the generator's")
+            ->check(numberFrom(world::kLowestBottom, world::kHighestTop));
+    };
+    addHeight("--bottom", options.heights.bottom, "The lowest layer of the world, a multiple of 16");
+    addHeight("--top", options.heights.top, "The layer above the highest one of the world, a multiple of 16");
     addContentOption(command, options);
     command.add_option("--threads", options.threads, "Worker threads (default: one per CPU core)")
         ->check(numberFrom(1, 256));

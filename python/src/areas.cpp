@@ -13,23 +13,26 @@ namespace {
 
 using BlockArray = py::array_t<world::BlockId>;
 
-constexpr py::ssize_t kChunkSide = world::kChunkSize, kHeight = world::kChunkHeight;
-constexpr std::int64_t kMaxChunksInArray = volume::kMaxAreaBlocks / world::kBlocksPerChunk;
+constexpr py::ssize_t kChunkSide = world::kChunkSize;
+
+std::int64_t maxChunksInArray(world::Heights heights) {
+    return volume::kMaxAreaBlocks / (std::int64_t{world::kBlocksPerLayer} * heights.layers());
+}
 
 using ReadArea = base::Result<void>(volume::OpenedWorld&, const volume::BlockArea&, std::span<std::uint16_t>,
                                     const volume::ShouldContinue&);
 
 py::array_t<std::uint16_t> readArea(const PyWorld& self, const Arguments& arguments, ReadArea& read) {
-    const volume::BlockArea area = areaFrom(arguments["area"]);
     const auto world = self.opened();
+    const volume::BlockArea area = areaFrom(arguments["area"], world->heights());
     auto array = zeros<std::uint16_t>({area.height(), area.depth(), area.width()});
     withoutLock([&, values = valuesOf(array)] { return read(*world, area, values, untilInterrupted()); });
     return array;
 }
 
 py::array_t<std::uint8_t> readLight(const PyWorld& self, const Arguments& arguments) {
-    const volume::BlockArea area = areaFrom(arguments["area"]);
     const auto world = self.opened();
+    const volume::BlockArea area = areaFrom(arguments["area"], world->heights());
     auto light = zeros<std::uint8_t>({area.height(), area.depth(), area.width(), volume::kChannelCount});
     static_assert(sizeof(volume::LightLevels) == volume::kChannelCount);
     const std::span levels(reinterpret_cast<volume::LightLevels*>(light.mutable_data()),
@@ -57,20 +60,20 @@ BlockArray readChunk(const PyWorld& self, const Arguments& arguments) {
     };
     const world::ChunkPos pos = chunkPos(along("cx"), along("cy"), levelFrom(arguments["level"]));
     const auto world = self.opened();
-    auto blocks = zeros<world::BlockId>({kHeight, kChunkSide, kChunkSide});
+    auto blocks = zeros<world::BlockId>({world->heights().layers(), kChunkSide, kChunkSide});
     withoutLock([&, values = valuesOf(blocks)] {
         return volume::readChunkArrays(*world, std::span(&pos, 1), values, untilInterrupted());
     });
     return blocks;
 }
 
-std::vector<world::ChunkPos> chunksFrom(const Argument& positions, std::uint8_t level) {
+std::vector<world::ChunkPos> chunksFrom(const Argument& positions, std::uint8_t level, std::int64_t most) {
     constexpr const char* kExpected = "integers of shape (n, 2)";
     const py::array array = integerArrayFrom(positions, kExpected);
     if (array.ndim() != 2 || array.shape(1) != 2) refuse(positions, kExpected);
-    if (array.shape(0) > kMaxChunksInArray)
-        throw Failure({base::ErrorCode::BadInput, fmt::format("positions: {} chunks are more than {}",
-                                                              array.shape(0), kMaxChunksInArray)});
+    if (array.shape(0) > most)
+        throw Failure({base::ErrorCode::BadInput,
+                       fmt::format("positions: {} chunks are more than {}", array.shape(0), most)});
     const auto n = elementsOf<std::int32_t>(positions, array, world::kMinChunk, world::kMaxChunk);
     std::vector<world::ChunkPos> chunks;
     for (std::size_t k = 0; k < n.size(); k += 2) chunks.push_back(chunkPos(n[k], n[k + 1], level));
@@ -78,10 +81,12 @@ std::vector<world::ChunkPos> chunksFrom(const Argument& positions, std::uint8_t 
 }
 
 BlockArray readChunks(const PyWorld& self, const Arguments& arguments) {
-    const auto chunks = chunksFrom(arguments["positions"], levelFrom(arguments["level"]));
     const auto world = self.opened();
-    auto blocks =
-        zeros<world::BlockId>({static_cast<py::ssize_t>(chunks.size()), kHeight, kChunkSide, kChunkSide});
+    const world::Heights heights = world->heights();
+    const auto chunks =
+        chunksFrom(arguments["positions"], levelFrom(arguments["level"]), maxChunksInArray(heights));
+    auto blocks = zeros<world::BlockId>(
+        {static_cast<py::ssize_t>(chunks.size()), heights.layers(), kChunkSide, kChunkSide});
     withoutLock([&, values = valuesOf(blocks)] {
         return volume::readChunkArrays(*world, chunks, values, untilInterrupted());
     });
@@ -118,13 +123,14 @@ at x, y, z is blocks[z - z0, y - y0, x - x0]. At most 2^30 blocks.)");
 area: as of blocks(). The bits of a state are those of the block's type, for example the direction of stairs, whether a
 door is open, or the level of a liquid.)");
     addMethod(world, "chunk(self, cx, cy, level=0)", &readChunk,
-              R"(The blocks of one chunk: uint16 [256, 16, 16] by z, y, x.
+              R"(The blocks of one chunk: uint16 [top - bottom, 16, 16] by z, y, x.
 
 cx, cy: in chunks of the level. A chunk of level k has 16 by 16 columns, each 2^k blocks wide; level: 0 to 15.)");
-    addMethod(world, "chunks(self, positions, level=0)", &readChunks,
-              R"(The blocks of many chunks, made in parallel: uint16 [n, 256, 16, 16] by chunk, z, y, x.
+    addMethod(
+        world, "chunks(self, positions, level=0)", &readChunks,
+        R"(The blocks of many chunks, made in parallel: uint16 [n, top - bottom, 16, 16] by chunk, z, y, x.
 
-positions: (n, 2) integers, cx and cy of each; at most 16,384 chunks.)");
+positions: (n, 2) integers, cx and cy of each; at most 2^22 layers of chunks, 16,384 chunks 256 high.)");
     addMethod(world, "light(self, area)", &readLight,
               R"(Light levels: uint8 [z, y, x, 4], each 0 to 15: sun, red, green, blue.
 

@@ -308,13 +308,13 @@ std::array<std::int64_t, 4> rectangleFrom(const Argument& argument) {
     return {n[0], n[1], n[2], n[3]};
 }
 
-volume::BlockArea areaFrom(const Argument& argument) {
+volume::BlockArea areaFrom(const Argument& argument, world::Heights heights) {
     constexpr std::array<std::size_t, 2> kCounts = {4, 6};
     const auto n = integersFrom(argument, kCounts, "(x0, y0, x1, y1) or (x0, y0, z0, x1, y1, z1)");
-    const volume::BlockArea area = n.size() == 4
-                                       ? volume::BlockArea{n[0], n[1], 0, n[2], n[3], world::kChunkHeight}
-                                       : volume::BlockArea{n[0], n[1], n[2], n[3], n[4], n[5]};
-    valueOr(volume::checkArea(area));
+    const volume::BlockArea area =
+        n.size() == 4 ? volume::BlockArea{n[0], n[1], heights.bottom, n[2], n[3], heights.top}
+                      : volume::BlockArea{n[0], n[1], n[2], n[3], n[4], n[5]};
+    valueOr(volume::checkArea(area, heights));
     return area;
 }
 

@@ -91,7 +91,7 @@ std::array<double, 3> positionFrom(const Argument& argument);
 // (x0, y0, x1, y1).
 std::array<std::int64_t, 4> rectangleFrom(const Argument& argument);
 // (x0, y0, x1, y1) has the world's full height, (x0, y0, z0, x1, y1, z1) is a box; checked.
-volume::BlockArea areaFrom(const Argument& argument);
+volume::BlockArea areaFrom(const Argument& argument, world::Heights heights);
 
 // An array of integers of any type and layout, without a copy if it is one. Refuses other element types.
 pybind11::array integerArrayFrom(const Argument& argument, std::string_view expected);

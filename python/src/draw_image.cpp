@@ -127,12 +127,12 @@ std::vector<world::PlacedBlock> differences(const world::Chunk& loaded, const wo
     const bool hasData =
         !loaded.blocksWithBlockEntityData().empty() || !stored.blocksWithBlockEntityData().empty();
     std::vector<world::PlacedBlock> blocks;
-    for (int s = 0; s < world::kSectionsPerChunk; ++s) {
+    for (int s = loaded.heights().firstSection(); s < loaded.heights().endSection(); ++s) {
         const bool isEqual =
             loaded.section(s) == stored.section(s) && loaded.blockStates(s) == stored.blockStates(s);
         if (isEqual && !hasData) continue;
         for (int k = 0; k < world::kBlocksPerSection; ++k) {
-            const auto at = static_cast<world::BlockIndex>(s * world::kBlocksPerSection + k);
+            const world::BlockIndex at = s * world::kBlocksPerSection + k;
             world::BlockValue value = valueIn(stored, at);
             if (valueIn(loaded, at) != value) blocks.push_back({world::blockPos(pos, at), std::move(value)});
         }

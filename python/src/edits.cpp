@@ -56,21 +56,22 @@ std::optional<GivenValues> statesFrom(const Argument& argument, const GivenValue
     return states;
 }
 
-volume::BlockArea boxFrom(const Arguments& arguments, const std::vector<std::int64_t>& sides) {
+volume::BlockArea boxFrom(const Arguments& arguments, const std::vector<std::int64_t>& sides,
+                          world::Heights heights) {
     constexpr std::int64_t kLow = INT32_MIN, kHigh = INT32_MAX;
     const std::int64_t x = integerFrom(arguments["x"], kLow, kHigh),
                        y = integerFrom(arguments["y"], kLow, kHigh),
-                       z = integerFrom(arguments["z"], 0, world::kChunkHeight - 1);
+                       z = integerFrom(arguments["z"], heights.bottom, heights.top - 1);
     const auto side = [&](std::size_t axis) { return sides.empty() ? std::int64_t{1} : sides[axis]; };
     const volume::BlockArea area{x, y, z, x + side(2), y + side(1), z + side(0)};
-    valueOr(volume::checkArea(area));
+    valueOr(volume::checkArea(area, heights));
     return area;
 }
 
 std::int64_t setBlocks(const PyWorld& self, const Arguments& arguments) {
     const GivenValues blocks = blocksFrom(self, arguments["blocks"]);
     const auto states = statesFrom(arguments["states"], blocks);
-    const volume::BlockArea area = boxFrom(arguments, blocks.sides);
+    const volume::BlockArea area = boxFrom(arguments, blocks.sides, self.opened()->heights());
     volume::BlockValues values{blocks.span()};
     if (states) values.states = states->span();
     const auto world = self.opened();

@@ -30,8 +30,11 @@ base::Result<WorldSources> sourcesOf(pack::Content content, std::unique_ptr<stor
     return WorldSources{std::move(content), std::move(parts)};
 }
 
-store::WorldIdentity identityOf(const NewWorld& world, const pack::Content& content) {
-    return {world.seed, world.generator, gen::versionOf(content.generators, world.generator)};
+base::Result<store::WorldIdentity> identityOf(const NewWorld& world, const pack::Content& content) {
+    const auto heights =
+        TERRANE_TRY(gen::heightsOf(world.generator, *content.blocks, world.heights, content.generators));
+    return store::WorldIdentity{world.seed, world.generator,
+                                gen::versionOf(content.generators, world.generator), heights};
 }
 
 }  // namespace
@@ -44,11 +47,8 @@ base::Result<std::vector<std::string>> generatorNames(const std::vector<std::str
 
 base::Result<gen::LevelGenerators> generatorsOf(const store::WorldIdentity& identity,
                                                 const pack::Content& content) {
-    auto generators =
-        gen::makeLevelGenerators(identity.generator, *content.blocks, identity.seed, content.generators);
-    if (!generators && gen::versionOf(content.generators, identity.generator) == 0)
-        generators.error().code = base::ErrorCode::BadInput;
-    return generators;
+    return gen::makeLevelGenerators(identity.generator, *content.blocks, identity.seed, content.generators,
+                                    identity.heights);
 }
 
 unsigned threadCountOf(unsigned threads) {
@@ -58,7 +58,9 @@ unsigned threadCountOf(unsigned threads) {
 base::Result<WorldSources> generatedWorld(const NewWorld& world, unsigned threads) {
     auto content = loadContent(world.content, {});
     if (!content) return tl::unexpected(content.error());
-    auto store = std::make_unique<store::MemoryStore>(identityOf(world, *content));
+    auto identity = identityOf(world, *content);
+    if (!identity) return tl::unexpected(identity.error());
+    auto store = std::make_unique<store::MemoryStore>(*identity);
     return sourcesOf(std::move(*content), std::move(store), threads);
 }
 
@@ -70,16 +72,18 @@ base::Result<WorldSources> savedWorld(const SavedWorld& world, unsigned threads)
     if (!content) return tl::unexpected(content.error());
     store::WorldRequest request;
     request.access = world.isReadOnly ? store::WorldAccess::ReadOnly : store::WorldAccess::ReadWrite;
-    request.world = {world.seed, world.generator};
+    request.world = {world.seed, world.generator, world.heights};
     request.versionOf = [&](std::string_view name) { return gen::versionOf(content->generators, name); };
     if (world.isCreated) {
         const NewWorld otherwise;
-        const NewWorld made{
-            world.seed.value_or(otherwise.seed), world.generator.value_or(otherwise.generator), {}};
+        const NewWorld made{world.seed.value_or(otherwise.seed),
+                            world.generator.value_or(otherwise.generator),
+                            {},
+                            world.heights};
         // An unknown generator is an error before a save is created.
-        if (auto known = gen::makeGenerator(made.generator, *content->blocks, 0, content->generators); !known)
-            return tl::unexpected(known.error());
-        request.create = identityOf(made, *content);
+        auto identity = identityOf(made, *content);
+        if (!identity) return tl::unexpected(identity.error());
+        request.create = *identity;
     }
     auto store = store_postgres::openAnyWorld(location, *content->blocks, request);
     if (!store) return tl::unexpected(store.error());

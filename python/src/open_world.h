@@ -18,7 +18,8 @@ constexpr unsigned kMaxThreads = 256;
 struct NewWorld {
     std::uint64_t seed = 1;
     std::string generator = "continents";
-    std::vector<std::string> content;  // packs: names or paths
+    std::vector<std::string> content;      // packs: names or paths
+    world::RequestedHeights heights = {};  // else the generator's
 };
 
 // An existing world, or a new one.
@@ -30,6 +31,7 @@ struct SavedWorld {
     std::optional<std::uint64_t> seed;
     std::optional<std::string> generator;
     std::vector<std::string> content;  // packs besides those that it remembers
+    world::RequestedHeights heights = {};
 };
 
 // The parts of a world, and their content.

@@ -68,7 +68,7 @@ void addSurfaceMethods(WorldClass& world) {
         [](const PyWorld& self, const Arguments& given) {
             return readColumns(self, given, &volume::SurfaceArrays::heights);
         },
-        R"(The z of the topmost block of each column: int16 [y, x], -1 if there is none.
+        R"(The z of the topmost block of each column: int16 [y, x], bottom - 1 if there is none.
 
 area: (x0, y0, x1, y1) in blocks, the end excluded. step: blocks from one column to the next, a power of two up to
 32,768: columns are those of a level of detail, and the area is widened to multiples of the step. ground: ignores

@@ -32,11 +32,17 @@ unsigned threadsFrom(const Argument& argument) {
     return static_cast<unsigned>(integerFrom(argument, 0, kMaxThreads));
 }
 
+std::optional<int> heightFrom(const Argument& argument) {
+    if (argument.value.is_none()) return std::nullopt;
+    return static_cast<int>(integerFrom(argument, world::kLowestBottom, world::kHighestTop));
+}
+
 std::shared_ptr<PyWorld> makeGenerated(const Arguments& arguments) {
     NewWorld made;
     made.seed = seedFrom(arguments["seed"]);
     made.generator = textFrom(arguments["generator"]);
     made.content = textsFrom(arguments["content"]);
+    made.heights = {heightFrom(arguments["bottom"]), heightFrom(arguments["top"])};
     return makeWorld({}, threadsFrom(arguments["threads"]),
                      [&](unsigned count) { return generatedWorld(made, count); });
 }
@@ -50,6 +56,7 @@ std::shared_ptr<PyWorld> openSaved(const Arguments& arguments) {
     if (isGiven("seed")) saved.seed = seedFrom(arguments["seed"]);
     if (isGiven("generator")) saved.generator = textFrom(arguments["generator"]);
     saved.content = textsFrom(arguments["content"]);
+    saved.heights = {heightFrom(arguments["bottom"]), heightFrom(arguments["top"])};
     return makeWorld(saved, threadsFrom(arguments["threads"]),
                      [&](unsigned count) { return savedWorld(saved, count); });
 }
@@ -80,8 +87,9 @@ std::string shownWorld(const PyWorld& world, const Arguments& /*none*/) {
 
 void addOpening(py::module_& module, WorldClass& world) {
     const NewWorld otherwise;
-    const std::string parameters = fmt::format("seed={}, generator=\"{}\", threads=0, *, content=()",
-                                               otherwise.seed, otherwise.generator);
+    const std::string parameters =
+        fmt::format("seed={}, generator=\"{}\", threads=0, *, content=(), bottom=None, top=None",
+                    otherwise.seed, otherwise.generator);
     const auto init = std::make_shared<const Signature>(fmt::format("World({})", parameters));
     const Signature shown(fmt::format("__init__(self, {})", parameters));
     const std::string text =
@@ -89,19 +97,21 @@ void addOpening(py::module_& module, WorldClass& world) {
 
 seed: an integer from -2^63 to 2^64 - 1, or a text, as --seed takes it. generator: one of
 terrane.generators(content). threads: threads per call, 0: one per CPU thread of the machine. content: names or paths of
-content packs.)");
+content packs. bottom, top: the lowest layer and the one above the highest, multiples of 16 from -2048 to 2048; None: the
+generator's.)");
     world.def(py::init([init](const py::args& given, const py::kwargs& named) {
                   return makeGenerated(Arguments(*init, given, named));
               }),
               text.c_str());
     addFunction(
         module,
-        "open(world, *, read_only=False, create=False, seed=None, generator=None, threads=0, content=())",
+        "open(world, *, read_only=False, create=False, seed=None, generator=None, threads=0, content=(), "
+        "bottom=None, top=None)",
         &openSaved,
         R"(Opens a saved world: the NAME of one, a FILE ("a.sqlite", "folder/a"), or a URL ("postgresql://host/name").
 
 read_only: the save is not changed, and edits last as long as the object. create: creates a missing world. seed,
-generator: of a new world; an existing world must have them. content: names or paths of content packs, besides those
+generator, bottom, top: of a new world; an existing world must have them. content: names or paths of content packs, besides those
 that the world remembers. Raises Error with the code not_found, busy (another program writes it), incompatible, damaged,
 and others.)");
 }
@@ -113,6 +123,12 @@ void addProperties(WorldClass& world) {
     addProperty(
         world, "generator", [](const PyWorld& self) { return self.identity().generator; },
         "str: the name of the world's generator.");
+    addProperty(
+        world, "bottom", [](const PyWorld& self) { return self.identity().heights.bottom; },
+        "int: the lowest layer of the world.");
+    addProperty(
+        world, "top", [](const PyWorld& self) { return self.identity().heights.top; },
+        "int: the layer above the highest one of the world.");
     addProperty(
         world, "threads", [](const PyWorld& self) { return self.threads(); },
         "int: worker threads per call.");
@@ -217,8 +233,8 @@ void addWorld(py::module_& module) {
     WorldClass world(module, "World",
                      R"(A world: generated terrain and its edits.
 
-Arrays of blocks and light are by [z, y, x], arrays of columns by [y, x]; z is up, 0 to 255, and x and y are any
-32-bit integers. Areas are in blocks and exclude their end. All methods may be called by several threads at
+Arrays of blocks and light are by [z, y, x], arrays of columns by [y, x]; z is up, from bottom to top - 1, and x and
+y are any 32-bit integers. Areas are in blocks and exclude their end. All methods may be called by several threads at
 once; they release Python's lock while they work.)");
     addOpening(module, world);
     addProperties(world);

@@ -114,11 +114,14 @@ def nbt_file(compound, name=""):
     return b"\x0a" + struct.pack(">H", len(name)) + name.encode() + nbt(compound)[1]
 
 
+def uniform_chunk(x, z, names):
+    """A chunk of 1.18 and newer with sections of one block each, by Y."""
+    sections = [{"Y": y, "block_states": {"palette": [{"Name": name}]}} for y, name in names.items()]
+    return nbt_file({"DataVersion": 3465, "xPos": x, "zPos": z, "Status": "minecraft:full", "sections": sections})
+
+
 def stone_chunk(x, z):
-    """A chunk of 1.18 and newer with a section of stone."""
-    states = {"palette": [{"Name": "minecraft:stone"}]}
-    return nbt_file({"DataVersion": 3465, "xPos": x, "zPos": z, "Status": "minecraft:full",
-                     "sections": [{"Y": 0, "block_states": states}]})
+    return uniform_chunk(x, z, {0: "minecraft:stone"})
 
 
 def lz4_stream(data):
@@ -379,6 +382,7 @@ class Minecraft(ProgramTest):
         self.assertEqual(counted["blocks"], expected["blocks"], version)
         self.assertEqual(counted["unknown"], {}, version)
         self.assertEqual(counted["damage_count"], 0, version)
+        self.assertEqual((counted["below"], counted["above"]), (0, 0), version)
         self.compare_places(world, expected["sample"], version)
         return sum(expected["blocks"].values()), expected["chunks"]
 
@@ -386,22 +390,21 @@ class Minecraft(ProgramTest):
         """Minecraft's x, y, z are our -x, z, y."""
         low = (-sample["x"] * 16 - 16, sample["z"] * 16)
         volume = self.folder / "sample.npy"
-        self.succeed("export", "npy", "--world", world, "-o", volume, "--box",
-                     f"{low[0]},{low[1]},0,{low[0] + 16},{low[1] + 16},256")
+        top = sample["minY"] + len(sample["blocks"]) // 256
+        self.succeed("export", "npy", "--world", world, "-o", volume,
+                     f"--box={low[0]},{low[1]},{sample['minY']},{low[0] + 16},{low[1] + 16},{top}")
         names = json.loads((self.folder / "sample.npy.names.json").read_text())
         ours = numpy.load(volume)
         theirs = numpy.array(sample["blocks"]).reshape(-1, 16, 16)[:, :, ::-1]
         compared = 0
         for layer, blocks in enumerate(theirs):
-            z = sample["minY"] + layer
-            if not 0 <= z < 256:
-                continue
             for number, name in enumerate(sample["names"]):
                 wanted = SAME.get(name.removeprefix("minecraft:"))
                 if wanted is None:
                     continue
-                there = ours[z][blocks == number]
-                self.assertTrue((there == names.index(wanted)).all(), f"{version}: {name} at height {z}")
+                there = ours[layer][blocks == number]
+                self.assertTrue((there == names.index(wanted)).all(),
+                                f"{version}: {name} at height {sample['minY'] + layer}")
                 compared += there.size
         self.assertGreater(compared, 5000, version)
 
@@ -414,6 +417,39 @@ class Minecraft(ProgramTest):
         for region in regions:
             blocks, chunks = self.compare(region.parent.name, region)
             print(f"  {region.parent.name}: {chunks} chunks, {blocks} blocks", file=sys.stderr)
+
+    def test_worlds_of_any_height_keep_every_block(self):
+        """384 layers are those of 1.18 and newer, 4,064 the most that a data pack may have."""
+        kinds = ["stone", "dirt", "sand", "gravel", "granite", "clay", "deepslate"]
+        for first, end in ((-4, 20), (-127, 127)):
+            names = {y: f"minecraft:{kinds[y % len(kinds)]}" for y in range(first, end)}
+            region, world = self.folder / "r.0.0.mca", self.folder / f"tall{end}.sqlite"
+            region.write_bytes(region_file({x: uniform_chunk(x, 0, names) for x in range(3)}))
+            report = self.folder / "r.json"
+            self.succeed("import", "minecraft", region, "--world", world, "--generator", "flat", "--report", report)
+            counted = json.loads(report.read_text())
+            expected = collections.Counter()
+            for name in names.values():
+                expected[name] += 3 * 4096
+            self.assertEqual(counted["blocks"], expected)
+            self.assertEqual((counted["below"], counted["above"], counted["chunks"]), (0, 0, 3))
+            volume = self.folder / "v.npy"
+            self.succeed("export", "npy", "--world", world, "-o", volume, f"--box=-16,0,{16 * first},0,16,{16 * end}")
+            ids = json.loads((self.folder / "v.npy.names.json").read_text())
+            sections = numpy.load(volume).reshape(end - first, -1)
+            for section, name in zip(sections, names.values()):
+                wanted = SAME.get(name.removeprefix("minecraft:"), name.removeprefix("minecraft:"))
+                self.assertTrue((section == ids.index(wanted)).all(), name)
+            self.assertEqual(run("check", world).returncode, 0)
+
+    def test_heights_that_are_asked_for_are_kept(self):
+        names = {y: "minecraft:stone" for y in range(-4, 20)}
+        region, world, report = self.folder / "r.0.0.mca", self.folder / "w.sqlite", self.folder / "r.json"
+        region.write_bytes(region_file({0: uniform_chunk(0, 0, names)}))
+        self.succeed("import", "minecraft", region, "--world", world, "--generator", "flat", "--report", report,
+                     "--bottom=-32", "--top=256")
+        counted = json.loads(report.read_text())
+        self.assertEqual((counted["below"], counted["above"]), (32 * 256, 64 * 256))
 
     def test_a_second_run_skips_what_is_there(self):
         source = fixtures("prismarine-provider-anvil") / "fixtures" / "1.16" / "r.0.-1.mca"

@@ -6,6 +6,7 @@
 #include "terrane/content/built_in.h"
 #include "terrane/formats/minecraft_chunk.h"
 #include "terrane/world/blocks/block_model.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::formats {
 namespace {
@@ -159,7 +160,7 @@ TEST_F(BlockMappingTest, ChunksAreNotMirrored) {
     section.blocks[0] = 2;                     // y -16
     chunk.sections = {section};
     ImportCounts counts;
-    const world::Chunk made = toChunk(chunk, mapping, 12, counts);
+    const world::Chunk made = toChunk(chunk, mapping, {.shift = 12}, counts);
     EXPECT_EQ(chunkPosOf(chunk), (world::ChunkPos{-4, -4}));
     EXPECT_EQ(made.block(world::blockIndex(13, 5, 3)), blocks.find("stone")->id);
     EXPECT_EQ(counts.blocks.at("minecraft:air"), 4094u);
@@ -169,6 +170,11 @@ TEST_F(BlockMappingTest, ChunksAreNotMirrored) {
     for (int k = 0; k < world::kBlocksPerChunk; ++k)
         solid += made.block(static_cast<world::BlockIndex>(k)) != world::kAir ? 1 : 0;
     EXPECT_EQ(solid, 1);
+    ImportCounts all;
+    const world::Chunk whole = toChunk(chunk, mapping, {.heights = {-64, 320}}, all);
+    EXPECT_EQ(whole.block(world::blockIndex(13, 5, -9)), blocks.find("stone")->id);
+    EXPECT_EQ(whole.block(world::blockIndex(15, 0, -16)), blocks.missing());
+    EXPECT_EQ(all.below + all.above, 0u);
 }
 
 TEST_F(BlockMappingTest, DoorsOfOldWorldsAreWhole) {
@@ -183,7 +189,7 @@ TEST_F(BlockMappingTest, DoorsOfOldWorldsAreWhole) {
     section.blocks[256] = 2;
     chunk.sections = {section};
     ImportCounts counts;
-    const world::Chunk made = toChunk(chunk, mapping, 0, counts);
+    const world::Chunk made = toChunk(chunk, mapping, {}, counts);
     EXPECT_EQ(made.blockState(world::blockIndex(15, 0, 0)), 9);
     EXPECT_EQ(made.blockState(world::blockIndex(15, 0, 1)), 9);
 }

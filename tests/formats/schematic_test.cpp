@@ -146,7 +146,7 @@ TEST(BlockVolume, BecomesAStructureOfDifferentBlocks) {
     ASSERT_TRUE(structure);
     EXPECT_EQ(structure->cells, (std::vector<std::uint32_t>{0, 1, 0, 2}));
     EXPECT_EQ(structure->palette[2], (world::StructureBlock{"stone", 3}));
-    EXPECT_FALSE(toStructure({{1, 1, 257}, {{0, 0}}, std::vector<std::uint16_t>(257)}, blocks));
+    EXPECT_FALSE(toStructure({{1, 1, 4097}, {{0, 0}}, std::vector<std::uint16_t>(4097)}, blocks));
     EXPECT_FALSE(checkVolumeSize(0, 1, 1));
     EXPECT_FALSE(checkVolumeSize(INT64_MAX, INT64_MAX, INT64_MAX));
     EXPECT_TRUE(checkVolumeSize(kMaxVolumeBlocks, 1, 1));

@@ -1,5 +1,5 @@
-// libFuzzer: any bytes as a chunk; the first byte selects how deep they are wrapped. A decoded chunk survives
-// encoding and decoding again.
+// libFuzzer: any bytes as a chunk; the first byte selects how deep they are wrapped, and the heights of the
+// world. A decoded chunk survives encoding and decoding again.
 #include "terrane/world/blocks/block_registry.h"
 #include "tests/fuzz/fuzz_chunks.h"
 #include "tests/fuzz/fuzz_input.h"
@@ -23,14 +23,17 @@ store::BlockIdMap makeIds() {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static const store::BlockIdMap ids = makeIds();
     if (size == 0) return 0;
-    const auto chunk = store::decodeChunk(fuzz::chunkData(data[0], {data + 1, size - 1}), ids);
+    constexpr world::Heights kHeights[] = {{}, {-64, 320}, {-2048, 2048}, {512, 528}};
+    const world::Heights heights = kHeights[data[0] / 3 % std::size(kHeights)];
+    const auto chunk =
+        store::decodeChunk(fuzz::chunkData(data[0], {data + 1, size - 1}, heights), ids, heights);
     if (!chunk) {
         fuzz::requireReason(chunk.error());
         return 0;
     }
     const auto again = store::encodeChunk(*chunk, ids);
     fuzz::require(again.has_value());
-    const auto back = store::decodeChunk(*again, ids);
+    const auto back = store::decodeChunk(*again, ids, heights);
     fuzz::require(back && *back == *chunk);
     return 0;
 }

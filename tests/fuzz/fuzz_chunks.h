@@ -20,9 +20,9 @@ inline store::Bytes withChecksum(store::ByteView rest) {
     return bytes;
 }
 
-inline store::Bytes framed(store::ByteView plain) {
+inline store::Bytes framed(store::ByteView plain, world::Heights heights) {
     store::Bytes rest;
-    store::appendNumber(rest, store::kChunkVersion);
+    store::appendNumber(rest, store::chunkVersion(heights));
     store::appendNumber(rest, static_cast<std::uint32_t>(plain.size()));
     store::appendCompressed(rest, plain);
     return withChecksum(rest);
@@ -31,8 +31,8 @@ inline store::Bytes framed(store::ByteView plain) {
 // Wraps the bytes by depth:
 //   0  not at all; the checksum is then nearly always wrong
 //   1  after a valid checksum: header and compressed data
-//   2  compressed and framed: the content
-inline store::Bytes chunkData(unsigned depth, std::span<const std::uint8_t> bytes) {
+//   2  compressed and framed: the content, for a world of these heights
+inline store::Bytes chunkData(unsigned depth, std::span<const std::uint8_t> bytes, world::Heights heights) {
     const store::ByteView input = std::as_bytes(bytes);
     switch (depth % 3) {
         case 0:
@@ -40,7 +40,7 @@ inline store::Bytes chunkData(unsigned depth, std::span<const std::uint8_t> byte
         case 1:
             return withChecksum(input);
         default:
-            return framed(input);
+            return framed(input, heights);
     }
 }
 

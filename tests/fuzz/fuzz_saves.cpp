@@ -15,7 +15,9 @@ namespace {
 
 using store::Provenance;
 
-const store::WorldIdentity kIdentity{.seed = 7, .generator = "flat", .generatorVersion = 3};
+store::WorldIdentity identityOf(world::Heights heights) {
+    return {.seed = 7, .generator = "flat", .generatorVersion = 3, .heights = heights};
+}
 // Only flush and closing write.
 constexpr store::SaveLimits kNever{.delay = std::chrono::hours(1), .chunks = 1000000};
 
@@ -27,11 +29,12 @@ const world::BlockRegistry& registry() {
     return blocks;
 }
 
-world::ChunkPtr chunkOf(int number) {
-    auto chunk = std::make_shared<world::Chunk>();
-    chunk->setSection(0, world::Section(1));
-    chunk->setBlock(world::blockIndex(number % 16, 1, 20), 2);
-    chunk->setBlockState(world::blockIndex(1, 1, 20), static_cast<std::uint16_t>(number));
+world::ChunkPtr chunkOf(int number, world::Heights heights) {
+    auto chunk = std::make_shared<world::Chunk>(heights);
+    chunk->setSection(heights.firstSection(), world::Section(1));
+    const int z = heights.clamp(20);
+    chunk->setBlock(world::blockIndex(number % 16, 1, z), 2);
+    chunk->setBlockState(world::blockIndex(1, 1, z), static_cast<std::uint16_t>(number));
     return chunk;
 }
 
@@ -41,23 +44,23 @@ void makeSmallPages(const std::filesystem::path& path) {
     require(database && database->execute("PRAGMA page_size = 512; CREATE TABLE t (n); DROP TABLE t"));
 }
 
-SaveBytes makeSmallSave() {
+SaveBytes makeSmallSave(world::Heights heights) {
     base::setLogLevel(base::LogLevel::Silent);
     emptyFolder();
     makeSmallPages(savePath());
-    const store::SaveAccess access{.create = kIdentity, .decide = {}};
+    const store::SaveAccess access{.create = identityOf(heights), .decide = {}};
     {
         const auto made = store::SqliteStore::open(savePath(), registry(), access, kNever);
         require(made.has_value());
         for (int k = 0; k < 3; ++k)
-            (*made)->save(savedPositions()[k], chunkOf(k),
+            (*made)->save(savedPositions()[k], chunkOf(k, heights),
                           k == 0 ? Provenance::Generated : Provenance::Edited);
         (*made)->setMetadata("player", "1 2 3");
     }
     const auto open = store::SqliteStore::open(savePath(), registry(), access, kNever);
     require(open.has_value());
     for (int k = 3; k < 5; ++k) {
-        (*open)->save(savedPositions()[k], chunkOf(k), Provenance::Edited);
+        (*open)->save(savedPositions()[k], chunkOf(k, heights), Provenance::Edited);
         require((*open)->flush().has_value());
     }
     return {readWhole(savePath()), readWhole(savePath().string() + "-wal")};
@@ -73,7 +76,7 @@ store::WorldRequest requestFor(store::WorldAccess access) {
     return {.access = access,
             .create = std::nullopt,
             .world = {},
-            .versionOf = [](std::string_view) { return kIdentity.generatorVersion; },
+            .versionOf = [](std::string_view) { return identityOf({}).generatorVersion; },
             .limits = kNever};
 }
 
@@ -104,7 +107,7 @@ void readSave() {
 
 bool has(const base::Result<std::unique_ptr<store::SqliteReader>>& reader, world::ChunkPos pos, int number) {
     const store::LoadedChunk loaded = (*reader)->load(pos);
-    return loaded.chunk && *loaded.chunk == *chunkOf(number);
+    return loaded.chunk && *loaded.chunk == *chunkOf(number, (*reader)->identity().heights);
 }
 
 void playInSave() {
@@ -115,8 +118,9 @@ void playInSave() {
         const auto world = openSave(store::WorldAccess::ReadWrite);
         if (!isGood(world)) return;
         readAll(**world);
-        (*world)->save(kNew, chunkOf(40), Provenance::Edited);
-        (*world)->save(old, chunkOf(41), Provenance::Edited);
+        const world::Heights heights = (*world)->identity().heights;
+        (*world)->save(kNew, chunkOf(40, heights), Provenance::Edited);
+        (*world)->save(old, chunkOf(41, heights), Provenance::Edited);
         (*world)->setMetadata("player", "4 5 6");
         isSaved = isGood((*world)->flush());
         readAll(**world);
@@ -135,7 +139,12 @@ const std::vector<world::ChunkPos>& savedPositions() {
 }
 
 const SaveBytes& smallSave() {
-    static const SaveBytes save = makeSmallSave();
+    static const SaveBytes save = makeSmallSave({});
+    return save;
+}
+
+const SaveBytes& tallSave() {
+    static const SaveBytes save = makeSmallSave({-64, 320});
     return save;
 }
 

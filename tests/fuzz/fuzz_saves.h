@@ -17,6 +17,7 @@ struct SaveBytes {
 
 // A save with pages of 512 bytes, chunks of level 0 and above, and metadata; made once.
 const SaveBytes& smallSave();
+const SaveBytes& tallSave();  // the same of the layers -64 to 319
 // The positions of its chunks.
 const std::vector<world::ChunkPos>& savedPositions();
 

@@ -75,7 +75,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     fuzz::FuzzInput input(data, size);
     const int level = input.byte() % 4;
     const lua::Script script = {std::string(input.restAsText()), "script.lua"};
-    auto graph = lua::recordScript(script, {"fuzz", "pack"}, fuzzBlocks(), level);
+    auto graph = lua::recordScript(script, {"fuzz", "pack"}, fuzzBlocks(), {level, {}});
     if (!graph) {
         fuzz::requireReason(graph.error());
         fuzz::require(graph.error().message.starts_with("script.lua:"));

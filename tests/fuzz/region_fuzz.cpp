@@ -26,7 +26,9 @@ void importChunk(std::string_view nbt, int shift) {
     const auto chunk = formats::decodeAnvilChunk(root->compound, tables().ids);
     if (!chunk) return fuzz::requireReason(chunk.error());
     formats::ImportCounts counts;
-    const world::Chunk made = formats::toChunk(*chunk, tables().mapping, shift, counts);
+    const world::Heights heights = shift % 2 == 0 ? world::Heights() : world::Heights{-64, 320};
+    const world::Chunk made = formats::toChunk(*chunk, tables().mapping, {shift, heights}, counts);
+    (void)formats::sectionRangeOf(root->compound);
     std::uint64_t all = 0;
     for (const auto& [name, count] : counts.blocks) all += count;
     fuzz::require(all == chunk->sections.size() * formats::kAnvilSectionBlocks);

@@ -89,8 +89,8 @@ void change(std::string& bytes, FuzzInput& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     FuzzInput input(data, size);
-    fuzz::SaveBytes save = fuzz::smallSave();
     const std::uint8_t flags = input.byte();
+    fuzz::SaveBytes save = flags & 4 ? fuzz::tallSave() : fuzz::smallSave();
     if (flags & 1) save.log.clear();
     std::string journal;
     while (!input.isEmpty()) {

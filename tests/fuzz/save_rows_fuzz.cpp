@@ -1,5 +1,5 @@
 // libFuzzer: a save with changed rows and tables: valid for SQLite, with correct checksums of chunks. The
-// input is a list of changes to smallSave().
+// input is a list of changes to smallSave() or tallSave().
 #include <sqlite3.h>
 
 #include <memory>
@@ -85,7 +85,7 @@ void sealLastRow(sqlite3* database) {
     run(write);
 }
 
-void changeChunk(sqlite3* database, FuzzInput& input) {
+void changeChunk(sqlite3* database, FuzzInput& input, world::Heights heights) {
     static constexpr std::int64_t kKeys[] = {store::keyOf({0, 0}), store::keyOf({1, 0}),
                                              store::keyOf({-1, 5}), store::keyOf({0, -2, 1})};
     const Statement row =
@@ -99,7 +99,7 @@ void changeChunk(sqlite3* database, FuzzInput& input) {
     if (depth >= 250) {
         bindAny(row, 3, input);
     } else {
-        const store::Bytes data = fuzz::chunkData(depth, input.bytes(input.number(2) % 2048));
+        const store::Bytes data = fuzz::chunkData(depth, input.bytes(input.number(2) % 2048), heights);
         sqlite3_bind_blob64(row.get(), 3, data.data(), data.size(), SQLITE_TRANSIENT);
     }
     run(row);
@@ -107,12 +107,12 @@ void changeChunk(sqlite3* database, FuzzInput& input) {
 }
 
 void changeSetting(sqlite3* database, FuzzInput& input) {
-    static constexpr const char* kNames[] = {"seed",  "generator", "generator_version",
-                                             "tiles", "player",    "time"};
+    static constexpr const char* kNames[] = {
+        "seed", "generator", "generator_version", "tiles", "player", "time", "bottom", "top"};
     const Statement row = prepare(database, "INSERT OR REPLACE INTO settings VALUES (?1, ?2)");
     const std::uint8_t name = input.byte();
-    if (name % 8 < std::size(kNames)) {
-        if (row) sqlite3_bind_text(row.get(), 1, kNames[name % 8], -1, SQLITE_STATIC);
+    if (name % 10 < std::size(kNames)) {
+        if (row) sqlite3_bind_text(row.get(), 1, kNames[name % 10], -1, SQLITE_STATIC);
     } else {
         bindAny(row, 1, input);
     }
@@ -152,7 +152,9 @@ void changeMarks(sqlite3* database, FuzzInput& input) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     FuzzInput input(data, size);
-    fuzz::writeSave(fuzz::smallSave());
+    const bool isTall = size / 8 % 2 == 1;
+    const world::Heights heights = isTall ? world::Heights{-64, 320} : world::Heights();
+    fuzz::writeSave(isTall ? fuzz::tallSave() : fuzz::smallSave());
     {
         sqlite3* handle = nullptr;
         fuzz::require(sqlite3_open(fuzz::savePath().c_str(), &handle) == SQLITE_OK);
@@ -162,7 +164,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (int changes = 0; !input.isEmpty() && changes < 64; ++changes) {
             const std::uint8_t what = input.byte() % 8;
             if (what < 3) {
-                changeChunk(handle, input);
+                changeChunk(handle, input, heights);
             } else if (what < 5) {
                 changeSetting(handle, input);
             } else if (what < 7) {

@@ -189,8 +189,11 @@ class FuzzServer {
     world::BlockPos pos(FuzzInput& in) {
         const auto& spawn = server().offer.spawn.position;
         const std::int32_t x = near(spawn.x, in), y = near(spawn.y, in);
-        return {x, y,
-                std::clamp(static_cast<int>(spawn.z) + static_cast<std::int8_t>(in.byte()) / 4, 0, 255)};
+        const auto offset = static_cast<std::int8_t>(in.byte());
+        // Also beyond the limits of the world, and of all worlds.
+        if (offset == -128) return {x, y, -1};
+        if (offset == 127) return {x, y, world::kHighestTop};
+        return {x, y, std::clamp(static_cast<int>(spawn.z) + offset / 4, 0, 256)};
     }
     world::BlockId block(FuzzInput& in) {
         const std::uint8_t id = in.byte();

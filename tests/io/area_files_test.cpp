@@ -4,6 +4,7 @@
 
 #include "terrane/base/files.h"
 #include "tests/base/temp_folder.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::io {
 namespace {
@@ -13,7 +14,7 @@ constexpr std::size_t kColumnBytes = world::kChunkHeight * sizeof(std::uint16_t)
 TEST(VolumeFile, SquaresComeToTheirPlacesInAnyOrder) {
     const base::TempFolder folder;
     const world::ChunkArea area{-1, 0, 1, 2};
-    auto file = VolumeFile::create(folder / "volume.npy", area);
+    auto file = VolumeFile::create(folder / "volume.npy", area, {});
     ASSERT_TRUE(file) << file.error().message;
     for (const world::ChunkArea& square : {world::ChunkArea{0, 0, 1, 2}, world::ChunkArea{-1, 0, 0, 2}}) {
         const auto written = file->write(square, [&](int x, int y, auto values) {
@@ -38,13 +39,13 @@ TEST(VolumeFile, SquaresComeToTheirPlacesInAnyOrder) {
 
 TEST(VolumeFile, AnAreaTooLargeForAnyFileIsRefused) {
     const base::TempFolder folder;
-    EXPECT_FALSE(VolumeFile::create(folder / "volume.npy", {0, 0, 100'000'000, 100'000'000}));
+    EXPECT_FALSE(VolumeFile::create(folder / "volume.npy", {0, 0, 100'000'000, 100'000'000}, {}));
     EXPECT_EQ(folder.fileCount(), 0);
 }
 
 TEST(QuadFile, AFileWithoutQuadsIsWhole) {
     const base::TempFolder folder;
-    auto file = QuadFile::create(folder / "quads.npy");
+    auto file = QuadFile::create(folder / "quads.npy", {});
     ASSERT_TRUE(file) << file.error().message;
     ASSERT_TRUE(file->finish());
     EXPECT_NE(base::readFile(folder / "quads.npy").value().find("(0,)"), std::string::npos);

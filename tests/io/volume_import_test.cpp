@@ -26,10 +26,9 @@ class VolumeImport : public testing::Test {
     }
     ImportOptions options() { return {folder_ / "model.vox", flatLand(), worldIn(folder_), ""}; }
     base::Result<ExportSource> exported() {
-        ExportOptions from{flatLand(),
-                           worldIn(folder_),
-                           {kCorner, {kCorner.x + kSide - 1, kCorner.y + kSide - 1, kCorner.z}},
-                           ""};
+        ExportOptions from{
+            flatLand(), worldIn(folder_),
+            world::BlockBox{kCorner, {kCorner.x + kSide - 1, kCorner.y + kSide - 1, kCorner.z}}, ""};
         return openExport(from);
     }
 

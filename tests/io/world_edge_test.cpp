@@ -9,6 +9,7 @@
 #include "terrane/io/loaded_square.h"
 #include "terrane/io/open_session.h"
 #include "tests/io/flat_world.h"
+#include "tests/support/default_heights.h"
 
 namespace terrane::io {
 namespace {
@@ -87,7 +88,7 @@ TEST(ExportEdge, TheWholeWorldIsTooLarge) {
     const base::TempFolder folder;
     for (const world::BlockPos high :
          {world::BlockPos{kLastBlock, kLastBlock, 255}, world::BlockPos{kLastBlock, -1, 0}}) {
-        ExportOptions from{flatLand(), {}, {{kFirstBlock, kFirstBlock, 0}, high}, ""};
+        ExportOptions from{flatLand(), {}, world::BlockBox{{kFirstBlock, kFirstBlock, 0}, high}, ""};
         const auto opened = openExport(from);
         ASSERT_TRUE(opened) << opened.error().message;
         for (const auto& heights :

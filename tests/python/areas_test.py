@@ -138,3 +138,25 @@ def test_other_threads_run_meanwhile(land):
     finally:
         sys.setswitchinterval(interval)
     assert seen
+
+
+def test_worlds_of_other_heights(land, tmp_path):
+    tall = terrane.World(seed=land.seed, generator=land.generator, bottom=-64, top=320)
+    assert (tall.bottom, tall.top, land.bottom, land.top) == (-64, 320, 0, 256)
+    blocks = tall.blocks((0, 0, 16, 16))
+    assert blocks.shape == (384, 16, 16) and (blocks == tall.chunk(0, 0)).all()
+    assert (blocks[64 + 70:64 + 256] == land.chunk(0, 0)[70:]).all() and (blocks[64 + 256:] == 0).all()
+    assert tall.chunks([(0, 0)]).shape == (1, 384, 16, 16)
+    assert tall.set_blocks(3, 4, -64, "glowing_ore") == 1 and tall.set_blocks(3, 4, 319, "stone") == 1
+    assert tall.blocks((3, 4, -64, 4, 5, -63))[0, 0, 0] == tall.block_id("glowing_ore")
+    assert tall.heights((3, 4, 4, 5))[0, 0] == 319
+    assert tall.light((3, 4, 318, 4, 5, 320)).shape == (2, 1, 1, 4)
+    for area in ((0, 0, -65, 1, 1, 0), (0, 0, 0, 1, 1, 321)):
+        assert "-64 to 320" in fails("bad_input", tall.blocks, area)
+    with terrane.open(str(tmp_path / "tall.sqlite"), create=True, generator="flat", bottom=-64, top=320) as saved:
+        saved.set_blocks(0, 0, -64, "stone")
+    with terrane.open(str(tmp_path / "tall.sqlite")) as again:
+        assert (again.bottom, again.top) == (-64, 320) and again.blocks((0, 0, -64, 1, 1, -63))[0, 0, 0] == again.block_id("stone")
+    assert "layers" in fails("incompatible", terrane.open, str(tmp_path / "tall.sqlite"), bottom=-80)
+    assert "multiples of 16" in fails("bad_input", terrane.World, bottom=-7)
+    assert "256 and 256" in fails("bad_input", terrane.World, bottom=256)

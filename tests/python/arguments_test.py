@@ -88,17 +88,20 @@ NO_BLOCKS = [None, 0.7, 3.0, NAN, INFINITY, np.float32(1), True, np.bool_(False)
 AREA = no_sequences(0, 0, 4, 4) + [(0, 0, 70, 4, 4, element) for element in (7.5, 80.0, NAN, True, None, "9")]
 RECTANGLE = no_sequences(0, 0, 2, 2)
 INTEGER = NO_INTEGERS + HUGE + [None]
+HEIGHT = NO_INTEGERS + HUGE + [-2049, 2049]
 STATES = [value for value in NO_BLOCKS if value is not None] + ["stone", np.zeros((1, 1, 2), int), np.zeros((2, 2, 2), int)]
 SEED = [value for value in NO_INTEGERS if not isinstance(value, str)]
 SEED += [-2**63 - 1, 2**64, 2**70, -2**70, 10**5000, "", "18446744073709551616", "-9223372036854775809", "a\0b", "\ud800"]
 
 # Of each function a call that works, and wrong values of each parameter.
 CASES = {
-    "World": ({"seed": 1, "generator": "flat", "threads": 1, "content": ()},
-              {"seed": SEED + [None], "generator": NO_TEXTS + [None], "threads": INTEGER + [-1, 257], "content": NO_LISTS_OF_TEXTS}),
-    "open": ({"world": "none", "read_only": False, "create": False, "seed": 1, "generator": "flat", "threads": 1, "content": ()},
+    "World": ({"seed": 1, "generator": "flat", "threads": 1, "content": (), "bottom": -64, "top": None},
+              {"seed": SEED + [None], "generator": NO_TEXTS + [None], "threads": INTEGER + [-1, 257], "content": NO_LISTS_OF_TEXTS,
+               "bottom": HEIGHT, "top": HEIGHT}),
+    "open": ({"world": "none", "read_only": False, "create": False, "seed": 1, "generator": "flat", "threads": 1, "content": (),
+              "bottom": None, "top": 512},
              {"world": NO_TEXTS + [None], "read_only": NO_BOOLS, "create": NO_BOOLS, "seed": SEED, "generator": NO_TEXTS,
-              "threads": INTEGER + [-1, 257], "content": NO_LISTS_OF_TEXTS}),
+              "threads": INTEGER + [-1, 257], "content": NO_LISTS_OF_TEXTS, "bottom": HEIGHT, "top": HEIGHT}),
     "generators": ({"content": ()}, {"content": NO_LISTS_OF_TEXTS}),
     "World.block_id": ({"name": "stone"}, {"name": NO_TEXTS + [None]}),
     "World.blocks": ({"area": (0, 0, 4, 4)}, {"area": AREA}),

@@ -258,7 +258,7 @@ TEST(ScriptFile, ErrorsNameFileLineAndKey) {
         {shotOf("[[shot.set]]\nblur = 1\n"), "p.toml:7: blur: unknown key"},
         {shotOf(edit), "p.toml:6: at: needs either at, or from and to"},
         {shotOf(edit + "from = [0, 0, 0]\n"), "p.toml:6: at: needs either"},
-        {shotOf(edit + "at = [0, 0, 256]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
+        {shotOf(edit + "at = [0, 0, 2048]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
         {shotOf(edit + "at = [0, 0.5, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
         {shotOf(edit + "at = [2147483648, 0, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},
         {shotOf(edit + "at = [0, -2147483649, 0]\n"), "p.toml:8: at: expected [x, y, z] of a block"},

@@ -5,6 +5,7 @@
 
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "terrane/base/log.h"
 #include "terrane/base/process.h"
 #include "terrane/base/text.h"

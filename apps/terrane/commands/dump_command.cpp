@@ -60,13 +60,31 @@ base::Result<void> forEachSquare(const DumpOptions& options, const Sources& sour
     return {};
 }
 
+// The values of a column of a chunk or of its light, upward. `sectionOf`: section or brick by number.
+template <class SectionOf>
+void copyColumn(world::Heights heights, int x, int y, const SectionOf& sectionOf,
+                std::span<std::uint16_t> values) {
+    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
+        const world::Section& section = sectionOf(number);
+        const auto part = values.subspan(
+            static_cast<std::size_t>(number * world::kSectionSize - heights.bottom), world::kSectionSize);
+        if (section.isUniform()) {
+            std::ranges::fill(part, section.uniformValue());
+            continue;
+        }
+        for (int z = 0; z < world::kSectionSize; ++z)
+            part[static_cast<std::size_t>(z)] = section.get(world::blockIndex(x & 15, y & 15, z));
+    }
+}
+
 base::Result<void> dumpBlocks(const DumpOptions& options, const Sources& sources) {
-    auto file = TERRANE_TRY(io::VolumeFile::create(options.output, *options.area));
+    auto file =
+        TERRANE_TRY(io::VolumeFile::create(options.output, *options.area, options.world.heights.over({})));
     const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         return file.write(square.area(), [&](int x, int y, auto values) {
             const world::Chunk& chunk = square.chunk(x / world::kChunkSize, y / world::kChunkSize);
-            for (int z = 0; z < world::kChunkHeight; ++z)
-                values[static_cast<std::size_t>(z)] = chunk.block(world::blockIndex(x & 15, y & 15, z));
+            const auto section = [&](int number) -> const world::Section& { return chunk.section(number); };
+            copyColumn(chunk.heights(), x, y, section, values);
         });
     });
     return written ? file.finish() : written;
@@ -96,13 +114,14 @@ SquareLight lightOf(const io::LoadedSquare& square, light::AreaSolver& solver) {
 base::Result<void> dumpLight(const DumpOptions& options, const Sources& sources) {
     const light::LightTable table(*sources.blocks);
     const auto solver = TERRANE_TRY(makeLightSolver(options.backend, table));
-    auto file = TERRANE_TRY(io::VolumeFile::create(options.output, *options.area));
+    auto file =
+        TERRANE_TRY(io::VolumeFile::create(options.output, *options.area, options.world.heights.over({})));
     const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         const SquareLight lights = lightOf(square, *solver.worker);
         return file.write(square.area(), [&](int x, int y, auto values) {
             const light::ChunkLight& light = lights.chunk(x / world::kChunkSize, y / world::kChunkSize);
-            for (int z = 0; z < world::kChunkHeight; ++z)
-                values[static_cast<std::size_t>(z)] = light.get(x & 15, y & 15, z);
+            const auto brick = [&](int number) -> const world::Section& { return light.brick(number); };
+            copyColumn(light.heights(), x, y, brick, values);
         });
     });
     return written ? file.finish() : written;
@@ -131,7 +150,7 @@ base::Result<void> appendQuads(io::QuadFile& file, const io::LoadedSquare& squar
 
 base::Result<void> dumpQuads(const DumpOptions& options, const Sources& sources) {
     const auto mesher = TERRANE_TRY(makeBatchMesher(options.backend, *sources.blocks));
-    auto file = TERRANE_TRY(io::QuadFile::create(options.output));
+    auto file = TERRANE_TRY(io::QuadFile::create(options.output, options.world.heights.over({})));
     const auto written = forEachSquare(options, sources, [&](const io::LoadedSquare& square) {
         return appendQuads(file, square, *mesher.worker, options.mesh, *sources.blocks);
     });
@@ -139,8 +158,6 @@ base::Result<void> dumpQuads(const DumpOptions& options, const Sources& sources)
 }
 
 base::Result<void> dump(DumpOptions& options) {
-    if (options.what != What::Quads && options.area->chunkCount() > io::VolumeFile::kMaxChunks)
-        return base::fail("--area: {} chunks are too many for a file", options.area->chunkCount());
     const base::StopSignals signals;  // the writer removes an unfinished file
     const auto sources = TERRANE_TRY(openSources(options, signals));
     TERRANE_TRY(options.what == What::Blocks  ? dumpBlocks(options, sources)

@@ -28,9 +28,6 @@ base::Result<world::BlockBox> parseBox(const std::string& text) {
     if (n[0] >= n[3] || n[1] >= n[4] || n[2] >= n[5])
         return base::fail(base::ErrorCode::BadInput, "--box: \"{}\" is empty: the end X1,Y1,Z1 is excluded",
                           text);
-    if (n[2] < 0 || n[5] > world::kChunkHeight)
-        return base::fail(base::ErrorCode::BadInput, "--box: heights are from 0 to {}, got \"{}\"",
-                          world::kChunkHeight, text);
     const auto pos = [&](std::size_t first, int less) {
         const auto at = [&](std::size_t axis) { return static_cast<std::int32_t>(n[first + axis] - less); };
         return world::BlockPos{at(0), at(1), at(2)};
@@ -38,11 +35,11 @@ base::Result<world::BlockBox> parseBox(const std::string& text) {
     return world::BlockBox{pos(0, 0), pos(3, 1)};
 }
 
-base::Result<world::BlockBox> boxOf(const ExportCommand& options) {
+base::Result<std::variant<world::ChunkArea, world::BlockBox>> blocksOf(const ExportCommand& options) {
     if (options.area.has_value() == !options.box.empty())
         return base::fail(base::ErrorCode::BadInput, "export needs one of --area and --box");
-    if (!options.area) return parseBox(options.box);
-    return io::boxOf(*options.area);
+    if (options.area) return *options.area;
+    return TERRANE_TRY(parseBox(options.box));
 }
 
 using Exported = base::Result<io::ExportedFile>;
@@ -98,8 +95,7 @@ base::Result<void> runExport(const std::string& name, ExportCommand& options, co
     if (!CLI::detail::to_lower(options.output).ends_with(format->ending))
         return base::fail(base::ErrorCode::BadInput, "-o: \"{}\" does not end in {}", options.output,
                           format->ending);
-    const auto box = TERRANE_TRY(boxOf(options));
-    options.source.box = box;
+    options.source.blocks = TERRANE_TRY(blocksOf(options));
     const auto source = TERRANE_TRY(io::openExport(options.source));
     const auto file = TERRANE_TRY(format->run(source, options, progressBar("exporting")));
     base::logInfo("{}: {}, {} bytes", options.output, file.content, file.bytes);

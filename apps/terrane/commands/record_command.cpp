@@ -7,6 +7,7 @@
 #include "apps/terrane/commands/commands.h"
 #include "apps/terrane/offscreen.h"
 #include "apps/terrane/options.h"
+#include "apps/terrane/output_files.h"
 #include "apps/terrane/record/script.h"
 #include "apps/terrane/record/title_painter.h"
 #include "terrane/base/files.h"

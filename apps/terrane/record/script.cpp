@@ -46,12 +46,14 @@ std::optional<std::vector<double>> numbersOf(world::ContentTable& table, std::st
 }
 
 std::optional<world::BlockPos> blockPosOf(world::ContentTable& table, std::string_view key) {
-    constexpr std::string_view kForm = "[x, y, z] of a block in the world, whole numbers, z from 0 to 255";
+    constexpr std::string_view kForm =
+        "[x, y, z] of a block in the world, whole numbers, z from -2048 to 2047";
+    constexpr world::Heights kAnyHeights{world::kLowestBottom, world::kHighestTop};
     const auto n = numbersOf(table, key, 3, kForm);
     if (!n) return std::nullopt;
     const bool areBlocks = std::ranges::all_of(
         *n, [](double v) { return v == std::floor(v) && v >= INT32_MIN && v <= INT32_MAX; });
-    if (!areBlocks || (*n)[2] < 0 || (*n)[2] >= world::kChunkHeight) {
+    if (!areBlocks || !kAnyHeights.contains(static_cast<int>((*n)[2]))) {
         table.expected(*table.node(key), key, kForm);
         return world::BlockPos{};
     }
@@ -135,7 +137,7 @@ io::WorldOptions ScriptReader::worldOf(ContentTable& table) {
     io::WorldOptions world = defaults_.world;
     CLI::App flags;
     addWorldOptions(flags, world);
-    applyFlags(table, flags, {"seed", "generator"}, passedOver_);
+    applyFlags(table, flags, {"seed", "generator", "bottom", "top"}, passedOver_);
     return world;
 }
 

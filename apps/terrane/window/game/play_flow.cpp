@@ -272,7 +272,8 @@ base::Result<void> PlayFlow::playFrom(const PlayOptions& options, io::OpenedWorl
         game.contentChanged = [&] { return watch.hasChanged(std::chrono::steady_clock::now()); };
         game.checkContent = [&]() -> base::Result<void> {
             const auto content = TERRANE_TRY(pack::reloadPacks(world.content()));
-            const auto graph = gen::makeGenerator(session.store().identity().generator, *content.blocks, 0,
+            const store::WorldIdentity& identity = session.store().identity();
+            const auto graph = gen::makeGenerator(identity.generator, *content.blocks, {0, identity.heights},
                                                   content.generators);
             return graph ? base::Result<void>() : tl::unexpected(graph.error());
         };

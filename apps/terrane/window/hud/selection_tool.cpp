@@ -162,7 +162,8 @@ bool SelectionTool::onWheel(int steps, const BuildView& view) {
     using End = game::Selection::End;
     if (!selection_.box()) {
         message_ = kNoBox;
-    } else if (selection_.moveEnd(view.shift ? End::Bottom : End::Top, steps)) {
+    } else if (selection_.moveEnd(view.shift ? End::Bottom : End::Top, steps,
+                                  view.session.world().heights())) {
         const BlockBox box = *selection_.box();
         message_ = fmt::format("height {}, from {} to {}; {}", box.high.z - box.low.z + 1, box.low.z,
                                box.high.z, blocksText(box.blockCount()));
@@ -254,7 +255,7 @@ void SelectionTool::beginPaste() {
 }
 
 void SelectionTool::place(const BuildView& view) {
-    const auto low = selection_.pasteCorner(pointedAt(view, true));
+    const auto low = selection_.pasteCorner(pointedAt(view, true), view.session.world().heights());
     message_ = outcomeText(
         "placed",
         view.session.build({game::kLocalPlayer, game::PlaceStructure{selection_.clipboard(), *low}}));
@@ -441,7 +442,7 @@ void SelectionTool::drawOutlines(const Screen& screen, const render::Camera& cam
         if (selection_.shapeKind() == game::ShapeKind::Line) drawLineOf(projection, selection_.shape(), *box);
     }
     if (!selection_.isPasting()) return;
-    const auto low = selection_.pasteCorner(pointedAt(view, true));
+    const auto low = selection_.pasteCorner(pointedAt(view, true), view.session.world().heights());
     drawBox(projection, game::boxOf(game::PlaceStructure{selection_.clipboard(), *low}), 1 / 32.0, kPasted);
 }
 

@@ -19,7 +19,7 @@ namespace terrane::app {
 namespace {
 
 constexpr double kRadius = 40, kRoundSeconds = 300;  // blocks; 0.8 blocks a second
-constexpr double kOverGround = 10, kHighest = 235;   // blocks over the ground; highest altitude
+constexpr double kOverGround = 10, kUnderTop = 21;   // blocks over the ground; under the world's top
 constexpr double kMorning = 0.33;                    // of a day
 constexpr int kMostChunks = 8, kMostHorizon = 256;
 constexpr std::chrono::milliseconds kPause{15};  // pause between frames without a world
@@ -38,11 +38,12 @@ base::Result<std::unique_ptr<WorldOnScreen>> openWorld(const PlayOptions& option
 }
 
 int highestBlock(const world::Chunk& chunk) {
-    for (int z = world::kChunkHeight - 1; z >= 0; --z)
+    const world::Heights heights = chunk.heights();
+    for (int z = heights.top - 1; z >= heights.bottom; --z)
         for (int y = 3; y < world::kChunkSize; y += 8)
             for (int x = 3; x < world::kChunkSize; x += 8)
                 if (chunk.block(world::blockIndex(x, y, z)) != 0) return z;
-    return 0;
+    return heights.bottom;
 }
 
 // An altitude above all ground on the flight.
@@ -54,7 +55,7 @@ double flightHeight(const gen::Generator& generator, const glm::dvec3& center) {
         const world::Chunk chunk = generator.generate(world::chunkOf(pose.position));
         highest = std::max(highest, highestBlock(chunk) + kOverGround);
     }
-    return std::min(highest, kHighest);
+    return std::min(highest, generator.heights().top - kUnderTop);
 }
 
 }  // namespace
