@@ -253,7 +253,9 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             invalidateLighting(table_, chunk);
         }
         if (edit.before == edit.after) {  // only its state or data changed
-            requestEditedMesh(table_, chunk, mesh::meshSectionsTouchedBy(edit.pos).front().meshSections);
+            mesh::MeshSectionSet own;
+            own.add(edit.pos.z >> 3);
+            requestEditedMesh(table_, chunk, own);
         } else {
             record->localLight = nullptr;
             toRelight_.add(edit);
