@@ -1,5 +1,5 @@
-// Sets the first levels: emission, and daylight that comes down each column. Above the solved sections is open sky. A work group has a chunk, an invocation
-// the two columns of a word.
+// Sets the first levels: emission, and daylight that comes down each column. Above the solved sections is open sky. A
+// work group has a chunk, an invocation the two columns of a word.
 #include "terrane/light_gpu/light_tiles.glsl"
 
 layout(local_size_x = 8, local_size_y = kChunkSize) in;
