@@ -1,4 +1,4 @@
--- Tall land: mountains up to about 1,500, cliffs, islands in the sky, and caves down to about -800.
+-- Tall land: mountains of more than 1,100, cliffs, islands in the sky, and caves down to -800.
 g:heights(-1024, 1792)
 
 local height = g:field("height", "int")
