@@ -22,8 +22,9 @@ namespace {
 // A column is four numbers of two bytes in eight planes, one plane after the other, which zstd makes small:
 // the height as the difference to a prediction from its neighbors, the depth beneath it, the top block's id,
 // and the difference of the lower block's id, which is 0 nearly everywhere on land.
-enum Plane { HeightLow, HeightHigh, DepthLow, DepthHigh, TopLow, TopHigh, UnderLow, UnderHigh, kPlanes };
-constexpr std::size_t kPlaneBytes = kColumnsOfBlob, kRawBytes = kPlanes * kPlaneBytes;
+enum Plane { HeightLow, HeightHigh, DepthLow, DepthHigh, TopLow, TopHigh, UnderLow, UnderHigh };
+static_assert(UnderHigh + 1 == kColumnPlanes);
+constexpr std::size_t kPlaneBytes = kColumnsOfBlob, kRawBytes = kColumnPlanes * kPlaneBytes;
 
 // The prediction from earlier columns: in a plane each height is west + south - southwest.
 template <class HeightAt>

@@ -22,6 +22,7 @@ namespace terrane::map {
 // thread may use it.
 constexpr int kBlobColumns = 256;  // along each side
 constexpr std::size_t kColumnsOfBlob = std::size_t{kBlobColumns} * kBlobColumns;
+constexpr std::size_t kColumnPlanes = 8;  // bytes of a column before they are compressed
 
 // Encodes kColumnsOfBlob columns, x + 256 y.
 store::Bytes encodeSurfaces(std::span<const SurfaceColumn> columns);

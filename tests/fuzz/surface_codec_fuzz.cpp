@@ -12,9 +12,9 @@ namespace {
 
 using namespace terrane;
 
-// Repeats the input, six bytes per column: any bytes are valid columns.
+// Repeats the input over the columns: any bytes are valid ones.
 store::Bytes surfacesOf(std::span<const std::uint8_t> input) {
-    std::vector<std::byte> planes(6 * map::kColumnsOfBlob);
+    std::vector<std::byte> planes(map::kColumnPlanes * map::kColumnsOfBlob);
     for (std::size_t k = 0; k < planes.size() && !input.empty(); ++k)
         planes[k] = static_cast<std::byte>(input[k % input.size()]);
     store::Bytes bytes;
