@@ -2,6 +2,8 @@
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <bitset>
+#include <cstdint>
 #include <cstdio>
 #include <functional>
 #include <memory>
@@ -50,9 +52,35 @@ std::string digestOf(const std::vector<world::Chunk>& chunks) {
     return digest.hex();
 }
 
+// The sections that a view from above the ground needs: to four below the lowest one that is under the open
+// sky.
+class UnderSky {
+  public:
+    bool operator()(const world::Chunk& chunk, int lowest) {
+        const world::Section& section = chunk.section(lowest);
+        const bool isAir = section.isUniform() && section.uniformValue() == world::kAir;
+        if (!isAir && !closed_.all()) close(section);
+        below_ += closed_.all() ? 1 : 0;
+        return below_ < 5;
+    }
+
+  private:
+    void close(const world::Section& section) {
+        std::vector<world::Section::Value> values(world::kBlocksPerSection);
+        section.unpack(std::span(values).first<world::kBlocksPerSection>());
+        for (std::size_t k = 0; k < values.size(); ++k)
+            if (values[k] != world::kAir) closed_.set(k % closed_.size());
+    }
+
+    std::bitset<world::kBlocksPerLayer> closed_;
+    int below_ = 0;
+};
+
+enum class Depth : std::uint8_t { Whole, UnderSky };
+
 // One iteration makes 32×32 chunks in the order of rows with a new generator.
 void generateArea(benchmark::State& state, std::string_view name, ChunkPos corner = {0, 0},
-                  world::Heights heights = {}) {
+                  world::Heights heights = {}, Depth depth = Depth::Whole) {
     constexpr int kSide = 32;
     std::vector<world::Chunk> chunks;
     for (auto _ : state) {
@@ -60,8 +88,11 @@ void generateArea(benchmark::State& state, std::string_view name, ChunkPos corne
         const gen::Generator generator(graphOf(name, heights), kSeed);
         chunks.clear();
         state.ResumeTiming();
-        for (int k = 0; k < kSide * kSide; ++k)
-            chunks.push_back(generator.generate({corner.x + k % kSide, corner.y + k / kSide}));
+        for (int k = 0; k < kSide * kSide; ++k) {
+            const ChunkPos pos{corner.x + k % kSide, corner.y + k / kSide};
+            chunks.push_back(depth == Depth::Whole ? generator.generate(pos)
+                                                   : generator.generateDown(pos, UnderSky()));
+        }
     }
     state.counters["chunks_per_second"] =
         benchmark::Counter(kSide * kSide, benchmark::Counter::kIsIterationInvariantRate);
@@ -78,6 +109,13 @@ BENCHMARK_CAPTURE(generateArea, overworld_tall, "overworld", ChunkPos{0, 0}, kTa
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, continents_tall, "continents", ChunkPos{195, -125}, kTall)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateArea, overworld_under_sky, "overworld", ChunkPos{0, 0}, kTall, Depth::UnderSky)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+BENCHMARK_CAPTURE(generateArea, continents_under_sky, "continents", ChunkPos{195, -125}, kTall,
+                  Depth::UnderSky)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, flat_tall, "flat", ChunkPos{0, 0}, kTall)->Unit(benchmark::kMillisecond);

@@ -115,7 +115,8 @@ struct Generator::Impl {
     // need. A thread that runs a pass waits only for lower passes of other chunks, so there is no deadlock.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
     void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
-    void runTopDown(world::ChunkPos pos, ChunkWork& work, const LayerCallback& take, Worker& worker);
+    // Prepares the passes from firstDown on.
+    void beginTopDown(world::ChunkPos pos, ChunkWork& work, std::vector<Works>& works, Worker& worker);
     // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
@@ -207,16 +208,15 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     }
 }
 
-void Generator::Impl::runTopDown(world::ChunkPos pos, ChunkWork& work, const LayerCallback& take,
-                                 Worker& worker) {
-    std::vector<Works> works(programs.size());
+void Generator::Impl::beginTopDown(world::ChunkPos pos, ChunkWork& work, std::vector<Works>& works,
+                                   Worker& worker) {
+    works.resize(programs.size());
     worker.downPasses.clear();
     for (int pass = firstDown; pass < static_cast<int>(programs.size()); ++pass) {
         const auto number = static_cast<std::size_t>(pass);
         advanceNeighbors(pos, pass, works[number], worker);
         worker.downPasses.add(*voxelPasses[number], inputsOf(pos, work, pass, works[number], worker));
     }
-    worker.downPasses.run(take);
 }
 
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
@@ -225,14 +225,15 @@ void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, 
 
 namespace {
 
+world::Section packSection(const BlockLayers& blocks, int number) {
+    const std::optional<std::uint16_t> one = blocks.uniformBlock(number);
+    return one ? world::Section(*one) : world::Section::fromValues(blocks.section(number));
+}
+
 world::Chunk packChunk(const BlockLayers& blocks) {
-    const world::Heights heights = blocks.heights();
-    world::Chunk chunk(heights);
-    for (int number = heights.firstSection(); number < heights.endSection(); ++number) {
-        const std::optional<std::uint16_t> one = blocks.uniformBlock(number);
-        chunk.setSection(number,
-                         one ? world::Section(*one) : world::Section::fromValues(blocks.section(number)));
-    }
+    world::Chunk chunk(blocks.heights());
+    for (int number = blocks.heights().firstSection(); number < blocks.heights().endSection(); ++number)
+        chunk.setSection(number, packSection(blocks, number));
     return chunk;
 }
 
@@ -317,18 +318,40 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
     return chunk;
 }
 
-void Generator::generateTopDown(world::ChunkPos pos, const LayerCallback& take) const {
-    TERRANE_ZONE("generate chunk from the top");
+// Prepares the passes that run from the top down, and calls run() with them.
+template <class Run>
+void Generator::runDown(world::ChunkPos pos, const Run& run) const {
     Impl& impl = *impl_;
-    base::require(canRunTopDown(impl.graph),
-                  "Generator::generateTopDown: the last pass of the generator is not 3D");
+    base::require(canRunTopDown(impl.graph), "Generator: the last pass of the generator is not 3D");
     requireGenerated(pos, impl.graph.level);
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, *worker);
-    impl.runTopDown(pos, *work, take, *worker);
+    std::vector<Impl::Works> works;
+    impl.beginTopDown(pos, *work, works, *worker);
+    run(worker->downPasses);
     impl.giveBack(std::move(worker));
+}
+
+void Generator::generateTopDown(world::ChunkPos pos, const LayerCallback& take) const {
+    TERRANE_ZONE("generate chunk from the top");
+    runDown(pos, [&](TopDownPasses& passes) { passes.run(take); });
+}
+
+world::Chunk Generator::generateDown(world::ChunkPos pos, const SectionCallback& goesOn) const {
+    TERRANE_ZONE("generate chunk down to a depth");
+    world::Chunk chunk(heights());
+    runDown(pos, [&](TopDownPasses& passes) {
+        int number = chunk.heights().endSection() - 1;
+        for (;; --number) {
+            passes.makeDownTo(number * world::kSectionSize);
+            chunk.setSection(number, packSection(passes.blocks(), number));
+            if (!goesOn(chunk, number) || number == chunk.heights().firstSection()) break;
+        }
+        chunk.unmakeBelow(number);
+    });
+    return chunk;
 }
 
 }  // namespace terrane::gen

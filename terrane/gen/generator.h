@@ -154,6 +154,9 @@ struct PassReport {
     std::size_t wholeInstructions;  // of a layer, when nothing is left out
 };
 
+// Receives a chunk that is made down to a section, by its number. Returns whether sections below are needed.
+using SectionCallback = std::function<bool(const world::Chunk& chunk, int lowest)>;
+
 class Generator {
   public:
     Generator(GeneratorGraph graph, std::uint64_t seed);  // with the cache of the graph's level
@@ -169,6 +172,11 @@ class Generator {
 
     // Does the same and appends reports of its 3D passes, without passes that had run already for neighbors.
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>& report) const;
+
+    // Generates a chunk from the top down: calls goesOn() after each section and makes no section below once
+    // it returns false. The sections that are made equal those of generate(). Threads and errors are those of
+    // generate(), and goesOn() may throw. Requires a last pass that makes blocks.
+    world::Chunk generateDown(world::ChunkPos pos, const SectionCallback& goesOn) const;
 
     // Passes the chunk's blocks to `take`, layer by layer from the top, until no column is requested: cheaper
     // than generate() for views from above. Leaves out layers that are one block and equal the layer above.
@@ -186,6 +194,8 @@ class Generator {
 
   private:
     world::Chunk generate(world::ChunkPos pos, std::vector<PassReport>* report) const;
+    template <class Run>
+    void runDown(world::ChunkPos pos, const Run& run) const;
 
     struct Impl;
     std::unique_ptr<Impl> impl_;

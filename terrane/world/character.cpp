@@ -201,15 +201,15 @@ bool isInClimbable(const World& world, const BlockRegistry& blocks, glm::dvec3 p
     return world.heights().contains(at.z) && blocks.type(world.block(at)).climbable;
 }
 
-// Whether the chunks that the box is in are loaded.
-bool isLoadedUnder(const World& world, const Aabb& box) {
+// Whether the blocks that the box is in are there.
+bool isMadeAround(const World& world, const Aabb& box) {
     const auto cell = [](double v) {
         constexpr std::numeric_limits<std::int32_t> kRange;
         return static_cast<std::int32_t>(std::clamp<double>(std::floor(v), kRange.min(), kRange.max()));
     };
     for (const double x : {box.min.x, box.max.x})
         for (const double y : {box.min.y, box.max.y})
-            if (!world.maybeChunkAt(chunkOf(BlockPos{cell(x), cell(y), 0}))) return false;
+            if (!world.isMade({cell(x), cell(y), world.heights().clamp(cell(box.min.z))})) return false;
     return true;
 }
 
@@ -224,8 +224,8 @@ Character advanceCharacter(const World& world, const BlockRegistry& blocks, cons
                            const CharacterInput& input) {
     Character c = before;
     if (collides(world, blocks, characterBox(c.feet))) {
-        // Chunks that are not loaded count as full: the character waits for them.
-        if (!isLoadedUnder(world, characterBox(c.feet))) return c;
+        // What is not there yet counts as full: the character waits for it.
+        if (!isMadeAround(world, characterBox(c.feet))) return c;
         c.feet.z += kRunSpeed * kStepSeconds;
         c.velocity = {};
         return c;

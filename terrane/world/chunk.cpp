@@ -11,6 +11,7 @@ namespace terrane::world {
 
 Chunk::Chunk(Heights heights)
     : heights_(heights),
+      lowestMade_(heights.firstSection()),
       blocks_(static_cast<std::size_t>(heights.sections())),
       blockState_(static_cast<std::size_t>(heights.sections())) {
     assert(isValid(heights) && "whoever makes a world checks its heights");
@@ -83,13 +84,30 @@ void Chunk::setBlockStateSection(int number, Section section) {
     blockState_[place(number)] = std::move(section);
 }
 
+void Chunk::unmakeBelow(int section) {
+    for (; lowestMade_ < section; ++lowestMade_) setSection(lowestMade_, Section(kUnmade));
+}
+
+void Chunk::makeDeeper(const Chunk& deeper) {
+    base::require(heights_ == deeper.heights_, "Chunk::makeDeeper: a chunk of other heights");
+    const int end = lowestMade_;
+    for (int number = deeper.lowestMade_; number < end; ++number) {
+        blocks_[place(number)] = deeper.section(number);
+        blockState_[place(number)] = deeper.blockStates(number);
+    }
+    for (const auto& [index, data] : deeper.entityData_)
+        if (sectionOf(index) < end) entityData_[index] = data;
+    lowestMade_ = std::min(end, deeper.lowestMade_);
+}
+
 bool operator==(const Chunk& a, const Chunk& b) {
     const auto isInB = [&](const auto& entry) {
         const BlockEntityData* data = b.blockEntityData(entry.first);
         return data && *data == *entry.second;
     };
-    return a.heights_ == b.heights_ && a.blocks_ == b.blocks_ && a.blockState_ == b.blockState_ &&
-           a.entityData_.size() == b.entityData_.size() && std::ranges::all_of(a.entityData_, isInB);
+    return a.heights_ == b.heights_ && a.lowestMade_ == b.lowestMade_ && a.blocks_ == b.blocks_ &&
+           a.blockState_ == b.blockState_ && a.entityData_.size() == b.entityData_.size() &&
+           std::ranges::all_of(a.entityData_, isInB);
 }
 
 std::size_t Chunk::memoryBytes() const {

@@ -17,6 +17,9 @@ namespace terrane::world {
 
 using BlockId = std::uint16_t;
 constexpr BlockId kAir = 0;
+// The block of sections that are not made yet: no registry has it, so it counts as "missing", which is closed
+// and dark.
+constexpr BlockId kUnmade = UINT16_MAX;
 
 // The bytes of a block beyond its 16 bits of block state, for example the text of a sign.
 using BlockEntityData = std::vector<std::byte>;
@@ -33,6 +36,16 @@ class Chunk {
     explicit Chunk(Heights heights);
 
     Heights heights() const { return heights_; }
+
+    // A chunk is made from the top down to a section: those below are filled with kUnmade. New chunks are
+    // made to the bottom.
+    int lowestMade() const { return lowestMade_; }
+    bool isMade(int section) const { return section >= lowestMade_; }
+    // Forgets what is below a section.
+    void unmakeBelow(int section);
+    // Takes the sections below the lowest one that is made from `deeper`, which has the same heights; nothing
+    // if that one is made no deeper.
+    void makeDeeper(const Chunk& deeper);
 
     BlockId block(BlockIndex i) const { return section(sectionOf(i)).get(indexInSection(i)); }
     // Sets the block and resets its block state to 0; block entity data it had is freed.
@@ -73,6 +86,7 @@ class Chunk {
     }
 
     Heights heights_;
+    int lowestMade_;                            // section
     std::vector<Section> blocks_, blockState_;  // from the bottom
     std::unordered_map<BlockIndex, BlockEntityDataPtr> entityData_;
 };

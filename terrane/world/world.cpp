@@ -38,6 +38,17 @@ void World::insert(ChunkPos pos, std::shared_ptr<Chunk> chunk) {
     chunks_.insert_or_assign(pos, std::move(chunk));
 }
 
+void World::makeDeeper(ChunkPos pos, const Chunk& deeper) {
+    const auto found = chunks_.find(pos);
+    base::require(found != chunks_.end(), "World::makeDeeper: the chunk is not loaded");
+    writable(found->second).makeDeeper(deeper);
+}
+
+bool World::isMade(BlockPos pos) const {
+    const Chunk* chunk = findChunk(pos);
+    return chunk && chunk->isMade(sectionOf(blockIndex(pos)));
+}
+
 const Chunk* World::findChunk(BlockPos pos) const {
     if (!heights_.contains(pos.z)) return nullptr;
     const auto found = chunks_.find(chunkOf(pos));
@@ -47,7 +58,8 @@ const Chunk* World::findChunk(BlockPos pos) const {
 Chunk* World::findWritable(BlockPos pos) {
     if (!heights_.contains(pos.z)) return nullptr;
     const auto found = chunks_.find(chunkOf(pos));
-    return found == chunks_.end() ? nullptr : &writable(found->second);
+    const bool isMade = found != chunks_.end() && found->second->isMade(sectionOf(blockIndex(pos)));
+    return isMade ? &writable(found->second) : nullptr;
 }
 
 BlockId World::block(BlockPos pos) const {

@@ -60,8 +60,14 @@ class World {
     // caller may read through its pointer, but not write.
     void insert(ChunkPos pos, std::shared_ptr<Chunk> chunk);
     void erase(ChunkPos pos) { chunks_.erase(pos); }
+    // Takes the sections of a deeper chunk that the chunk there does not have (chunk.h). The chunk is loaded.
+    void makeDeeper(ChunkPos pos, const Chunk& deeper);
 
-    // Returns a block; air above and below the world and where no chunk is loaded.
+    // Returns whether the block can be read and written: its chunk is loaded and made as deep as it.
+    bool isMade(BlockPos pos) const;
+
+    // Returns a block; air above and below the world and where no chunk is loaded, kUnmade below what a chunk
+    // is made to.
     BlockId block(BlockPos pos) const;
 
     // These return a block's 16 bits of block state and its block entity data. Where no chunk is loaded there

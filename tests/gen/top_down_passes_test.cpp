@@ -61,6 +61,20 @@ void expectLayersOf(const Generator& generator, ChunkPos pos, const std::vector<
             << "column " << i % kTileLanes << ", layer " << i / kTileLanes << " from the bottom";
 }
 
+// generateDown() makes the sections down to a random one, and nothing below.
+void expectSectionsOf(const Generator& generator, ChunkPos pos, std::mt19937& random) {
+    const world::Heights heights = generator.heights();
+    const int lowest =
+        heights.firstSection() + static_cast<int>(random() % static_cast<unsigned>(heights.sections()));
+    const world::Chunk deep = generator.generateDown(pos, [&](const world::Chunk& chunk, int section) {
+        EXPECT_EQ(chunk.heights(), heights);
+        return section > lowest;
+    });
+    world::Chunk expected = generator.generate(pos);
+    expected.unmakeBelow(lowest);
+    EXPECT_EQ(deep, expected) << "down to section " << lowest;
+}
+
 void expectSameDown(const Generator& generator, int chunks) {
     std::mt19937 random(7);
     for (int k = 0; k < chunks && !testing::Test::HasFatalFailure(); ++k) {
@@ -68,6 +82,7 @@ void expectSameDown(const Generator& generator, int chunks) {
         const ChunkPos pos = {at() >> generator.level(), at() >> generator.level(),
                               static_cast<std::uint8_t>(generator.level())};
         SCOPED_TRACE(testing::PrintToString(pos));
+        expectSectionsOf(generator, pos, random);
         expectLayersOf(generator, pos, randomDepths(generator.heights(), random));
     }
 }
@@ -156,6 +171,13 @@ TEST(GenerateDown, NothingIsMadeOnceNoColumnIsWanted) {
         for (std::size_t k = 0; k < kTileLanes; ++k) requested.drop(k);
     });
     EXPECT_EQ(layers, 3);
+}
+
+TEST(GenerateDown, EndsAtTheBottomOfTheWorld) {
+    const Generator generator(build([](GeneratorBuilder& g) { g.pass3D("ground", hollowGround); }),
+                              kTestSeed);
+    EXPECT_EQ(generator.generateDown({0, 0}, [](const world::Chunk&, int) { return true; }),
+              generator.generate({0, 0}));
 }
 
 TEST(GenerateDown, RefusesOtherLevels) {

@@ -129,6 +129,26 @@ TEST_F(CharacterTest, WaitsWhereItReachesIntoWhatIsNotLoaded) {
     EXPECT_NEAR(c_.feet.z, 10, 0.01) << "it goes on once the chunk is there";
 }
 
+TEST_F(CharacterTest, WaitsWhereNothingIsMade) {
+    world_ = World({-64, 64});
+    const auto flat = [](int top) {
+        auto chunk = std::make_shared<Chunk>(Heights{-64, 64});
+        for (int z = -64; z < top; ++z)
+            for (int k = 0; k < kBlocksPerLayer; ++k)
+                chunk->setBlock(blockIndex(k % 16, k / 16, z), contentBlock("stone"));
+        return chunk;
+    };
+    const auto shallow = flat(-64);
+    shallow->unmakeBelow(0);
+    world_.insert({0, 0}, shallow);
+    c_.feet = {8.5, 8.5, -20};
+    run(1, {.direction = {1, 0}});
+    EXPECT_EQ(c_.feet, glm::dvec3(8.5, 8.5, -20)) << "as in a chunk that is not loaded";
+    world_.makeDeeper({0, 0}, *flat(-40));
+    run(3, {});
+    EXPECT_NEAR(c_.feet.z, -40, 0.01) << "it falls once the ground is there";
+}
+
 // A random walk among blocks: never inside of one, never through the floor.
 TEST_F(CharacterTest, NeverEndsInsideABlock) {
     std::mt19937 random(3);

@@ -53,6 +53,36 @@ TEST(Chunk, HasTheHeightsOfItsWorld) {
     EXPECT_FALSE(Chunk() == Chunk({0, 512})) << "the heights count";
 }
 
+TEST(Chunk, IsMadeDeeper) {
+    Chunk whole({-64, 64});
+    for (int z = -64; z < 64; ++z) whole.setBlock(blockIndex(3, 4, z), static_cast<BlockId>(100 + z));
+    whole.setBlockState(blockIndex(3, 4, -50), 7);
+    whole.setBlockEntityData(blockIndex(3, 4, -20), bytes("deep"));
+    whole.setBlockEntityData(blockIndex(3, 4, 20), bytes("high"));
+    Chunk chunk = whole;
+    EXPECT_EQ(chunk.lowestMade(), -4);
+    chunk.unmakeBelow(1);
+    EXPECT_EQ(chunk.lowestMade(), 1);
+    EXPECT_TRUE(chunk.isMade(1) && !chunk.isMade(0));
+    EXPECT_EQ(chunk.block(blockIndex(3, 4, 15)), kUnmade);
+    EXPECT_EQ(chunk.block(blockIndex(3, 4, 16)), 116);
+    EXPECT_EQ(chunk.blocksWithBlockEntityData(), std::vector{blockIndex(3, 4, 20)});
+    chunk.unmakeBelow(-2);
+    EXPECT_EQ(chunk.lowestMade(), 1) << "nothing comes back";
+    EXPECT_NE(chunk, whole);
+    Chunk half = whole;
+    half.unmakeBelow(-2);
+    chunk.setBlock(blockIndex(3, 4, 20), 5);  // an edit meanwhile
+    chunk.makeDeeper(half);
+    EXPECT_EQ(chunk.lowestMade(), -2);
+    chunk.makeDeeper(half);
+    chunk.makeDeeper(whole);
+    Chunk expected = whole;
+    expected.setBlock(blockIndex(3, 4, 20), 5);
+    EXPECT_EQ(chunk, expected) << "its own blocks stay";
+    EXPECT_THROW(chunk.makeDeeper(Chunk()), std::invalid_argument);
+}
+
 TEST(Chunk, AnEmptyTallOneIsSmall) {
     EXPECT_LT(Chunk({kLowestBottom, kHighestTop}).memoryBytes(), 4300u);
     EXPECT_LT(Chunk().memoryBytes(), 400u);

@@ -151,6 +151,24 @@ TEST_F(LiquidFlow, WaitsForChunksThatAreNotLoaded) {
     EXPECT_EQ(row(29, 37, 4, 1), "1s1234567");
 }
 
+TEST(LiquidDepth, WaitsForWhatIsNotMade) {
+    FlowWorld flow({-64, 64});
+    flow.addChunks(-1, -1, 1, 1);
+    Chunk whole = *flow.world.maybeChunkAt({0, 0});
+    auto shallow = std::make_shared<Chunk>(whole);
+    shallow->unmakeBelow(0);
+    flow.world.insert({0, 0}, shallow);
+    flow.set({8, 8, 20}, "water");
+    flow.settle();
+    EXPECT_EQ(flow.at({8, 8, 3}), 'f');
+    EXPECT_EQ(flow.at({13, 8, 0}), '.') << "it does not spread on ground that is not there";
+    flow.world.makeDeeper({0, 0}, whole);
+    flow.settle();
+    EXPECT_EQ(flow.at({8, 8, -63}), 'f');
+    EXPECT_EQ(flow.at({13, 8, 0}), '.');
+    EXPECT_EQ(flow.at({13, 8, -63}), '4') << "as without the pause";
+}
+
 TEST_F(LiquidFlow, SandFallsThroughFlowingWaterAndLandsOnce) {
     for (int x = 0; x < 2; ++x) set({x, 4, 9}, "stone");
     set({0, 4, 10}, "water");

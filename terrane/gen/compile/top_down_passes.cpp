@@ -64,6 +64,7 @@ void TopDownPasses::add(const VoxelPass& pass, PassInputs inputs) {
         running.readsBelow = *below;
     }
     running.executor.begin3D(pass, inputs, running.blocks);
+    requested_ = RequestedColumns();
     ++count_;
 }
 
@@ -80,15 +81,18 @@ void TopDownPasses::makeMore(std::size_t pass) {
     executor.runTopDown(reachOf(pass), requested_);
 }
 
+void TopDownPasses::makeDownTo(int z) {
+    while (z < passes_[count_ - 1]->executor.lowestComputed()) makeMore(count_ - 1);
+}
+
 void TopDownPasses::run(const LayerCallback& take) {
     const Running& last = *passes_[count_ - 1];
     const auto isLikeAbove = [&](int z) {
         const BlockRange here = last.blocks.range(z);
         return z + 1 < heights_.top && here.low == here.high && here == last.blocks.range(z + 1);
     };
-    requested_ = RequestedColumns();
     for (int z = heights_.top; z-- > heights_.bottom && requested_.rows() != 0;) {
-        if (z < last.executor.lowestComputed()) makeMore(count_ - 1);
+        makeDownTo(z);
         if (isLikeAbove(z)) continue;
         take(z, std::span<const world::BlockId, kTileLanes>(last.blocks.layer(z), kTileLanes), requested_);
     }

@@ -46,6 +46,10 @@ class TopDownPasses {
     // Passes the layers of the last pass to `take` from the top, until no column is requested. Leaves out
     // layers that are one block and equal the layer above.
     void run(const LayerCallback& take);
+    // Makes the layers of the last pass down to z, all columns of them. Not in the same use as run().
+    void makeDownTo(int z);
+    // Returns the blocks of the last pass, as far down as they are made.
+    const BlockLayers& blocks() const { return passes_[count_ - 1]->blocks; }
 
   private:
     struct Running {

@@ -83,8 +83,8 @@ enum class RestoreScope : std::uint8_t {
 };
 
 // A change of the world in progress: each change appends its event and queues the behaviors to call; run()
-// calls them in this order until the queue is empty. Nothing happens where no chunk is loaded, above and
-// below the world. It is used on the world's thread.
+// calls them in this order until the queue is empty. Nothing happens where no chunk is loaded or made
+// (World::isMade()), above and below the world. It is used on the world's thread.
 class BlockUpdate {
   public:
     // `recorder` and `mayReach` may be null. Neighbors that a change may not reach are not told of it.

@@ -85,12 +85,17 @@ class FlowCells {
         const bool holdsData = room == Room::Free && id != kAir && chunk->blockEntityData(index);
         return {id, 0, holdsData ? Room::Full : room};
     }
-    // Whether all chunks within two blocks are loaded.
+    // Whether all blocks within two blocks are there.
     bool isSurrounded(BlockPos pos) {
         const ChunkPos own = chunkOf(pos);
         const auto away = [](std::int32_t v) { return (v & 15) < 2 ? -1 : (v & 15) > 13 ? 1 : 0; };
         const int dx = away(pos.x), dy = away(pos.y);
-        const auto isLoaded = [&](int x, int y) { return chunk(offsetBy(own, x, y)) != nullptr; };
+        const int lowest = std::max(pos.z - 2, world_.heights().bottom) >> 4;
+        const auto isLoaded = [&](int x, int y) {
+            const Chunk* found = chunk(offsetBy(own, x, y));
+            return found && found->isMade(lowest);
+        };
+        if (!isLoaded(0, 0)) return false;
         return (dx == 0 || isLoaded(dx, 0)) && (dy == 0 || isLoaded(0, dy)) &&
                (dx == 0 || dy == 0 || isLoaded(dx, dy));
     }
