@@ -52,14 +52,6 @@ bool areAll(const DaylightColumns& columns, LightValue value) {
     return std::all_of(columns.begin(), columns.end(), [&](LightValue v) { return v == value; });
 }
 
-// The daylight that comes down the columns of a chunk.
-struct Daylight {
-    DaylightColumns columns;
-    bool isEven = true;  // the same in all columns
-
-    bool isDark() const { return isEven && columns[0] == kDark; }
-};
-
 // Emission of the section and the daylight that reaches it straight from above.
 BrickView sourcesOf(BrickView emission, BrickView opacity, Daylight& daylight, BrickPool& pool) {
     DaylightColumns& columns = daylight.columns;
@@ -86,7 +78,6 @@ ChunkBricks findBricks(const world::Chunk& chunk, const LightTable& table, Brick
                        bool isSunlitOnly) {
     ChunkBricks bricks;
     Daylight daylight;
-    daylight.columns.fill(kFullDaylight);
     const Section* above = nullptr;
     for (int number = chunk.heights().endSection() - 1; number >= chunk.heights().firstSection(); --number) {
         if (isSunlitOnly && daylight.isDark()) break;
@@ -126,6 +117,22 @@ ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, Bric
 
 ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool) {
     return findBricks(chunk, table, pool, true);
+}
+
+FallingDaylight::FallingDaylight(const LightTable& table) : table_(table) {}
+
+bool FallingDaylight::enters(const world::Section& section) {
+    if (daylight_.isDark()) return false;
+    sourcesOf(emissionOf(section, table_, pool_), opacityOf(section, table_, pool_), daylight_, pool_);
+    pool_.reset();
+    return true;
+}
+
+int lowestSunlitSection(const world::Chunk& chunk, const LightTable& table) {
+    FallingDaylight daylight(table);
+    int number = chunk.heights().endSection();
+    while (number > chunk.heights().firstSection() && daylight.enters(chunk.section(number - 1))) --number;
+    return number;
 }
 
 }  // namespace terrane::light

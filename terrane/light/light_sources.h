@@ -2,6 +2,7 @@
 // its columns. It is a part of LocalLight (light_chunk.h); any thread may use it.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "terrane/light/brick.h"
@@ -38,6 +39,15 @@ struct BrickRun {
     BrickView light, opacity;
 };
 
+// The daylight that comes down the columns of a chunk, x + 16 y.
+struct Daylight {
+    std::array<LightValue, world::kBlocksPerLayer> columns;
+    bool isEven = true;  // the same in all columns
+
+    Daylight() { columns.fill(kFullDaylight); }
+    bool isDark() const { return isEven && columns[0] == kDark; }
+};
+
 // The bricks of a chunk from its top to its bottom. The function that fills them states who owns the values.
 using ChunkBricks = std::vector<BrickRun>;
 
@@ -46,6 +56,22 @@ ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, Bric
 
 // The same down to the lowest brick that daylight enters straight from above. Below, the source is emission.
 ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool);
+
+// Follows the daylight that falls straight down a chunk, section by section from the top.
+class FallingDaylight {
+  public:
+    explicit FallingDaylight(const LightTable& table);
+    // Takes the next section. Returns whether daylight enters it.
+    bool enters(const world::Section& section);
+
+  private:
+    const LightTable& table_;
+    BrickPool pool_;
+    Daylight daylight_;
+};
+
+// Returns the number of the lowest section that daylight enters straight from above.
+int lowestSunlitSection(const world::Chunk& chunk, const LightTable& table);
 
 BrickView emissionOf(const world::Section& section, const LightTable& table, BrickPool& pool);
 BrickView opacityOf(const world::Section& section, const LightTable& table, BrickPool& pool);
