@@ -33,7 +33,9 @@ bool isWhole(const BlockBox& box, const BuildChange& change) {
 bool isLoaded(const world::World& world, const BlockBox& box) {
     for (std::int32_t y = box.low.y >> 4; y <= box.high.y >> 4; ++y)
         for (std::int32_t x = box.low.x >> 4; x <= box.high.x >> 4; ++x)
-            if (!world.maybeChunkAt({x, y})) return false;
+            if (!world.isMade(
+                    {x * world::kChunkSize, y * world::kChunkSize, world.heights().clamp(box.low.z)}))
+                return false;
     return true;
 }
 

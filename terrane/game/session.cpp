@@ -20,10 +20,6 @@ constexpr double kBlockRadius = 1;
 // Limits the ticks after a stall.
 constexpr double kMaxTickSeconds = 1;
 
-bool isLoaded(const world::World& world, world::BlockPos pos) {
-    return world.heights().contains(pos.z) && world.maybeChunkAt(world::chunkOf(pos));
-}
-
 // Whether the area has columns of the chunk or of those beside it.
 bool touches(const ColumnArea& area, world::ChunkPos pos) {
     return pos.x >= (area.x0 >> 4) - 1 && pos.x <= (area.x1 >> 4) + 1 && pos.y >= (area.y0 >> 4) - 1 &&
@@ -113,7 +109,7 @@ std::vector<EditResult> Session::applyAll(std::span<const EditCommand> commands)
 EditResult Session::apply(const EditCommand& command, std::vector<world::BlockEdit>& edits,
                           PlayerChanges& changes) {
     if (!canReach(command.player, command.pos)) return EditResult::OutOfReach;
-    if (!isLoaded(world_, command.pos)) return EditResult::NotLoaded;
+    if (!world_.isMade(command.pos)) return EditResult::NotLoaded;
     if (const auto refused = refusal(permissions, command.player, command.pos)) return *refused;
     if (command.expected && *command.expected != world_.block(command.pos)) return EditResult::Conflict;
     if (const auto refusal = refusalOfBreaking(command)) return *refusal;
@@ -159,7 +155,7 @@ UndoResult Session::undoOrRedo(PlayerId player, HistoryWay way) {
     const auto found = players_.find(player);
     const EditStep* step = found == players_.end() ? nullptr : found->second.history.next(way);
     if (!step) return {Outcome::NoStep};
-    if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return isLoaded(world_, block.pos); }))
+    if (!std::ranges::all_of(*step, [&](const ChangedBlock& block) { return world_.isMade(block.pos); }))
         return {Outcome::NotLoaded};
     // The step is dropped, so that the ones before it can be undone.
     const auto refuse = [&]() -> UndoResult {
@@ -245,7 +241,7 @@ void Session::setBlocks(std::span<const world::PlacedBlock> blocks) {
 void Session::runRules(std::span<const world::BlockPos> positions) {
     std::vector<world::PlacedBlock> blocks;
     for (const world::BlockPos pos : positions)
-        if (isLoaded(world_, pos)) blocks.push_back({pos, world::blockValue(world_, pos)});
+        if (world_.isMade(pos)) blocks.push_back({pos, world::blockValue(world_, pos)});
     std::vector<world::BlockEdit> edits;
     world::BlockRecorder recorder;
     world::restoreBlocks(world_, *blocks_, blocks, edits, &recorder);

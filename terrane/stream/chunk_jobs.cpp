@@ -1,6 +1,9 @@
 #include "terrane/stream/chunk_jobs.h"
 
+#include <algorithm>
+
 #include "terrane/base/profile.h"
+#include "terrane/stream/depth.h"
 
 namespace terrane::stream {
 namespace {
@@ -13,22 +16,44 @@ light::LightScratch& lightScratch() {
 
 }  // namespace
 
-std::shared_ptr<world::Chunk> loadStored(const ChunkSource& source, world::ChunkPos pos) {
-    if (!source.store) return nullptr;
-    TERRANE_ZONE("load chunk");
-    store::LoadedChunk stored = source.store->load(pos);
-    return stored.state == store::LoadedChunk::State::Present ? stored.chunk : nullptr;
+world::Chunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section) {
+    const gen::Generator& generator = *source.generator;
+    if (section <= generator.heights().firstSection()) return generator.generate(pos);
+    return generator.generateDown(pos, [&](const world::Chunk&, int lowest) { return lowest > section; });
 }
 
-std::shared_ptr<world::Chunk> generateChunk(const ChunkSource& source, world::ChunkPos pos) {
-    if (!source.generator) return nullptr;
-    const auto chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
-    storeGenerated(source, pos, chunk);
-    return chunk;
+ReadChunk loadStored(const ChunkSource& source, world::ChunkPos pos, const light::LightTable& lights) {
+    if (!source.store) return {};
+    TERRANE_ZONE("load chunk");
+    store::LoadedChunk stored = source.store->load(pos);
+    if (stored.state != store::LoadedChunk::State::Present) return {};
+    const int lowestSunlit = light::lowestSunlitSection(*stored.chunk, lights);
+    return {std::move(stored.chunk), lowestSunlit};
+}
+
+ReadChunk generateChunk(const ChunkSource& source, world::ChunkPos pos, int section,
+                        const light::LightTable& lights) {
+    if (!source.generator) return {};
+    ReadChunk read;
+    if (section <= source.generator->heights().firstSection()) {
+        read.chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
+        read.lowestSunlit = light::lowestSunlitSection(*read.chunk, lights);
+    } else {
+        light::FallingDaylight daylight(lights);
+        const auto goesOn = [&](const world::Chunk& chunk, int lowest) {
+            if (daylight.enters(chunk.section(lowest))) read.lowestSunlit = lowest;
+            return lowest > std::min(section, read.lowestSunlit - kDarkSections);
+        };
+        read.chunk = std::make_shared<world::Chunk>(source.generator->generateDown(pos, goesOn));
+    }
+    storeGenerated(source, pos, read.chunk);
+    return read;
 }
 
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk) {
-    if (source.store && source.storesGenerated) source.store->save(pos, chunk, store::Provenance::Generated);
+    const bool isWhole = chunk->isMade(chunk->heights().firstSection());
+    if (source.store && source.storesGenerated && isWhole)
+        source.store->save(pos, chunk, store::Provenance::Generated);
 }
 
 LocalLightPtr localLight(const world::Chunk& chunk, const light::LightTable& table) {

@@ -22,12 +22,24 @@ struct ChunkSource {
     bool storesGenerated = false;               // else only edited chunks are stored
 };
 
-// Loads a chunk from the store. Returns null if it has none.
-std::shared_ptr<world::Chunk> loadStored(const ChunkSource& source, world::ChunkPos pos);
-// Generates a chunk, and stores it if the source says so. Returns null if there is no generator.
-std::shared_ptr<world::Chunk> generateChunk(const ChunkSource& source, world::ChunkPos pos);
+// A chunk and the lowest section that daylight enters straight from above.
+struct ReadChunk {
+    std::shared_ptr<world::Chunk> chunk;  // null: there is none
+    int lowestSunlit = 0;
 
-// Stores a generated chunk if the source says so.
+    explicit operator bool() const { return chunk != nullptr; }
+};
+
+// Loads a chunk from the store, which has whole ones. Returns null if it has none.
+ReadChunk loadStored(const ChunkSource& source, world::ChunkPos pos, const light::LightTable& lights);
+// Generates a chunk, at least down to `section` and as deep as daylight needs (depth.h), and stores it if the
+// source says so. Returns null if there is no generator.
+ReadChunk generateChunk(const ChunkSource& source, world::ChunkPos pos, int section,
+                        const light::LightTable& lights);
+// Generates a chunk down to a section. Requires a generator.
+world::Chunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section);
+
+// Stores a generated chunk if it is whole and the source says so.
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk);
 
 // Returns the light of a chunk's own blocks.

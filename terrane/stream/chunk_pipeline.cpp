@@ -4,6 +4,7 @@
 #include <array>
 #include <cassert>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "terrane/base/profile.h"
@@ -34,6 +35,7 @@ constexpr std::chrono::milliseconds kBatchPause{1};
 ChunkPipeline::ChunkPipeline(const PipelineParts& parts)
     : parts_(parts), beyond_(borderChunk(parts.blocks, parts.world.heights())), workers_(parts_) {
     if (parts_.batchGenerator) parts_.source.generator = nullptr;
+    table_.heights = parts_.world.heights();
 }
 
 ChunkPipeline::~ChunkPipeline() {
@@ -48,6 +50,13 @@ void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 directi
     if (!isOther) return;
     for (const ChunkPos pos : popHidden(table_)) changes_.hide(pos);
     cancelLoads();
+}
+
+// A batch generator makes whole chunks. Chunks of the default heights are whole too: what they have below is
+// little, and in a store it is there for everyone.
+void ChunkPipeline::setCameraHeight(std::optional<int> z) {
+    const bool isPartial = parts_.source.generator && parts_.world.heights() != world::Heights();
+    stream::setCameraHeight(table_, isPartial ? z : std::nullopt);
 }
 
 void ChunkPipeline::hideAll() {
@@ -98,6 +107,7 @@ void ChunkPipeline::update(Time now) {
     if (now >= nextHousekeeping_) runHousekeeping();
     submitLoads();
     submitLighting();
+    submitDepths();
     submitMeshes();
 }
 
@@ -106,13 +116,14 @@ void ChunkPipeline::takeResults() {
     for (const WorkerResults::Load& load : done.loads) {
         // The result of a job that ran although it was cancelled.
         if (!isAt(table_, load.pos, ChunkStage::Loading)) continue;
-        if (load.chunk) {
-            onLoaded(load.pos, load.chunk, load.localLight);
+        if (load.read) {
+            onLoaded(load.pos, load.read, load.localLight);
         } else {
             findRecord(table_, load.pos)->load = {};  // from here on it cannot be cancelled
             toGenerate_.push_back(load.pos);
         }
     }
+    for (const WorkerResults::Deepened& deepened : done.deepened) onDeepened(deepened);
     for (const WorkerResults::Lit& lit : done.lit) onLit(lit.pos, lit.light, lit.mesh);
     for (const WorkerResults::Meshed& meshed : done.meshed) {
         if (finishMeshJob(table_, meshed.job)) {
@@ -121,18 +132,43 @@ void ChunkPipeline::takeResults() {
     }
 }
 
-void ChunkPipeline::onLoaded(ChunkPos pos, std::shared_ptr<world::Chunk> chunk, LocalLightPtr local) {
+void ChunkPipeline::onLoaded(ChunkPos pos, ReadChunk read, LocalLightPtr local) {
     ChunkRecord& record = *findRecord(table_, pos);
     record.load = {};
     record.localLight = std::move(local);
-    parts_.world.insert(pos, std::move(chunk));
+    const LoadedDepths depths{read.chunk->lowestMade(), read.lowestSunlit};
+    parts_.world.insert(pos, std::move(read.chunk));
     if (notesLoaded_) loaded_.push_back(pos);
-    finishLoad(table_, pos, now_);
+    finishLoad(table_, pos, now_, depths);
+}
+
+void ChunkPipeline::onDeepened(const WorkerResults::Deepened& deepened) {
+    const ChunkPos pos = deepened.job.pos;
+    if (!finishDepthJob(table_, deepened.job)) return;
+    const bool isSame = parts_.world.maybeChunkAt(pos) == deepened.former;
+    if (isSame)
+        parts_.world.insert(pos, deepened.deeper);
+    else
+        parts_.world.makeDeeper(pos, *deepened.deeper);
+    findRecord(table_, pos)->localLight = isSame ? deepened.localLight : nullptr;
+    invalidateLighting(table_, pos);
+    updateDepthAround(table_, pos);
+}
+
+// Finds out how deep daylight falls, after edits.
+void ChunkPipeline::findDaylight(ChunkPos pos) {
+    ChunkRecord* record = findRecord(table_, pos);
+    if (!record || !table_.nearDepth) return;
+    const int before = record->lowestSunlit;
+    record->lowestSunlit = light::lowestSunlitSection(*parts_.world.maybeChunkAt(pos), parts_.lights);
+    if (record->lowestSunlit < before) updateDepthAround(table_, pos);
 }
 
 void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh) {
     if (!finishLighting(table_, pos)) return;
-    findRecord(table_, pos)->light = light;
+    ChunkRecord& record = *findRecord(table_, pos);
+    record.light = light;
+    record.meshJob = 0;  // this mesh is newer
     changes_.setLight(pos, std::move(light));
     if (mesh) {
         changes_.setMesh(pos, std::move(mesh), mesh::kAllMeshSections);
@@ -164,9 +200,17 @@ void ChunkPipeline::submitLoads() {
     const std::size_t loading = countOf(table_, ChunkStage::Loading) - toGenerate_.size();
     for (const ChunkPos pos : popLoadRequests(table_, roomFor(loading))) {
         // Chunks beyond the view and its ring, such as all chunks of a server, are not lit.
-        findRecord(table_, pos)->load =
-            workers_.submitLoad(urgency(table_.view, pos), pos, parts_.source, isNeeded(table_.view, pos));
+        ChunkRecord& record = *findRecord(table_, pos);
+        const int section = record.isRequested ? table_.heights.firstSection() : depthToLoad(table_, pos);
+        record.load = workers_.submitLoad(urgency(table_.view, pos), pos, parts_.source, section,
+                                          isNeeded(table_.view, pos));
     }
+}
+
+void ChunkPipeline::submitDepths() {
+    for (const DepthJob& job : popDepthJobs(table_, roomFor(table_.depthJobCount)))
+        workers_.submitDepth(urgency(table_.view, job.pos), job, parts_.world.maybeChunkAt(job.pos),
+                             parts_.source);
 }
 
 void ChunkPipeline::exchangeChunks() {
@@ -182,7 +226,8 @@ void ChunkPipeline::exchangeChunks() {
         --generating_;
         storeGenerated(parts_.source, generated.pos, generated.chunk);
         if (parts_.batchLighter) {
-            onLoaded(generated.pos, std::move(generated.chunk), nullptr);
+            const int lowestSunlit = light::lowestSunlitSection(*generated.chunk, parts_.lights);
+            onLoaded(generated.pos, {std::move(generated.chunk), lowestSunlit}, nullptr);
         } else {
             workers_.submitLocalLight(urgency(table_.view, generated.pos), generated.pos,
                                       std::move(generated.chunk));
@@ -219,7 +264,7 @@ void ChunkPipeline::waitForWorkers(std::chrono::milliseconds timeout) {
 }
 
 void ChunkPipeline::submitLighting() {
-    std::size_t room = roomFor(countOf(table_, ChunkStage::Lighting));
+    std::size_t room = roomFor(countOf(table_, ChunkStage::Lighting) + table_.lightAgainCount);
     if (parts_.batchLighter) room = 2 * kLightBatch - std::min(2 * kLightBatch, toLight_.size() + lighting_);
     for (const ChunkPos pos : popLightingRequests(table_, room)) {
         if (parts_.batchLighter) {
@@ -250,6 +295,7 @@ void ChunkPipeline::onEdits(std::span<const world::BlockEdit> edits) {
             record = findRecord(table_, chunk);
             assert(record && "a chunk in the world has a record");
             if (!record->editedAt) record->editedAt = now_;
+            requestDepth(table_, chunk, table_.heights.firstSection());  // saves have whole chunks
             invalidateLighting(table_, chunk);
         }
         if (edit.before == edit.after) {  // only its state or data changed
@@ -272,6 +318,9 @@ void ChunkPipeline::relight() {
         for (const auto& [chunk, meshSections] : mesh::meshSectionsTouchedBy(edit.pos))
             touched[chunk] |= meshSections;
     }
+    std::set<ChunkPos> edited;
+    for (const world::BlockEdit& edit : edits) edited.insert(world::chunkOf(edit.pos));
+    for (const ChunkPos pos : edited) findDaylight(pos);
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
@@ -314,9 +363,18 @@ bool ChunkPipeline::save(ChunkPos pos, ChunkRecord& record) {
     if (!record.editedAt) return true;
     if (maySave_ && !maySave_(pos)) return false;
     record.editedAt.reset();
-    if (parts_.source.store)
-        parts_.source.store->save(pos, parts_.world.maybeChunkAt(pos), store::Provenance::Edited);
+    if (parts_.source.store) parts_.source.store->save(pos, wholeChunk(pos), store::Provenance::Edited);
     return true;
+}
+
+// Edited chunks are made whole; one that is saved before that is completed here.
+ChunkPtr ChunkPipeline::wholeChunk(ChunkPos pos) const {
+    ChunkPtr chunk = parts_.world.maybeChunkAt(pos);
+    const int first = table_.heights.firstSection();
+    if (chunk->isMade(first)) return chunk;
+    auto whole = std::make_shared<world::Chunk>(*chunk);
+    whole->makeDeeper(generateTo(parts_.source, pos, first));
+    return whole;
 }
 
 bool ChunkPipeline::isUnsaved(ChunkPos pos) const {
@@ -343,7 +401,8 @@ ChunkPtr ChunkPipeline::maybeLoadChunkAt(ChunkPos pos) {
     base::require(pos.level == 0 && world::isInWorld(pos),
                   "ChunkPipeline: chunks of level 0 in the world can be loaded");
     requestChunk(table_, pos, now_);
-    return parts_.world.maybeChunkAt(pos);
+    ChunkPtr chunk = parts_.world.maybeChunkAt(pos);
+    return chunk && chunk->isMade(table_.heights.firstSection()) ? chunk : nullptr;
 }
 
 ChunkPtr ChunkPipeline::chunkAt(ChunkPos pos) {
@@ -366,7 +425,10 @@ std::size_t ChunkPipeline::queuedCount() const {
 }
 
 Progress ChunkPipeline::progress() const {
-    return {table_.chunksInView, table_.visibleInView, pendingMeshes(table_) + toRelight_.edits.size()};
+    const std::size_t deeper = table_.toDeepen.size() + table_.depthJobCount;
+    const std::size_t again = table_.toLightAgain.size() + table_.lightAgainCount;
+    return {table_.chunksInView, table_.visibleInView,
+            pendingMeshes(table_) + toRelight_.edits.size() + deeper + again};
 }
 
 std::size_t ChunkPipeline::localLightBytes() const {

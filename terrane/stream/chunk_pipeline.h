@@ -1,7 +1,7 @@
 // Loads, lights and meshes the chunks around a camera on worker threads, and passes edits to the screen and
 // the store.
 //
-// Three schedulers over one table of chunk records (chunk_table.h) select the next work; this class runs it.
+// Schedulers over one table of chunk records (chunk_table.h) select the next work; this class runs it.
 // All functions are called on one thread, the one that owns the world; workers see only immutable snapshots
 // and return results through a queue.
 #pragma once
@@ -16,6 +16,7 @@
 #include "terrane/stream/change_queue.h"
 #include "terrane/stream/chunk_table.h"
 #include "terrane/stream/chunk_workers.h"
+#include "terrane/stream/depth.h"
 #include "terrane/stream/meshing.h"
 #include "terrane/stream/pipeline_types.h"
 #include "terrane/stream/residency.h"
@@ -33,6 +34,11 @@ class ChunkPipeline {
     // Sets the view: chunks up to `viewDistance` (Chebyshev) around `center` become visible, and tiles beyond
     // them up to `horizon` (see TileView). `direction` is that of ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {}, int horizon = 0);
+    // Sets the height of the camera, z of a block: deep ground is made only near it and where daylight falls
+    // (depth.h). Without one, which is so at first, chunks are made to the bottom of the world.
+    void setCameraHeight(std::optional<int> z);
+    // Returns a z that is no higher than the lowest block that the view needs. It looks at all chunks.
+    int lowestNeeded() const { return stream::lowestNeeded(table_) * world::kSectionSize; }
     // Sets the options. Visible chunks are meshed again in the next updates; they are shown as before until
     // then.
     void setMeshOptions(const mesh::MeshOptions& options);
@@ -46,8 +52,8 @@ class ChunkPipeline {
     // threads.
     void waitForWorkers(std::chrono::milliseconds timeout);
 
-    // Returns the chunk, or null if it is not loaded; then it is loaded soon. Each call keeps it loaded for 5
-    // s.
+    // Returns the whole chunk, or null if it is not loaded to its bottom; then it is soon. Each call keeps it
+    // loaded for 5 s.
     world::ChunkPtr maybeLoadChunkAt(world::ChunkPos pos);
     // Returns the chunk and blocks until it is loaded. `pos` is in the world.
     world::ChunkPtr chunkAt(world::ChunkPos pos);
@@ -95,12 +101,15 @@ class ChunkPipeline {
   private:
     ChunkNeighborhood around(world::ChunkPos pos) const;
     void takeResults();
-    void onLoaded(world::ChunkPos pos, std::shared_ptr<world::Chunk> chunk, LocalLightPtr local);
+    void onLoaded(world::ChunkPos pos, ReadChunk read, LocalLightPtr local);
+    void onDeepened(const WorkerResults::Deepened& deepened);
+    void findDaylight(world::ChunkPos pos);
     void onLit(world::ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh);
     void dropLocalLightAround(world::ChunkPos pos);
     void exchangeChunks();
     void exchangeLight();
     void submitLoads();
+    void submitDepths();
     void submitLighting();
     void submitMeshes();
     std::size_t roomFor(std::size_t running) const;
@@ -112,6 +121,7 @@ class ChunkPipeline {
     void cancelLoads();
     void runHousekeeping();
     bool save(world::ChunkPos pos, ChunkRecord& record);
+    world::ChunkPtr wholeChunk(world::ChunkPos pos) const;
 
     PipelineParts parts_;
     mesh::MeshOptions meshOptions_;

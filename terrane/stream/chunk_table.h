@@ -1,7 +1,7 @@
 // One record for each chunk that is loaded or being loaded, and the view that orders them: the data that the
-// three schedulers share. residency.h decides which chunks are loaded and unloaded, lighting.h which are lit,
-// meshing.h which are meshed again. None of them uses threads, clocks or blocks; chunk_pipeline.h runs their
-// work. One thread uses it.
+// schedulers share. residency.h decides which chunks are loaded and unloaded, depth.h how deep they are made,
+// lighting.h which are lit, meshing.h which are meshed again. None of them uses threads, clocks or blocks;
+// chunk_pipeline.h runs their work. One thread uses it.
 //
 //   (absent) ─► Loading ─► Loaded ─► Lighting ─► Visible
 //                            ▲ │ ▲──────┘ blocks changed meanwhile
@@ -15,6 +15,7 @@
 
 #include <array>
 #include <chrono>
+#include <climits>
 #include <cstdint>
 #include <deque>
 #include <optional>
@@ -45,9 +46,18 @@ struct ChunkRecord {
     base::JobHandle load;            // while the load can be cancelled
     std::optional<Time> editedAt{};  // of the first edit that the store does not have
 
+    // Depth, in sections; of chunks that are not Loading.
+    int lowestMade = 0;         // world::Chunk::lowestMade()
+    int lowestSunlit = 0;       // that daylight enters straight from above
+    int wantedDepth = INT_MAX;  // the lowest one that was requested
+    bool isDeepening = false;   // a job makes it deeper
+
     // Lighting.
     std::uint8_t loadedNeighbors = 0;  // of its eight neighbors; those beyond the world count
     bool isOutdated = false;           // blocks, mesh options or open sides changed after its lighting began
+    bool isBeingLit = false;           // for the first time or again
+    bool isToLightAgain = false;       // requested after its lighting began
+    int litDepths = 0;                 // DepthAround::sum when its lighting began
     LocalLightPtr localLight{};        // null once nobody needs it
     light::ChunkLightPtr light{};      // of visible chunks
 
@@ -57,6 +67,7 @@ struct ChunkRecord {
 };
 
 struct ChunkTable {
+    world::Heights heights;
     ViewOrder view;
     std::unordered_map<world::ChunkPos, ChunkRecord, world::ChunkPosHash> records;
     std::array<std::size_t, kChunkStageCount> stageCounts{};
@@ -68,8 +79,17 @@ struct ChunkTable {
     std::deque<world::ChunkPos> requests;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> requested;
 
+    // Depth: the section that is needed near the camera, nothing if all chunks are made to the bottom. Loaded
+    // chunks that want to be deeper; some are listed twice or deep enough.
+    std::optional<int> nearDepth;
+    std::deque<world::ChunkPos> toDeepen;
+    std::size_t depthJobCount = 0;  // on workers
+
     // Lighting: chunks before lightCursor in the view's order are Lighting or Visible, or not in view.
+    // Visible chunks to light again; some are not visible any more.
     std::size_t lightCursor = 0;
+    std::deque<world::ChunkPos> toLightAgain;
+    std::size_t lightAgainCount = 0;  // on workers
 
     // Meshing: chunks with `toMesh`, after edits and for other reasons; some are listed twice or already
     // meshed. Jobs are numbered from 1.

@@ -10,7 +10,7 @@ using world::ChunkPos;
 
 namespace {
 
-constexpr std::array kTaskNames = {"load", "generate", "local light", "light", "mesh"};
+constexpr std::array kTaskNames = {"load", "generate", "make deeper", "local light", "light", "mesh"};
 static_assert(kTaskNames.size() == kTaskCount);
 
 // Jobs in flight for each worker: enough that none waits for the next update, few enough that the queue
@@ -44,22 +44,40 @@ base::JobHandle ChunkWorkers::submit(base::JobPriority priority, Work work) {
 }
 
 base::JobHandle ChunkWorkers::submitLoad(base::JobPriority priority, ChunkPos pos, const ChunkSource& source,
-                                         bool isToBeLit) {
-    return submit(priority, [pos, source, isToBeLit, lights = &parts_.lights](WorkerResults& results) {
-        auto chunk = results.timed(kLoad, [&] { return loadStored(source, pos); });
-        if (!chunk) chunk = results.timed(kGenerate, [&] { return generateChunk(source, pos); });
-        LocalLightPtr local;
-        if (chunk && isToBeLit)
-            local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
-        return WorkerResults::Load{pos, std::move(chunk), std::move(local)};
-    });
+                                         int section, bool isToBeLit) {
+    return submit(
+        priority, [pos, source, section, isToBeLit, lights = &parts_.lights](WorkerResults& results) {
+            ReadChunk read = results.timed(kLoad, [&] { return loadStored(source, pos, *lights); });
+            if (!read)
+                read = results.timed(kGenerate, [&] { return generateChunk(source, pos, section, *lights); });
+            LocalLightPtr local;
+            if (read && isToBeLit)
+                local = results.timed(kLocalLight, [&] { return localLight(*read.chunk, *lights); });
+            return WorkerResults::Load{pos, std::move(read), std::move(local)};
+        });
+}
+
+void ChunkWorkers::submitDepth(base::JobPriority priority, const DepthJob& job, world::ChunkPtr chunk,
+                               const ChunkSource& source) {
+    submit(priority,
+           [job, chunk = std::move(chunk), source, lights = &parts_.lights](WorkerResults& results) {
+               const auto deepen = [&] {
+                   auto deeper = std::make_shared<world::Chunk>(*chunk);
+                   deeper->makeDeeper(generateTo(source, job.pos, job.section));
+                   return deeper;
+               };
+               auto deeper = results.timed(kDeepen, deepen);
+               auto local = results.timed(kLocalLight, [&] { return localLight(*deeper, *lights); });
+               return WorkerResults::Deepened{job, chunk, std::move(deeper), std::move(local)};
+           });
 }
 
 void ChunkWorkers::submitLocalLight(base::JobPriority priority, ChunkPos pos,
                                     std::shared_ptr<world::Chunk> chunk) {
     submit(priority, [pos, chunk = std::move(chunk), lights = &parts_.lights](WorkerResults& results) {
         auto local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
-        return WorkerResults::Load{pos, chunk, std::move(local)};
+        const int lowestSunlit = light::lowestSunlitSection(*chunk, *lights);
+        return WorkerResults::Load{pos, {chunk, lowestSunlit}, std::move(local)};
     });
 }
 

@@ -18,10 +18,13 @@ class ChunkWorkers {
     explicit ChunkWorkers(const PipelineParts& parts);
     ~ChunkWorkers();  // waits for all running jobs; its waiting ones do nothing
 
-    // Loads or generates a chunk, and computes its local light if it is to be lit. Without a generator, the
-    // result is null if the store has no chunk.
+    // Loads or generates a chunk, at least down to a section (chunk_jobs.h), and computes its local light if
+    // it is to be lit. Without a generator, the result is null if the store has no chunk.
     base::JobHandle submitLoad(base::JobPriority priority, world::ChunkPos pos, const ChunkSource& source,
-                               bool isToBeLit);
+                               int section, bool isToBeLit);
+    // Makes a copy of a chunk that is deeper, and its local light.
+    void submitDepth(base::JobPriority priority, const DepthJob& job, world::ChunkPtr chunk,
+                     const ChunkSource& source);
     // Computes the local light of a chunk that a batch generator made.
     void submitLocalLight(base::JobPriority priority, world::ChunkPos pos,
                           std::shared_ptr<world::Chunk> chunk);

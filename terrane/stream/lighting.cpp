@@ -5,6 +5,9 @@
 #include <map>
 #include <set>
 #include <unordered_map>
+#include <utility>
+
+#include "terrane/stream/depth.h"
 
 namespace terrane::stream {
 
@@ -22,17 +25,61 @@ void requestLighting(ChunkTable& table, ChunkPos pos) {
     table.lightCursor = std::min(table.lightCursor, rankOf(table.view, pos));
 }
 
+void requestLightAgain(ChunkTable& table, ChunkPos pos) {
+    ChunkRecord* record = findRecord(table, pos);
+    assert(record && record->stage == ChunkStage::Visible && "others are lit for the first time");
+    if (!std::exchange(record->isToLightAgain, true)) table.toLightAgain.push_back(pos);
+}
+
+namespace {
+
+// Begins the lighting of a chunk if all that it needs is there, and requests what is not made deep enough.
+bool beginLighting(ChunkTable& table, ChunkPos pos, ChunkRecord& record) {
+    if (record.loadedNeighbors != kNeighbors || record.isBeingLit) return false;
+    const std::optional<DepthAround> around = depthAround(table, pos);
+    if (!around || !requestMissingDepth(table, pos, *around)) return false;
+    record.isOutdated = false;
+    record.isBeingLit = true;
+    record.isToLightAgain = false;
+    record.litDepths = around->sum;
+    return true;
+}
+
+// Whether the neighbors in view have all that they need, too: what they need later would be light for this
+// chunk again.
+bool areNeighborsDeepEnough(ChunkTable& table, ChunkPos pos) {
+    if (!table.nearDepth) return true;
+    for (const ChunkPos at : neighborhood(pos)) {
+        if (at == pos || !isInView(table.view, at) || !world::isInWorld(at)) continue;
+        const std::optional<DepthAround> around = depthAround(table, at);
+        if (!around || !requestMissingDepth(table, at, *around)) return false;
+    }
+    return true;
+}
+
+}  // namespace
+
 std::vector<ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit) {
     std::vector<ChunkPos> popped;
+    for (; popped.size() < limit && !table.toLightAgain.empty(); table.toLightAgain.pop_front()) {
+        const ChunkPos pos = table.toLightAgain.front();
+        ChunkRecord* record = findRecord(table, pos);
+        if (!record || !std::exchange(record->isToLightAgain, false)) continue;
+        if (record->isBeingLit) {
+            record->isOutdated = true;
+        } else if (record->stage == ChunkStage::Visible && beginLighting(table, pos, *record)) {
+            ++table.lightAgainCount;
+            popped.push_back(pos);
+        }
+    }
     bool isPrefix = true;  // all before this one are Lighting or Visible, or of no interest
     for (std::size_t k = table.lightCursor; k < table.loadCursor && popped.size() < limit; ++k) {
         const ChunkPos pos = table.view.at(k);
         if (isInView(table.view, pos) && world::isInWorld(pos)) {
             ChunkRecord* record = findRecord(table, pos);
-            const bool isReady =
+            const bool isLoaded =
                 record && record->stage == ChunkStage::Loaded && record->loadedNeighbors == kNeighbors;
-            if (isReady) {
-                record->isOutdated = false;
+            if (isLoaded && areNeighborsDeepEnough(table, pos) && beginLighting(table, pos, *record)) {
                 setStage(table, pos, *record, ChunkStage::Lighting);
                 popped.push_back(pos);
             } else if (!record || record->stage < ChunkStage::Lighting) {
@@ -46,11 +93,21 @@ std::vector<ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit) 
 
 bool finishLighting(ChunkTable& table, ChunkPos pos) {
     ChunkRecord* record = findRecord(table, pos);
-    assert(record && record->stage == ChunkStage::Lighting && "what is finished was popped");
+    assert(record && record->isBeingLit && "what is finished was popped");
+    record->isBeingLit = false;
     const bool isGood = !record->isOutdated && isNeeded(table.view, pos);
-    setStage(table, pos, *record, isGood ? ChunkStage::Visible : ChunkStage::Loaded);
-    if (!isGood) requestLighting(table, pos);
-    return isGood;
+    if (record->stage == ChunkStage::Lighting) {
+        setStage(table, pos, *record, isGood ? ChunkStage::Visible : ChunkStage::Loaded);
+        if (!isGood) requestLighting(table, pos);
+        return isGood;
+    }
+    --table.lightAgainCount;
+    if (record->stage == ChunkStage::Visible) {
+        if (!isGood) requestLightAgain(table, pos);
+        return isGood;
+    }
+    requestLighting(table, pos);  // it was hidden meanwhile
+    return false;
 }
 
 void invalidateLighting(ChunkTable& table, ChunkPos pos) {

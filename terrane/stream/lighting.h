@@ -1,4 +1,4 @@
-// Schedules the first light and mesh of chunks: the second of the pipeline's three schedulers
+// Schedules the first light and mesh of chunks: the third of the pipeline's schedulers
 // (chunk_table.h).
 #pragma once
 
@@ -25,13 +25,13 @@ inline std::array<world::ChunkPos, 9> neighborhood(world::ChunkPos pos) {
     return around;
 }
 
-// Removes and returns up to `limit` Loaded chunks in view whose neighbors are loaded, most urgent first, and
-// makes them Lighting.
+// Removes and returns up to `limit` chunks in view to light: Visible ones to light again, then Loaded ones
+// whose neighbors are loaded and deep enough (depth.h), most urgent first, which become Lighting.
 std::vector<world::ChunkPos> popLightingRequests(ChunkTable& table, std::size_t limit);
 
-// Finishes the lighting of a Lighting chunk, which becomes Visible. Returns false if blocks of it or of a
-// neighbor, the mesh options or its open sides changed meanwhile, or if the view has left it: the result is
-// outdated, and the chunk is Loaded again.
+// Finishes the lighting of a chunk: if it was Lighting, it becomes Visible. Returns false if blocks of it or
+// of a neighbor, the mesh options or its open sides changed meanwhile, or if the view has left it: the result
+// is outdated. Then a chunk that was Lighting is Loaded again, and a Visible one is lit once more.
 bool finishLighting(ChunkTable& table, world::ChunkPos pos);
 
 // Marks lighting in progress for a chunk and its neighbors as outdated, after blocks of the chunk changed.
@@ -40,6 +40,9 @@ void invalidateLighting(ChunkTable& table, world::ChunkPos pos);
 // Requests the lighting of a chunk if it and its neighbors are loaded. Called after the chunk or a neighbor
 // was loaded.
 void requestLighting(ChunkTable& table, world::ChunkPos pos);
+
+// Requests that a Visible chunk is lit and meshed again; it is shown as before until then.
+void requestLightAgain(ChunkTable& table, world::ChunkPos pos);
 
 // Brings the light of visible chunks up to date after edits, on the world's thread.
 

@@ -1,4 +1,4 @@
-// Schedules the meshing of visible chunks that changed: the third of the pipeline's three schedulers
+// Schedules the meshing of visible chunks that changed: the fourth of the pipeline's schedulers
 // (chunk_table.h). Sections that edits touched are meshed at once, before everything else; whole chunks, as
 // when the options of meshing change, are meshed by jobs and shown as before until then.
 #pragma once

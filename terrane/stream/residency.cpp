@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "terrane/stream/depth.h"
 #include "terrane/stream/lighting.h"
 
 namespace terrane::stream {
@@ -59,6 +60,7 @@ bool setView(ChunkTable& table, ChunkPos center, int distance, glm::vec2 directi
         ++table.chunksInView;
         if (isAt(table, pos, ChunkStage::Visible)) ++table.visibleInView;
     }
+    updateDepthNearCamera(table);
     return true;
 }
 
@@ -67,6 +69,7 @@ void requestChunk(ChunkTable& table, ChunkPos pos, Time now) {
     if (ChunkRecord* record = findRecord(table, pos)) {
         record->neededAt = now;
         record->isRequested = true;
+        requestDepth(table, pos, table.heights.firstSection());
     } else if (table.requested.insert(pos).second) {
         table.requests.push_back(pos);
     }
@@ -97,13 +100,16 @@ bool mayCancelLoad(const ChunkTable& table, ChunkPos pos) {
            !isNeeded(table.view, pos);
 }
 
-void finishLoad(ChunkTable& table, ChunkPos pos, Time now) {
+void finishLoad(ChunkTable& table, ChunkPos pos, Time now, LoadedDepths depths) {
     ChunkRecord* record = findRecord(table, pos);
     assert(record && record->stage == ChunkStage::Loading && "what arrives was asked for");
     record->neededAt = now;
+    record->lowestMade = depths.lowestMade;
+    record->lowestSunlit = depths.lowestSunlit;
     setStage(table, pos, *record, ChunkStage::Loaded);
     changeLoadedAround(table, pos, 1);
     requestLighting(table, pos);
+    if (record->isRequested) requestDepth(table, pos, table.heights.firstSection());
 }
 
 void abandonLoad(ChunkTable& table, ChunkPos pos) {
@@ -126,7 +132,8 @@ std::vector<ChunkPos> findUnneeded(ChunkTable& table, Time now) {
     std::vector<ChunkPos> unneeded;
     for (auto& [pos, record] : table.records) {
         if (isNeeded(table.view, pos)) record.neededAt = now;
-        if (record.stage == ChunkStage::Loaded && now - record.neededAt >= kUnloadDelay) {
+        if (record.stage == ChunkStage::Loaded && !record.isBeingLit &&
+            now - record.neededAt >= kUnloadDelay) {
             unneeded.push_back(pos);
         }
     }

@@ -1,4 +1,4 @@
-// Schedules loading and unloading of chunks: the first of the pipeline's three schedulers (chunk_table.h).
+// Schedules loading and unloading of chunks: the first of the pipeline's schedulers (chunk_table.h).
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,8 @@ constexpr std::chrono::seconds kUnloadDelay{5};
 // Moves the view (view_order.h). Returns false if nothing changed.
 bool setView(ChunkTable& table, world::ChunkPos center, int distance, glm::vec2 direction = {});
 
-// Requests a chunk of the world independently of the view: it is loaded soon and stays loaded for 5 s.
+// Requests a whole chunk of the world independently of the view: it is loaded soon, made to its bottom, and
+// stays loaded for 5 s.
 void requestChunk(ChunkTable& table, world::ChunkPos pos, Time now);
 
 // Removes and returns up to `limit` absent chunks to load, most urgent first, and makes them Loading.
@@ -32,8 +33,12 @@ std::vector<world::ChunkPos> popLoadRequests(ChunkTable& table, std::size_t limi
 // Returns whether the chunk is not needed any more, so that its load may be cancelled. Requested chunks are
 // always loaded.
 bool mayCancelLoad(const ChunkTable& table, world::ChunkPos pos);
-// finishLoad() makes a Loading chunk Loaded, abandonLoad() makes it absent again.
-void finishLoad(ChunkTable& table, world::ChunkPos pos, Time now);
+// finishLoad() makes a Loading chunk Loaded, abandonLoad() makes it absent again. The depths are those of its
+// record.
+struct LoadedDepths {
+    int lowestMade = 0, lowestSunlit = 0;
+};
+void finishLoad(ChunkTable& table, world::ChunkPos pos, Time now, LoadedDepths depths = {});
 void abandonLoad(ChunkTable& table, world::ChunkPos pos);
 
 // Removes and returns the visible chunks outside the view by more than one ring, and makes them Loaded.

@@ -11,18 +11,25 @@
 #include <vector>
 
 #include "terrane/stream/chunk_jobs.h"
+#include "terrane/stream/depth.h"
 #include "terrane/stream/meshing.h"
 
 namespace terrane::stream {
 
-enum Task : std::size_t { kLoad, kGenerate, kLocalLight, kLight, kMesh, kTaskCount };
+enum Task : std::size_t { kLoad, kGenerate, kDeepen, kLocalLight, kLight, kMesh, kTaskCount };
 
 // Any thread adds results. Jobs share the object, since they may end after the pipeline.
 struct WorkerResults {
     struct Load {
         world::ChunkPos pos;
-        std::shared_ptr<world::Chunk> chunk;  // null: to be made by a batch generator
+        ReadChunk read;  // null: to be made by a batch generator
         LocalLightPtr localLight;
+    };
+    struct Deepened {
+        DepthJob job;
+        world::ChunkPtr former;
+        std::shared_ptr<world::Chunk> deeper;
+        LocalLightPtr localLight;  // of `deeper`
     };
     struct Lit {
         world::ChunkPos pos;
@@ -35,12 +42,16 @@ struct WorkerResults {
     };
     struct Lists {
         std::vector<Load> loads;
+        std::vector<Deepened> deepened;
         std::vector<Lit> lit;
         std::vector<Meshed> meshed;
         std::exception_ptr failure;  // the first
 
-        bool isEmpty() const { return loads.empty() && lit.empty() && meshed.empty() && !failure; }
+        bool isEmpty() const {
+            return loads.empty() && deepened.empty() && lit.empty() && meshed.empty() && !failure;
+        }
         void add(Load load) { loads.push_back(std::move(load)); }
+        void add(Deepened chunk) { deepened.push_back(std::move(chunk)); }
         void add(Lit chunk) { lit.push_back(std::move(chunk)); }
         void add(Meshed chunk) { meshed.push_back(std::move(chunk)); }
     };

@@ -30,9 +30,15 @@ glm::vec2 lookSector(const render::Camera& camera) {
 }  // namespace
 
 void WorldView::follow(const render::Camera& camera, int viewDistance) {
+    setCameraHeight(camera);
     setView(render::cameraChunk(camera), viewDistance, lookSector(camera));
     session_.pipeline().update();
     far_.update();
+}
+
+void WorldView::setCameraHeight(const render::Camera& camera) {
+    session_.pipeline().setCameraHeight(
+        static_cast<int>(std::floor(std::clamp(camera.position.z, -1e6, 1e6))));
 }
 
 void WorldView::setView(world::ChunkPos center, int viewDistance, glm::vec2 direction) {
@@ -237,6 +243,7 @@ void WorldView::waitForWorkers(std::chrono::milliseconds timeout) {
 double loadAll(game::Session& session, WorldView& view, const render::Camera& camera, int viewDistance,
                stream::ChunkPipeline::Time now) {
     stream::ChunkPipeline& pipeline = session.pipeline();
+    view.setCameraHeight(camera);
     view.setView(render::cameraChunk(camera), viewDistance);
     double uploads = 0;
     for (;;) {
