@@ -239,8 +239,8 @@ class FuzzServer {
                 return net::Move{net::wirePose({{at.x + 0.5, at.y + 0.5, at.z + 0.5}, 0, 0})};
             }
             case 7:
-                return net::View{world::chunkOf(pos(in)), in.byte(),
-                                 static_cast<std::uint16_t>(in.number(2))};
+                return net::View{world::chunkOf(pos(in)), in.byte(), static_cast<std::uint16_t>(in.number(2)),
+                                 pos(in).z};
             case 8:
                 return net::Say{std::string(in.text())};
             case 9:

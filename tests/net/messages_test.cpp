@@ -24,7 +24,7 @@ std::vector<ClientMessage> clientMessages() {
         Hello{kMagic, kProtocolVersion, "terrane 0.2"},
         Login{"Ada", key, signature, "secret"},
         Proof{{1, 2, 3, 4, 5, 6, 7, ~std::uint64_t{0}}},
-        View{{-5, 70000}, 16, 512},
+        View{{-5, 70000}, 16, 512, -1600},
         Move{kPose},
         Edit{7, {-1, 2, 3}, world::SetBlock{5, 2}, world::BlockId{4}},
         Fill{8,

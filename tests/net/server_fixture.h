@@ -155,6 +155,7 @@ struct TestPlayer {
             if (const auto* ping = std::get_if<Ping>(&message)) wire->say(Pong{ping->time});
             world->onMessage(message);
         }
+        session->pipeline().setCameraHeight(world::blockOf(pose.position).z);
         session->pipeline().setView(world::chunkOf(pose.position), view);
         session->pipeline().update(wire->server.now);
         session->jobs().waitIdle();

@@ -67,11 +67,45 @@ TEST_P(TallServer, WhatOneBuildsTheOtherSees) {
         return std::ranges::all_of(
             heightsToBuild, [&](int z) { return player.block(under(*ann, z)) == contentBlock("glass"); });
     };
+    // From the bottom, all is needed that is above.
+    ASSERT_NO_FATAL_FAILURE(go(*server, *bob, lowest()));
     EXPECT_TRUE(stepUntil(*server, {ann.get(), bob.get()}, [&] { return sees(*bob); }));
     std::unique_ptr<TestPlayer> cid;
     ASSERT_NO_FATAL_FAILURE(join(*server, cid, "Cid"));
+    ASSERT_NO_FATAL_FAILURE(go(*server, *cid, lowest()));
     EXPECT_TRUE(stepUntil(*server, {cid.get()}, [&] { return sees(*cid); }))
         << "as a difference of the chunk";
+}
+
+// Ann stands on the ground or above it; Bob builds in a hall far below, beside her.
+TEST_P(TallServer, WhatIsFarBelowIsToldWhenSomebodyNeedsIt) {
+    const auto server = open(folder_.path());
+    std::unique_ptr<TestPlayer> ann, bob;
+    ASSERT_NO_FATAL_FAILURE(join(*server, ann, "Ann"));
+    ASSERT_NO_FATAL_FAILURE(join(*server, bob, "Bob"));
+    ASSERT_NO_FATAL_FAILURE(go(*server, *ann, highest()));
+    ASSERT_TRUE(stepUntil(*server, {ann.get(), bob.get()}, [&] { return ann->isLoaded(); }));
+    const BlockPos deep = under(*bob, lowest() + 1), top = under(*bob, highest());
+    ASSERT_NO_FATAL_FAILURE(build(*server, *bob, deep.z, "glass"));
+    ASSERT_TRUE(stepUntil(*server, {bob.get()}, [&] { return bob->block(deep) == contentBlock("glass"); }));
+    for (int k = 0; k < 50; ++k) step(*server, {ann.get(), bob.get()});
+    const world::ChunkPos chunk = world::chunkOf(deep);
+    EXPECT_TRUE(ann->store->difference(chunk).empty()) << "of " << deep.z;
+    EXPECT_NE(ann->block(deep), contentBlock("glass"));
+    // What is near her in the same chunk comes alone, and again with the rest once she is there.
+    ASSERT_NO_FATAL_FAILURE(build(*server, *bob, top.z, "stone"));
+    ASSERT_TRUE(
+        stepUntil(*server, {ann.get(), bob.get()}, [&] { return ann->block(top) == contentBlock("stone"); }));
+    EXPECT_EQ(ann->store->difference(chunk).size(), 1u);
+    ASSERT_NO_FATAL_FAILURE(go(*server, *ann, lowest() + 3));
+    EXPECT_TRUE(stepUntil(*server, {ann.get(), bob.get()},
+                          [&] { return ann->block(deep) == contentBlock("glass"); }));
+    EXPECT_EQ(ann->store->difference(chunk).size(), 2u);
+    EXPECT_EQ(ann->block(top), contentBlock("stone"));
+    // Changes come at once now.
+    ASSERT_NO_FATAL_FAILURE(build(*server, *bob, deep.z, "dirt"));
+    EXPECT_TRUE(
+        stepUntil(*server, {ann.get(), bob.get()}, [&] { return ann->block(deep) == contentBlock("dirt"); }));
 }
 
 // By a script: players do not break the lowest layer.
@@ -184,6 +218,7 @@ TEST_P(TallServer, TheHistoryKnowsAllHeights) {
     const auto server = open(copy);
     std::unique_ptr<TestPlayer> bob;
     ASSERT_NO_FATAL_FAILURE(join(*server, bob, "Bob"));
+    ASSERT_NO_FATAL_FAILURE(go(*server, *bob, lowest()));
     const auto count = [&] {
         return std::ranges::count_if(built,
                                      [&](BlockPos pos) { return bob->block(pos) == contentBlock("glass"); });

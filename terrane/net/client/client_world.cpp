@@ -48,6 +48,9 @@ namespace {
 
 constexpr std::chrono::milliseconds kMoveEvery{100};
 
+// The view's depth in steps: each of them asks the server for what is in it.
+constexpr int kDepthStep = 64;
+
 }  // namespace
 
 ClientWorld::ClientWorld(game::Session& session, RemoteStore& store, Send send)
@@ -143,6 +146,7 @@ void ClientWorld::noteToldView(const View& view) {
     if (toldView_ && !isViewComplete_) {
         least.viewDistance = std::min(least.viewDistance, completeView_.viewDistance);
         least.horizon = std::min(least.horizon, completeView_.horizon);
+        least.lowest = std::max(least.lowest, completeView_.lowest);
     }
     completeView_ = least;
     toldView_ = view;
@@ -195,17 +199,22 @@ ChunkDifference ClientWorld::replaceDifference(world::ChunkPos pos, const ChunkD
     return former;
 }
 
-bool ClientWorld::isLoading(world::ChunkPos pos) const {
-    return session_.pipeline().stageAt(pos) == stream::ChunkStage::Loading;
+// Whether blocks of the chunk cannot be set yet: it is on the way, or not made to its bottom.
+bool ClientWorld::isOnTheWay(world::ChunkPos pos) const {
+    if (session_.pipeline().stageAt(pos) == stream::ChunkStage::Loading) return true;
+    const world::ChunkPtr chunk = session_.world().maybeChunkAt(pos);
+    return chunk && !chunk->isMade(chunk->heights().firstSection());
 }
 
 void ClientWorld::showChunk(world::ChunkPos pos, const ChunkDifference& blocks) {
     showLateChunks();  // older than `blocks`
     const std::vector<world::PlacedBlock> shown = prediction_.takeIn(placedBlocks(pos, blocks));
-    if (session_.world().maybeChunkAt(pos))
-        show(shown);
-    else if (isLoading(pos))
+    if (isOnTheWay(pos)) {
         mergeInto(late_[pos], blocks);  // the worker may have read the store before this change
+        (void)session_.pipeline().maybeLoadChunkAt(pos);
+    } else if (session_.world().maybeChunkAt(pos)) {
+        show(shown);
+    }
 }
 
 void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
@@ -215,7 +224,7 @@ void ClientWorld::show(std::span<const world::PlacedBlock> blocks) {
 void ClientWorld::showLateChunks() {
     std::erase_if(late_, [this](const auto& entry) {
         const auto& [pos, blocks] = entry;
-        if (isLoading(pos)) return false;
+        if (isOnTheWay(pos)) return false;
         if (session_.world().maybeChunkAt(pos)) show(prediction_.takeIn(placedBlocks(pos, blocks)));
         return true;
     });
@@ -318,13 +327,12 @@ void ClientWorld::update(const world::Pose& pose, int viewDistance, int horizon,
         if (toldPose_ != wire) send_(Move{wire});
         toldPose_ = wire;
         nextMove_ = now + kMoveEvery;
+        lowest_ = std::max(session_.pipeline().lowestNeeded() & ~(kDepthStep - 1), world::kLowestBottom);
     }
     const View view{world::chunkOf(pose.position),
                     static_cast<std::uint8_t>(std::clamp(viewDistance, 0, 255)),
-                    static_cast<std::uint16_t>(std::clamp(horizon, 0, 65535))};
-    const bool isTold = toldView_ && toldView_->center == view.center &&
-                        toldView_->viewDistance == view.viewDistance && toldView_->horizon == view.horizon;
-    if (isTold) return;
+                    static_cast<std::uint16_t>(std::clamp(horizon, 0, 65535)), lowest_};
+    if (toldView_ == view) return;
     // Move goes before View: the server accepts a view only near the player.
     if (toldPose_ != wirePose(pose)) send_(Move{*(toldPose_ = wirePose(pose))});
     send_(view);

@@ -129,7 +129,7 @@ class ClientWorld {
     void dropUnconfirmed();
     ChunkDifference replaceDifference(world::ChunkPos pos, const ChunkDifference& difference);
     void showLateChunks();
-    bool isLoading(world::ChunkPos pos) const;
+    bool isOnTheWay(world::ChunkPos pos) const;
 
     game::Session& session_;
     RemoteStore& store_;
@@ -150,6 +150,7 @@ class ClientWorld {
     std::optional<View> toldView_;
     View completeView_;  // what a ViewComplete that comes next is certainly about
     std::chrono::steady_clock::time_point nextMove_{};
+    int lowest_ = world::kLowestBottom;  // View::lowest
 
     std::map<std::uint16_t, SeenPlayer> players_;  // by slot
     std::map<std::uint16_t, WirePose> playerPoses_;

@@ -101,7 +101,9 @@ struct ServerClient {
     // View (server_view.h).
     std::optional<View> view, askedView;                            // asked: for the next tick
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> told;  // chunks and tiles known to the client
-    std::vector<world::ChunkPos> toTell;                            // to send, the nearest last
+    std::unordered_set<world::ChunkPos, world::ChunkPosHash>
+        withheld;                         // of these: not told below view->lowest
+    std::vector<world::ChunkPos> toTell;  // to send, the nearest last
     bool owesViewComplete = false;
 
     Bytes outgoing;          // frames

@@ -29,6 +29,14 @@ double orderOf(const View& view, ChunkPos pos) {
     return x * x + y * y;
 }
 
+// The blocks that the client's view needs.
+ChunkDifference neededBlocks(const View& view, std::span<const ChangedBlock> blocks) {
+    ChunkDifference needed;
+    for (const ChangedBlock& block : blocks)
+        if (block.index >> 8 >= view.lowest) needed.push_back(block);
+    return needed;
+}
+
 void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& difference) {
     bool isFirst = true;
     for (const std::span<const ChangedBlock> part : partsOf(difference)) {
@@ -39,8 +47,13 @@ void sendDifference(ServerClient& client, ChunkPos pos, const ChunkDifference& d
 
 // Sets the client's view and collects the edited chunks and tiles to send.
 void setClientView(ServerClient& client, const EditedChunks& edited, const View& view) {
+    // What was withheld and is needed now is told again, from the beginning.
+    if (client.view && view.lowest < client.view->lowest)
+        for (const ChunkPos pos : std::exchange(client.withheld, {})) client.told.erase(pos);
     client.view = view;
-    std::erase_if(client.told, [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); });
+    const auto isOut = [&](ChunkPos pos) { return !isInView(*client.view, pos, 1); };
+    std::erase_if(client.told, isOut);
+    std::erase_if(client.withheld, isOut);
     client.toTell.clear();
     for (int level = 0; level <= topLevelOf(*client.view); ++level) {
         const int radius = level == 0 ? client.view->viewDistance + 1 : kFarthestTile;
@@ -64,8 +77,10 @@ void sendView(ServerClient& client, EditedChunks& edited) {
             ++pending;
             continue;
         }
-        sendDifference(client, pos, *difference);
+        const ChunkDifference needed = neededBlocks(*client.view, *difference);
+        if (!needed.empty() || difference->empty()) sendDifference(client, pos, needed);
         client.told.insert(pos);
+        if (needed.size() < difference->size()) client.withheld.insert(pos);
         client.toTell.erase(client.toTell.begin() + static_cast<std::ptrdiff_t>(k));
     }
     if (!client.toTell.empty() || !client.owesViewComplete) return;
@@ -80,6 +95,7 @@ void tellChangedTiles(ServerClients& clients, ServerEdits& edits) {
         edits.chunks.onTileChanged(tile);
         forEachPlaying(clients, [&](ServerClient& client) {
             client.told.erase(tile);
+            client.withheld.erase(tile);
             if (!client.view || !isInView(*client.view, tile)) return;
             if (tile.level <= topLevelOf(*client.view) && std::ranges::count(client.toTell, tile) == 0)
                 client.toTell.insert(client.toTell.begin(), tile);
@@ -113,16 +129,24 @@ void sendBlocks(ServerClients& clients, ServerEdits& edits, ChunkPos pos, const 
     const bool isNew = edits.chunks.add(pos);
     edits.chunks.onChanged(pos, blocks);
     if (edits.onChanged) edits.onChanged(std::span(&pos, 1));
-    std::vector<Bytes> messages;
-    for (const std::span<const ChangedBlock> part : partsOf(blocks))
-        messages.push_back(
-            encode(ServerMessage(BlocksChanged{pos, ChunkDifference(part.begin(), part.end())})));
+    const auto encoded = [&](const ChunkDifference& part) {
+        std::vector<Bytes> messages;
+        for (const std::span<const ChangedBlock> some : partsOf(part))
+            messages.push_back(
+                encode(ServerMessage(BlocksChanged{pos, ChunkDifference(some.begin(), some.end())})));
+        return messages;
+    };
+    const std::vector<Bytes> messages = encoded(blocks);
     forEachPlaying(clients, [&](ServerClient& client) {
         // A client that lacks the chunk will get all of it soon. A client that has it gets every change, even
         // after the chunk left its view.
         if (isNew && client.view && isInView(*client.view, pos)) client.told.insert(pos);
         if (!client.told.contains(pos)) return;
-        for (const Bytes& message : messages) sendEncoded(client, message);
+        const ChunkDifference needed = client.view ? neededBlocks(*client.view, blocks) : blocks;
+        if (needed.size() < blocks.size()) client.withheld.insert(pos);
+        if (needed.empty()) return;
+        for (const Bytes& message : needed.size() < blocks.size() ? encoded(needed) : messages)
+            sendEncoded(client, message);
     });
 }
 

@@ -51,6 +51,8 @@ void describe(auto& wire, Of<View> auto& m) {
     wire.require(world::isInWorld(m.center));
     wire.fixed(m.viewDistance);
     wire.number(m.horizon);
+    wire.integer(m.lowest);
+    wire.require(m.lowest >= world::kLowestBottom && m.lowest <= world::kHighestTop);
 }
 
 void describe(auto& wire, Of<Move> auto& m) {

@@ -37,11 +37,14 @@ struct Proof {
     SampleDigests digests{};
 };
 // The view of the client: the server sends edits of chunks up to `viewDistance` (chunks) around `center`, and
-// of tiles up to `horizon` (chunks).
+// of tiles up to `horizon` (chunks), in blocks from z = `lowest` up.
 struct View {
     world::ChunkPos center;
     std::uint8_t viewDistance = 0;
     std::uint16_t horizon = 0;
+    std::int32_t lowest = world::kLowestBottom;
+
+    bool operator==(const View&) const = default;
 };
 struct Move {
     WirePose pose;
