@@ -1,4 +1,4 @@
--- Tall land: mountains of more than 1,100, cliffs, islands in the sky, and caves down to -800.
+-- Tall land: mountains of 1,500, cliffs, islands in the sky, and caves down to -800.
 g:heights(-1024, 1792)
 
 local height = g:field("height", "int")
@@ -10,10 +10,10 @@ g:pass2D("land", function(p)
     -- Noise near 0 is a ridge: |noise| is a valley there, and 1 - |noise| a crest.
     local crest = 1.0 - abs(p:perlin2D("crests", 256, {0.2, 0.4, 1})) * 1.4
     local rocks = p:perlin2D("rocks", 16, {2, 5, 12, 24})
-    local tops = where * (max(crest, 0.0) * 1150.0 + rocks * 1.5)
+    local tops = where * (max(crest, 0.0) * 1900.0 + rocks * 1.5)
     -- A step up of some hundred blocks: the edge of a plateau.
     local plateau = smoothstep(0.28, 0.3, p:perlin2D("plateaus", 1024, {0.3, 1})) * 340.0
-    p:set(height, int(min(90.0 + land + tops + plateau, 1600.0)))
+    p:set(height, int(min(90.0 + land + tops + plateau, 1700.0)))
 end)
 
 g:pass2D("cover", function(p)
