@@ -236,6 +236,9 @@ Character advanceCharacter(const World& world, const BlockRegistry& blocks, cons
     CharacterInput wanted = input;
     if (meetsBlock && canJumpOver(world, blocks, c, input.direction)) wanted.jumps = true;
     accelerate(c, wanted);
+    // It does not land on what is not there yet, and keeps its speed.
+    const glm::dvec3 fall(0, 0, std::min(c.velocity.z, 0.0) * kStepSeconds);
+    if (!isMadeAround(world, characterBox(c.feet + fall))) return before;
     move(world, blocks, c);
     return c;
 }

@@ -2,12 +2,14 @@
 // lamps against a world of whole columns.
 #include "terrane/stream/depth.h"
 
+#include <cmath>
 #include <map>
 #include <string>
 
 #include "terrane/shared/hash.h"
 #include "terrane/store/overlay_store.h"
 #include "terrane/stream/lighting.h"
+#include "terrane/world/character.h"
 #include "tests/stream/pipeline_fixture.h"
 
 namespace terrane::stream {
@@ -289,6 +291,41 @@ TEST_F(DeepPipelineTest, AWalkWithEditsEndsRight) {
     rest();
     expectShowsTheView();
     expectShowsWholeColumns();
+}
+
+// A shaft under a roof: no daylight tells of it. The lighting of what is around goes on meanwhile.
+TEST_F(DeepPipelineTest, APlayerFallsDownADarkShaftWithoutAStop) {
+    constexpr world::Heights kDeep{-1024, 1040};
+    gen::GeneratorBuilder builder("shaft", contentBlocks());
+    builder.declareHeights(kDeep);
+    builder.pass3D("ground", [](gen::Pass& p) {
+        const gen::Bool isShaft = p.x() >= 4 && p.x() < 12 && p.y() >= 4 && p.y() < 12;
+        const gen::Bool isOpen = (isShaft && p.z() < 1000 && p.z() >= -1000) || p.z() > 1010;
+        p.setBlock(select(isOpen, p.block("air"), p.block("stone")));
+    });
+    pipeline_.reset();
+    generator_ = gen::Generator(builder.finish().value(), 1);
+    world_ = world::World(kDeep);
+    pipeline_ = makePipeline({&generator_, nullptr, false});
+    world::Character player{.feet = {8, 8, 990}};
+    pipeline_->setCameraHeight(990);
+    setView({0, 0}, 3);
+    settle();
+    EXPECT_LE(lowestMade({0, 0}) * 16, 990 - kNearBlocks);
+    int steps = 0;
+    for (; steps < 60 * 120 && !player.isOnGround; ++steps) {
+        const world::Character before = player;
+        player = world::advanceCharacter(world_, contentBlocks(), player, {});
+        ASSERT_LT(player.feet.z, before.feet.z) << "it waits at " << before.feet.z;
+        if (steps % 2 != 0) continue;
+        pipeline_->setCameraHeight(static_cast<int>(std::floor(player.feet.z + world::kEyeHeight)));
+        update();
+        jobs_.waitIdle();
+    }
+    EXPECT_NEAR(player.feet.z, -1000, 0.01);
+    EXPECT_NEAR(steps / 120.0, 1990 / world::kFallLimit, 2.5) << "at the highest speed nearly all the time";
+    settle();
+    expectShowsTheView();
 }
 
 TEST_F(DeepPipelineTest, ARequestedChunkIsWhole) {

@@ -149,6 +149,23 @@ TEST_F(CharacterTest, WaitsWhereNothingIsMade) {
     EXPECT_NEAR(c_.feet.z, -40, 0.01) << "it falls once the ground is there";
 }
 
+TEST_F(CharacterTest, KeepsItsSpeedWhileItWaitsForTheGround) {
+    world_ = World({-64, 64});
+    auto chunk = std::make_shared<Chunk>(Heights{-64, 64});
+    const Chunk whole = *chunk;
+    chunk->unmakeBelow(0);
+    world_.insert({0, 0}, chunk);
+    c_.feet = {8.5, 8.5, 40};
+    run(5, {});
+    EXPECT_FALSE(c_.isOnGround);
+    EXPECT_GE(c_.feet.z, 0);
+    const double speed = c_.velocity.z;
+    EXPECT_LT(speed, -30);
+    world_.makeDeeper({0, 0}, whole);
+    run(0.1, {});
+    EXPECT_LT(c_.velocity.z, speed);
+}
+
 // A random walk among blocks: never inside of one, never through the floor.
 TEST_F(CharacterTest, NeverEndsInsideABlock) {
     std::mt19937 random(3);
