@@ -24,7 +24,7 @@ base::Result<PerfLog> PerfLog::create(const std::filesystem::path& file) {
         log.out_,
         "time_s,frame_ms,fps,min_fps,max_fps,frames_of_second,ram_mb,gpu_mb,active_chunks,visible_chunks,"
         "queued_chunks,opaque_triangles,transparent_triangles,shadow_triangles,load_ms,generate_ms,"
-        "local_light_ms,light_ms,mesh_ms,tile_ms,passes_ms");
+        "make_deeper_ms,local_light_ms,light_ms,mesh_ms,tile_ms,passes_ms");
     for (const std::string_view pass : render::passNames()) fmt::print(log.out_, ",{}_ms", columnName(pass));
     fmt::print(log.out_, "\n");
     if (!log.out_) return base::fail("{}: cannot be written", file.string());
