@@ -77,7 +77,7 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
                           1 + static_cast<int>(random() % 2));
     };
     std::set<BlockPos> places;
-    for (int round = 0; round < 250; ++round) {
+    const auto editAtRandom = [&] {
         for (const auto& guest : guests) {
             if (random() % 3 != 0) continue;
             const BlockPos pos = randomPlace(*guest);
@@ -87,9 +87,9 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
         // Servers tick at different times, so each hears of the others at its own time.
         servers_.all()[random() % 3]->tick();
         if (random() % 4 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
+    };
     std::size_t applied = 0, refused = 0;
-    ASSERT_TRUE(servers_.tickUntil([&] {
+    const auto count = [&] {
         applied = refused = 0;
         for (const auto& guest : guests)
             for (net::CommandNumber number = 1; number <= guest->last; ++number) {
@@ -98,7 +98,12 @@ TEST_F(SharedServersTest, RandomEditsConverge) {
                 (result == EditResult::Conflict ? refused : applied) += 1;
             }
         return true;
-    }));
+    };
+    // The faster the database, the rarer is it that two edit the same block at a time.
+    for (int part = 0; part < 40 && refused <= 10; ++part) {
+        for (int round = 0; round < 250; ++round) editAtRandom();
+        ASSERT_TRUE(servers_.tickUntil(count));
+    }
     EXPECT_GT(applied, 100u);
     EXPECT_GT(refused, 10u) << "else nothing was tested";
     const auto isSettled = [&] {
