@@ -119,20 +119,30 @@ ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table
     return findBricks(chunk, table, pool, true);
 }
 
-FallingDaylight::FallingDaylight(const LightTable& table) : table_(table) {}
+OpenSections::OpenSections(const LightTable& table) : table_(table) {}
 
-bool FallingDaylight::enters(const world::Section& section) {
-    if (daylight_.isDark()) return false;
-    sourcesOf(emissionOf(section, table_, pool_), opacityOf(section, table_, pool_), daylight_, pool_);
+bool OpenSections::isOpen(const world::Section& section) {
+    const BrickView opacity = opacityOf(section, table_, pool_);
+    bool isOpen = !daylight_.isDark();
+    if (isOpen) {
+        sourcesOf(emissionOf(section, table_, pool_), opacity, daylight_, pool_);
+    } else if (opacity.isUniform) {
+        isOpen = opacity.uniformValue() != allComponents(kMaxLevel);
+    } else {
+        const auto closed =
+            std::count(opacity.values, opacity.values + world::kBlocksPerSection, allComponents(kMaxLevel));
+        isOpen = closed <= world::kBlocksPerSection / 2;
+    }
     pool_.reset();
-    return true;
+    return isOpen;
 }
 
-int lowestSunlitSection(const world::Chunk& chunk, const LightTable& table) {
-    FallingDaylight daylight(table);
-    int number = chunk.heights().endSection();
-    while (number > chunk.heights().firstSection() && daylight.enters(chunk.section(number - 1))) --number;
-    return number;
+int lowestOpenSection(const world::Chunk& chunk, const LightTable& table) {
+    OpenSections sections(table);
+    int lowest = chunk.heights().endSection();
+    for (int number = lowest - 1; number >= chunk.lowestMade(); --number)
+        if (sections.isOpen(chunk.section(number))) lowest = number;
+    return lowest;
 }
 
 }  // namespace terrane::light

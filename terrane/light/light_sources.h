@@ -57,12 +57,14 @@ ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, Bric
 // The same down to the lowest brick that daylight enters straight from above. Below, the source is emission.
 ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool);
 
-// Follows the daylight that falls straight down a chunk, section by section from the top.
-class FallingDaylight {
+// Finds the sections of a chunk that one can look into from above or from the side, section by section from
+// the top: daylight enters them straight from above, or at least half of their blocks let light pass, as in a
+// hall or under an island in the sky.
+class OpenSections {
   public:
-    explicit FallingDaylight(const LightTable& table);
-    // Takes the next section. Returns whether daylight enters it.
-    bool enters(const world::Section& section);
+    explicit OpenSections(const LightTable& table);
+    // Takes the next section. Returns whether it is open.
+    bool isOpen(const world::Section& section);
 
   private:
     const LightTable& table_;
@@ -70,8 +72,8 @@ class FallingDaylight {
     Daylight daylight_;
 };
 
-// Returns the number of the lowest section that daylight enters straight from above.
-int lowestSunlitSection(const world::Chunk& chunk, const LightTable& table);
+// Returns the number of the lowest open section of a chunk, as far down as it is made.
+int lowestOpenSection(const world::Chunk& chunk, const LightTable& table);
 
 BrickView emissionOf(const world::Section& section, const LightTable& table, BrickPool& pool);
 BrickView opacityOf(const world::Section& section, const LightTable& table, BrickPool& pool);

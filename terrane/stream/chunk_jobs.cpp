@@ -16,36 +16,37 @@ light::LightScratch& lightScratch() {
 
 }  // namespace
 
-world::Chunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section) {
-    const gen::Generator& generator = *source.generator;
-    if (section <= generator.heights().firstSection()) return generator.generate(pos);
-    return generator.generateDown(pos, [&](const world::Chunk&, int lowest) { return lowest > section; });
-}
-
 ReadChunk loadStored(const ChunkSource& source, world::ChunkPos pos, const light::LightTable& lights) {
     if (!source.store) return {};
     TERRANE_ZONE("load chunk");
     store::LoadedChunk stored = source.store->load(pos);
     if (stored.state != store::LoadedChunk::State::Present) return {};
-    const int lowestSunlit = light::lowestSunlitSection(*stored.chunk, lights);
-    return {std::move(stored.chunk), lowestSunlit};
+    const int lowestOpen = light::lowestOpenSection(*stored.chunk, lights);
+    return {std::move(stored.chunk), lowestOpen};
+}
+
+ReadChunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section,
+                     const light::LightTable& lights) {
+    const gen::Generator& generator = *source.generator;
+    if (section <= generator.heights().firstSection()) {
+        auto chunk = std::make_shared<world::Chunk>(generator.generate(pos));
+        const int lowestOpen = light::lowestOpenSection(*chunk, lights);
+        return {std::move(chunk), lowestOpen};
+    }
+    light::OpenSections sections(lights);
+    int lowestOpen = generator.heights().endSection();
+    const auto goesOn = [&](const world::Chunk& chunk, int lowest) {
+        if (sections.isOpen(chunk.section(lowest))) lowestOpen = lowest;
+        return lowest > std::min(section, lowestOpen - kClosedSections);
+    };
+    auto chunk = std::make_shared<world::Chunk>(generator.generateDown(pos, goesOn));
+    return {std::move(chunk), lowestOpen};
 }
 
 ReadChunk generateChunk(const ChunkSource& source, world::ChunkPos pos, int section,
                         const light::LightTable& lights) {
     if (!source.generator) return {};
-    ReadChunk read;
-    if (section <= source.generator->heights().firstSection()) {
-        read.chunk = std::make_shared<world::Chunk>(source.generator->generate(pos));
-        read.lowestSunlit = light::lowestSunlitSection(*read.chunk, lights);
-    } else {
-        light::FallingDaylight daylight(lights);
-        const auto goesOn = [&](const world::Chunk& chunk, int lowest) {
-            if (daylight.enters(chunk.section(lowest))) read.lowestSunlit = lowest;
-            return lowest > std::min(section, read.lowestSunlit - kDarkSections);
-        };
-        read.chunk = std::make_shared<world::Chunk>(source.generator->generateDown(pos, goesOn));
-    }
+    ReadChunk read = generateTo(source, pos, section, lights);
     storeGenerated(source, pos, read.chunk);
     return read;
 }

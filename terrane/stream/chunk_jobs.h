@@ -22,22 +22,23 @@ struct ChunkSource {
     bool storesGenerated = false;               // else only edited chunks are stored
 };
 
-// A chunk and the lowest section that daylight enters straight from above.
+// A chunk and its lowest open section (light/light_sources.h).
 struct ReadChunk {
     std::shared_ptr<world::Chunk> chunk;  // null: there is none
-    int lowestSunlit = 0;
+    int lowestOpen = 0;
 
     explicit operator bool() const { return chunk != nullptr; }
 };
 
 // Loads a chunk from the store, which has whole ones. Returns null if it has none.
 ReadChunk loadStored(const ChunkSource& source, world::ChunkPos pos, const light::LightTable& lights);
-// Generates a chunk, at least down to `section` and as deep as daylight needs (depth.h), and stores it if the
-// source says so. Returns null if there is no generator.
+// Generates a chunk at least down to `section`, and kClosedSections below its lowest open section (depth.h).
+// Requires a generator.
+ReadChunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section,
+                     const light::LightTable& lights);
+// Does the same and stores the chunk if the source says so. Returns null if there is no generator.
 ReadChunk generateChunk(const ChunkSource& source, world::ChunkPos pos, int section,
                         const light::LightTable& lights);
-// Generates a chunk down to a section. Requires a generator.
-world::Chunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section);
 
 // Stores a generated chunk if it is whole and the source says so.
 void storeGenerated(const ChunkSource& source, world::ChunkPos pos, const world::ChunkPtr& chunk);

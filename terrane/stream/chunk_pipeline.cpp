@@ -136,7 +136,7 @@ void ChunkPipeline::onLoaded(ChunkPos pos, ReadChunk read, LocalLightPtr local) 
     ChunkRecord& record = *findRecord(table_, pos);
     record.load = {};
     record.localLight = std::move(local);
-    const LoadedDepths depths{read.chunk->lowestMade(), read.lowestSunlit};
+    const LoadedDepths depths{read.chunk->lowestMade(), read.lowestOpen};
     parts_.world.insert(pos, std::move(read.chunk));
     if (notesLoaded_) loaded_.push_back(pos);
     finishLoad(table_, pos, now_, depths);
@@ -144,24 +144,25 @@ void ChunkPipeline::onLoaded(ChunkPos pos, ReadChunk read, LocalLightPtr local) 
 
 void ChunkPipeline::onDeepened(const WorkerResults::Deepened& deepened) {
     const ChunkPos pos = deepened.job.pos;
-    if (!finishDepthJob(table_, deepened.job)) return;
+    const auto& [deeper, lowestOpen] = deepened.deeper;
+    if (!finishDepthJob(table_, pos, {deeper->lowestMade(), lowestOpen})) return;
     const bool isSame = parts_.world.maybeChunkAt(pos) == deepened.former;
     if (isSame)
-        parts_.world.insert(pos, deepened.deeper);
+        parts_.world.insert(pos, deeper);
     else
-        parts_.world.makeDeeper(pos, *deepened.deeper);
+        parts_.world.makeDeeper(pos, *deeper);
     findRecord(table_, pos)->localLight = isSame ? deepened.localLight : nullptr;
     invalidateLighting(table_, pos);
     updateDepthAround(table_, pos);
 }
 
-// Finds out how deep daylight falls, after edits.
-void ChunkPipeline::findDaylight(ChunkPos pos) {
+// Finds the lowest open section again, after edits.
+void ChunkPipeline::findOpenSections(ChunkPos pos) {
     ChunkRecord* record = findRecord(table_, pos);
     if (!record || !table_.nearDepth) return;
-    const int before = record->lowestSunlit;
-    record->lowestSunlit = light::lowestSunlitSection(*parts_.world.maybeChunkAt(pos), parts_.lights);
-    if (record->lowestSunlit < before) updateDepthAround(table_, pos);
+    const int before = record->lowestOpen;
+    record->lowestOpen = light::lowestOpenSection(*parts_.world.maybeChunkAt(pos), parts_.lights);
+    if (record->lowestOpen < before) updateDepthAround(table_, pos);
 }
 
 void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh) {
@@ -226,8 +227,8 @@ void ChunkPipeline::exchangeChunks() {
         --generating_;
         storeGenerated(parts_.source, generated.pos, generated.chunk);
         if (parts_.batchLighter) {
-            const int lowestSunlit = light::lowestSunlitSection(*generated.chunk, parts_.lights);
-            onLoaded(generated.pos, {std::move(generated.chunk), lowestSunlit}, nullptr);
+            const int lowestOpen = light::lowestOpenSection(*generated.chunk, parts_.lights);
+            onLoaded(generated.pos, {std::move(generated.chunk), lowestOpen}, nullptr);
         } else {
             workers_.submitLocalLight(urgency(table_.view, generated.pos), generated.pos,
                                       std::move(generated.chunk));
@@ -320,7 +321,7 @@ void ChunkPipeline::relight() {
     }
     std::set<ChunkPos> edited;
     for (const world::BlockEdit& edit : edits) edited.insert(world::chunkOf(edit.pos));
-    for (const ChunkPos pos : edited) findDaylight(pos);
+    for (const ChunkPos pos : edited) findOpenSections(pos);
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);
@@ -373,7 +374,7 @@ ChunkPtr ChunkPipeline::wholeChunk(ChunkPos pos) const {
     const int first = table_.heights.firstSection();
     if (chunk->isMade(first)) return chunk;
     auto whole = std::make_shared<world::Chunk>(*chunk);
-    whole->makeDeeper(generateTo(parts_.source, pos, first));
+    whole->makeDeeper(parts_.source.generator->generate(pos));
     return whole;
 }
 

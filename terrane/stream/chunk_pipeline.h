@@ -34,7 +34,7 @@ class ChunkPipeline {
     // Sets the view: chunks up to `viewDistance` (Chebyshev) around `center` become visible, and tiles beyond
     // them up to `horizon` (see TileView). `direction` is that of ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {}, int horizon = 0);
-    // Sets the height of the camera, z of a block: deep ground is made only near it and where daylight falls
+    // Sets the height of the camera, z of a block: deep ground is made only near it and where it is open
     // (depth.h). Without one, which is so at first, chunks are made to the bottom of the world.
     void setCameraHeight(std::optional<int> z);
     // Returns a z that is no higher than the lowest block that the view needs. It looks at all chunks.
@@ -103,7 +103,7 @@ class ChunkPipeline {
     void takeResults();
     void onLoaded(world::ChunkPos pos, ReadChunk read, LocalLightPtr local);
     void onDeepened(const WorkerResults::Deepened& deepened);
-    void findDaylight(world::ChunkPos pos);
+    void findOpenSections(world::ChunkPos pos);
     void onLit(world::ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh);
     void dropLocalLightAround(world::ChunkPos pos);
     void exchangeChunks();

@@ -38,6 +38,12 @@ enum class ChunkStage : std::uint8_t {
 };
 constexpr std::size_t kChunkStageCount = 4;
 
+// How deep a loaded chunk is, in sections.
+struct LoadedDepths {
+    int lowestMade = 0;  // world::Chunk::lowestMade()
+    int lowestOpen = 0;  // light::lowestOpenSection()
+};
+
 struct ChunkRecord {
     // Residency.
     ChunkStage stage = ChunkStage::Loading;
@@ -48,7 +54,7 @@ struct ChunkRecord {
 
     // Depth, in sections; of chunks that are not Loading.
     int lowestMade = 0;         // world::Chunk::lowestMade()
-    int lowestSunlit = 0;       // that daylight enters straight from above
+    int lowestOpen = 0;         // light::lowestOpenSection()
     int wantedDepth = INT_MAX;  // the lowest one that was requested
     bool isDeepening = false;   // a job makes it deeper
 

@@ -62,12 +62,13 @@ void ChunkWorkers::submitDepth(base::JobPriority priority, const DepthJob& job, 
     submit(priority,
            [job, chunk = std::move(chunk), source, lights = &parts_.lights](WorkerResults& results) {
                const auto deepen = [&] {
+                   const ReadChunk generated = generateTo(source, job.pos, job.section, *lights);
                    auto deeper = std::make_shared<world::Chunk>(*chunk);
-                   deeper->makeDeeper(generateTo(source, job.pos, job.section));
-                   return deeper;
+                   deeper->makeDeeper(*generated.chunk);
+                   return ReadChunk{std::move(deeper), generated.lowestOpen};
                };
-               auto deeper = results.timed(kDeepen, deepen);
-               auto local = results.timed(kLocalLight, [&] { return localLight(*deeper, *lights); });
+               ReadChunk deeper = results.timed(kDeepen, deepen);
+               auto local = results.timed(kLocalLight, [&] { return localLight(*deeper.chunk, *lights); });
                return WorkerResults::Deepened{job, chunk, std::move(deeper), std::move(local)};
            });
 }
@@ -76,8 +77,8 @@ void ChunkWorkers::submitLocalLight(base::JobPriority priority, ChunkPos pos,
                                     std::shared_ptr<world::Chunk> chunk) {
     submit(priority, [pos, chunk = std::move(chunk), lights = &parts_.lights](WorkerResults& results) {
         auto local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
-        const int lowestSunlit = light::lowestSunlitSection(*chunk, *lights);
-        return WorkerResults::Load{pos, {chunk, lowestSunlit}, std::move(local)};
+        const int lowestOpen = light::lowestOpenSection(*chunk, *lights);
+        return WorkerResults::Load{pos, {chunk, lowestOpen}, std::move(local)};
     });
 }
 

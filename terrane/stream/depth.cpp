@@ -22,8 +22,8 @@ int depthByCamera(const ChunkTable& table, ChunkPos pos) {
     return isNear ? *table.nearDepth : table.heights.endSection();
 }
 
-int depthByDaylight(const ChunkRecord& record) {
-    return record.lowestSunlit - kDarkSections;
+int depthByOpenings(const ChunkRecord& record) {
+    return record.lowestOpen - kClosedSections;
 }
 
 void updateDepth(ChunkTable& table, ChunkPos pos) {
@@ -55,7 +55,7 @@ std::optional<DepthAround> depthAround(const ChunkTable& table, ChunkPos pos) {
         if (!world::isInWorld(at)) continue;
         const ChunkRecord* record = findRecord(table, at);
         if (!isLoaded(record)) return std::nullopt;
-        around.needed = std::min(around.needed, depthByDaylight(*record));
+        around.needed = std::min(around.needed, depthByOpenings(*record));
         around.highest = std::max(around.highest, record->lowestMade);
         around.sum += record->lowestMade;
     }
@@ -67,7 +67,7 @@ int depthToLoad(const ChunkTable& table, ChunkPos pos) {
     int section = depthByCamera(table, pos);
     for (const ChunkPos at : neighborhood(pos)) {
         const ChunkRecord* record = findRecord(table, at);
-        if (isLoaded(record)) section = std::min(section, depthByDaylight(*record));
+        if (isLoaded(record)) section = std::min(section, depthByOpenings(*record));
     }
     return std::max(section, table.heights.firstSection());
 }
@@ -101,7 +101,7 @@ int lowestNeeded(const ChunkTable& table) {
     int lowest = *table.nearDepth;
     for (const auto& [pos, record] : table.records)
         if (isLoaded(&record) && isNeeded(table.view, pos))
-            lowest = std::min(lowest, depthByDaylight(record));
+            lowest = std::min(lowest, depthByOpenings(record));
     return std::max(lowest, table.heights.firstSection());
 }
 
@@ -146,14 +146,15 @@ std::vector<DepthJob> popDepthJobs(ChunkTable& table, std::size_t limit) {
     return popped;
 }
 
-bool finishDepthJob(ChunkTable& table, const DepthJob& job) {
+bool finishDepthJob(ChunkTable& table, ChunkPos pos, LoadedDepths depths) {
     assert(table.depthJobCount > 0 && "what is finished was popped");
     --table.depthJobCount;
-    ChunkRecord* record = findRecord(table, job.pos);
+    ChunkRecord* record = findRecord(table, pos);
     if (!isLoaded(record)) return false;
     record->isDeepening = false;
-    record->lowestMade = std::min(record->lowestMade, job.section);
-    if (record->wantedDepth < record->lowestMade) table.toDeepen.push_back(job.pos);
+    record->lowestMade = std::min(record->lowestMade, depths.lowestMade);
+    record->lowestOpen = std::min(record->lowestOpen, depths.lowestOpen);
+    if (record->wantedDepth < record->lowestMade) table.toDeepen.push_back(pos);
     return true;
 }
 

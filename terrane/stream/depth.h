@@ -1,10 +1,11 @@
-// Decides how deep chunks are made: down to where daylight falls, and deeper near a camera. What is below is
-// closed and dark (world::kUnmade) until somebody needs it.
+// Decides how deep chunks are made: below what is open, and deeper near a camera. What is lower is closed and
+// dark (world::kUnmade) until somebody needs it.
 //
-// A chunk is lit and meshed once it and its eight neighbors are made down to the same section, two below the
-// lowest one that daylight enters straight from above in any of the nine. Light travels 14 blocks from there,
-// so its light is that of whole columns. It depends only on what is above that section: the order in which
-// chunks are loaded does not count.
+// A section is open if daylight enters it straight from above, or if half of its blocks let light pass
+// (light/light_sources.h): so the land under an island in the sky is open, and a cave is not. A chunk is lit
+// and meshed once it and its eight neighbors are made down to the same section, two below the lowest open one
+// of the nine. Where one of them turns out to be open deeper, its neighbors follow. Daylight travels 14
+// blocks from where it falls, so the light of a chunk is that of whole columns.
 //
 // The second of the pipeline's schedulers (chunk_table.h).
 #pragma once
@@ -16,9 +17,9 @@
 
 namespace terrane::stream {
 
-// Sections below the lowest one that daylight enters: it spreads into the first of them and ends there. In
-// the second one light of lamps may be missing, where lamps are below.
-constexpr int kDarkSections = 2;
+// Sections below the lowest open one: daylight spreads into the first of them and ends there. In the second
+// one light of lamps may be missing, where lamps are below.
+constexpr int kClosedSections = 2;
 // Chunks up to kNearChunks (Chebyshev) from a camera are made to at least kNearBlocks below it. The bottom is
 // a multiple of kNearStep blocks, so that a falling camera does not ask for each section by itself.
 constexpr int kNearChunks = 8, kNearBlocks = 64, kNearStep = 32;
@@ -38,8 +39,8 @@ struct DepthAround {
 // Returns nothing unless the chunk and its neighbors are loaded.
 std::optional<DepthAround> depthAround(const ChunkTable& table, world::ChunkPos pos);
 
-// Returns the section down to which an absent chunk is loaded, as far as that is known. Daylight in the chunk
-// itself may need more.
+// Returns the section down to which an absent chunk is loaded, as far as that is known. Open sections of the
+// chunk itself may need more.
 int depthToLoad(const ChunkTable& table, world::ChunkPos pos);
 
 // Requests that a loaded chunk is made down to a section.
@@ -47,7 +48,7 @@ void requestDepth(ChunkTable& table, world::ChunkPos pos, int section);
 // Returns whether the 3×3 is deep enough; else requests what it lacks.
 bool requestMissingDepth(ChunkTable& table, world::ChunkPos pos, const DepthAround& around);
 // Requests what the chunks of the 3×3 need, and the light of those for which it is there; visible ones are
-// lit again. Call it when the chunk in the middle is made deeper, or daylight falls deeper in it.
+// lit again. Call it when the chunk in the middle is made deeper, or open deeper.
 void updateDepthAround(ChunkTable& table, world::ChunkPos pos);
 // Does the same for the chunks near the camera. Call it when the view moved.
 void updateDepthNearCamera(ChunkTable& table);
@@ -62,7 +63,7 @@ struct DepthJob {
 
 // Removes and returns up to `limit` loaded chunks to make deeper. Each has one job at a time.
 std::vector<DepthJob> popDepthJobs(ChunkTable& table, std::size_t limit);
-// Ends the job of a chunk, which is now made down to its section. Returns false if it is not loaded any more.
-bool finishDepthJob(ChunkTable& table, const DepthJob& job);
+// Ends the job of a chunk, which is now as deep as said. Returns false if it is not loaded any more.
+bool finishDepthJob(ChunkTable& table, world::ChunkPos pos, LoadedDepths depths);
 
 }  // namespace terrane::stream

@@ -105,7 +105,7 @@ void finishLoad(ChunkTable& table, ChunkPos pos, Time now, LoadedDepths depths) 
     assert(record && record->stage == ChunkStage::Loading && "what arrives was asked for");
     record->neededAt = now;
     record->lowestMade = depths.lowestMade;
-    record->lowestSunlit = depths.lowestSunlit;
+    record->lowestOpen = depths.lowestOpen;
     setStage(table, pos, *record, ChunkStage::Loaded);
     changeLoadedAround(table, pos, 1);
     requestLighting(table, pos);

@@ -33,11 +33,7 @@ std::vector<world::ChunkPos> popLoadRequests(ChunkTable& table, std::size_t limi
 // Returns whether the chunk is not needed any more, so that its load may be cancelled. Requested chunks are
 // always loaded.
 bool mayCancelLoad(const ChunkTable& table, world::ChunkPos pos);
-// finishLoad() makes a Loading chunk Loaded, abandonLoad() makes it absent again. The depths are those of its
-// record.
-struct LoadedDepths {
-    int lowestMade = 0, lowestSunlit = 0;
-};
+// finishLoad() makes a Loading chunk Loaded, abandonLoad() makes it absent again.
 void finishLoad(ChunkTable& table, world::ChunkPos pos, Time now, LoadedDepths depths = {});
 void abandonLoad(ChunkTable& table, world::ChunkPos pos);
 

@@ -28,7 +28,7 @@ struct WorkerResults {
     struct Deepened {
         DepthJob job;
         world::ChunkPtr former;
-        std::shared_ptr<world::Chunk> deeper;
+        ReadChunk deeper;
         LocalLightPtr localLight;  // of `deeper`
     };
     struct Lit {

@@ -60,7 +60,7 @@ class WorldView {
     void follow(const render::Camera& camera, int viewDistance);
     // Does the same without receiving chunks. `direction`: see stream::ViewOrder.
     void setView(world::ChunkPos center, int viewDistance, glm::vec2 direction = {});
-    // Makes deep ground only near the camera and where daylight falls (stream/depth.h), from now on.
+    // Makes deep ground only near the camera and where it is open (stream/depth.h), from now on.
     void setCameraHeight(const render::Camera& camera);
     // Sets the distance of land beyond the chunks, from the next setView() or follow() on.
     void setHorizon(const Horizon& horizon);

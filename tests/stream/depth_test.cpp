@@ -22,13 +22,13 @@ class DepthTest : public testing::Test {
   protected:
     DepthTest() { table_.heights = kHeights; }
 
-    // Loads all chunks that the view needs. Each is made kDarkSections below its daylight, or deeper where
+    // Loads all chunks that the view needs. Each is made kClosedSections below its daylight, or deeper where
     // that is known.
     void load(int sunlit) {
         for (const ChunkPos pos : popLoadRequests(table_, 1000)) {
             const auto own = sunlit_.find(pos);
             const int daylight = own == sunlit_.end() ? sunlit : own->second;
-            const int made = std::min(depthToLoad(table_, pos), daylight - kDarkSections);
+            const int made = std::min(depthToLoad(table_, pos), daylight - kClosedSections);
             finishLoad(table_, pos, {}, {made, daylight});
         }
     }
@@ -39,7 +39,7 @@ class DepthTest : public testing::Test {
             const auto depths = popDepthJobs(table_, 1000);
             for (const DepthJob& job : depths) {
                 deeper[job.pos] = job.section;
-                EXPECT_TRUE(finishDepthJob(table_, job));
+                EXPECT_TRUE(finish(job));
                 updateDepthAround(table_, job.pos);
             }
             const auto lit = popLightingRequests(table_, 1000);
@@ -49,6 +49,10 @@ class DepthTest : public testing::Test {
             }
             if (depths.empty() && lit.empty() && table_.toDeepen.empty()) return deeper;
         }
+    }
+    // Nothing new is open.
+    bool finish(const DepthJob& job) {
+        return finishDepthJob(table_, job.pos, {job.section, kHeights.endSection()});
     }
     int madeAt(ChunkPos pos) { return findRecord(table_, pos)->lowestMade; }
 
@@ -90,7 +94,7 @@ TEST_F(DepthTest, TheOrderOfLoadingDoesNotCount) {
         for (const ChunkPos pos : loads) {
             const int daylight = static_cast<int>(shared::hash2(pos.x, pos.y, 1) % 20) - 5;
             finishLoad(table_, pos, {},
-                       {std::min(depthToLoad(table_, pos), daylight - kDarkSections), daylight});
+                       {std::min(depthToLoad(table_, pos), daylight - kClosedSections), daylight});
         }
         settle();
         for (int y = -3; y <= 3; ++y)
@@ -132,13 +136,13 @@ TEST_F(DepthTest, AChunkHasOneJobAtATime) {
     ASSERT_EQ(first.size(), 1u);
     requestDepth(table_, {0, 0}, 3);
     EXPECT_TRUE(popDepthJobs(table_, 10).empty());
-    EXPECT_TRUE(finishDepthJob(table_, first[0]));
+    EXPECT_TRUE(finish(first[0]));
     EXPECT_EQ(madeAt({0, 0}), 5);
     const auto second = popDepthJobs(table_, 10);
     ASSERT_EQ(second.size(), 1u);
     EXPECT_EQ(second[0].section, 3);
     requestDepth(table_, {0, 0}, 4);  // less than what is on the way
-    EXPECT_TRUE(finishDepthJob(table_, second[0]));
+    EXPECT_TRUE(finish(second[0]));
     EXPECT_TRUE(popDepthJobs(table_, 10).empty());
 }
 
@@ -153,7 +157,7 @@ TEST_F(DepthTest, AJobOfAChunkThatIsGoneIsForgotten) {
     setView(table_, {100, 0}, 0);
     popHidden(table_);
     for (const ChunkPos pos : findUnneeded(table_, Time() + std::chrono::hours(1))) unload(table_, pos);
-    EXPECT_FALSE(finishDepthJob(table_, jobs[0]));
+    EXPECT_FALSE(finish(jobs[0]));
 }
 
 // Hills, a cliff of 150 blocks, caves through all of it, and lamps in them.
@@ -326,6 +330,27 @@ TEST_F(DeepPipelineTest, APlayerFallsDownADarkShaftWithoutAStop) {
     EXPECT_NEAR(steps / 120.0, 1990 / world::kFallLimit, 2.5) << "at the highest speed nearly all the time";
     settle();
     expectShowsTheView();
+}
+
+// An island in the sky, 25 chunks wide: no daylight falls on the land under its middle.
+TEST_F(DeepPipelineTest, TheLandUnderAnIslandIsThere) {
+    gen::GeneratorBuilder builder("island", contentBlocks());
+    builder.declareHeights(kHeights);
+    builder.pass3D("ground", [](gen::Pass& p) {
+        const gen::Bool isIsland = abs(p.x()) < 200 && abs(p.y()) < 200 && p.z() > 300 && p.z() < 400;
+        const gen::Bool isLand = gen::Float(p.z()) < p.perlin2D("hills", 32, {20.0f}) + 40.0f;
+        p.setBlock(select(isIsland || isLand, p.block("stone"), p.block("air")));
+    });
+    pipeline_.reset();
+    generator_ = gen::Generator(builder.finish().value(), 1);
+    pipeline_ = makePipeline({&generator_, nullptr, false});
+    pipeline_->setCameraHeight(450);
+    setView({14, 0}, 6);
+    settle();
+    expectShowsTheView();
+    expectShowsWholeColumns();
+    for (int x = 14 - 6; x <= 14 + 6; ++x) EXPECT_LE(lowestMade({x, 0}), 2) << x;
+    EXPECT_GT(lowestMade({14, 0}), kFirst + 4);
 }
 
 TEST_F(DeepPipelineTest, ARequestedChunkIsWhole) {
