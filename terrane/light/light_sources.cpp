@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cassert>
+#include <span>
+#include <utility>
 
 #include "terrane/light/kernels_internal.h"
 
@@ -123,18 +125,14 @@ OpenSections::OpenSections(const LightTable& table) : table_(table) {}
 
 bool OpenSections::isOpen(const world::Section& section) {
     const BrickView opacity = opacityOf(section, table_, pool_);
-    bool isOpen = !daylight_.isDark();
-    if (isOpen) {
-        sourcesOf(emissionOf(section, table_, pool_), opacity, daylight_, pool_);
-    } else if (opacity.isUniform) {
-        isOpen = opacity.uniformValue() != allComponents(kMaxLevel);
-    } else {
-        const auto closed =
-            std::count(opacity.values, opacity.values + world::kBlocksPerSection, allComponents(kMaxLevel));
-        isOpen = closed <= world::kBlocksPerSection / 2;
-    }
+    const std::span<const LightValue> values(opacity.values,
+                                             opacity.isUniform ? 1 : world::kBlocksPerSection);
+    const bool isClear = std::ranges::all_of(values, [](LightValue v) { return v == allComponents(0); });
+    const bool isHigh = std::exchange(isClearAbove_, isClear) && isClear;
+    const bool isSunlit = !daylight_.isDark();
+    if (isSunlit) sourcesOf(emissionOf(section, table_, pool_), opacity, daylight_, pool_);
     pool_.reset();
-    return isOpen;
+    return isSunlit || isHigh;
 }
 
 int lowestOpenSection(const world::Chunk& chunk, const LightTable& table) {

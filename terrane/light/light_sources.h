@@ -58,8 +58,8 @@ ChunkBricks findSources(const world::Chunk& chunk, const LightTable& table, Bric
 ChunkBricks findSunlitSources(const world::Chunk& chunk, const LightTable& table, BrickPool& pool);
 
 // Finds the sections of a chunk that one can look into from above or from the side, section by section from
-// the top: daylight enters them straight from above, or at least half of their blocks let light pass, as in a
-// hall or under an island in the sky.
+// the top: daylight enters them straight from above, or no block in them and in the section above dims light,
+// as under an island in the sky or in a high hall.
 class OpenSections {
   public:
     explicit OpenSections(const LightTable& table);
@@ -70,6 +70,7 @@ class OpenSections {
     const LightTable& table_;
     BrickPool pool_;
     Daylight daylight_;
+    bool isClearAbove_ = false;
 };
 
 // Returns the number of the lowest open section of a chunk, as far down as it is made.

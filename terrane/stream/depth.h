@@ -1,11 +1,11 @@
 // Decides how deep chunks are made: below what is open, and deeper near a camera. What is lower is closed and
 // dark (world::kUnmade) until somebody needs it.
 //
-// A section is open if daylight enters it straight from above, or if half of its blocks let light pass
-// (light/light_sources.h): so the land under an island in the sky is open, and a cave is not. A chunk is lit
-// and meshed once it and its eight neighbors are made down to the same section, two below the lowest open one
-// of the nine. Where one of them turns out to be open deeper, its neighbors follow. Daylight travels 14
-// blocks from where it falls, so the light of a chunk is that of whole columns.
+// A section is open if daylight enters it straight from above, or if it is empty like the section above it
+// (light/light_sources.h): the land under an island in the sky is open, and a cave is not. A chunk is lit and
+// meshed once it and its eight neighbors are made down to the same section, two below the lowest open one of
+// the nine. Where one of them turns out to be open deeper, its neighbors follow. Daylight travels 14 blocks
+// from where it falls, so the light of a chunk is that of whole columns.
 //
 // The second of the pipeline's schedulers (chunk_table.h).
 #pragma once
