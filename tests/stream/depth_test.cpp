@@ -242,9 +242,9 @@ TEST_F(DeepPipelineTest, ShowsWhatWholeColumnsShow) {
 }
 
 TEST_F(DeepPipelineTest, FollowsACameraDownAndBack) {
-    for (const int z : {300, 120, 40, -100, -240, 300}) {
+    for (const int z : {300, 40, -240, 300}) {
         pipeline_->setCameraHeight(z);
-        setView({z / 100, 0}, 3);
+        setView({z / 100, 0}, 2);
         settle();
         expectShowsTheView();
         expectShowsWholeColumns();
