@@ -16,23 +16,30 @@ light::LightScratch& lightScratch() {
 
 }  // namespace
 
+namespace {
+
+ReadChunk wholeChunk(std::shared_ptr<world::Chunk> chunk, const light::LightTable& lights) {
+    const world::Heights heights = chunk->heights();
+    const int lowestOpen =
+        hasPartialChunks(heights) ? light::lowestOpenSection(*chunk, lights) : heights.endSection();
+    return {std::move(chunk), lowestOpen};
+}
+
+}  // namespace
+
 ReadChunk loadStored(const ChunkSource& source, world::ChunkPos pos, const light::LightTable& lights) {
     if (!source.store) return {};
     TERRANE_ZONE("load chunk");
     store::LoadedChunk stored = source.store->load(pos);
     if (stored.state != store::LoadedChunk::State::Present) return {};
-    const int lowestOpen = light::lowestOpenSection(*stored.chunk, lights);
-    return {std::move(stored.chunk), lowestOpen};
+    return wholeChunk(std::move(stored.chunk), lights);
 }
 
 ReadChunk generateTo(const ChunkSource& source, world::ChunkPos pos, int section,
                      const light::LightTable& lights) {
     const gen::Generator& generator = *source.generator;
-    if (section <= generator.heights().firstSection()) {
-        auto chunk = std::make_shared<world::Chunk>(generator.generate(pos));
-        const int lowestOpen = light::lowestOpenSection(*chunk, lights);
-        return {std::move(chunk), lowestOpen};
-    }
+    if (section <= generator.heights().firstSection())
+        return wholeChunk(std::make_shared<world::Chunk>(generator.generate(pos)), lights);
     light::OpenSections sections(lights);
     int lowestOpen = generator.heights().endSection();
     const auto goesOn = [&](const world::Chunk& chunk, int lowest) {

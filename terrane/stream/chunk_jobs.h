@@ -22,7 +22,8 @@ struct ChunkSource {
     bool storesGenerated = false;               // else only edited chunks are stored
 };
 
-// A chunk and its lowest open section (light/light_sources.h).
+// A chunk and its lowest open section (light/light_sources.h), which only worlds with partial chunks need:
+// elsewhere it is above the chunk.
 struct ReadChunk {
     std::shared_ptr<world::Chunk> chunk;  // null: there is none
     int lowestOpen = 0;

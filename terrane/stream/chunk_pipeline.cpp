@@ -52,10 +52,9 @@ void ChunkPipeline::setView(ChunkPos center, int viewDistance, glm::vec2 directi
     cancelLoads();
 }
 
-// A batch generator makes whole chunks. Chunks of the default heights are whole too: what they have below is
-// little, and in a store it is there for everyone.
+// A batch generator makes whole chunks.
 void ChunkPipeline::setCameraHeight(std::optional<int> z) {
-    const bool isPartial = parts_.source.generator && parts_.world.heights() != world::Heights();
+    const bool isPartial = parts_.source.generator && hasPartialChunks(table_.heights);
     stream::setCameraHeight(table_, isPartial ? z : std::nullopt);
 }
 
@@ -156,13 +155,17 @@ void ChunkPipeline::onDeepened(const WorkerResults::Deepened& deepened) {
     updateDepthAround(table_, pos);
 }
 
-// Finds the lowest open section again, after edits.
-void ChunkPipeline::findOpenSections(ChunkPos pos) {
-    ChunkRecord* record = findRecord(table_, pos);
-    if (!record || !table_.nearDepth) return;
-    const int before = record->lowestOpen;
-    record->lowestOpen = light::lowestOpenSection(*parts_.world.maybeChunkAt(pos), parts_.lights);
-    if (record->lowestOpen < before) updateDepthAround(table_, pos);
+// Finds the lowest open sections of edited chunks again.
+void ChunkPipeline::findOpenSections(std::span<const world::BlockEdit> edits) {
+    std::set<ChunkPos> edited;
+    for (const world::BlockEdit& edit : edits) edited.insert(world::chunkOf(edit.pos));
+    for (const ChunkPos pos : edited) {
+        ChunkRecord* record = findRecord(table_, pos);
+        const world::ChunkPtr chunk = parts_.world.maybeChunkAt(pos);
+        if (!record || !chunk) continue;
+        const int before = std::exchange(record->lowestOpen, light::lowestOpenSection(*chunk, parts_.lights));
+        if (record->lowestOpen < before) updateDepthAround(table_, pos);
+    }
 }
 
 void ChunkPipeline::onLit(ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh) {
@@ -227,8 +230,7 @@ void ChunkPipeline::exchangeChunks() {
         --generating_;
         storeGenerated(parts_.source, generated.pos, generated.chunk);
         if (parts_.batchLighter) {
-            const int lowestOpen = light::lowestOpenSection(*generated.chunk, parts_.lights);
-            onLoaded(generated.pos, {std::move(generated.chunk), lowestOpen}, nullptr);
+            onLoaded(generated.pos, {std::move(generated.chunk), table_.heights.endSection()}, nullptr);
         } else {
             workers_.submitLocalLight(urgency(table_.view, generated.pos), generated.pos,
                                       std::move(generated.chunk));
@@ -319,9 +321,7 @@ void ChunkPipeline::relight() {
         for (const auto& [chunk, meshSections] : mesh::meshSectionsTouchedBy(edit.pos))
             touched[chunk] |= meshSections;
     }
-    std::set<ChunkPos> edited;
-    for (const world::BlockEdit& edit : edits) edited.insert(world::chunkOf(edit.pos));
-    for (const ChunkPos pos : edited) findOpenSections(pos);
+    if (table_.nearDepth) findOpenSections(edits);
     for (const auto& [chunk, meshSections] : touched) requestEditedMesh(table_, chunk, meshSections);
     for (const light::LightChange& change : relightEdits(table_, parts_.world, edits, parts_.lights)) {
         changes_.setLight(change.pos, findRecord(table_, change.pos)->light, change.bricks);

@@ -103,7 +103,7 @@ class ChunkPipeline {
     void takeResults();
     void onLoaded(world::ChunkPos pos, ReadChunk read, LocalLightPtr local);
     void onDeepened(const WorkerResults::Deepened& deepened);
-    void findOpenSections(world::ChunkPos pos);
+    void findOpenSections(std::span<const world::BlockEdit> edits);
     void onLit(world::ChunkPos pos, light::ChunkLightPtr light, MeshPtr mesh);
     void dropLocalLightAround(world::ChunkPos pos);
     void exchangeChunks();

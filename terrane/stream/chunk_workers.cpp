@@ -77,8 +77,7 @@ void ChunkWorkers::submitLocalLight(base::JobPriority priority, ChunkPos pos,
                                     std::shared_ptr<world::Chunk> chunk) {
     submit(priority, [pos, chunk = std::move(chunk), lights = &parts_.lights](WorkerResults& results) {
         auto local = results.timed(kLocalLight, [&] { return localLight(*chunk, *lights); });
-        const int lowestOpen = light::lowestOpenSection(*chunk, *lights);
-        return WorkerResults::Load{pos, {chunk, lowestOpen}, std::move(local)};
+        return WorkerResults::Load{pos, {chunk, chunk->heights().endSection()}, std::move(local)};
     });
 }
 

@@ -17,6 +17,12 @@
 
 namespace terrane::stream {
 
+// Returns whether chunks of a world are made as deep as they are needed. Those of the default heights are
+// whole: what they have below is little, and in a store it is there for everyone.
+inline bool hasPartialChunks(world::Heights heights) {
+    return heights != world::Heights();
+}
+
 // Sections below the lowest open one: daylight spreads into the first of them and ends there. In the second
 // one light of lamps may be missing, where lamps are below.
 constexpr int kClosedSections = 2;
