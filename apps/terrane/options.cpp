@@ -259,7 +259,8 @@ void addSaveGameOptions(CLI::App& command, io::SaveOptions& save) {
                                                fmt::format("expected one of on, off, got \"{}\"", text));
                 save.storeGenerated = text == "on";
             },
-            "Store chunks without edits too: loading is faster than generating. The world keeps it: on, off")
+            "Store chunks without edits too: loading is faster than generating. Not those of tall worlds "
+            "of which only the upper part is made. The world keeps it: on, off")
         ->type_name("CHOICE");
 }
 
