@@ -94,7 +94,9 @@ def triangles_of(path):
 
 
 def nbt(value):
-    """The type and the bytes of a value as NBT: int is a 32-bit number, a list holds compounds."""
+    """The type and the bytes of a value as NBT: int is a 32-bit number, an array one of 64 bits."""
+    if isinstance(value, numpy.ndarray):
+        return 12, struct.pack(">i", value.size) + value.astype(">u8").tobytes()
     if isinstance(value, int):
         return 3, struct.pack(">i", value)
     if isinstance(value, bytes):
@@ -102,7 +104,8 @@ def nbt(value):
     if isinstance(value, str):
         return 8, struct.pack(">H", len(value)) + value.encode()
     if isinstance(value, list):
-        return 9, struct.pack(">Bi", 10 if value else 0, len(value)) + b"".join(nbt(part)[1] for part in value)
+        parts = [nbt(part) for part in value]
+        return 9, struct.pack(">Bi", parts[0][0] if parts else 0, len(value)) + b"".join(part[1] for part in parts)
     data = b""
     for name, part in value.items():
         kind, written = nbt(part)
@@ -122,6 +125,37 @@ def uniform_chunk(x, z, names):
 
 def stone_chunk(x, z):
     return uniform_chunk(x, z, {0: "minecraft:stone"})
+
+
+def packed_states(numbers, count):
+    """Numbers below `count` in 64-bit words, as since 1.16: none lies in two words."""
+    bits = max(4, (count - 1).bit_length())
+    per_word = 64 // bits
+    padded = numpy.zeros(-(-numbers.size // per_word) * per_word, "u8")
+    padded[:numbers.size] = numbers
+    shifts = numpy.arange(per_word, dtype="u8") * numpy.uint64(bits)
+    return (padded.reshape(-1, per_word) << shifts).sum(axis=1, dtype="u8")
+
+
+def palette_entry(state):
+    """Of "minecraft:name[key=value,…]"."""
+    name, properties = state[:-1].split("[")
+    properties = dict(pair.split("=") for pair in properties.split(",")) if properties else {}
+    return {"Name": name, "Properties": properties}
+
+
+def mixed_chunk(x, z, section_numbers, chances, random):
+    """A chunk with all that another reader expects: sections of one state and of many. `chances`: of states."""
+    sections = []
+    for y in section_numbers:
+        size = random.choice([1, 1, 2, 16, 17, 100])
+        palette = random.choice(list(chances), size, replace=False, p=list(chances.values()))
+        blocks = {"palette": [palette_entry(state) for state in palette]}
+        if len(palette) > 1:
+            blocks["data"] = packed_states(random.integers(len(palette), size=4096), len(palette))
+        sections.append({"Y": y, "block_states": blocks, "biomes": {"palette": ["minecraft:plains"]}})
+    return nbt_file({"DataVersion": 3465, "xPos": x, "yPos": section_numbers[0], "zPos": z, "Status": "minecraft:full",
+                     "LastUpdate": 0, "InhabitedTime": 0, "block_entities": [], "sections": sections})
 
 
 def lz4_stream(data):
@@ -359,7 +393,7 @@ class OtherFiles(ProgramTest):
 
 
 class Minecraft(ProgramTest):
-    def compare(self, version, region):
+    def compare(self, version, region, is_whole):
         numbers = re.findall(r"-?\d+", region.name)
         with region.open("rb") as file:
             offsets = struct.unpack(">1024I", file.read(4096))
@@ -367,13 +401,14 @@ class Minecraft(ProgramTest):
         largest = max((k for k in range(1024) if offsets[k]), key=lambda k: offsets[k] & 255)
         x, z = int(numbers[0]) * 32 + largest % 32, int(numbers[1]) * 32 + largest // 32
         area = (x, z, x + 2, z + 2)
-        if os.environ.get("TERRANE_ALL_CHUNKS"):
+        if is_whole:
             area = (min(c[0] for c in chunks), min(c[1] for c in chunks), max(c[0] for c in chunks) + 1,
                     max(c[1] for c in chunks) + 1)
-        folder = self.folder / version / "region"
+        folder = self.folder / "copies" / region.parent.name / "region"
         shutil.copytree(region.parent, folder)  # the reader opens files for writing
         expected = node("count_blocks.js", folder, version, *area)
-        world, report = self.folder / f"{version}.sqlite", self.folder / f"{version}.json"
+        world = self.folder / f"{region.parent.name}.sqlite"
+        report = world.with_suffix(".json")
         done = run("import", "minecraft", region.parent.parent if region.parent.name == "region" else folder.parent,
                    "--world", world, "--generator", "flat", "--area", ",".join(map(str, area)), "--report", report)
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -411,15 +446,29 @@ class Minecraft(ProgramTest):
     def test_region_files_have_the_blocks_of_another_reader(self):
         regions = sorted(fixtures("prismarine-provider-anvil").glob("fixtures/*/*.mca"))
         self.assertEqual(len(regions), 12)
-        if not os.environ.get("TERRANE_ALL_CHUNKS"):
+        is_whole = bool(os.environ.get("TERRANE_ALL_CHUNKS"))
+        if not is_whole:
             regions = [region for region in regions if region.parent.name in VERSIONS]
             self.assertEqual(len(regions), len(VERSIONS))
         for region in regions:
-            blocks, chunks = self.compare(region.parent.name, region)
+            blocks, chunks = self.compare(region.parent.name, region, is_whole)
             print(f"  {region.parent.name}: {chunks} chunks, {blocks} blocks", file=sys.stderr)
 
-    def test_worlds_of_any_height_keep_every_block(self):
+    def test_tall_worlds_have_the_blocks_of_another_reader(self):
         """384 layers are those of 1.18 and newer, 4,064 the most that a data pack may have."""
+        random = numpy.random.default_rng(5)
+        states = {state: block["name"] in SAME for block in dict(block_lists())["1.20"] for state in states_of(block)}
+        counts = collections.Counter(states.values())
+        chances = {state: 0.5 / counts[is_same] for state, is_same in states.items()}  # half of SAME
+        for first, end in ((-4, 20), (-127, 127)):
+            region = self.folder / f"{16 * (end - first)}" / "r.0.0.mca"
+            region.parent.mkdir()
+            region.write_bytes(region_file({k: mixed_chunk(k % 32, k // 32, range(first, end), chances, random)
+                                            for k in (0, 1, 32)}))
+            blocks, chunks = self.compare("1.20.1", region, True)
+            self.assertEqual((blocks, chunks), (3 * 4096 * (end - first), 3))
+
+    def test_worlds_of_any_height_keep_every_block(self):
         kinds = ["stone", "dirt", "sand", "gravel", "granite", "clay", "deepslate"]
         for first, end in ((-4, 20), (-127, 127)):
             names = {y: f"minecraft:{kinds[y % len(kinds)]}" for y in range(first, end)}
