@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "terrane/base/digest.h"
+#include "terrane/io/open_session.h"
 #include "tests/base/temp_folder.h"
 
 namespace terrane::app {
@@ -61,6 +62,45 @@ TEST_F(NewWorld, ASeedSaysWhichNumberItIsOnlyIfItDoesNotShowIt) {
     EXPECT_EQ(note("12"), "");
     EXPECT_EQ(note(" -1 "), "");
     EXPECT_EQ(note("a hill"), fmt::format("The text becomes the number {}", base::hash64("a hill")));
+}
+
+TEST_F(NewWorld, HeightsAreTheGeneratorsUnlessTyped) {
+    EXPECT_EQ(heightsOf(form_).value(), world::Heights());
+    const auto requested = [&] { return worldOf(form_, folder_.path())->heights; };
+    EXPECT_FALSE(requested().bottom || requested().top);
+    form_.declared = {-1024, 1792};
+    EXPECT_EQ(heightsOf(form_).value(), (world::Heights{-1024, 1792}));
+    form_.bottom = " -64 ";
+    EXPECT_EQ(heightsOf(form_).value(), (world::Heights{-64, 1792}));
+    EXPECT_EQ(requested().bottom, -64);
+    EXPECT_FALSE(requested().top);
+    form_.top = "320";
+    EXPECT_EQ(heightsOf(form_).value(), (world::Heights{-64, 320}));
+    EXPECT_EQ(requested().top, 320);
+}
+
+TEST_F(NewWorld, HeightsThatNoWorldHasAreRefused) {
+    for (const char* text : {"3", "-2064", "2064", "256", "high", "1e3", "99999999999", "16.0", "16 32"}) {
+        form_.bottom = text;
+        EXPECT_FALSE(heightsOf(form_)) << text;
+        EXPECT_THAT(problemOf(form_), HasSubstr("multiples of 16 from -2048 to 2048")) << text;
+        EXPECT_EQ(problemOf(form_).find('\n'), std::string::npos);
+    }
+    form_.bottom = "";
+    form_.top = "0";
+    EXPECT_THAT(problemOf(form_), HasSubstr("the bottom below the top"));
+}
+
+TEST_F(NewWorld, AGeneratorBringsItsHeights) {
+    io::WorldOptions options;
+    options.content = {std::string(TERRANE_SOURCE_DIR) + "/examples/lua"};
+    const auto content = io::loadContent(options);
+    ASSERT_TRUE(content);
+    chooseGenerator(form_, "examples:tall", *content);
+    EXPECT_EQ(form_.generator, "examples:tall");
+    EXPECT_EQ(form_.declared, (world::Heights{-1024, 1792}));
+    chooseGenerator(form_, "flat", *content);
+    EXPECT_EQ(form_.declared, world::Heights());
 }
 
 TEST_F(NewWorld, NamesThatNoFileCanHaveAreRefused) {

@@ -51,6 +51,30 @@ TEST_F(TitleTest, ANewWorldIsCreatedLeftAndContinued) {
     EXPECT_EQ(setting("World 2", "generator"), "flat");
 }
 
+TEST_F(TitleTest, ANewWorldHasTheHeightsOfItsForm) {
+    Program program = start();
+    program.click("New world");
+    program.click("generator");
+    program.click("flat");
+    program.click("bottom");
+    program.type("-60");
+    program.click("Create");
+    program.widget("Message");
+    program.click("OK");
+    program.click("bottom");
+    program.press(Key::Backspace);
+    program.type("4");
+    EXPECT_EQ(program.widget("bottom").value, "-64");
+    program.click("top");
+    program.type("320");
+    program.click("Create");
+    program.until("the world is played", [&] { return program.isPlaying(); });
+    EXPECT_EQ(program.session().store().identity().heights, (world::Heights{-64, 320}));
+    expectGood(program.quit());
+    EXPECT_EQ(setting("World", "bottom"), "-64");
+    EXPECT_EQ(setting("World", "top"), "320");
+}
+
 TEST_F(TitleTest, WorldsAreRenamedCopiedAndDeleted) {
     makeWorld("home");
     Program program = start();

@@ -164,10 +164,10 @@ void warningText(std::string_view text) {
     ImGui::PopStyleColor();
 }
 
-bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags) {
+bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags, const char* hint) {
     std::array<char, 256> buffer{};
     text.copy(buffer.data(), buffer.size() - 1);
-    const bool isDone = ui::textField(label, "", buffer.data(), buffer.size(), flags);
+    const bool isDone = ui::textField(label, hint, buffer.data(), buffer.size(), flags);
     text = buffer.data();
     return isDone;
 }

@@ -43,8 +43,8 @@ bool tabButton(const char* label, bool isChosen, float width);
 void heading(const char* text);
 void dimText(std::string_view text);
 void warningText(std::string_view text);
-// A field for a text of up to 255 bytes; returns the result of InputText.
-bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags = 0);
+// A field for a text of up to 255 bytes; returns the result of InputText. `hint`: shown while it is empty.
+bool editText(const char* label, std::string& text, ImGuiInputTextFlags flags = 0, const char* hint = "");
 // A tooltip for the last item, by mouse and by keys.
 void tooltipFor(std::string_view text);
 

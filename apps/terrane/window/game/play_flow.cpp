@@ -159,6 +159,7 @@ base::Result<void> PlayFlow::playChosen(const TitleChoice& choice) {
                      .seedText = {},
                      .generator = chosen.generator,
                      .content = options.world.content,
+                     .heights = chosen.heights,
                      .threads = options.world.threads};
     // A generator PACK:NAME needs its pack.
     if (chosen.generator && chosen.generator->find(':') != std::string::npos)

@@ -3,6 +3,7 @@
 #include <epoxy/gl.h>
 #include <fmt/format.h>
 
+#include <charconv>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "terrane/base/names.h"
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/area_image.h"
 #include "terrane/store/saves/world_list.h"
 
@@ -85,8 +87,8 @@ void MapPreview::Work::run() {
 }
 
 void MapPreview::Work::draw(const World& world, std::uint64_t request) {
-    auto generators =
-        gen::makeLevelGenerators(world.generator, *content.blocks, world.seed, content.generators);
+    auto generators = gen::makeLevelGenerators(world.generator, *content.blocks, world.seed,
+                                               content.generators, world.heights);
     if (!generators) return give(request, tl::unexpected(generators.error()), true);
     auto painter = map::MapPainter::create({*generators, *content.blocks, content.textures});
     if (!painter) return give(request, tl::unexpected(painter.error()), true);
@@ -135,6 +137,24 @@ std::string_view trimmed(std::string_view text) {
     return text.substr(first, text.find_last_not_of(kSpaces) - first + 1);
 }
 
+// A whole number, or none for an empty text.
+base::Result<std::optional<int>> typedHeight(std::string_view text) {
+    text = trimmed(text);
+    if (text.empty()) return std::nullopt;
+    int height = 0;
+    const auto [next, error] = std::from_chars(text.data(), text.data() + text.size(), height);
+    if (error == std::errc() && next == text.data() + text.size()) return height;
+    return base::fail(base::ErrorCode::BadInput,
+                      "bottom and top: expected multiples of {} from {} to {}, got \"{}\"",
+                      world::kSectionSize, world::kLowestBottom, world::kHighestTop, text);
+}
+
+base::Result<world::RequestedHeights> typedHeights(const NewWorldForm& form) {
+    const auto bottom = TERRANE_TRY(typedHeight(form.bottom));
+    const auto top = TERRANE_TRY(typedHeight(form.top));
+    return world::RequestedHeights(bottom, top);
+}
+
 }  // namespace
 
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed) {
@@ -150,6 +170,18 @@ base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form) {
     return store::seedFrom(text);
 }
 
+void chooseGenerator(NewWorldForm& form, const std::string& name, const pack::Content& content) {
+    form.generator = name;
+    // A broken generator is told by the map.
+    form.declared = gen::heightsOf(name, *content.blocks, {}, content.generators).value_or(world::Heights());
+}
+
+base::Result<world::Heights> heightsOf(const NewWorldForm& form) {
+    const world::Heights heights = TERRANE_TRY(typedHeights(form)).over(form.declared);
+    TERRANE_TRY(world::checkHeights(heights));
+    return heights;
+}
+
 std::string seedNote(const NewWorldForm& form, const store::WrittenSeed& seed, const Texts& tr) {
     if (!seed.text.empty()) return fmt::format(fmt::runtime(tr("The text becomes the number {}")), seed.seed);
     if (trimmed(form.seed).empty()) return fmt::format(fmt::runtime(tr("Random number {}")), seed.seed);
@@ -162,7 +194,9 @@ base::Result<ChosenWorld> worldOf(const NewWorldForm& form, const std::filesyste
     TERRANE_TRY(store::checkNewWorld(folder, name));
     auto seed = seedOf(form);
     if (!seed) return base::fail(base::ErrorCode::BadInput, "seed: {}", seed.error().message);
-    return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator};
+    (void)TERRANE_TRY(heightsOf(form));
+    return ChosenWorld{store::worldFile(folder, name), std::move(*seed), form.generator,
+                       TERRANE_TRY(typedHeights(form))};
 }
 
 }  // namespace terrane::app

@@ -22,6 +22,7 @@ class MapPreview {
     struct World {
         std::string generator;
         std::uint64_t seed = 0;
+        world::Heights heights;
         bool operator==(const World&) const = default;
     };
 
@@ -51,12 +52,15 @@ struct ChosenWorld {
     std::filesystem::path file;
     std::optional<store::WrittenSeed> seed;  // for a new world
     std::optional<std::string> generator;
+    world::RequestedHeights heights;  // for a new world
 };
 
 struct NewWorldForm {
     std::string name;
     std::string seed;  // empty: randomSeed
     std::string generator = io::WorldOptions::kDefaultGenerator;
+    std::string bottom, top;  // empty: those of `declared`
+    world::Heights declared;  // by the generator
     std::uint64_t randomSeed = 0;
 
     bool operator==(const NewWorldForm&) const = default;
@@ -65,8 +69,14 @@ struct NewWorldForm {
 // A form with the first free name of "World", "World 2", ….
 NewWorldForm newForm(const std::filesystem::path& folder, std::uint64_t randomSeed);
 
+// Sets the generator and the heights that it declares.
+void chooseGenerator(NewWorldForm& form, const std::string& name, const pack::Content& content);
+
 // Ignores spaces around the seed.
 [[nodiscard]] base::Result<store::WrittenSeed> seedOf(const NewWorldForm& form);
+
+// The heights of the form's world. Fails unless they are those of a world.
+[[nodiscard]] base::Result<world::Heights> heightsOf(const NewWorldForm& form);
 
 // What the player is told about the seed of the form: the number that a text stands for, or the random one.
 // Empty for a number, which tells itself.

@@ -125,7 +125,7 @@ void TitleScreen::showMessage(std::string text) {
 void TitleScreen::play(const store::WorldEntry& world) {
     if (!world.problem.empty()) return showMessage(world.name + ": " + world.problem);
     if (!world.inUse.empty()) return showMessage(world.name + ": " + world.inUse);
-    choice_ = ChosenWorld{world.path, {}, {}};
+    choice_ = ChosenWorld{world.path, {}, {}, {}};
 }
 
 void TitleScreen::create() {
@@ -333,9 +333,11 @@ void TitleScreen::drawForm() {
     dimText(tr_("Generator"));
     if (ui::beginCombo("##generator", form_.generator.c_str())) {
         for (const std::string& name : gen::namesOf(parts_.content.generators))
-            if (ui::selectable(name.c_str(), name == form_.generator)) form_.generator = name;
+            if (ui::selectable(name.c_str(), name == form_.generator))
+                chooseGenerator(form_, name, parts_.content);
         ImGui::EndCombo();
     }
+    drawHeights();
     ImGui::PopItemWidth();
     ImGui::Spacing();
     const float width = halfWidth();
@@ -345,9 +347,27 @@ void TitleScreen::drawForm() {
     if (menuButton(tr_("Back"), width)) back();
 }
 
+// Empty fields show the heights of the generator.
+void TitleScreen::drawHeights() {
+    dimText(tr_("Bottom and top (multiples of 16)"));
+    const float width = halfWidth();
+    ImGui::SetNextItemWidth(width);
+    editText("##bottom", form_.bottom, 0, std::to_string(form_.declared.bottom).c_str());
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    editText("##top", form_.top, 0, std::to_string(form_.declared.top).c_str());
+    if (const auto heights = heightsOf(form_)) {
+        dimText(fmt::format(fmt::runtime(tr_("Layers {} to {}")), heights->bottom, heights->top - 1));
+    } else {
+        warningText(heights.error().message);
+    }
+}
+
 // North is up; the spawn in the middle is marked.
 void TitleScreen::drawMap(float side) {
-    if (const auto seed = seedOf(form_)) map_.show({form_.generator, seed->seed});
+    const auto seed = seedOf(form_);
+    const auto heights = heightsOf(form_);
+    if (seed && heights) map_.show({form_.generator, seed->seed, *heights});
     const ImVec2 at = ImGui::GetCursorScreenPos(), end(at.x + side, at.y + side);
     ImDrawList& draw = *ImGui::GetWindowDrawList();
     const float scale = uiScale();

@@ -74,6 +74,7 @@ class TitleScreen {
     void drawWorldButtons();
     void drawNewWorld(const Screen& screen);
     void drawForm();
+    void drawHeights();
     void drawMap(float side);
     void drawJoin(const Screen& screen);
     void drawName(const Screen& screen);
