@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Measures a server with increasing numbers of bots on this machine.
 
-For each number a new world of the default generator is served, bots join, walk and build (one in ten), and a line is
+For each number a new world is served, bots join, walk and build (one in ten), and a line is
 printed: ticks of the server, delay until another player gets an edit, bytes, memory. server_load_plot.py draws them."""
 import argparse
 import json
@@ -25,7 +25,10 @@ def windows_with(statistics, count):
 
 def measure(program, folder, count, options):
     folder.mkdir()
-    server = Server(program, folder, 0, "--spawn-radius", str(10 if options.behaviour == "crowd" else options.spawn_radius))
+    world = [*(["--generator", options.generator] if options.generator else []),
+             *(["--content", options.content] if options.content else [])]
+    server = Server(program, folder, 0, "--spawn-radius",
+                    str(10 if options.behaviour == "crowd" else options.spawn_radius), *world)
     try:
         done = subprocess.run(
             bots_command(program, server.port, "--count", str(count), "--seconds", str(options.seconds), "--behaviour",
@@ -52,6 +55,8 @@ def main():
     parser.add_argument("--seconds", type=float, default=60, help="with all of them there")
     parser.add_argument("--behaviour", choices=("walk", "build", "crowd"), default="walk")
     parser.add_argument("--spawn-radius", type=int, default=1000, help="blocks over which they are spread; a crowd begins in 10")
+    parser.add_argument("--generator", help="of the world; else the program's default")
+    parser.add_argument("--content", help="the content pack that has the generator")
     options = parser.parse_args()
     print("\t".join(COLUMNS), flush=True)
     with tempfile.TemporaryDirectory(prefix="terrane-load-") as folder:
