@@ -1,5 +1,6 @@
 #include "terrane/game/places.h"
 
+#include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
 #include <algorithm>
@@ -111,6 +112,10 @@ double compassDegrees(double x, double y) {
 double compassDegrees(float yaw) {
     const double radians = glm::radians(double{yaw});
     return compassDegrees(std::cos(radians), std::sin(radians));
+}
+
+double distanceBetween(const world::Pose& from, const world::Pose& to) {
+    return glm::distance(from.position, to.position);
 }
 
 namespace {

@@ -52,6 +52,9 @@ store::SaveNumber savePlaces(store::ChunkStore& store, const std::vector<Place>&
 double compassDegrees(double x, double y);
 double compassDegrees(float yaw);
 
+// Returns the distance in blocks, height included: a place may be 1,000 blocks above.
+double distanceBetween(const world::Pose& from, const world::Pose& to);
+
 // A player's bookmarks: a text file with one pose a line. It is called on one thread.
 struct BookmarkFiles {
     std::filesystem::path file;                 // where new ones are appended

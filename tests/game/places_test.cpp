@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "terrane/store/overlay_store.h"
 
 namespace terrane::game {
@@ -27,6 +29,10 @@ TEST(Places, ANameIsThereOnce) {
     ASSERT_EQ(places.size(), 1u);
     EXPECT_EQ(places[0].pose, kOther);
     EXPECT_FALSE(namePlace(places, " \n\t", kPose));
+}
+
+TEST(Places, DistancesCountHeight) {
+    EXPECT_DOUBLE_EQ(distanceBetween({{1, 2, -800}, 30, -5}, {{4, 6, 400}, 0, 0}), std::hypot(3, 4, 1200));
 }
 
 TEST(Places, NamesAreOneLineOfBoundedLength) {

@@ -308,6 +308,24 @@ TEST_F(HudTest, PlacesAreNamedAndFoundAgain) {
     expectGood(program.quit());
 }
 
+TEST_F(HudTest, DistancesOfPlacesCountHeight) {
+    Program program = playWith("bricks", "8.5 8.5 84 0 -20");
+    program.untilDrawn();
+    program.press(Key::N);
+    program.widget("##name");
+    program.type("below");
+    program.press(Key::Enter);
+    program.widget("Go", "below");
+    program.press(Key::Escape);
+    world::Pose above = program.game().player.pose();
+    above.position.z += 100;
+    program.game().player.placeAt(above, game::Movement::Fly);
+    program.press(Key::N);
+    program.widget("", "below  (100 m)");
+    program.press(Key::Escape);
+    expectGood(program.quit());
+}
+
 TEST_F(HudTest, AHeldKeyThatOpensATextFieldDoesNotTypeIntoIt) {
     Program program = playWith("bricks", kDown);
     program.untilDrawn();

@@ -71,9 +71,8 @@ void drawCompass(OverlayLayout& layout, const world::Pose& pose, std::span<const
         nearestAt = std::abs(at);
     }
     if (!nearest) return;
-    const glm::dvec3 to = nearest->pose.position - pose.position;
     drawCentered(draw, {middle, top + height + 7 * scale}, kPlaceColor,
-                 nearest->name + "  " + distanceText(std::hypot(to.x, to.y)));
+                 nearest->name + "  " + distanceText(game::distanceBetween(pose, nearest->pose)));
 }
 
 namespace {

@@ -101,9 +101,9 @@ PlacesAnswer drawPlaces(const Screen& screen, PlacesState& state, std::vector<ga
         ImGui::SameLine();
         if (ui::button(tr("Remove"), {0, 0}, places[k].name)) removed = k;
         ImGui::SameLine();
-        const glm::dvec3 to = places[k].pose.position - here.position;
         ImGui::AlignTextToFramePadding();
-        ImGui::TextUnformatted(fmt::format("{}  ({:.0f} m)", places[k].name, std::hypot(to.x, to.y)).c_str());
+        ui::wrappedText(
+            fmt::format("{}  ({:.0f} m)", places[k].name, game::distanceBetween(here, places[k].pose)));
         ImGui::PopID();
     }
     if (places.empty())
