@@ -111,7 +111,7 @@ render::Camera debugTopCamera(const render::Camera& camera, int viewDistance) {
     render::Camera above = camera;
     above.pitch = -89.9f;
     const double half = 16.0 * (viewDistance + 1);
-    above.position.z = 80 + half / std::tan(glm::radians(double{camera.fieldOfView} / 2));
+    above.position.z += half / std::tan(glm::radians(double{camera.fieldOfView} / 2));
     return above;
 }
 
