@@ -49,6 +49,18 @@ TEST(Spawn, IsOnOtherDryGroundWhereNoGrassIs) {
     EXPECT_EQ(island.position, glm::dvec3(104.5, 8.5, 65 + world::kEyeHeight)) << "not in the water";
 }
 
+TEST(Spawn, IsAtAnyHeight) {
+    for (const int ground : {-2040, -700, -1, 1500, 2040}) {
+        gen::GeneratorBuilder builder("test", contentBlocks());
+        builder.declareHeights({world::kLowestBottom, world::kHighestTop});
+        builder.pass3D("ground", [&](gen::Pass& p) {
+            p.setBlock(select(p.z() <= ground, p.block("grass"), p.block("air")));
+        });
+        const auto pose = findSpawn(gen::Generator(std::move(builder.finish().value()), 1), contentBlocks());
+        EXPECT_EQ(pose.position, glm::dvec3(8.5, 8.5, ground + 1 + world::kEyeHeight));
+    }
+}
+
 // Grass at z = 64 and a cliff of 56 blocks that begins 12 blocks from the spawn, in the direction of this
 // yaw.
 float viewBesideCliff(int yaw) {

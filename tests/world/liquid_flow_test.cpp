@@ -151,6 +151,25 @@ TEST_F(LiquidFlow, WaitsForChunksThatAreNotLoaded) {
     EXPECT_EQ(row(29, 37, 4, 1), "1s1234567");
 }
 
+TEST(LiquidDepth, FallsAThousandBlocks) {
+    FlowWorld flow({-512, 768});
+    flow.addChunks(-1, -1, 1, 1);
+    flow.set({8, 8, 600}, "water");
+    EXPECT_GE(flow.settle(2000), 1000) << "a block in a tick";
+    const auto isFall = [&](int x) {
+        for (int z = 599; z > -512; --z)
+            if (flow.at({x, 8, z}) != 'f') return false;
+        return true;
+    };
+    EXPECT_TRUE(isFall(8));
+    EXPECT_EQ(flow.row(7, 9, 8, 500), ".f.") << "narrow";
+    EXPECT_EQ(flow.row(1, 15, 8, -511), "7654321f1234567");
+    flow.clear({8, 8, 600});
+    flow.settle(2000);
+    EXPECT_EQ(flow.row(1, 15, 8, -511), "...............");
+    EXPECT_EQ(flow.at({8, 8, 0}), '.');
+}
+
 TEST(LiquidDepth, WaitsForWhatIsNotMade) {
     FlowWorld flow({-64, 64});
     flow.addChunks(-1, -1, 1, 1);
