@@ -154,6 +154,8 @@ TEST_F(LiquidFlow, WaitsForChunksThatAreNotLoaded) {
 TEST(LiquidDepth, FallsAThousandBlocks) {
     FlowWorld flow({-512, 768});
     flow.addChunks(-1, -1, 1, 1);
+    for (const BlockPos side : {BlockPos{7, 8, 600}, {9, 8, 600}, {8, 7, 600}, {8, 9, 600}})
+        flow.set(side, "stone");
     flow.set({8, 8, 600}, "water");
     EXPECT_GE(flow.settle(2000), 1000) << "a block in a tick";
     const auto isFall = [&](int x) {
