@@ -74,7 +74,7 @@ std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id,
     if (block() == world::kAir || isSource || !isFree(session.blocks().type(there), block()))
         return std::nullopt;
     const std::uint16_t state = isFlowing(type)
-                                    ? world::kLiquidUnsettled
+                                    ? world::kUnsettled
                                     : placedState(type, placementAt(target, ray, player.pose().yaw));
     if (isInTheWay(type, state, pos, player.body())) return std::nullopt;
     return session.edit({id, pos, world::SetBlock{block(), state}, there});

@@ -15,7 +15,7 @@ bool isSameData(const world::BlockValue& a, const world::BlockValue& b) {
 // Liquid beside a change becomes unsettled: that is no change to undo.
 bool isUnchanged(const world::BlockValue& before, const world::BlockValue& now) {
     const bool isSameLiquid = before.id == now.id && !before.data && !now.data;
-    return now == before || (isSameLiquid && (before.state | world::kLiquidUnsettled) == now.state);
+    return now == before || (isSameLiquid && (before.state | world::kUnsettled) == now.state);
 }
 
 }  // namespace

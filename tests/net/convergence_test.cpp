@@ -124,7 +124,7 @@ class RandomPlayer {
     static bool isToBeLookedAt(const world::Chunk& right, const ChangedBlock& block) {
         const bool isLiquid = world::isFlowing(contentBlocks().type(block.value.id));
         const bool isSame = isLiquid && block.value.id == right.block(block.index) && !block.value.data;
-        return isSame && (block.value.state ^ right.blockState(block.index)) == world::kLiquidUnsettled;
+        return isSame && (block.value.state ^ right.blockState(block.index)) == world::kUnsettled;
     }
     static std::string nameOfBlock(world::BlockId id) { return contentBlocks().type(id).name; }
     int due() { return step_ + (isHurried_ ? 0 : static_cast<int>(random_() % kMaxDelay)); }

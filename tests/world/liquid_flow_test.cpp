@@ -190,6 +190,30 @@ TEST(LiquidDepth, WaitsForWhatIsNotMade) {
     EXPECT_EQ(flow.at({13, 8, -63}), '4') << "as without the pause";
 }
 
+TEST(LiquidDepth, SandOnWhatIsNotMadeFallsOnWhenItIs) {
+    FlowWorld flow({-64, 64});
+    flow.addChunks(0, 0, 0, 0);
+    putBlock(flow.world, {1, 1, 0}, contentBlock("sand"));  // an overhang that was generated
+    const Chunk whole = *flow.world.maybeChunkAt({0, 0});
+    auto shallow = std::make_shared<Chunk>(whole);
+    shallow->unmakeBelow(0);
+    flow.world.insert({0, 0}, shallow);
+    for (const int z : {20, 21}) flow.set({8, 8, z}, "sand");
+    flow.set({8, 8, 22}, "gravel");
+    EXPECT_EQ(flow.settle(), 0);
+    EXPECT_EQ(flow.world.block({8, 8, 0}), contentBlock("sand")) << "it waits";
+    flow.world.makeDeeper({0, 0}, whole);
+    FlowRecord record;
+    flowLiquids(flow.world, contentBlocks(), chunksWithin({0, 0}, 1), flow.edits, {nullptr, &record});
+    EXPECT_EQ(flow.world.block({8, 8, -63}), contentBlock("sand"));
+    EXPECT_EQ(flow.world.block({8, 8, -62}), contentBlock("sand"));
+    EXPECT_EQ(flow.world.block({8, 8, -61}), contentBlock("gravel"));
+    EXPECT_EQ(flow.world.block({8, 8, 0}), kAir);
+    EXPECT_EQ(flow.world.blockState({8, 8, -63}), 0) << "as without the pause";
+    EXPECT_EQ(flow.world.block({1, 1, 0}), contentBlock("sand"));
+    EXPECT_EQ(flow.settle(), 0);
+}
+
 TEST_F(LiquidFlow, SandFallsThroughFlowingWaterAndLandsOnce) {
     for (int x = 0; x < 2; ++x) set({x, 4, 9}, "stone");
     set({0, 4, 10}, "water");
@@ -213,7 +237,7 @@ TEST_F(LiquidFlow, SandComesDownWhenTheWaterUnderItChanges) {
 
 TEST_F(LiquidFlow, UndoOfASourceLetsItRunDry) {
     BlockRecorder recorder;
-    applyChange(world, contentBlocks(), {0, 4, 1}, SetBlock{water, kLiquidUnsettled}, edits, &recorder);
+    applyChange(world, contentBlocks(), {0, 4, 1}, SetBlock{water, kUnsettled}, edits, &recorder);
     settle();
     restoreBlocks(world, contentBlocks(), recorder.take(), edits);
     settle();
@@ -247,7 +271,7 @@ TEST_F(LiquidFlow, WhatHasSettledCostsNothing) {
     world.forEachChunk([](ChunkPos, const ChunkPtr& chunk) {
         for (int section = 0; section < kSectionsPerChunk; ++section)
             for (const std::uint16_t state : chunk->blockStates(section).palette())
-                EXPECT_EQ(state & kLiquidUnsettled, 0);
+                EXPECT_EQ(state & kUnsettled, 0);
     });
 }
 

@@ -56,16 +56,28 @@ void fall(BlockUpdate& update, BlockPos pos) {
         if (id != kAir && update.blocks().type(id).shape != Shape::Liquid) break;
         end = below(end);
     }
+    const BlockId falling = update.world().block(pos);
     if (end != pos) update.move(pos, end);
+    if (update.world().block(end) != falling) return;  // it cannot stand there
+    const std::uint16_t before = update.world().blockState(end);
+    const bool isOnUnmade = update.world().block(below(end)) == kUnmade;
+    const auto state = static_cast<std::uint16_t>(isOnUnmade ? before | kUnsettled : before & ~kUnsettled);
+    if (state != before) update.change(end, SetState{state});
 }
 
-// Only changes of the block below count: overhangs of generated terrain stay as they are.
+// Only changes of the block below count: overhangs of generated terrain stay as they are. A block that ends
+// on ground that is not made falls on when it is: flowLiquids runs its tick then.
 BlockBehavior falling() {
     return {.name = "falling",
             .placed = fall,
-            .neighborChanged = [](BlockUpdate& update, BlockPos pos, Face side) {
-                if (side == kFaceNegZ) fall(update, pos);
-            }};
+            .neighborChanged =
+                [](BlockUpdate& update, BlockPos pos, Face side) {
+                    if (side == kFaceNegZ) fall(update, pos);
+                },
+            .tick =
+                [](BlockUpdate& update, BlockPos pos) {
+                    if ((update.world().blockState(pos) & kUnsettled) != 0) fall(update, pos);
+                }};
 }
 
 BlockBehavior container() {

@@ -15,8 +15,8 @@ constexpr std::array<Face, 4> kFlowSides{kFaceNegX, kFacePosX, kFaceNegY, kFaceP
 
 void unsettle(BlockUpdate& update, BlockPos pos) {
     const std::uint16_t state = update.world().blockState(pos);
-    if ((state & kLiquidUnsettled) != 0) return;
-    update.change(pos, SetState{static_cast<std::uint16_t>(state | kLiquidUnsettled)});
+    if ((state & kUnsettled) != 0) return;
+    update.change(pos, SetState{static_cast<std::uint16_t>(state | kUnsettled)});
 }
 
 // Ladders, blocks that players use and blocks with slots are not washed away.
@@ -34,11 +34,14 @@ struct FlowRules {
         for (const BlockType& type : blocks.types()) {
             rooms.push_back(isWashedAway(type) ? Room::Free : isFlowing(type) ? Room::Liquid : Room::Full);
             if (rooms.back() == Room::Liquid) liquids.push_back(type.id);
+            falls.push_back(hasBehavior(type, "falling"));
         }
     }
+    bool isFalling(BlockId id) const { return id < falls.size() && falls[id]; }
     Room room(BlockId id) const { return rooms[id < rooms.size() ? id : missing]; }
 
     std::vector<Room> rooms;
+    std::vector<bool> falls;
     std::vector<BlockId> liquids;
     BlockId missing;
 };
@@ -99,6 +102,9 @@ class FlowCells {
         return (dx == 0 || isLoaded(dx, 0)) && (dy == 0 || isLoaded(0, dy)) &&
                (dx == 0 || dy == 0 || isLoaded(dx, dy));
     }
+    static bool isMadeBelow(const Chunk& chunk, BlockPos pos) {
+        return chunk.isMade(std::max(pos.z - 1, chunk.heights().bottom) >> 4);
+    }
 
   private:
     const World& world_;
@@ -131,12 +137,13 @@ FlowCell nextCell(FlowCells& cells, BlockPos pos, BlockId liquid) {
 
 // May be true for a section without such a cell, if its palette still has such a state.
 bool mayBeUnsettled(const Section& states) {
-    const auto isSettled = [](std::uint16_t state) { return (state & kLiquidUnsettled) == 0; };
+    const auto isSettled = [](std::uint16_t state) { return (state & kUnsettled) == 0; };
     return !states.surelyAll(isSettled);
 }
 
 struct Unsettled {
     std::vector<BlockPos> cells;
+    std::vector<BlockPos> falling;  // blocks that fall on: what is below is made now
     std::vector<BlockPos> former;  // one block of each section whose palette has such a state without a cell
 };
 
@@ -146,11 +153,13 @@ void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
     chunk.blockStates(section).unpack(states);
     bool isFormer = true;
     for (int i = 0; i < kBlocksPerSection; ++i) {
-        if ((states[static_cast<std::size_t>(i)] & kLiquidUnsettled) == 0) continue;
+        if ((states[static_cast<std::size_t>(i)] & kUnsettled) == 0) continue;
         isFormer = false;
-        if (out.cells.size() >= kMaxFlowingCells) return;
+        if (out.cells.size() + out.falling.size() >= kMaxFlowingCells) return;
         const BlockPos at = blockPos(pos, section * kBlocksPerSection + i);
-        if (cells.at(at).room == Room::Liquid && cells.isSurrounded(at)) out.cells.push_back(at);
+        const FlowCell cell = cells.at(at);
+        if (cell.room == Room::Liquid && cells.isSurrounded(at)) out.cells.push_back(at);
+        if (cells.rules().isFalling(cell.id) && cells.isMadeBelow(chunk, at)) out.falling.push_back(at);
     }
     if (isFormer && !chunk.blockStates(section).isDense())
         out.former.push_back({pos.x * kChunkSize, pos.y * kChunkSize, section * kSectionSize});
@@ -226,7 +235,9 @@ double liquidHeight(const World& world, const BlockRegistry& blocks, BlockPos po
 namespace {
 
 bool isUnsettled(const World& world, const BlockRegistry& blocks, BlockPos pos) {
-    return (world.blockState(pos) & kLiquidUnsettled) != 0 && isFlowing(blocks.type(world.block(pos)));
+    if ((world.blockState(pos) & kUnsettled) == 0) return false;
+    const BlockType& type = blocks.type(world.block(pos));
+    return isFlowing(type) || hasBehavior(type, "falling");
 }
 
 }  // namespace
@@ -255,7 +266,6 @@ void FlowRecord::forgetOthers(const World& world, const BlockRegistry& blocks) {
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
                         std::vector<BlockEdit>& edits, const FlowOptions& options) {
     const FlowRules rules(blocks);
-    if (rules.liquids.empty()) return 0;
     Unsettled unsettled;
     NextValues next;
     {
@@ -266,10 +276,14 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
     FlowRecord* const record = options.record;
     // Causes of the cells of this tick: those of cells that its changes unsettle are for the next one.
     std::unordered_map<BlockPos, FlowCause, BlockPosHash> causes;
-    for (const BlockPos pos : next.settled) {
-        if (!record || record->causes.empty()) break;
-        if (auto known = record->causes.extract(pos)) causes.insert(std::move(known));
-    }
+    const auto takeCauses = [&](std::span<const BlockPos> positions) {
+        for (const BlockPos pos : positions) {
+            if (!record || record->causes.empty()) break;
+            if (auto known = record->causes.extract(pos)) causes.insert(std::move(known));
+        }
+    };
+    takeCauses(next.settled);
+    takeCauses(unsettled.falling);
     const auto causeOf = [&](BlockPos pos) {
         const auto found = causes.find(pos);
         return found == causes.end() ? FlowCause{0} : found->second;
@@ -287,11 +301,12 @@ std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<con
     }
     for (const CellChange& change : next.changes) {
         if (world.block(change.pos) != change.before) continue;
-        const auto state = static_cast<std::uint16_t>(change.after.form | kLiquidUnsettled);
+        const auto state = static_cast<std::uint16_t>(change.after.form | kUnsettled);
         const bool isDry = change.after.id == kAir;
         apply(change.pos, SetBlock{change.after.id, isDry ? std::uint16_t{0} : state}, causeOf(change.by));
     }
-    return unsettled.cells.size();
+    for (const BlockPos pos : unsettled.falling) apply(pos, RunTick{}, causeOf(pos));
+    return unsettled.cells.size() + unsettled.falling.size();
 }
 
 }  // namespace terrane::world

@@ -9,6 +9,8 @@
 //   15   not settled: the cell and those beside and below it are computed in the next tick
 //
 // Generated liquid has 0: it is a settled source, and stays until a block beside it changes.
+//
+// Blocks with the behavior `falling` have bit 15 while they lie on ground that is not made.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +24,7 @@
 
 namespace terrane::world {
 
-constexpr std::uint16_t kLiquidLevel = 7, kLiquidFalling = 8, kLiquidUnsettled = 1u << 15;
+constexpr std::uint16_t kLiquidLevel = 7, kLiquidFalling = 8, kUnsettled = 1u << 15;
 constexpr std::uint16_t kLiquidForm = kLiquidLevel | kLiquidFalling;  // 0: a source
 constexpr int kMaxLiquidLevel = 7;
 // Ticks of random_ticks.h from one tick of liquids to the next: 0.25 s.
@@ -80,8 +82,9 @@ struct FlowOptions {
 //   5. It runs dry.
 // Liquid flows into air and washes away loose blocks that bodies can pass: plants, torches. All next values
 // are computed before the first is written. Cells with a chunk within two blocks that is not loaded wait, and
-// so do those over the limit, in the order of `chunks` and of blocks in a chunk. Returns the number of
-// computed cells, and appends an event for each block that changed and each that is settled now.
+// so do those over the limit, in the order of `chunks` and of blocks in a chunk. Falling
+// blocks that are not settled fall on if the block below is made. Returns the number of computed cells and
+// of these blocks, and appends an event for each block that changed and each that is settled now.
 std::size_t flowLiquids(World& world, const BlockRegistry& blocks, std::span<const ChunkPos> chunks,
                         std::vector<BlockEdit>& edits, const FlowOptions& options = {});
 
