@@ -42,8 +42,12 @@ class Pilot {
         const auto flightBegin = Clock::now();
         log_.flightBegin = log_.frames.size();
         lastFrame_ = flightBegin;
+        const game::MoveKeys keys{.forward = flight_.way == FlightWay::Ahead,
+                                  .up = flight_.way == FlightWay::Up,
+                                  .down = flight_.way == FlightWay::Down,
+                                  .run = true};
         do {
-            frame({.forward = true, .run = true});
+            frame(keys);
             log_.secondsOfFlight = secondsSince(flightBegin);
         } while (log_.secondsOfFlight < flight_.seconds);
         log_.flightEnd = log_.frames.size();

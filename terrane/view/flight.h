@@ -1,4 +1,4 @@
-// A flight straight ahead at full speed, as in the window: in real time, with frames drawn while chunks load.
+// A flight straight ahead, up or down at full speed, as in the window: in real time, with frames drawn while chunks load.
 // Records the time of each frame.
 #pragma once
 
@@ -10,8 +10,11 @@
 
 namespace terrane::view {
 
+enum class FlightWay { Ahead, Up, Down };
+
 struct Flight {
     render::Camera start;
+    FlightWay way = FlightWay::Ahead;
     double seconds = 20;  // of flying
     int viewDistance = 16;
     float timeDay = 0.4f;

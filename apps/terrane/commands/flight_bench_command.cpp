@@ -1,4 +1,4 @@
-// terrane flight-bench: flies straight ahead at full speed without a window, in real time, and records the
+// terrane flight-bench: flies straight ahead, up or down at full speed without a window, in real time, and records the
 // time of each frame. For plots of frame times (tools/flight_trace.sh) and `terrane bench`.
 #include <iostream>
 #include <map>
@@ -23,6 +23,7 @@ struct FlightBenchOptions {
     GraphicsOptions graphics;
     Backend backend = Backend::Auto;
     PlaceOptions place;
+    view::FlightWay way = view::FlightWay::Ahead;
     double seconds = 20;
     std::string output;
     bool json = false;
@@ -34,7 +35,10 @@ base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
     // Scenes look down on the ground; the flight looks straight ahead.
     if (!options.place.look) place.pose.pitch = 0;
     return view::Flight{
-        .start = view::cameraOf(place.pose), .seconds = options.seconds, .timeDay = place.timeDay};
+        .start = view::cameraOf(place.pose),
+                        .way = options.way,
+                        .seconds = options.seconds,
+                        .timeDay = place.timeDay};
 }
 
 void report(const view::FlightLog& log) {
@@ -112,8 +116,11 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
 CommandEntry addFlightBench(CLI::App& app) {
     auto options = std::make_shared<FlightBenchOptions>();
     CLI::App* command =
-        app.add_subcommand("flight-bench", "Fly straight ahead without a window and record frame times");
+        app.add_subcommand("flight-bench", "Fly without a window and record frame times");
     addPlaceOptions(*command, options->place);
+    using enum view::FlightWay;
+    addChoice<view::FlightWay>(*command, "--way", options->way,
+                               {{"ahead", Ahead}, {"up", Up}, {"down", Down}}, "Way of the flight");
     command->add_option("--duration", options->seconds, "Seconds of the flight")
         ->check(numberFrom(0.1, 600))
         ->capture_default_str();
