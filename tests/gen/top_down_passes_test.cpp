@@ -202,6 +202,61 @@ TEST(LayersReadBelow, CountsFromZ) {
     EXPECT_EQ(readBelow([](Pass& p) { p.setBlock(p.blockInColumn(Int(-3) + p.z())); }), 3);
 }
 
+// Fields of heights in the world and far from it, read with and without a distance.
+TEST(GenerateDown, PassesReadAtHeightsOfFields) {
+    expectSameDown([](GeneratorBuilder& g) {
+        const auto height = g.field<Int>("height"), far = g.field<Int>("far");
+        g.pass2D("heights", [&](Pass& p) {
+            p.set(height, Int(p.perlin2D("hills", 16, {10.0f, 30.0f})) + 60);
+            p.set(far, select(p.x() > 0, Int(INT32_MIN), Int(INT32_MAX)));
+        });
+        g.pass3D("ground", hollowGround);
+        g.pass3D("marks", [&](Pass& p) {
+            const Bool isHollow = p.blockInColumn(p.read(height) - 9) == p.block("air");
+            const Bool isOpen = p.blockInColumn(p.read(height)) == p.block("air");
+            const Bool isFar = p.blockInColumn(p.read(far) + 5) == p.block("air");
+            p.if_(p.z() > p.read(height),
+                  [&] { p.setBlock(select(isHollow && p.z() < 120, p.block("dirt"), p.blockHere())); });
+            p.if_(p.z() < 20 && isOpen,
+                  [&] { p.setBlock(select(isFar, p.block("water"), p.blockInColumn(p.z() - 2))); });
+        });
+        g.pass3D("reads", [](Pass& p) { nearLayers(p, 3, 1); });
+    });
+}
+
+TEST(LayersReadBelow, LeavesOutHeightsOfFields) {
+    const GeneratorGraph graph = build([](GeneratorBuilder& g) {
+        const auto height = g.field<Int>("height");
+        g.pass2D("heights", [&](Pass& p) { p.set(height, Int(p.x())); });
+        g.pass3D("ground", hollowGround);
+        g.pass3D("reads", [&](Pass& p) {
+            p.setBlock(select(p.blockInColumn(p.read(height) - 7) == p.block("air"),
+                              p.blockInColumn(p.read(height)), p.blockInColumn(p.z() - 2)));
+        });
+    });
+    const PassGraph& pass = graph.passes.back();
+    EXPECT_EQ(layersReadBelow(pass), 2);
+    EXPECT_EQ(firstTopDownPass(graph), 1);
+    ColumnValues heights;
+    heights.fill(bitsOf(100));
+    heights[3] = bitsOf(40);
+    PassInputs inputs;
+    inputs.fields.resize(1);
+    inputs.fields[0][4] = &heights;
+    EXPECT_EQ(lowestFieldRead(pass, inputs, {}), 33);
+    heights[3] = bitsOf(-900);
+    EXPECT_EQ(lowestFieldRead(pass, inputs, {}), 0);
+    EXPECT_EQ(lowestFieldRead(graph.passes[1], inputs, {}), 256);
+}
+
+// The ground under the land is not made: only as deep as the plants look.
+TEST(GenerateDown, TheOverworldMakesNoMoreThanIsAskedFor) {
+    const auto graph = makeGenerator("overworld", contentBlocks(), 0);
+    ASSERT_TRUE(graph.has_value());
+    ASSERT_TRUE(graph->passes[graph->passes.size() - 2].is3D);
+    EXPECT_EQ(firstTopDownPass(*graph), static_cast<int>(graph->passes.size()) - 2);
+}
+
 TEST(LayersReadBelow, IsUnknownBeyondAWorld) {
     const auto above = [](std::int32_t blocks) {
         return readBelow([blocks](Pass& p) { p.setBlock(p.blockInColumn(p.z() + blocks)); });

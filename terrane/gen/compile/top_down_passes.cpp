@@ -10,17 +10,27 @@
 namespace terrane::gen {
 namespace {
 
-// Returns `height` − z if it is constant. None beyond the layers of a world, where the sum may overflow.
-std::optional<int> blocksAboveZ(const Graph& graph, NodeId height) {
+// A height: that of z, or of a field of the column, and so many blocks above it.
+struct ReadHeight {
+    const Node* base;  // Op::PosZ or Op::Field
+    int above = 0;
+};
+
+bool isHeightBase(const Node& n) {
+    return n.op == Op::PosZ || (n.op == Op::Field && n.type == Type::Int);
+}
+
+// None beyond the layers of a world, where the sum may overflow.
+std::optional<ReadHeight> readHeightOf(const Graph& graph, NodeId height) {
     const Node& n = graph.node(height);
-    if (n.op == Op::PosZ) return 0;
+    if (isHeightBase(n)) return ReadHeight{&n};
     if (n.op != Op::AddI && n.op != Op::SubI) return std::nullopt;
-    const Node *z = &graph.node(n.args[0]), *constant = &graph.node(n.args[1]);
-    if (n.op == Op::AddI && z->op == Op::Constant) std::swap(z, constant);
-    if (z->op != Op::PosZ || constant->op != Op::Constant) return std::nullopt;
+    const Node *base = &graph.node(n.args[0]), *constant = &graph.node(n.args[1]);
+    if (n.op == Op::AddI && base->op == Op::Constant) std::swap(base, constant);
+    if (!isHeightBase(*base) || constant->op != Op::Constant) return std::nullopt;
     const std::int32_t blocks = asInt(constant->imm);
     if (blocks < -world::kMostLayers || blocks > world::kMostLayers) return std::nullopt;
-    return n.op == Op::SubI ? -blocks : blocks;
+    return ReadHeight{base, n.op == Op::SubI ? -blocks : blocks};
 }
 
 }  // namespace
@@ -31,11 +41,24 @@ std::optional<int> layersReadBelow(const PassGraph& pass) {
         const Node& n = pass.graph.node(id);
         if (n.op == Op::BlockAt) return std::nullopt;
         if (n.op != Op::BlockInColumn) continue;
-        const std::optional<int> above = blocksAboveZ(pass.graph, n.args[0]);
-        if (!above) return std::nullopt;
-        below = std::max(below, -*above);
+        const std::optional<ReadHeight> height = readHeightOf(pass.graph, n.args[0]);
+        if (!height) return std::nullopt;
+        if (height->base->op == Op::PosZ) below = std::max(below, -height->above);
     }
     return below;
+}
+
+int lowestFieldRead(const PassGraph& pass, const PassInputs& inputs, world::Heights heights) {
+    int lowest = heights.top;
+    for (NodeId id = 0; id < pass.graph.size(); ++id) {
+        const Node& n = pass.graph.node(id);
+        if (n.op != Op::BlockInColumn) continue;
+        const std::optional<ReadHeight> height = readHeightOf(pass.graph, n.args[0]);
+        if (!height || height->base->op != Op::Field) continue;
+        for (const Bits value : *inputs.fields[height->base->imm][4])
+            lowest = std::min(lowest, heights.clamp(asInt(value + bitsOf(height->above))));
+    }
+    return lowest;
 }
 
 bool canRunTopDown(const GeneratorGraph& generator) {
@@ -62,6 +85,7 @@ void TopDownPasses::add(const VoxelPass& pass, PassInputs inputs) {
         const std::optional<int> below = layersReadBelow(pass.plan().pass);
         assert(below && "firstTopDownPass() says which passes run together");
         running.readsBelow = *below;
+        makeDownTo(lowestFieldRead(pass.plan().pass, inputs, heights_));
     }
     running.executor.begin3D(pass, inputs, running.blocks);
     requested_ = RequestedColumns();

@@ -21,9 +21,12 @@ namespace terrane::gen {
 using LayerCallback = std::function<void(int z, std::span<const world::BlockId, kTileLanes> layer,
                                          RequestedColumns& requested)>;
 
-// Returns the number of layers below its own that a 3D pass reads from the 3D pass before it. Returns nothing
-// if that is not known before the pass runs, or if it reads blocks of neighbors.
+// Returns the number of layers below its own that a 3D pass reads from the 3D pass before it, not counting
+// those at a height that a field has, such as the ground under a tree. Returns nothing if that is not known
+// before the pass runs, or if it reads blocks of neighbors.
 std::optional<int> layersReadBelow(const PassGraph& pass);
+// Returns the lowest layer that the pass reads at heights of fields; the world's top if it reads none.
+int lowestFieldRead(const PassGraph& pass, const PassInputs& inputs, world::Heights heights);
 
 // Returns whether the last pass makes blocks. Generators of columns alone have none.
 bool canRunTopDown(const GeneratorGraph& generator);
