@@ -6,7 +6,7 @@
 namespace terrane::render {
 namespace {
 
-constexpr int kRoomFloor = 80, kRoomLength = 704;  // within the reach of the last cascade
+constexpr int kRoomLength = 704;  // within the reach of the last cascade
 
 class ClosedRoomTest : public SunlitTest {
   protected:
@@ -14,21 +14,22 @@ class ClosedRoomTest : public SunlitTest {
     struct Tunnel {
         int width, height;
     };
-    void showTunnel(Tunnel t) {
+    void showTunnel(Tunnel t, int floor = 80, world::Heights heights = {}) {
         tunnel_ = t;
-        const StoneBox boxes[] = {
-            {{{0, 0, kRoomFloor}, {kRoomLength - 1, t.width + 1, kRoomFloor + t.height + 1}}},
-            {{{1, 1, kRoomFloor + 1}, {kRoomLength - 2, t.width, kRoomFloor + t.height}}, true}};
-        show(stoneWorld({0, 0}, {kRoomLength / world::kChunkSize - 1, 1}, boxes));
+        floor_ = floor;
+        const StoneBox boxes[] = {{{{0, 0, floor}, {kRoomLength - 1, t.width + 1, floor + t.height + 1}}},
+                                  {{{1, 1, floor + 1}, {kRoomLength - 2, t.width, floor + t.height}}, true}};
+        renderer_->setHeights(heights);
+        show(stoneWorld({0, 0}, {kRoomLength / world::kChunkSize - 1, 1}, boxes, heights));
     }
     // Steps of the brightest pixel over one without the sun, from one end of the tunnel.
     int brightestUnderAnySun(float fieldOfView, float yaw = 0) {
         const int kSuns = atDepth(7, 24);
-        const Camera camera{{yaw == 0 ? 3.0 : kRoomLength - 4, 1 + 0.5 * tunnel_.width,
-                             kRoomFloor + 1 + 0.5 * tunnel_.height},
-                            yaw,
-                            0,
-                            fieldOfView};
+        const Camera camera{
+            {yaw == 0 ? 3.0 : kRoomLength - 4, 1 + 0.5 * tunnel_.width, floor_ + 1 + 0.5 * tunnel_.height},
+            yaw,
+            0,
+            fieldOfView};
         int most = 0;
         for (int k = 0; k < kSuns; ++k) {
             const glm::vec3 sun =
@@ -40,6 +41,7 @@ class ClosedRoomTest : public SunlitTest {
         return most;
     }
     Tunnel tunnel_{};
+    int floor_ = 0;
 };
 
 // Fields of view of 70, 6 and 1 degrees show what lies in the first, second and third cascade.
@@ -51,6 +53,19 @@ TEST_F(ClosedRoomTest, RoomsAreDarkInEachCascade) {
             for (const float field : {70.0f, 6.0f, 1.0f})
                 EXPECT_LE(brightestUnderAnySun(field), 2) << tunnel.width << " " << isSoft << " " << field;
             EXPECT_LE(brightestUnderAnySun(6, 180), 2) << "toward -x";
+        }
+    }
+}
+
+// Positions on the GPU have the height as it is: near the ends of the highest world they are less exact.
+TEST_F(ClosedRoomTest, RoomsAtTheEndsOfTheHighestWorldAreDark) {
+    constexpr world::Heights kHighest{world::kLowestBottom, world::kHighestTop};
+    for (const int floor : {world::kLowestBottom + 3, world::kHighestTop - 24}) {
+        showTunnel({14, 3}, floor, kHighest);
+        for (const bool isSoft : {false, true}) {
+            configure(ShadowReach::Far, isSoft);
+            for (const float field : {70.0f, 6.0f, 1.0f})
+                EXPECT_LE(brightestUnderAnySun(field), 2) << floor << " " << isSoft << " " << field;
         }
     }
 }

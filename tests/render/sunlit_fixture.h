@@ -38,13 +38,14 @@ struct StoneBox {
 };
 
 // The chunks from `first` to `last`, both included, and a ring of air around them.
-inline world::World stoneWorld(world::ChunkPos first, world::ChunkPos last, std::span<const StoneBox> boxes) {
+inline world::World stoneWorld(world::ChunkPos first, world::ChunkPos last, std::span<const StoneBox> boxes,
+                               world::Heights heights = {}) {
     constexpr int kBlocks = world::kChunkSize;
     const world::BlockId stone = contentBlock("stone");
-    world::World world;
+    world::World world(heights);
     for (int cy = first.y - 1; cy <= last.y + 1; ++cy) {
         for (int cx = first.x - 1; cx <= last.x + 1; ++cx) {
-            auto chunk = std::make_shared<world::Chunk>();
+            auto chunk = std::make_shared<world::Chunk>(heights);
             for (const StoneBox& b : boxes) {
                 const int x0 = std::max(b.box.min.x, kBlocks * cx),
                           x1 = std::min(b.box.max.x, kBlocks * cx + kBlocks - 1);
