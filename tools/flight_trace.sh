@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # Flies 20 s at full speed at view distances 16 and 32, once while the world is generated and once from a save, and plots
-# the time of each frame, next to frames from the same places with everything loaded. Usage: tools/flight_trace.sh [PROGRAM [FOLDER]]   (build/terrane, out/flight)
+# the time of each frame, next to frames from the same places with everything loaded. Usage: tools/flight_trace.sh [PROGRAM [FOLDER [tall]]]
+# (build/terrane, out/flight). With "tall" it flies from the ground of a tall world to 1,400 and from there down into the ground instead, without a plot.
 # Offscreen at 320x180, so that software rendering does not dominate. tools/flight_plot.py draws the plot.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 program=$(realpath "${1:-build/terrane}")
 plot=$PWD/tools/flight_plot.py
+examples=$PWD/examples/lua
 folder=${2:-out/flight}
 mkdir -p "$folder"
 cd "$folder"
@@ -29,6 +31,20 @@ stand() {
         echo "$second,${frame#*:}"
     done >"standing_$distance.csv"
 }
+
+# At 60 blocks per second: 1,250 blocks up, and 1,500 down, of which the last hundreds are caves and stone.
+if [[ "${3:-}" == tall ]]; then
+    for distance in 8 16; do
+        for way in up down; do
+            height=150 seconds=21
+            [[ $way == down ]] && height=1400 seconds=25
+            echo "$way, view distance $distance" >&2
+            "$program" flight-bench --generator examples:tall --content "$examples" --at "0,0,$height" --look 45,-20 --way "$way" \
+                --duration "$seconds" --size 320x180 --preset low --view-distance "$distance" -o "tall_${way}_$distance.csv"
+        done
+    done
+    exit
+fi
 
 for distance in 16 32; do
     echo "standing, view distance $distance" >&2
