@@ -73,9 +73,8 @@ std::optional<EditResult> BlockInteraction::build(Session& session, PlayerId id,
     const bool isSource = there == block() && world::isLiquidSource(session.world().blockState(pos));
     if (block() == world::kAir || isSource || !isFree(session.blocks().type(there), block()))
         return std::nullopt;
-    const std::uint16_t state = isFlowing(type)
-                                    ? world::kUnsettled
-                                    : placedState(type, placementAt(target, ray, player.pose().yaw));
+    const std::uint16_t state =
+        isFlowing(type) ? world::kUnsettled : placedState(type, placementAt(target, ray, player.pose().yaw));
     if (isInTheWay(type, state, pos, player.body())) return std::nullopt;
     return session.edit({id, pos, world::SetBlock{block(), state}, there});
 }

@@ -1,5 +1,5 @@
-// A flight straight ahead, up or down at full speed, as in the window: in real time, with frames drawn while chunks load.
-// Records the time of each frame.
+// A flight straight ahead, up or down at full speed, as in the window: in real time, with frames drawn while
+// chunks load. Records the time of each frame.
 #pragma once
 
 #include <span>

@@ -35,8 +35,8 @@ struct FlowWorld {
 
     void set(BlockPos pos, std::string_view name) {
         const BlockId id = contentBlock(name);
-        applyChange(world, contentBlocks(), pos,
-                    SetBlock{id, id == water ? kUnsettled : std::uint16_t{0}}, edits);
+        applyChange(world, contentBlocks(), pos, SetBlock{id, id == water ? kUnsettled : std::uint16_t{0}},
+                    edits);
     }
     void clear(BlockPos pos) { applyChange(world, contentBlocks(), pos, SetBlock{kAir}, edits); }
 

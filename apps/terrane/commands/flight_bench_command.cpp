@@ -1,5 +1,5 @@
-// terrane flight-bench: flies straight ahead, up or down at full speed without a window, in real time, and records the
-// time of each frame. For plots of frame times (tools/flight_trace.sh) and `terrane bench`.
+// terrane flight-bench: flies straight ahead, up or down at full speed without a window, in real time, and
+// records the time of each frame. For plots of frame times (tools/flight_trace.sh) and `terrane bench`.
 #include <iostream>
 #include <map>
 #include <memory>
@@ -34,8 +34,7 @@ base::Result<view::Flight> flightOf(const FlightBenchOptions& options) {
     auto place = TERRANE_TRY(placeOf(options.place, {"", {{8, 8, 120}, 45, 0}, 0.4f}));
     // Scenes look down on the ground; the flight looks straight ahead.
     if (!options.place.look) place.pose.pitch = 0;
-    return view::Flight{
-        .start = view::cameraOf(place.pose),
+    return view::Flight{.start = view::cameraOf(place.pose),
                         .way = options.way,
                         .seconds = options.seconds,
                         .timeDay = place.timeDay};
@@ -115,8 +114,7 @@ base::Result<void> runFlightBench(const FlightBenchOptions& options) {
 
 CommandEntry addFlightBench(CLI::App& app) {
     auto options = std::make_shared<FlightBenchOptions>();
-    CLI::App* command =
-        app.add_subcommand("flight-bench", "Fly without a window and record frame times");
+    CLI::App* command = app.add_subcommand("flight-bench", "Fly without a window and record frame times");
     addPlaceOptions(*command, options->place);
     using enum view::FlightWay;
     addChoice<view::FlightWay>(*command, "--way", options->way,

@@ -144,7 +144,7 @@ bool mayBeUnsettled(const Section& states) {
 struct Unsettled {
     std::vector<BlockPos> cells;
     std::vector<BlockPos> falling;  // blocks that fall on: what is below is made now
-    std::vector<BlockPos> former;  // one block of each section whose palette has such a state without a cell
+    std::vector<BlockPos> former;   // one block of each section whose palette has such a state without a cell
 };
 
 void addUnsettled(FlowCells& cells, ChunkPos pos, int section, Unsettled& out) {
