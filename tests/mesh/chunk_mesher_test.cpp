@@ -275,6 +275,53 @@ TEST(ChunkMesher, AnyHeightsCoverEachVisibleFaceOnce) {
     }
 }
 
+// Slices of the random blocks between air and solid ground: sections of one block are left out by the mesher.
+BlockSource tallBlocks(Mix mix, unsigned seed) {
+    return [=, slice = randomBlocks(mix, seed)](int x, int y, int z) -> world::BlockId {
+        switch (hashAt(x >> 6, y >> 6, z >> 5, seed) % 4) {
+            case 0:
+                return slice(x, y, z & 127);
+            case 1:
+                return hashAt(x >> 2, y >> 2, z >> 6, seed) % 3 == 0 ? world::kAir : idOf("stone");
+            case 2:
+                return world::kAir;
+            default:
+                return idOf("stone");
+        }
+    };
+}
+
+// Ten columns up to the heights that there are. In most of them each chunk is made to a depth of its own.
+TEST(ChunkMesher, TallChunksThatAreNotMadeWholeCoverEachVisibleFaceOnce) {
+    constexpr world::Heights kColumns[] = {{-2048, 2048}, {-1024, 1792}, {-512, 512}, {-64, 320}, {0, 1024}};
+    MeshScratch scratch;
+    for (unsigned seed = 0; seed < 10; ++seed) {
+        const world::Heights heights = kColumns[seed % std::size(kColumns)];
+        SCOPED_TRACE("seed " + std::to_string(seed) + ", " + world::describe(heights));
+        const auto mix = static_cast<Mix>(seed % static_cast<unsigned>(Mix::UnknownIds));
+        Area area(tallBlocks(mix, seed), heights);
+        if (seed % 3 == 1) area.addFlow(seed);
+        const auto unmake = [&](world::Chunk& chunk, unsigned number) {
+            const int depth = static_cast<int>(hashAt(static_cast<int>(number), 0, 0, seed) %
+                                               static_cast<unsigned>(heights.sections()));
+            chunk.unmakeBelow(heights.firstSection() + depth);
+        };
+        if (seed % 5 != 4) unmake(area.center, 4);
+        for (unsigned side = 0; side < 4; ++side)
+            if ((seed >> side & 1) == 0) unmake(area.beside[side], side);
+        const MeshOptions options{MergeMethod::Greedy,
+                                  kMeshSectionHeights[seed % std::size(kMeshSectionHeights)]};
+        MeshInput input = area.input(options);
+        if (seed % 4 == 3) input.neighbors[seed / 4 % 4] = nullptr;
+        const ChunkMesh mesh = meshChunk(input, scratch);
+        expectExact(input, mesh);
+        expectMeshSections(mesh, options.meshSectionHeight);
+        for (const shared::Quad q : mesh.quads) expectWellFormed(q, options);
+        EXPECT_GT(mesh.quads.size(), 100u);
+        if (HasFailure()) return;
+    }
+}
+
 // Land in the middle of a world of 4,096 layers: its mesh has what the land has, and no more.
 TEST(ChunkMesher, HeightAddsNothing) {
     const world::Heights tall{world::kLowestBottom, world::kHighestTop};
