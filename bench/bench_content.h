@@ -19,6 +19,10 @@ T orExit(base::Result<T> result) {
     std::exit(1);
 }
 
+inline void orExit(const base::Result<void>& result) {
+    if (!result) static_cast<void>(orExit(base::Result<int>(tl::unexpected(result.error()))));
+}
+
 inline const world::BlockRegistry& blocks() {
     static const world::BlockRegistry registry = orExit(content::loadBlocks());
     return registry;

@@ -63,10 +63,6 @@ std::vector<game::EditCommand> villageAt(world::BlockPos corner) {
     return commands;
 }
 
-void orExit(const base::Result<void>& result) {
-    if (!result) static_cast<void>(bench::orExit(base::Result<int>(tl::unexpected(result.error()))));
-}
-
 struct Stage {
     gen::LevelGenerators generators =
         bench::orExit(gen::makeLevelGenerators("overworld", bench::blocks(), 1));
@@ -100,7 +96,7 @@ void load(Stage& stage, const Place& place, int distance) {
         stage.session->buildTiles();
         loadAll({{kTown.x, kTown.y, kTown.z}}, 6);
         stage.session->edit(villageAt(kTown));
-        orExit(stage.session->save());
+        bench::orExit(stage.session->save());
     }
     loadAll(camera, distance);
     stage.center = render::cameraChunk(camera);
@@ -112,7 +108,7 @@ bench::Pictures draw(Stage& stage, const render::Camera& camera, float time) {
     const auto with = [&](int layers, render::View view) {
         render::RenderOptions options = render::findPreset("low", true)->options;
         options.transparencyLayers = layers;
-        orExit(stage.renderer.configure(kSize, options));
+        bench::orExit(stage.renderer.configure(kSize, options));
         stage.renderer.draw(
             {camera, world::environmentAt(time), 2 * view::fogDistance(stage.distance), 0, view});
         return stage.renderer.readImage();
@@ -153,7 +149,7 @@ void show(Stage& stage, const std::vector<ChunkPos>& tiles, bool isShown) {
             const store::LoadedChunk saved = stage.session->store().load(tile);
             const world::Chunk chunk = saved.chunk ? *saved.chunk : stage.generators.generate(tile);
             if (!stage.renderer.setChunk(tile, mesh::meshTile(chunk, stage.farBlocks, {}, scratch)))
-                orExit(base::fail("no room for a tile on the GPU"));
+                bench::orExit(base::fail("no room for a tile on the GPU"));
         } else {
             stage.renderer.removeChunk(tile);
         }

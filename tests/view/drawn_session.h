@@ -33,7 +33,8 @@ struct DrawnSessionOptions {
     render::QuadStoreSizes quads = {};
     std::unique_ptr<store::ChunkStore> store = nullptr;   // null: one in memory
     gen::LevelGenerators::MakeGraph makeGraph = nullptr;  // null: the overworld
-    bool generatesOnGpu = false;                          // and lights
+    world::Heights heights = {};
+    bool generatesOnGpu = false;  // and lights
     bool meshesOnGpu = false;
 };
 
@@ -42,9 +43,11 @@ inline std::unique_ptr<DrawnSession> makeDrawnSession(DrawnSessionOptions option
     if (!options.makeGraph)
         options.makeGraph = [](int level) { return gen::makeGenerator("overworld", contentBlocks(), level); };
     game::SessionParts parts{std::make_unique<const world::BlockRegistry>(contentBlocks()),
-                             gen::LevelGenerators(options.makeGraph, 1), std::move(options.store), 2};
+                             gen::LevelGenerators(options.makeGraph, 1, options.heights),
+                             std::move(options.store), 2};
     if (!parts.store)
-        parts.store = std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1});
+        parts.store =
+            std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1, options.heights});
     if (options.generatesOnGpu) {
         const auto graph = gen::makeGenerator("overworld", contentBlocks()).value();
         made->backEnds = makeGpuBackEnds(render::contentShaders(), graph, 1, contentBlocks()).value();

@@ -1,0 +1,251 @@
+#include "bench/hole_finder.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "terrane/stream/tile_pipeline.h"
+#include "terrane/world/sky/environment.h"
+
+namespace terrane::bench {
+namespace {
+
+using world::ChunkPos;
+
+// Images of depth have 8 bits: near ground needs finer steps than far ground.
+constexpr std::array<float, 3> kFogDistances = {128, 2048, 32768};
+constexpr double kMostBlocks = 30'000;
+// Blocks that are equal, beside a share of the distance: quads are moved by less.
+constexpr double kTolerance = 0.75, kRelativeTolerance = 0.01;
+
+struct Interval {
+    double low = kNothing, high = kNothing;
+};
+
+// Of some rays.
+struct Range {
+    double nearest = kNothing, nearestClosed = kNothing, farthest = 0;
+
+    void add(const RayEnd& end) {
+        nearest = std::min(nearest, end.ground);
+        nearestClosed = std::min(nearestClosed, end.closed);
+        farthest = std::max(farthest, end.ground);
+    }
+};
+
+double tolerance(double distance) {
+    return kTolerance + kRelativeTolerance * distance;
+}
+bool isBehind(const Interval& drawn, double distance) {
+    return drawn.low > distance + tolerance(distance);
+}
+bool isBefore(const Interval& drawn, double distance) {
+    return drawn.high < distance - tolerance(distance);
+}
+bool agrees(const Interval& drawn, const Range& range) {
+    return !isBehind(drawn, range.farthest) && !isBefore(drawn, range.nearest);
+}
+
+bool isOpaque(const world::BlockRegistry& blocks, world::BlockId id) {
+    return id != world::kAir && blocks.type(id).opaqueCube;
+}
+
+// Distances of the pixels, by y from above, then x.
+std::vector<Interval> drawDistances(render::Renderer& renderer, const render::Camera& camera) {
+    std::vector<Interval> distances;
+    for (const float fog : kFogDistances) {
+        renderer.draw({camera, world::environmentAt(0.5f), fog, 0, render::View::Depth});
+        const base::Image image = renderer.readImage();
+        distances.resize(image.rgba.size() / 4);
+        for (std::size_t k = 0; k < distances.size(); ++k) {
+            const int value = image.rgba[4 * k];
+            if (value == 0 || distances[k].low != kNothing) continue;
+            distances[k] = {fog * (254.5 - value) / 255, fog * (255.5 - value) / 255};
+        }
+    }
+    return distances;
+}
+
+}  // namespace
+
+const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
+    const auto found = whole_.find(pos);
+    if (found != whole_.end()) return found->second;
+    store::LoadedChunk saved = session_.store().load(pos);
+    world::Chunk chunk = saved.chunk ? std::move(*saved.chunk) : session_.generators().generate(pos);
+    if (pos.level > 0) stream::raiseDeepFloor(chunk, session_.blocks());
+    return whole_.emplace(pos, std::move(chunk)).first->second;
+}
+
+ShownBlocks::Area ShownBlocks::areaAt(double x, double y) {
+    const auto& records = session_.tiles().table().records;
+    const auto chunkAlong = [](double v) { return static_cast<std::int32_t>(std::floor(v / 16)); };
+    ChunkPos pos{chunkAlong(x), chunkAlong(y)};
+    for (;; pos = stream::parentOf(pos)) {
+        const auto found = records.find(pos);
+        if (found != records.end() && found->second.isShown) break;
+        if (pos.level == world::kMaxLevel) return {};
+    }
+    Area area{pos, &whole(pos)};
+    if (pos.level > 0) return area;
+    if (const world::ChunkPtr made = session_.world().maybeChunkAt(pos)) area.lowestMade = made->lowestMade();
+    return area;
+}
+
+RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, double mostBlocks) {
+    const world::Heights heights = session_.world().heights();
+    RayEnd end{kNothing, kNothing};
+    Area area;
+    glm::dvec2 areaLow(0), areaHigh(-1);
+    // A box of equal blocks after the other: a block, or a section that is all air.
+    for (double distance = 0; distance < mostBlocks;) {
+        const glm::dvec3 at = origin + direction * (distance + 1e-7);
+        if ((at.z < heights.bottom && direction.z <= 0) || (at.z >= heights.top && direction.z >= 0)) break;
+        if (at.x < areaLow.x || at.y < areaLow.y || at.x >= areaHigh.x || at.y >= areaHigh.y) {
+            area = areaAt(at.x, at.y);
+            const double side = area.whole ? 16.0 * (1 << area.pos.level) : 16;
+            areaLow = glm::floor(glm::dvec2(at) / side) * side;
+            areaHigh = areaLow + side;
+        }
+        const double column = area.whole ? 1 << area.pos.level : 1;
+        glm::dvec3 low{areaLow, std::floor(at.z / 16) * 16}, high{areaHigh, low.z + 16};
+        if (at.z < heights.bottom) {
+            high.z = heights.bottom;
+            low.z = -kNothing;
+        } else if (at.z >= heights.top) {
+            low.z = heights.top;
+            high.z = kNothing;
+        } else if (area.whole) {
+            const int number = static_cast<int>(std::floor(at.z / 16));
+            const world::Section& section = area.whole->section(number);
+            if (number < area.lowestMade) end.closed = std::min(end.closed, distance);
+            if (!section.isUniform() || isOpaque(session_.blocks(), section.uniformValue())) {
+                const glm::ivec3 cell{glm::floor((glm::dvec2(at) - areaLow) / column), std::floor(at.z)};
+                const world::BlockId id = area.whole->block(
+                    world::blockIndex(std::clamp(cell.x, 0, 15), std::clamp(cell.y, 0, 15), cell.z));
+                if (isOpaque(session_.blocks(), id)) {
+                    end.ground = distance;
+                    end.closed = std::min(end.closed, distance);
+                    return end;
+                }
+                low = {areaLow + glm::dvec2(cell) * column, cell.z};
+                high = {glm::dvec2(low) + column, cell.z + 1};
+            }
+        }
+        double leave = kNothing;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (direction[axis] == 0) continue;
+            const double border = direction[axis] > 0 ? high[axis] : low[axis];
+            leave = std::min(leave, (border - origin[axis]) / direction[axis]);
+        }
+        distance = std::max(leave, distance + 1e-7);
+    }
+    return end;
+}
+
+render::Camera randomCamera(const world::Chunk& chunk, ChunkPos pos, const world::BlockRegistry& blocks,
+                            std::mt19937& random) {
+    const auto within = [&](double least, double most) {
+        return std::uniform_real_distribution<double>(least, most)(random);
+    };
+    const auto isOpen = [&](int x, int y, int z) {
+        if (!chunk.heights().contains(z)) return z >= chunk.heights().top;
+        return !isOpaque(blocks, chunk.block(world::blockIndex(x, y, z)));
+    };
+    const int x = static_cast<int>(within(1, 15)), y = static_cast<int>(within(1, 15));
+    std::vector<int> grounds, caves;  // the lowest layers of air, all layers of caves
+    int surface = chunk.heights().bottom;
+    for (int z = chunk.heights().bottom + 1; z < chunk.heights().top; ++z) {
+        if (isOpen(x, y, z) && !isOpen(x, y, z - 1)) grounds.push_back(z);
+        if (!isOpen(x, y, z)) surface = z + 1;
+    }
+    for (int z = chunk.heights().bottom; z < surface; ++z)
+        if (isOpen(x, y, z)) caves.push_back(z);
+    const auto oneOf = [&](const std::vector<int>& layers) {
+        return layers[static_cast<std::size_t>(within(0, static_cast<double>(layers.size()) - 0.01))];
+    };
+    const double kind = within(0, 1);
+    int z = surface + static_cast<int>(within(0, 300));
+    if (kind < 0.3 && !caves.empty())
+        z = oneOf(caves);
+    else if (kind < 0.5 && !grounds.empty())
+        z = oneOf(grounds) + 1;
+    else if (kind < 0.7)
+        z = surface + 1;
+    else if (kind < 0.8)
+        z = static_cast<int>(within(surface, chunk.heights().top + 200));
+    if (!isOpen(x, y, z)) z = surface + 1;
+    // One in six looks straight down or up.
+    const double straight = within(0, 12);
+    const float pitch = straight < 1 ? 90 : straight < 2 ? -90 : static_cast<float>(within(-80, 40));
+    return {{pos.x * 16 + x + 0.5, pos.y * 16 + y + 0.5, z + 0.5}, static_cast<float>(within(0, 360)), pitch};
+}
+
+HoleCount& HoleCount::operator+=(const HoleCount& other) {
+    pixels += other.pixels;
+    holes += other.holes;
+    walls += other.walls;
+    closed += other.closed;
+    where.insert(where.end(), other.where.begin(), other.where.end());
+    return *this;
+}
+
+HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const render::Camera& camera) {
+    const glm::ivec2 size = renderer.size();
+    const std::vector<Interval> drawn = drawDistances(renderer, camera);
+    const double scale = std::tan(glm::radians(double{camera.fieldOfView}) / 2) * 2 / size.y;
+    const glm::dvec3 look = render::lookDirection(camera), right = render::rightDirection(camera);
+    const glm::dvec3 up = glm::cross(right, look);
+    const auto rayAt = [&](double x, double y) {
+        return glm::normalize(look + right * (scale * (x + 0.5 - size.x / 2.0)) +
+                              up * (scale * (size.y / 2.0 - y - 0.5)));
+    };
+    // With a ring of pixels around the image.
+    const glm::ivec2 wide = size + 2;
+    std::vector<RayEnd> ends(static_cast<std::size_t>(wide.x * wide.y));
+    for (int y = 0; y < wide.y; ++y) {
+        for (int x = 0; x < wide.x; ++x) {
+            ends[static_cast<std::size_t>(x + y * wide.x)] =
+                blocks.cast(camera.position, rayAt(x - 1, y - 1), kMostBlocks);
+        }
+    }
+    const auto near = [&](int x, int y) {
+        Range range;
+        for (int k = 0; k < 9; ++k)
+            range.add(ends[static_cast<std::size_t>(x + k % 3 + (y + k / 3) * wide.x)]);
+        return range;
+    };
+    // Finds what is narrower than a pixel.
+    const auto nearInDetail = [&](int x, int y) {
+        constexpr int kSteps = 6;  // a pixel
+        Range range;
+        for (int dy = -kSteps; dy <= kSteps; ++dy)
+            for (int dx = -kSteps; dx <= kSteps; ++dx)
+                range.add(blocks.cast(camera.position,
+                                      rayAt(x + dx / double{kSteps}, y + dy / double{kSteps}), kMostBlocks));
+        return range;
+    };
+    HoleCount count;
+    for (int y = 0; y < size.y; ++y) {
+        for (int x = 0; x < size.x; ++x) {
+            const Interval& at = drawn[static_cast<std::size_t>(x + y * size.x)];
+            const double ground = ends[static_cast<std::size_t>(x + 1 + (y + 1) * wide.x)].ground;
+            count.pixels += ground != kNothing;
+            if (agrees(at, near(x, y))) continue;
+            const Range range = nearInDetail(x, y);
+            if (agrees(at, range)) continue;
+            const bool isHole = isBehind(at, range.farthest);
+            const bool isClosed = !isHole && !isBefore(at, range.nearestClosed);
+            count.holes += isHole;
+            count.closed += isClosed;
+            count.walls += !isHole && !isClosed;
+            if (!isClosed)
+                count.where.push_back({{x, y}, at.low, ground, camera.position + rayAt(x, y) * ground});
+        }
+    }
+    return count;
+}
+
+}  // namespace terrane::bench
