@@ -15,15 +15,15 @@ bool hasSection(const world::Chunk& chunk, int number) {
     return number >= chunk.heights().firstSection() && number < chunk.heights().endSection();
 }
 
-// Solid sections below this one have no sides on open borders: kOpenSections below the highest section that
-// is all opaque.
+// Solid sections below this one have no sides on open borders: kOpenSections below the lowest section that
+// has something open in or above it. Where one chunk has caves, so may the land beside it.
 int endOfOpenSides(const MeshInput& input) {
     const world::Heights heights = input.center->heights();
     if (std::ranges::find(input.neighbors, nullptr) == input.neighbors.end()) return heights.firstSection();
-    int number = heights.endSection() - 1;
-    while (number > heights.firstSection() && !isAllOpaque(input.center->section(number), *input.blocks))
-        --number;
-    return number - kOpenSections;
+    int number = heights.firstSection();
+    while (number < heights.endSection() && isAllOpaque(input.center->section(number), *input.blocks))
+        ++number;
+    return number - 1 - kOpenSections;
 }
 
 SectionView viewSection(const MeshInput& input, int number, int endOfOpenSides) {

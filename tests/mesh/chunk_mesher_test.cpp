@@ -366,6 +366,24 @@ TEST(ChunkMesher, OpenSidesEndDeepInTheGround) {
     expectExact(input, mesh);
 }
 
+// A cave in the tile beside may be as deep as one in this tile.
+TEST(ChunkMesher, OpenSidesReachBelowCaves) {
+    const world::Heights tall{world::kLowestBottom, 1536};
+    const Area area(
+        [](int x, int y, int z) {
+            const bool isCave = x == 8 && y == 8 && z == -500;
+            return z < 1200 && !isCave ? idOf("stone") : world::kAir;
+        },
+        tall);
+    MeshScratch scratch;
+    const ChunkMesh mesh = meshTile(area.center, testBlocks(), {}, scratch);
+    ASSERT_FALSE(mesh.meshSections.empty());
+    EXPECT_LE(mesh.meshSections.front().minZ, -500 - 16 * kOpenSections);
+    MeshInput input = area.input();
+    input.neighbors = {};
+    expectExact(input, mesh);
+}
+
 // The chunk that stands for those beyond the world's edge has other heights.
 TEST(ChunkMesher, BeyondTheHeightsOfANeighborIsAir) {
     const world::Heights tall{-64, 320};

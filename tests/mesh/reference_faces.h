@@ -59,14 +59,13 @@ class ReferenceFaces {
         return chunkAt(x, y)->block(world::blockIndex(x & 15, y & 15, z));
     }
 
-    // Whether the layer is in a solid section more than kOpenSections below the highest one.
+    // Whether the layer is more than kOpenSections below the highest of the solid sections at the bottom.
     bool isDeep(int z) const {
-        const auto isSolid = [&](int number) {
-            return isAllOpaque(input_.center->section(number), *input_.blocks);
-        };
-        int highest = heights_.endSection() - 1;
-        while (highest >= heights_.firstSection() && !isSolid(highest)) --highest;
-        return (z >> 4) < highest - kOpenSections && isSolid(z >> 4);
+        int highest = heights_.firstSection() - 1;
+        while (highest + 1 < heights_.endSection() &&
+               isAllOpaque(input_.center->section(highest + 1), *input_.blocks))
+            ++highest;
+        return (z >> 4) < highest - kOpenSections;
     }
 
     // Beyond an open border an opaque cube meets air, but in deep solid ground, and everything else its own

@@ -68,7 +68,7 @@ TEST_F(TallHolesTest, WhatIsMissingIsAHole) {
     EXPECT_EQ(bench::findHoles(player->renderer, blocks, camera).where.size(), 0u);
     int seen = 0, number = 0;
     for (const auto& [pos, record] : player->session->tiles().table().records) {
-        if (!record.isShown || pos.level > 1 || ++number % 16 != 0) continue;
+        if (!record.isShown || pos.level > 1 || ++number % 64 != 0) continue;
         player->renderer.setShown(pos, false);
         const bench::HoleCount found = bench::findHoles(player->renderer, blocks, camera);
         player->renderer.setShown(pos, true);
@@ -78,7 +78,7 @@ TEST_F(TallHolesTest, WhatIsMissingIsAHole) {
     EXPECT_GT(seen, 0);
 }
 
-// Steps of 1,200 blocks at borders of chunks, of tiles and between.
+// Steps of mesh::kOpenSections at borders of chunks, of tiles and between.
 TEST_F(TallHolesTest, CliffsAreWholeFromFarAway) {
     constexpr world::Heights kHigh{-64, 1536};
     const auto cliffs = [](int level) {
@@ -86,7 +86,7 @@ TEST_F(TallHolesTest, CliffsAreWholeFromFarAway) {
         g.declareHeights({-64, 1536});
         g.pass3D("ground", [](gen::Pass& p) {
             const gen::Bool isHigh = (((p.x() >> 8) + (p.y() >> 8)) & 1) == 0;
-            p.setBlock(select(p.z() < select(isHigh, gen::Int(1300), gen::Int(60)), p.block("stone"),
+            p.setBlock(select(p.z() < select(isHigh, gen::Int(310), gen::Int(60)), p.block("stone"),
                               p.block("air")));
         });
         return g.finish();
@@ -94,7 +94,7 @@ TEST_F(TallHolesTest, CliffsAreWholeFromFarAway) {
     const auto player = makeSession(cliffs, kHigh, 128);
     bench::ShownBlocks blocks(*player->session);
     for (int k = 0; k < atDepth(8, 60); ++k) {
-        const double z = k % 3 == 0 ? 1302.5 : k % 3 == 1 ? 62.5 : 1900.5;
+        const double z = k % 3 == 0 ? 312.5 : k % 3 == 1 ? 62.5 : 900.5;
         const render::Camera camera{{k % 3 == 1 ? 300.5 : 8.5, 8.5 + 16 * k, z},
                                     static_cast<float>(40 * k % 360),
                                     k % 3 == 1 ? 20.0f : -35.0f};
