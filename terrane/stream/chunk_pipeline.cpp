@@ -429,7 +429,7 @@ Progress ChunkPipeline::progress() const {
     const std::size_t deeper = table_.toDeepen.size() + table_.depthJobCount;
     const std::size_t again = table_.toLightAgain.size() + table_.lightAgainCount;
     return {table_.chunksInView, table_.visibleInView,
-            pendingMeshes(table_) + toRelight_.edits.size() + deeper + again};
+            pendingMeshes(table_) + toRelight_.edits.size() + pendingLoads(table_) + deeper + again};
 }
 
 std::size_t ChunkPipeline::localLightBytes() const {

@@ -44,6 +44,10 @@ struct LoadedDepths {
     int lowestOpen = 0;  // light::lowestOpenSection()
 };
 
+// The sections down to which a chunk and the eight around it are made (lighting.h, neighborhood()).
+using DepthsAround = std::array<std::int16_t, 9>;
+constexpr std::int16_t kNoDepth = INT16_MAX;  // of chunks beyond the world
+
 struct ChunkRecord {
     // Residency.
     ChunkStage stage = ChunkStage::Loading;
@@ -63,7 +67,7 @@ struct ChunkRecord {
     bool isOutdated = false;           // blocks, mesh options or open sides changed after its lighting began
     bool isBeingLit = false;           // for the first time or again
     bool isToLightAgain = false;       // requested after its lighting began
-    int litDepths = 0;                 // DepthAround::sum when its lighting began
+    DepthsAround litDepths{};          // of the 3×3 when its lighting began; none if that was in vain
     LocalLightPtr localLight{};        // null once nobody needs it
     light::ChunkLightPtr light{};      // of visible chunks
 

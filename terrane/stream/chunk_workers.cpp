@@ -65,7 +65,8 @@ void ChunkWorkers::submitDepth(base::JobPriority priority, const DepthJob& job, 
                    const ReadChunk generated = generateTo(source, job.pos, job.section, *lights);
                    auto deeper = std::make_shared<world::Chunk>(*chunk);
                    deeper->makeDeeper(*generated.chunk);
-                   return ReadChunk{std::move(deeper), generated.lowestOpen};
+                   // Edits may have opened what is generated.
+                   return ReadChunk{deeper, light::lowestOpenSection(*deeper, *lights)};
                };
                ReadChunk deeper = results.timed(kDeepen, deepen);
                auto local = results.timed(kLocalLight, [&] { return localLight(*deeper.chunk, *lights); });

@@ -31,7 +31,7 @@ void updateDepth(ChunkTable& table, ChunkPos pos) {
     if (!record || record->stage != ChunkStage::Visible) return requestLighting(table, pos);
     const std::optional<DepthAround> around = depthAround(table, pos);
     if (!around || !requestMissingDepth(table, pos, *around)) return;
-    if (around->sum != record->litDepths) requestLightAgain(table, pos);
+    if (around->depths != record->litDepths) requestLightAgain(table, pos);
 }
 
 }  // namespace
@@ -50,14 +50,17 @@ void setCameraHeight(ChunkTable& table, std::optional<int> z) {
 }
 
 std::optional<DepthAround> depthAround(const ChunkTable& table, ChunkPos pos) {
-    DepthAround around{depthByCamera(table, pos), table.heights.firstSection(), 0};
-    for (const ChunkPos at : neighborhood(pos)) {
+    DepthAround around{depthByCamera(table, pos), table.heights.firstSection()};
+    around.depths.fill(kNoDepth);
+    const std::array<ChunkPos, 9> positions = neighborhood(pos);
+    for (std::size_t n = 0; n < positions.size(); ++n) {
+        const ChunkPos at = positions[n];
         if (!world::isInWorld(at)) continue;
         const ChunkRecord* record = findRecord(table, at);
         if (!isLoaded(record)) return std::nullopt;
         around.needed = std::min(around.needed, depthByOpenings(*record));
         around.highest = std::max(around.highest, record->lowestMade);
-        around.sum += record->lowestMade;
+        around.depths[n] = static_cast<std::int16_t>(record->lowestMade);
     }
     around.needed = std::max(around.needed, table.heights.firstSection());
     return around;
@@ -94,6 +97,11 @@ void updateDepthNearCamera(ChunkTable& table) {
     for (int dy = -kNearChunks; dy <= kNearChunks; ++dy)
         for (int dx = -kNearChunks; dx <= kNearChunks; ++dx)
             updateDepth(table, world::offsetBy(table.view.center, dx, dy));
+}
+
+std::size_t pendingLoads(const ChunkTable& table) {
+    if (!table.nearDepth) return 0;
+    return countOf(table, ChunkStage::Loading) + table.view.size() - table.loadCursor;
 }
 
 int lowestNeeded(const ChunkTable& table) {

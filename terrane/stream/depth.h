@@ -37,7 +37,7 @@ void setCameraHeight(ChunkTable& table, std::optional<int> z);
 struct DepthAround {
     int needed = 0;   // the section down to which all of them must be made before the middle one is lit
     int highest = 0;  // the highest of the sections down to which they are
-    int sum = 0;      // of these: it changes when one of them is made deeper
+    DepthsAround depths{};
 
     bool isDeepEnough() const { return highest <= needed; }
 };
@@ -54,10 +54,15 @@ void requestDepth(ChunkTable& table, world::ChunkPos pos, int section);
 // Returns whether the 3×3 is deep enough; else requests what it lacks.
 bool requestMissingDepth(ChunkTable& table, world::ChunkPos pos, const DepthAround& around);
 // Requests what the chunks of the 3×3 need, and the light of those for which it is there; visible ones are
-// lit again. Call it when the chunk in the middle is made deeper, or open deeper.
+// lit again. Call it when the chunk in the middle is loaded, made deeper, or open deeper: visible chunks stay
+// visible when those around them are unloaded and loaded again.
 void updateDepthAround(ChunkTable& table, world::ChunkPos pos);
 // Does the same for the chunks near the camera. Call it when the view moved.
 void updateDepthNearCamera(ChunkTable& table);
+
+// Returns the number of loads after which chunks in view may need more depth: a chunk may be visible before
+// those around it are loaded.
+std::size_t pendingLoads(const ChunkTable& table);
 
 // Returns a section that is no higher than any that a chunk of the view needs.
 int lowestNeeded(const ChunkTable& table);

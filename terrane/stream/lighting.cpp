@@ -41,7 +41,7 @@ bool beginLighting(ChunkTable& table, ChunkPos pos, ChunkRecord& record) {
     record.isOutdated = false;
     record.isBeingLit = true;
     record.isToLightAgain = false;
-    record.litDepths = around->sum;
+    record.litDepths = around->depths;
     return true;
 }
 
@@ -96,6 +96,7 @@ bool finishLighting(ChunkTable& table, ChunkPos pos) {
     assert(record && record->isBeingLit && "what is finished was popped");
     record->isBeingLit = false;
     const bool isGood = !record->isOutdated && isNeeded(table.view, pos);
+    if (!isGood) record->litDepths.fill(kNoDepth);
     if (record->stage == ChunkStage::Lighting) {
         setStage(table, pos, *record, isGood ? ChunkStage::Visible : ChunkStage::Loaded);
         if (!isGood) requestLighting(table, pos);

@@ -25,7 +25,7 @@ struct ChunkChange {
 struct Progress {
     std::size_t inView = 0;     // chunks within the view distance
     std::size_t visible = 0;    // of these, lit and meshed
-    std::size_t remaining = 0;  // meshes and edits of visible chunks that are not up to date
+    std::size_t remaining = 0;  // what may still change visible chunks
     bool complete() const { return visible == inView; }
     bool isUpToDate() const { return complete() && remaining == 0; }
 };

@@ -25,9 +25,7 @@ std::uint8_t countLoadedAround(const ChunkTable& table, ChunkPos pos) {
 void changeLoadedAround(ChunkTable& table, ChunkPos pos, int change) {
     for (const ChunkPos at : neighborhood(pos)) {
         ChunkRecord* record = at == pos ? nullptr : findRecord(table, at);
-        if (!record) continue;
-        record->loadedNeighbors = static_cast<std::uint8_t>(record->loadedNeighbors + change);
-        if (change > 0) requestLighting(table, at);
+        if (record) record->loadedNeighbors = static_cast<std::uint8_t>(record->loadedNeighbors + change);
     }
 }
 
@@ -108,7 +106,7 @@ void finishLoad(ChunkTable& table, ChunkPos pos, Time now, LoadedDepths depths) 
     record->lowestOpen = depths.lowestOpen;
     setStage(table, pos, *record, ChunkStage::Loaded);
     changeLoadedAround(table, pos, 1);
-    requestLighting(table, pos);
+    updateDepthAround(table, pos);
     if (record->isRequested) requestDepth(table, pos, table.heights.firstSection());
 }
 

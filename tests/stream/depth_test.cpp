@@ -11,6 +11,7 @@
 #include "terrane/stream/lighting.h"
 #include "terrane/world/character.h"
 #include "tests/stream/pipeline_fixture.h"
+#include "tests/support/depth.h"
 
 namespace terrane::stream {
 namespace {
@@ -146,6 +147,35 @@ TEST_F(DepthTest, AChunkHasOneJobAtATime) {
     EXPECT_TRUE(popDepthJobs(table_, 10).empty());
 }
 
+// The chunks that light it are unloaded meanwhile: nothing tells that it is lit as before.
+TEST_F(DepthTest, AVisibleChunkThatIsLitInVainIsLitOnceThoseAroundItAreBack) {
+    setCameraHeight(table_, 400);
+    setView(table_, {0, 0}, 1);
+    load(10);
+    settle();
+    litTimes_.clear();
+    setCameraHeight(table_, 100);
+    for (const DepthJob& job : popDepthJobs(table_, 1000)) {
+        EXPECT_TRUE(finish(job));
+        updateDepthAround(table_, job.pos);
+    }
+    const auto lit = popLightingRequests(table_, 1000);
+    EXPECT_EQ(lit.size(), 9u);
+    setView(table_, {-1, 0}, 1);
+    popHidden(table_);
+    for (const ChunkPos pos : findUnneeded(table_, Time() + std::chrono::hours(1))) unload(table_, pos);
+    EXPECT_FALSE(findRecord(table_, {2, 0}));
+    invalidateLighting(table_, {1, 0});
+    for (const ChunkPos pos : lit) finishLighting(table_, pos);
+    load(10);
+    settle();
+    EXPECT_FALSE(litTimes_.contains({1, 0}));
+    setView(table_, {0, 0}, 1);
+    load(10);
+    settle();
+    EXPECT_TRUE(litTimes_.contains({1, 0}));
+}
+
 TEST_F(DepthTest, AJobOfAChunkThatIsGoneIsForgotten) {
     setCameraHeight(table_, 400);
     setView(table_, {0, 0}, 0);
@@ -206,6 +236,22 @@ class DeepPipelineTest : public PipelineTest {
                 << pos.x << ' ' << pos.y;
         }
     }
+    // The rule of depth.h, from the blocks of whole columns.
+    void expectIsDeepEnough(int cameraZ) {
+        for (const auto& [pos, shown] : shown_) {
+            if (world::chunkDistance(pos, center_) > distance_) continue;
+            int lowestOpen = kHeights.endSection();
+            for (const ChunkPos at : neighborhood(pos))
+                lowestOpen = std::min(lowestOpen, lowestOpenOfWhole(at));
+            const int needed = std::min((lowestOpen - kClosedSections) * 16, cameraZ - kNearBlocks);
+            ASSERT_LE(highestAround(pos) * 16, std::max(needed, kHeights.bottom)) << pos.x << ' ' << pos.y;
+        }
+    }
+    int lowestOpenOfWhole(ChunkPos pos) {
+        const auto [known, isNew] = lowestOpen_.try_emplace(pos);
+        if (isNew) known->second = light::lowestOpenSection(generator_.generate(pos), lightTable());
+        return known->second;
+    }
     int highestAround(ChunkPos pos) const {
         int highest = kFirst;
         for (const world::ChunkPtr& chunk : chunksAround(world_, pos))
@@ -224,6 +270,8 @@ class DeepPipelineTest : public PipelineTest {
         return found;
     }
     int lowestMade(ChunkPos pos) const { return world_.maybeChunkAt(pos)->lowestMade(); }
+
+    std::map<ChunkPos, int> lowestOpen_;
 };
 
 TEST_F(DeepPipelineTest, ShowsWhatWholeColumnsShow) {
@@ -272,6 +320,31 @@ TEST_F(DeepPipelineTest, AnOpenedShaftIsLitToItsFloor) {
         EXPECT_LE(chunk->lowestMade() * 16, -200 - 16);
 }
 
+// A shaft down to a cave that is not made yet.
+TEST_F(DeepPipelineTest, AShaftIntoACaveThatIsNotMadeIsLit) {
+    gen::GeneratorBuilder builder("hall", contentBlocks());
+    builder.declareHeights(kHeights);
+    builder.pass3D("ground", [](gen::Pass& p) {
+        const gen::Bool isPillar = (p.x() & 7) == 0 && (p.y() & 7) == 0;
+        const gen::Bool isHall = p.z() >= -200 && p.z() < 96 && !isPillar;
+        p.setBlock(select(isHall || p.z() > 200, p.block("air"), p.block("stone")));
+    });
+    pipeline_.reset();
+    generator_ = gen::Generator(builder.finish().value(), 1);
+    pipeline_ = makePipeline({&generator_, nullptr, false});
+    pipeline_->setCameraHeight(165);
+    setView({0, 0}, 2);
+    settle();
+    ASSERT_EQ(lowestMade({0, 0}) * 16, 96);
+    for (int z = 96; z <= 200; ++z) placeBlock({15, 8, z}, "air");
+    settle();
+    expectShowsTheView();
+    expectShowsWholeColumns();
+    EXPECT_EQ(pipeline_->lightAt({15, 8, -200}), light::kFullDaylight);
+    for (const world::ChunkPtr& chunk : chunksAround(world_, {0, 0}))
+        EXPECT_LE(chunk->lowestMade() * 16, -200 - 16);
+}
+
 TEST_F(DeepPipelineTest, AWalkWithEditsEndsRight) {
     pipeline_->setCameraHeight(300);
     unsigned count = 0;
@@ -294,6 +367,28 @@ TEST_F(DeepPipelineTest, AWalkWithEditsEndsRight) {
     }
     rest();
     expectShowsTheView();
+    expectShowsWholeColumns();
+}
+
+// Chunks on the ring stay visible while those beyond them are unloaded.
+TEST_F(DeepPipelineTest, JumpsEndRight) {
+    unsigned count = 0;
+    const auto between = [&](int low, int high) {
+        return low + static_cast<int>(shared::hash2(++count, 0, 7) % static_cast<unsigned>(high - low + 1));
+    };
+    ChunkPos center;
+    for (int jump = 0; jump < atDepth(15, 1000); ++jump) {
+        center = world::offsetBy(center, between(-2, 2), between(-2, 2));
+        const int z = between(-2, 4) * 100;
+        pipeline_->setCameraHeight(z);
+        setView(center, between(1, 2));
+        settle();
+        expectShowsTheView();
+        expectIsDeepEnough(z);
+        if (HasFatalFailure()) FAIL() << "after jump " << jump;
+        now_ += std::chrono::seconds(6);
+        update();
+    }
     expectShowsWholeColumns();
 }
 
