@@ -1,4 +1,7 @@
 // Tall worlds have no holes: each pixel is as far away as the block that a ray through the world meets.
+#include <cmath>
+#include <set>
+
 #include "bench/hole_finder.h"
 #include "bench/tall_land.h"
 #include "terrane/view/camera_path.h"
@@ -27,6 +30,15 @@ class TallHolesTest : public gpu::GlTest {
     static void load(DrawnSession& player, const render::Camera& camera) {
         loadAll(*player.session, *player.view, camera, kHolesNear, std::chrono::steady_clock::now());
     }
+    // The chunk or tile that is shown at a place.
+    static world::ChunkPos shownAt(const game::Session& session, const glm::dvec3& at) {
+        const world::BlockPos block{static_cast<int>(std::floor(at.x)), static_cast<int>(std::floor(at.y)),
+                                    0};
+        const auto& records = session.tiles().table().records;
+        world::ChunkPos pos = world::chunkOf(block);
+        while (!records.contains(pos) || !records.at(pos).isShown) pos = stream::parentOf(pos);
+        return pos;
+    }
     static std::string describe(const render::Camera& camera) {
         return fmt::format("--at={},{},{} --look {},{}", camera.position.x, camera.position.y,
                            camera.position.z, camera.yaw, camera.pitch);
@@ -35,7 +47,7 @@ class TallHolesTest : public gpu::GlTest {
 
 // On the ground, in caves, beside cliffs, high above; bench_holes looks from a thousand places.
 TEST_F(TallHolesTest, NoCameraSeesAHole) {
-    const int places = atDepth(3, 20), cameras = atDepth(5, 20);
+    const int places = atDepth(1, 20), cameras = atDepth(5, 20);
     std::mt19937 random(5);
     const auto within = [&](int reach) { return std::uniform_int_distribution<int>(-reach, reach)(random); };
     const auto player = makeSession(bench::recordTallLand(contentBlocks()), bench::kTallHeights, 128);
@@ -58,24 +70,29 @@ TEST_F(TallHolesTest, NoCameraSeesAHole) {
     EXPECT_GT(sum.pixels, static_cast<std::size_t>(places * cameras * 4000)) << "most of them see ground";
 }
 
-// The test above would find them: a chunk, a tile or a part of a mesh that is missing is a hole, and what is
-// not in the world is a wall.
+// The test above would find them: a chunk or tile in the middle of the image that is missing is a hole. (Of
+// one behind a crest, only a line of pixels is seen, which edges hide.)
 TEST_F(TallHolesTest, WhatIsMissingIsAHole) {
     const auto player = makeSession(bench::recordTallLand(contentBlocks()), bench::kTallHeights, 128);
-    const render::Camera camera{{8.5, 8.5, 700}, 40, -50};
-    load(*player, camera);
     bench::ShownBlocks blocks(*player->session);
-    EXPECT_EQ(bench::findHoles(player->renderer, blocks, camera).where.size(), 0u);
-    int seen = 0, number = 0;
-    for (const auto& [pos, record] : player->session->tiles().table().records) {
-        if (!record.isShown || pos.level > 1 || ++number % 64 != 0) continue;
-        player->renderer.setShown(pos, false);
+    render::Camera camera{{8.5, 8.5, 256.0}};
+    camera.pitch = -15;
+    load(*player, camera);
+    std::set<int> levels;
+    for (const float yaw : {10.0f, 100.0f, 280.0f}) {
+        camera.yaw = yaw;
+        const glm::dvec3 look = render::lookDirection(camera);
+        const double distance = blocks.cast(camera.position, look, 1e4).ground;
+        const world::ChunkPos shown = shownAt(*player->session, camera.position + look * (distance + 0.01));
+        levels.insert(shown.level);
+        EXPECT_EQ(bench::findHoles(player->renderer, blocks, camera).where.size(), 0u) << yaw;
+        player->renderer.setShown(shown, false);
         const bench::HoleCount found = bench::findHoles(player->renderer, blocks, camera);
-        player->renderer.setShown(pos, true);
-        seen += found.holes > 20;
-        EXPECT_EQ(found.walls, 0u);
+        player->renderer.setShown(shown, true);
+        EXPECT_GT(found.holes, 200u) << yaw << " at level " << int{shown.level};
+        EXPECT_EQ(found.walls, 0u) << yaw;
     }
-    EXPECT_GT(seen, 0);
+    EXPECT_EQ(levels, (std::set<int>{0, 1, 3}));
 }
 
 // Steps of mesh::kOpenSections at borders of chunks, of tiles and between.
@@ -93,7 +110,7 @@ TEST_F(TallHolesTest, CliffsAreWholeFromFarAway) {
     };
     const auto player = makeSession(cliffs, kHigh, 128);
     bench::ShownBlocks blocks(*player->session);
-    for (int k = 0; k < atDepth(8, 60); ++k) {
+    for (int k = 0; k < atDepth(6, 60); ++k) {
         const double z = k % 3 == 0 ? 312.5 : k % 3 == 1 ? 62.5 : 900.5;
         const render::Camera camera{{k % 3 == 1 ? 300.5 : 8.5, 8.5 + 16 * k, z},
                                     static_cast<float>(40 * k % 360),
