@@ -21,6 +21,15 @@ PINE_LEAF = ramp("2a4a2c 365c34 45703d 568449 6b9959 86ae6e")
 ACACIA_LEAF = ramp("4d5f2a 617534 778b40 8ea150 a6b665 c0cb82")
 WILLOW_LEAF = ramp("4b672f 608039 789846 92af57 adc56e c9d98e")
 PALM_LEAF = ramp("2f5a26 3f7030 52873b 6a9e49 86b65c a8cd78")
+MAPLE_LEAF = ramp("6e1f16 902a18 b33c1c d05624 e5782f f2a04a")
+ASPEN_LEAF = ramp("8a5f12 b07f18 cf9e24 e2b838 efce57 f8e58a")
+BLOSSOM = ramp("a8607a c97f99 dd9cb3 ecb8cb f5d3df fdeef3")
+FIR_LEAF = ramp("17323a 1f4046 2a5254 38665f 4c7d70 6b9a86")
+OLIVE_LEAF = ramp("4f5a45 667258 7f8a6d 99a386 b3bba2 ced3bf")
+KAPOK_LEAF = ramp("143f22 1c5229 276733 367d3d 4f964c 79b465")
+PALE_BARK = ramp("8e877c a59d90 b8b0a2 c8c1b3 d6d0c3 e4dfd4")
+PEELED = ramp("8c7a62 a3907a b8a68e c9baa2 d8ccb6 e6dcca")
+CANE = ramp("5a7a2c 6f9035 86a642 9dba54 b4cb6c cedd90")
 MOSS = ramp("36491f 435926 526a2e 627b37 748d43 8aa055")
 PEBBLE = (ramp("5b5a5c 6d6c6c 7e7d7b 8f8d89 a09d98 b2aea8"), ramp("5e5147 72635a 84756b 97887c aa9a8e bcaea2"),
           ramp("6f6a60 827d72 958f84 a8a296 bab4a8 ccc7bc"))
@@ -207,6 +216,80 @@ def palm_leaves():
     fronds = ("e.....d. fe..ed.. .fe.dc.. ..ffc... eddfecc. .cc.fdb. .b..cfb. b...b.fb",
               ".d.....e ..de..ef ..cd.ef. ...cff.. .ccefdde .bdf.cc. .bfc..b. bf.b...b")
     return sprays(515, PALM_LEAF, fronds, 4, (92, 146, 66))
+
+
+def maple_leaves():
+    """Leaves of three points, laid over each other."""
+    leaves = ("..e.... .e.f.e. ..efe.. feefeed .deedc. ..cdb.. ...c...", "...e... .f.e.d. eefeedd .deedc. d.cdc.b ...b...",
+              "e..f.. .eefed ..feed feedc. .dc.cb ..b...")
+    return sprays(701, MAPLE_LEAF, leaves, 4, (190, 80, 36))
+
+
+def aspen_leaves():
+    """Small round leaves that hang apart."""
+    return clumps(711, 6, 1.35, ASPEN_LEAF, slope=0.14)
+
+
+def cherry_leaves():
+    """Blossoms of five petals in bunches, a few dark twigs between them."""
+    flowers = (".ef.. feefe .fafe .efee .e.f.", "..fe. .feef efaee eefe. .fe..", ".e.f. eefee .eafe .fee.")
+    image = sprays(721, BLOSSOM, flowers, 5, (226, 168, 190))
+    for x, y in ALL:
+        if image[x, y][3] and hash01(725, x, y) < 0.035:
+            image[x, y] = TWIG[1]
+    return image
+
+
+def fir_leaves():
+    """Flat twigs with short needles on both sides of a rib."""
+    twigs = ("d.e.d.. .dedc.. dddfddd .cdedb. c.ced.b ..c.b..", "..d.e.d ..cded. ddfdddc .dedcb. c.dcb.b ..b.c..")
+    return sprays(731, FIR_LEAF, twigs, 5, (44, 84, 80))
+
+
+def olive_leaves():
+    """Narrow leaves, aslant both ways, some with their silver side up."""
+    leaves = ("....fe ...fe. ..fd.. .ed... dc....", "fe.... .fe... ..ed.. ...dc. ....cb", "..e. .fe. .ed. .dc. .c..", "ffed.. ..ddcb")
+    return sprays(741, OLIVE_LEAF, leaves, 5, (128, 140, 108))
+
+
+def kapok_leaves():
+    """Broad pointed leaves that shine, each with a light rib."""
+    leaves = ("...d.... ..dfd... .ddfed.. ddefeddc .dcfedcc ..ccecb. ...cb...", "....d... ...efd.. ..defdd. .ddefddc cdcefcc. .bccdb.. ..bc....")
+    return sprays(751, KAPOK_LEAF, leaves, 4, (52, 106, 50))
+
+
+def pale_log_side():
+    """Smooth bark that comes off in upright patches; the wood below it is warmer. Short lines across it."""
+    def shade(x, y):
+        patch = smooth(761, x, y, 4, 2) * 0.7 + smooth(762, x, y, 8, 4) * 0.3
+        colors = PEELED if patch > 0.6 else PALE_BARK
+        rim = -0.22 if patch <= 0.6 < smooth(761, x - 1, y, 4, 2) * 0.7 + smooth(762, x - 1, y, 8, 4) * 0.3 else 0
+        return tone(colors, 0.55 + 0.35 * (smooth(763, x, y, 6, 2) - 0.5) + 0.1 * (hash01(764, x, y) - 0.5) + rim)
+    image = Image(shade)
+    for left, top, width in ((2, 2, 3), (9, 5, 2), (13, 9, 3), (5, 11, 2), (10, 14, 3)):
+        image.stamp(left, top, "k" * width, {"k": PALE_BARK[0]})
+    return settled(image, (184, 177, 164), 0.6)
+
+
+def bamboo_side():
+    """A cane: round in light, a node with its ring once a block, dark below it."""
+    def shade(x, y):
+        across = (0.2, 0.42, 0.6, 0.74, 0.82, 0.74, 0.62, 0.48)[(x - 4) % 8]
+        ring = {2: 0.24, 3: -0.42, 4: -0.14}.get(y, 0.0)
+        return tone(CANE, across + ring + 0.12 * (smooth(771, x, y, 16, 2) - 0.5) + 0.05 * (hash01(772, x, y) - 0.5))
+    return settled(Image(shade), (132, 162, 66), 0.2)
+
+
+def bamboo_top():
+    """The end of a cane: a rim around a hollow."""
+    def shade(x, y):
+        radius = max(abs(x - 7.5), abs(y - 7.5))
+        if radius > 3:
+            return tone(CANE, 0.62)
+        if radius > 2:
+            return tone(CREAM, 0.7)
+        return tone(CANE, 0.05 + 0.08 * hash01(775, x, y))
+    return Image(shade)
 
 
 # --- Soil and rock ------------------------------------------------------------------------------------------
@@ -467,6 +550,16 @@ TEXTURES = {
     "palm_leaves": (palm_leaves, "test", True),
     "dead_log_side": (dead_log_side, "opaque", True),
     "dead_log_top": (lambda: rings(dead_log_side(), 465, GREY_WOOD, 2.0, 0.4), "opaque", True),
+    "maple_leaves": (maple_leaves, "test", True),
+    "aspen_leaves": (aspen_leaves, "test", True),
+    "cherry_leaves": (cherry_leaves, "test", True),
+    "fir_leaves": (fir_leaves, "test", True),
+    "olive_leaves": (olive_leaves, "test", True),
+    "kapok_leaves": (kapok_leaves, "test", True),
+    "pale_log_side": (pale_log_side, "opaque", True),
+    "pale_log_top": (lambda: rings(pale_log_side(), 767, PALE_WOOD, 2.2), "opaque", True),
+    "bamboo_side": (bamboo_side, "opaque", False),
+    "bamboo_top": (bamboo_top, "opaque", False),
     "moss": (moss, "opaque", True),
     "gravel": (gravel, "opaque", True),
     "clay": (clay, "opaque", True),
