@@ -103,4 +103,36 @@ std::vector<Point> pointsIn(const Crown& crown, int count, Random& random) {
     return points;
 }
 
+void growTrunk(Branches& branches, float height, float lean, Random& random) {
+    const Point away = heading(random.unit()) * lean;
+    const Point bend = heading(random.unit()) * (lean * 0.5f);
+    const Point middle = away * 0.35f + bend + Point{0, 0, height * 0.5f};
+    addLine(branches, -1, kRootEnd, {0, 0, 0});
+    addLine(branches, static_cast<int>(branches.size() - 1), {0, 0, 1}, middle);
+    addLine(branches, static_cast<int>(branches.size() - 1), middle, away + Point{0, 0, height});
+}
+
+void drawFoliage(Canvas& canvas, const Branches& branches, const Foliage& foliage, Canvas::Paint leaves,
+                 Random& random) {
+    for (const BranchNode& n : branches) {
+        if (n.parent < 0 || n.tips > foliage.maxTips) continue;
+        const float size = random.between(0.8f, 1.15f);
+        canvas.clump(n.at, foliage.radii * size, foliage.edge, leaves, random);
+    }
+}
+
+float turnsOf(int k, int count, float first, Random& random) {
+    return first + (static_cast<float>(k) + random.between(-.25f, .25f)) *
+                       shared::detReciprocal(static_cast<float>(count));
+}
+
+void drawRoots(Canvas& canvas, int count, float length, float radius, Canvas::Paint wood, Random& random) {
+    const float first = random.unit();
+    for (int k = 0; k < count; ++k) {
+        const float turns = turnsOf(k, count, first, random);
+        const Point out = heading(turns) * (length * random.between(.8f, 1.2f));
+        canvas.limb({0, 0, 1.5f}, out + Point{0, 0, -2.5f}, radius, 0.5f, wood);
+    }
+}
+
 }  // namespace terrane::gen::trees

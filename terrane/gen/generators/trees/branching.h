@@ -46,4 +46,25 @@ struct Crown {
 };
 std::vector<Point> pointsIn(const Crown& crown, int count, Random& random);
 
+// Trunks continue below their foot, so that they stand on slopes.
+constexpr Point kRootEnd = {0, 0, -2};
+
+// Adds a trunk that leans and bends a little.
+void growTrunk(Branches& branches, float height, float lean, Random& random);
+
+struct Foliage {
+    Point radii;       // of the clump at each end of a branch
+    float edge = .4f;  // how much of its outermost voxels stays
+    int maxTips = 1;   // clumps stand on branches with at most so many ends
+};
+void drawFoliage(Canvas& canvas, const Branches& branches, const Foliage& foliage, Canvas::Paint leaves,
+                 Random& random);
+
+// Returns the direction, in turns, of the k-th of `count` things around a trunk, each moved by up to a
+// quarter of the distance to the next.
+float turnsOf(int k, int count, float first, Random& random);
+
+// Draws roots that run out from the foot into the earth.
+void drawRoots(Canvas& canvas, int count, float length, float radius, Canvas::Paint wood, Random& random);
+
 }  // namespace terrane::gen::trees

@@ -4,48 +4,6 @@
 #include "terrane/gen/generators/trees/kinds_internal.h"
 
 namespace terrane::gen::trees {
-namespace {
-
-// Trunks continue below their foot, so that they stand on slopes.
-constexpr Point kRootEnd = {0, 0, -2};
-
-struct Foliage {
-    Point radii;       // of the clump at each end of a branch
-    float edge = .4f;  // how much of its outermost voxels stays
-    int maxTips = 1;   // clumps stand on branches with at most so many ends
-};
-
-void drawFoliage(Canvas& canvas, const Branches& branches, const Foliage& foliage, Canvas::Paint leaves,
-                 Random& random) {
-    for (const BranchNode& n : branches) {
-        if (n.parent < 0 || n.tips > foliage.maxTips) continue;
-        const float size = random.between(0.8f, 1.15f);
-        canvas.clump(n.at, foliage.radii * size, foliage.edge, leaves, random);
-    }
-}
-
-// A trunk that leans and bends a little.
-void growTrunk(Branches& branches, float height, float lean, Random& random) {
-    const Point away = heading(random.unit()) * lean;
-    const Point bend = heading(random.unit()) * (lean * 0.5f);
-    const Point middle = away * 0.35f + bend + Point{0, 0, height * 0.5f};
-    addLine(branches, -1, kRootEnd, {0, 0, 0});
-    addLine(branches, static_cast<int>(branches.size() - 1), {0, 0, 1}, middle);
-    addLine(branches, static_cast<int>(branches.size() - 1), middle, away + Point{0, 0, height});
-}
-
-// Roots that run out from the foot into the earth.
-void drawRoots(Canvas& canvas, int count, float length, float radius, Canvas::Paint wood, Random& random) {
-    const float first = random.unit();
-    for (int k = 0; k < count; ++k) {
-        const float turns = first + (static_cast<float>(k) + random.between(-.25f, .25f)) *
-                                        shared::detReciprocal(static_cast<float>(count));
-        const Point out = heading(turns) * (length * random.between(.8f, 1.2f));
-        canvas.limb({0, 0, 1.5f}, out + Point{0, 0, -2.5f}, radius, 0.5f, wood);
-    }
-}
-
-}  // namespace
 
 void drawOak(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
