@@ -37,6 +37,9 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
+// Returns the kinds of trees and small things that grow in some biome.
+std::vector<trees::Kind> groveKinds();
+
 // Returns the map that rivers and lakes follow (continents_relief.cpp).
 Drainage rivers(GeneratorBuilder& g);
 
@@ -71,7 +74,7 @@ struct Fields {
           rock(g.field<Block>("rock")),
           color(g.field<Int>("color")),
           rivers(continents::rivers(g)) {
-        kinds = trees::record(g);
+        kinds = trees::record(g, groveKinds());
         if (hasPlants(g.step())) {
             plant = g.field<Block>("plant");
             plantHeight = g.field<Int>("plant height");

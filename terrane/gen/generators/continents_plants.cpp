@@ -91,6 +91,13 @@ std::span<const Plant> plants() {
     return kPlants;
 }
 
+std::vector<Kind> groveKinds() {
+    std::vector<Kind> kinds;
+    for (const Grove& grove : kTrees) kinds.push_back(grove.kind);
+    for (const Grove& grove : kSmall) kinds.push_back(grove.kind);
+    return kinds;
+}
+
 // Vegetation of continents: positions of trees, bushes, stones and plants (2D), and their blocks (3D).
 
 namespace {

@@ -26,4 +26,39 @@ void drawBoulder(Canvas& canvas, Random& random);
 void drawFallenLog(Canvas& canvas, Random& random);
 void drawGiantMushroom(Canvas& canvas, Random& random);
 
+void drawBeech(Canvas& canvas, Random& random);
+void drawMaple(Canvas& canvas, Random& random);
+void drawAspen(Canvas& canvas, Random& random);
+void drawPoplar(Canvas& canvas, Random& random);
+void drawCherry(Canvas& canvas, Random& random);
+void drawHazel(Canvas& canvas, Random& random);
+void drawYoungOak(Canvas& canvas, Random& random);
+void drawYoungBirch(Canvas& canvas, Random& random);
+
+void drawFir(Canvas& canvas, Random& random);
+void drawYoungFir(Canvas& canvas, Random& random);
+void drawYoungSpruce(Canvas& canvas, Random& random);
+void drawSequoia(Canvas& canvas, Random& random);
+void drawCedar(Canvas& canvas, Random& random);
+void drawStonePine(Canvas& canvas, Random& random);
+void drawKrummholz(Canvas& canvas, Random& random);
+void drawJuniper(Canvas& canvas, Random& random);
+
+void drawOlive(Canvas& canvas, Random& random);
+void drawEucalyptus(Canvas& canvas, Random& random);
+void drawJoshuaTree(Canvas& canvas, Random& random);
+void drawDryShrub(Canvas& canvas, Random& random);
+
+void drawKapok(Canvas& canvas, Random& random);
+void drawFig(Canvas& canvas, Random& random);
+void drawMangrove(Canvas& canvas, Random& random);
+void drawTreeFern(Canvas& canvas, Random& random);
+void drawDwarfPalm(Canvas& canvas, Random& random);
+void drawBamboo(Canvas& canvas, Random& random);
+void drawThicket(Canvas& canvas, Random& random);
+
+void drawSnag(Canvas& canvas, Random& random);
+void drawStump(Canvas& canvas, Random& random);
+void drawUprootedTree(Canvas& canvas, Random& random);
+
 }  // namespace terrane::gen::trees

@@ -69,4 +69,10 @@ class Random {
     std::uint32_t seed_, count_ = 0;
 };
 
+// Returns a horizontal offset of a random direction, `low`…`high` blocks long.
+inline Point aside(float low, float high, Random& random) {
+    const Point way = heading(random.unit());
+    return way * random.between(low, high);
+}
+
 }  // namespace terrane::gen::trees
