@@ -228,20 +228,43 @@ void pushKind(Call& c, const gen::trees::KindRecord& kind) {
     }
 }
 
+gen::trees::Kind kindOf(std::string_view key) {
+    for (const gen::trees::Kind kind : gen::trees::allKinds()) {
+        if (keyOf(gen::trees::nameOf(kind)) == key) return kind;
+    }
+    fail("trees: there is no kind \"{}\"", key);
+}
+
+std::vector<gen::trees::Kind> kindsOfList(Call& c, int argument) {
+    c.table(argument);
+    std::vector<gen::trees::Kind> kinds;
+    const lua_Integer length = c.listLength(argument);
+    if (length > static_cast<lua_Integer>(gen::trees::Kind::Count))
+        fail("trees: more names than there are kinds");
+    for (lua_Integer k = 1; k <= length; ++k) {
+        if (lua_geti(c.L, argument, k) != LUA_TSTRING) fail("trees: name {} is not a string", k);
+        kinds.push_back(kindOf(c.text(lua_gettop(c.L))));
+        lua_pop(c.L, 1);
+    }
+    return kinds;
+}
+
 int trees(Call& c) {
     requireNoPass(c);
     if (c.recording.hasTrees) fail("trees: called before: keep the result of the first call");
+    const std::vector<gen::trees::Kind> wanted = c.isMissing(1) ? gen::trees::allKinds() : kindsOfList(c, 1);
     c.recording.hasTrees = true;
     c.recording.budget.pauseClock();  // the first call of a process grows them
-    const gen::trees::TreeKinds kinds = gen::trees::record(c.recording.builder);
-    for (std::size_t k = 0; k < kinds.size(); ++k) {
-        for (const gen::VoxelShape& grown : gen::trees::shapesOf(static_cast<gen::trees::Kind>(k))) {
+    const gen::trees::TreeKinds kinds = gen::trees::record(c.recording.builder, wanted);
+    for (const gen::trees::Kind kind : wanted) {
+        for (const gen::VoxelShape& grown : gen::trees::shapesOf(kind)) {
             for (const gen::ShapeBlock& block : grown.blocks) c.recording.blocks.addUsed(block.name);
         }
     }
     c.recording.budget.resumeClock();
-    lua_createtable(c.L, 0, static_cast<int>(kinds.size()));
+    lua_createtable(c.L, 0, static_cast<int>(wanted.size()));
     for (const gen::trees::KindRecord& kind : kinds) {
+        if (kind.count == 0) continue;
         pushKind(c, kind);
         lua_setfield(c.L, -2, keyOf(kind.name).c_str());
     }

@@ -79,6 +79,9 @@ TEST(ScriptErrors, NameTheLineAndTheReason) {
 TEST(ScriptErrors, OfTheWholeGeneratorNameTheFile) {
     EXPECT_EQ(mistakeOf(""), "test.lua: generator \"test\": the last pass must be a 3D pass");
     EXPECT_EQ(mistakeOf("x = = 1"), "test.lua:1: unexpected symbol near '='");
+    EXPECT_EQ(mistakeOf("g:trees {'oak', 'elm'}"), "test.lua:1: trees: there is no kind \"elm\"");
+    EXPECT_EQ(mistakeOf("g:trees {'oak', 3}"), "test.lua:1: trees: name 2 is not a string");
+    EXPECT_EQ(mistakeOf("g:trees('oak')"), "test.lua:1: trees: argument 1: expected a table, got a string");
 }
 
 TEST(ScriptErrors, AreFoundWhereAPassEnds) {

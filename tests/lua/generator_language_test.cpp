@@ -128,6 +128,29 @@ TEST(GeneratorLanguage, TreesAndShapes) {
         });
 }
 
+TEST(GeneratorLanguage, AListChoosesKindsOfTrees) {
+    expectEqual(
+        R"(
+        local trees = g:trees {"youngFir", "oak"}
+        assert(trees.birch == nil and trees.oak.first == 0 and trees.youngFir.first == trees.oak.count)
+        local foot, base = g:field("foot", "int"), g:field("base", "int")
+        g:pass2D("feet", function(p)
+            p:set(foot, shapeOf(trees.youngFir, p.x & 0xFFFFFF))
+            p:set(base, 80)
+        end)
+        g:pass3D("ground", function(p) p:setBlock(p:stamp(foot, base)) end))",
+        [](GeneratorBuilder& g) {
+            const trees::TreeKinds kinds =
+                trees::record(g, std::vector{trees::Kind::Oak, trees::Kind::YoungFir});
+            const auto foot = g.field<Int>("foot"), base = g.field<Int>("base");
+            g.pass2D("feet", [&](Pass& p) {
+                p.set(foot, trees::shapeOf(of(kinds, trees::Kind::YoungFir), p.x() & 0xFFFFFF));
+                p.set(base, Int(80));
+            });
+            g.pass3D("ground", [&](Pass& p) { p.setBlock(p.stamp(foot, base)); });
+        });
+}
+
 TEST(GeneratorLanguage, DrainageMaps) {
     expectEqual(R"(
         local function wide(p) return 100 + p:perlin2D("wide", 128, {5, 10}) end
