@@ -100,7 +100,7 @@ function Expression:ne(other) end
 ---A value per column that one pass writes and later passes read.
 ---@class Field
 
----Rivers and lakes, from g:drainage.
+---Rivers, lakes and valleys, from g:drainage.
 ---@class Drainage
 
 ---A value that changes while a pass is written.
@@ -152,12 +152,13 @@ function Generator:tint(colors) end
 ---@field lakeNodes? integer
 ---@field maxCut? number
 
----Declares a map of rivers and lakes over the heights that `height` returns.
+---Declares a map of rivers and lakes over the heights that `height` returns. With `gradient` the map has valleys.
 ---@param name string
 ---@param spec DrainageSpec
 ---@param height fun(p: Pass): Float
+---@param gradient? fun(p: Pass): Float  -- how steep a stream of one node is, blocks per block, 0 or more
 ---@return Drainage
-function Generator:drainage(name, spec, height) end
+function Generator:drainage(name, spec, height, gradient) end
 
 ---@class Shape
 ---@field name string
@@ -354,8 +355,13 @@ function Pass:voronoi3D(name, size, maxPoints, exponent) end
 
 ---The position of the column relative to rivers and lakes.
 ---@param map Drainage
----@return { distance: Float, halfWidth: Float, level: Float, flow: Float, lakeDistance: Float, lakeLevel: Float }
+---@return { distance: Float, halfWidth: Float, level: Float, flow: Float, lakeDistance: Float, lakeLevel: Float, fall: Float }
 function Pass:drainage(map) end
+
+---The streams around the column, of a map with gradients: how far they are, how high, and how large.
+---@param map Drainage
+---@return { distance: Float, level: Float, flow: Float }
+function Pass:valleys(map) end
 
 ---A number in [0, 1) by position; here where none is given.
 ---@param name string

@@ -11,37 +11,46 @@ layout(std430, binding = kDrainageDataBinding) readonly buffer DrainageData {
 };
 
 struct Drainage {
-    float distance, halfWidth, level, flow, lakeDistance, lakeLevel;
+    float distance, halfWidth, level, flow, lakeDistance, lakeLevel, fall;
 };
 
 const float kNoPower = 3.402823466e38;
+
+// The nearest point of a segment: 0…1 from its upper end, and blocks² to it.
+void placeOn(vec4 line, float inverseLength2, float x, float y, out float place, out float distance2) {
+    precise float fromX = x - line.x, fromY = y - line.y;
+    precise float along = (fromX * line.z + fromY * line.w) * inverseLength2;
+    along = along < 0.0 ? 0.0 : along;
+    along = 1.0 < along ? 1.0 : along;
+    precise float offX = fromX - along * line.z, offY = fromY - along * line.w;
+    precise float sum = offX * offX + offY * offY;
+    place = along;
+    distance2 = sum;
+}
 
 Drainage drainage(uint map, uint mapCount, float reach) {
     DrainageList list = drainageLists[gl_WorkGroupID.x * mapCount + map];
     int step = jobs[gl_WorkGroupID.x].origin.w;
     precise float x = float(int(gl_LocalInvocationID.x) * step), y = float(int(gl_LocalInvocationID.y) * step);
     precise float reach2 = reach * reach;
-    Drainage result = Drainage(kNoRiver, 0.0, 0.0, 0.0, kNoRiver, 0.0);
+    Drainage result = Drainage(kNoRiver, 0.0, 0.0, 0.0, kNoRiver, 0.0, 0.0);
     float best = kNoPower, bestDistance2 = 0.0;
     uint at = list.first;
     for (uint k = 0u; k < list.segmentCount; ++k) {
         vec4 line = drainageData[at], course = drainageData[at + 1u], flow = drainageData[at + 2u];
         at += kVectorsPerSegment;
-        precise float fromX = x - line.x, fromY = y - line.y;
-        precise float along = (fromX * line.z + fromY * line.w) * course.x;
-        along = along < 0.0 ? 0.0 : along;
-        along = 1.0 < along ? 1.0 : along;
-        precise float offX = fromX - along * line.z, offY = fromY - along * line.w;
-        precise float distance2 = offX * offX + offY * offY;
+        float along, distance2;
+        placeOn(line, course.x, x, y, along, distance2);
         precise float halfWidth = course.y + along * course.z;
         precise float power = distance2 - halfWidth * halfWidth;
-        if (!(distance2 < reach2 && power < best)) continue;
+        if (!(distance2 < reach2 && power < best && 0.0 < halfWidth)) continue;
         best = power;
         bestDistance2 = distance2;
         precise float level = course.w + along * flow.x, nodes = flow.y + along * flow.z;
         result.halfWidth = halfWidth;
         result.level = level;
         result.flow = nodes;
+        result.fall = flow.w;
     }
     if (best < kNoPower) result.distance = detSqrt(bestDistance2);
     float bestLake = kNoPower;
@@ -59,4 +68,36 @@ Drainage drainage(uint map, uint mapCount, float reach) {
         result.lakeLevel = lake.w;
     }
     return result;
+}
+
+struct Valleys {
+    float distance, level, flow;
+};
+
+Valleys valleys(uint map, uint mapCount, float reach) {
+    DrainageList list = drainageLists[gl_WorkGroupID.x * mapCount + map];
+    int step = jobs[gl_WorkGroupID.x].origin.w;
+    precise float x = float(int(gl_LocalInvocationID.x) * step), y = float(int(gl_LocalInvocationID.y) * step);
+    precise float reach2 = reach * reach;
+    precise float reachPlusOne = reach2 + 1.0;
+    float reachWeight = detDivide(1.0, reachPlusOne);
+    precise float weights = 0.0, distances = 0.0, levels = 0.0, flows = 0.0;
+    uint at = list.first;
+    for (uint k = 0u; k < list.segmentCount; ++k) {
+        vec4 line = drainageData[at], course = drainageData[at + 1u], flow = drainageData[at + 2u];
+        at += kVectorsPerSegment;
+        float along, distance2;
+        placeOn(line, course.x, x, y, along, distance2);
+        if (!(distance2 < reach2)) continue;
+        precise float plusOne = distance2 + 1.0;
+        precise float part = detDivide(1.0, plusOne) - reachWeight;
+        precise float weight = part * part;
+        precise float level = course.w + along * flow.x, nodes = flow.y + along * flow.z;
+        distances = distances + weight * detSqrt(distance2);
+        levels = levels + weight * level;
+        flows = flows + weight * nodes;
+        weights = weights + weight;
+    }
+    if (!(kLeastStreamWeight < weights)) return Valleys(kNoRiver, 0.0, 0.0);
+    return Valleys(detDivide(distances, weights), detDivide(levels, weights), detDivide(flows, weights));
 }

@@ -24,8 +24,7 @@ namespace terrane::gen_gpu {
 bool readsDrainage(const gen::GeneratorGraph& generator, const gen::PassGraph& pass) {
     for (gen::NodeId id = 0; id < pass.graph.size(); ++id) {
         const gen::Node& node = pass.graph.node(id);
-        if (node.op == gen::Op::Noise && generator.noises[node.imm].kind == gen::NoiseKind::Drainage)
-            return true;
+        if (node.op == gen::Op::Noise && gen::readsDrainage(generator.noises[node.imm].kind)) return true;
     }
     return false;
 }

@@ -131,6 +131,8 @@ double operationsOf(const gen::NoiseCall& call) {
             return 300.0 * call.maxPoints;
         case gen::NoiseKind::Drainage:
             return 100;
+        case gen::NoiseKind::Valleys:
+            return 6000;  // some 150 pieces of streams, 40 operations each
         case gen::NoiseKind::Stripes2D:
             return 400;  // nine cells and more, some 40 operations each
         default:

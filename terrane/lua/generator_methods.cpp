@@ -136,19 +136,25 @@ int drainage(Call& c) {
     const std::string name = nameOfPart(c, 1);
     const gen::DrainageSpec spec = drainageSpec(c, 2);
     c.function_(3);
+    if (!c.isMissing(4)) c.function_(4);
     if (c.recording.drainageCount++ == kMaxDrainages) fail("drainage: more than {} maps", kMaxDrainages);
-    const auto heights = [&](gen::Pass& pass) {
+    const auto recorded = [&](gen::Pass& pass, int argument) {
         const OpenPass open(c.recording, pass);
-        callBody(c, 3, 1);
+        callBody(c, argument, 1);
         const int result = lua_gettop(c.L);
         const bool isFloat = c.isNumber(result) ||
                              (c.expression(result) != nullptr && c.expression(result)->kind == Kind::Float);
-        if (!isFloat) fail("drainage: its function must return a Float, got {}", c.described(result));
-        const Float height = c.get<Float>(result);
+        if (!isFloat)
+            fail("drainage: its {} function must return a Float, got {}",
+                 argument == 3 ? "height" : "gradient", c.described(result));
+        const Float value = c.get<Float>(result);
         c.checkMistakes();
-        return height;
+        return value;
     };
-    Object object{Tag::Drainage, c.recording.builder.drainage(name, spec, heights).index, {}};
+    const auto height = [&](gen::Pass& pass) { return recorded(pass, 3); };
+    std::function<Float(gen::Pass&)> gradient;
+    if (!c.isMissing(4)) gradient = [&](gen::Pass& pass) { return recorded(pass, 4); };
+    Object object{Tag::Drainage, c.recording.builder.drainage(name, spec, height, gradient).index, {}};
     pushObject(c.L, object);
     return 1;
 }

@@ -64,13 +64,23 @@ int voronoi3D(Call& c) {
 
 int drainageHere(Call& c) {
     const gen::DrainageSample s = c.pass().drainage({c.object(1, Tag::Drainage).number});
-    lua_createtable(c.L, 0, 6);
+    lua_createtable(c.L, 0, 7);
     c.set("distance", s.distance);
+    c.set("fall", s.fall);
     c.set("halfWidth", s.halfWidth);
     c.set("level", s.level);
     c.set("flow", s.flow);
     c.set("lakeDistance", s.lakeDistance);
     c.set("lakeLevel", s.lakeLevel);
+    return 1;
+}
+
+int valleysHere(Call& c) {
+    const gen::ValleySample s = c.pass().valleys({c.object(1, Tag::Drainage).number});
+    lua_createtable(c.L, 0, 3);
+    c.set("distance", s.distance);
+    c.set("level", s.level);
+    c.set("flow", s.flow);
     return 1;
 }
 
@@ -148,6 +158,7 @@ constexpr Function kNoiseMethods[] = {{"perlin2D", perlin2D},
                                       {"voronoi2D", voronoi2D},
                                       {"voronoi3D", voronoi3D},
                                       {"drainage", drainageHere},
+                                      {"valleys", valleysHere},
                                       {"random2D", random2D},
                                       {"random3D", random3D},
                                       {"randomBool2D", randomBool2D},

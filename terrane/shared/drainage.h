@@ -16,7 +16,8 @@ const uint kDrainageDataBinding = 7u;
 struct RiverSegment {
     vec4 line;    // a (x, y), difference (x, y): blocks, from the sample of the tile's first column
     vec4 course;  // 1 / length², half width at a, its difference, level at a
-    vec4 flow;    // difference of levels, flow at a, its difference, unused
+    vec4 flow;    // difference of levels, flow at a, its difference, fall of the level a block
+    // Without width at both ends it is dry: part of a valley, but no river.
 };
 
 const uint kVectorsPerSegment = 3u;
@@ -25,6 +26,9 @@ const uint kVectorsPerSegment = 3u;
 
 // Distance in blocks where no river or lake is within reach.
 const float kNoRiver = 65536.0f;
+
+// Sums of weights up to this are of streams so far away that they do not count.
+const float kLeastStreamWeight = 1e-20f;
 
 // The part of a map for one tile: its segments, then its lakes, from vector number `first` of the data on.
 // Lists are ordered by tile job, then map.

@@ -20,7 +20,7 @@ DrainageHeights heightsOf(std::uint64_t seed) {
 
 // The distance to the course that counts by plain floats from all segments of a region, without tiles.
 struct Reference {
-    float distance = kNoRiver, halfWidth = 0, level = 0, flow = 0;
+    float distance = kNoRiver, halfWidth = 0, level = 0, flow = 0, fall = 0;
 };
 
 // Shorter than courses leave their node's cell.
@@ -43,7 +43,8 @@ Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_
         if (distance2 >= reach2 || power >= bestPower) continue;
         bestPower = power;
         best = {shared::detSqrt(distance2), halfWidth, s.from.level + t * (s.to.level - s.from.level),
-                s.from.flow + t * (s.to.flow - s.from.flow)};
+                s.from.flow + t * (s.to.flow - s.from.flow),
+                (s.from.level - s.to.level) * shared::detSqrt(shared::detDivide(1.0f, dx * dx + dy * dy))};
     }
     return best;
 }
@@ -73,11 +74,72 @@ TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
                 ASSERT_EQ(asFloat(results[1][lane]), expected.halfWidth) << atX << "," << atY;
                 ASSERT_EQ(asFloat(results[2][lane]), expected.level) << atX << "," << atY;
                 ASSERT_EQ(asFloat(results[3][lane]), expected.flow) << atX << "," << atY;
+                ASSERT_EQ(asFloat(results[6][lane]), expected.fall) << atX << "," << atY;
                 found += expected.distance < kNoRiver;
             }
         }
     });
     EXPECT_GT(found, static_cast<int>(kRandomCases / 2));
+}
+
+// Means over all pieces of a region, in double precision.
+std::array<double, 3> valleyReference(const DrainageRegion& region, double reach, std::int32_t x,
+                                      std::int32_t y) {
+    double weights = 0, distances = 0, levels = 0, flows = 0;
+    for (const CourseSegment& s : region.segments) {
+        const double fromX = x - s.from.x / 16.0, fromY = y - s.from.y / 16.0;
+        if (std::abs(fromX) > 2 * reach || std::abs(fromY) > 2 * reach) continue;
+        const double dx = (s.to.x - s.from.x) / 16.0, dy = (s.to.y - s.from.y) / 16.0;
+        const double t = std::clamp((fromX * dx + fromY * dy) / (dx * dx + dy * dy), 0.0, 1.0);
+        const double offX = fromX - t * dx, offY = fromY - t * dy, distance2 = offX * offX + offY * offY;
+        if (distance2 >= reach * reach) continue;
+        const double part = 1 / (distance2 + 1) - 1 / (reach * reach + 1), weight = part * part;
+        weights += weight;
+        distances += weight * std::sqrt(distance2);
+        levels += weight * (s.from.level + t * (s.to.level - s.from.level));
+        flows += weight * (s.from.flow + t * (s.to.flow - s.from.flow));
+    }
+    if (weights < 1e-19) return {kNoRiver, 0, 0};
+    return {distances / weights, levels / weights, flows / weights};
+}
+
+TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
+    DrainageRunner runner(kTestSeed, 0, kDrainageSpec, Valleys::Yes);
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    const double reach = valleyReach(kDrainageSpec);
+    int found = 0, dry = 0;
+    for (const CourseSegment& s : region.segments) dry += s.from.halfWidth == 0 && s.to.halfWidth == 0;
+    EXPECT_GT(dry, static_cast<int>(region.segments.size() / 4)) << "valleys without a river";
+    onEachTarget([&] {
+        for (std::uint32_t k = 0; k < 200; ++k) {
+            const std::uint32_t h = shared::hash2(k, 1, 5);
+            const auto x = static_cast<std::int32_t>(h % (kRegionBlocks - 800)) + 400;
+            const auto y = static_cast<std::int32_t>((h >> 8) % (kRegionBlocks - 800)) + 400;
+            const DrainageResults results = runner.run({x >> 4, y >> 4});
+            const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
+            const std::array<double, 3> expected = valleyReference(region, reach, x, y);
+            if (expected[0] > 0.98 * reach && expected[0] < kNoRiver) continue;  // next to none
+            for (std::size_t r = 0; r < 3; ++r)
+                ASSERT_NEAR(asFloat(results[7 + r][lane]), expected[r], 2e-3 + expected[r] * 1e-4)
+                    << x << "," << y;
+            found += expected[0] < kNoRiver;
+        }
+    });
+    EXPECT_GT(found, 50);
+}
+
+// Beside a stream, its level and the distance to it count alone.
+TEST(DrainageMaps, ValleysAreTheStreamAtTheStream) {
+    DrainageRunner runner(kTestSeed, 0, kDrainageSpec, Valleys::Yes);
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    for (std::uint32_t k = 0; k < 100; ++k) {
+        const CourseSegment& s = region.segments[shared::hash2(k, 2, 5) % region.segments.size()];
+        const std::int32_t x = s.from.x / 16, y = s.from.y / 16;
+        const DrainageResults results = runner.run({x >> 4, y >> 4});
+        const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
+        EXPECT_LT(asFloat(results[7][lane]), 3.0f);
+        EXPECT_NEAR(asFloat(results[8][lane]), s.from.level, 3.0f);
+    }
 }
 
 TEST(DrainageMaps, LakesHaveTheirShores) {

@@ -1,6 +1,7 @@
 #include "terrane/gen/drainage/drainage_network.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <functional>
 #include <limits>
@@ -18,12 +19,14 @@ std::uint32_t hashAt(int x, int y) {
 }
 
 DrainageNetwork networkOf(int cornerX, int cornerY, int side, const DrainageSpec& spec,
-                          const HeightOf& height) {
+                          const HeightOf& height, const HeightOf& gradient = {}) {
     DrainageNetwork n;
     n.side = side;
     for (int y = cornerY; y < cornerY + side; ++y) {
-        for (int x = cornerX; x < cornerX + side; ++x)
+        for (int x = cornerX; x < cornerX + side; ++x) {
             n.heights.push_back(heightKey(height(x, y), hashAt(x, y)));
+            if (gradient) n.gradients.push_back(gradient(x, y));
+        }
     }
     findDrainage(n, spec);
     return n;
@@ -33,6 +36,10 @@ DrainageNetwork networkOf(int cornerX, int cornerY, int side, const DrainageSpec
 float roughLand(int x, int y) {
     return 50.0f + 0.3f * static_cast<float>(x) + static_cast<float>(hashAt(x / 2, y / 2) >> 24) * 0.06f +
            static_cast<float>(hashAt(x, y) >> 24) * 0.03f;
+}
+
+float roughGradient(int x, int y) {
+    return static_cast<float>(hashAt(x + 7, y) >> 24) * 0.002f;
 }
 
 constexpr int kInside = kNetworkMargin - 2;
@@ -64,8 +71,8 @@ TEST(DrainageNetwork, WaysFallToTheSeaOrALake) {
 
 TEST(DrainageNetwork, IsTheSameFromAnyWindow) {
     const int side = 2 * kInside + 20;
-    const DrainageNetwork a = networkOf(100, 40, side, kDrainageSpec, roughLand);
-    const DrainageNetwork b = networkOf(107, 29, side, kDrainageSpec, roughLand);
+    const DrainageNetwork a = networkOf(100, 40, side, kDrainageSpec, roughLand, roughGradient);
+    const DrainageNetwork b = networkOf(107, 29, side, kDrainageSpec, roughLand, roughGradient);
     for (int y = 40 + kInside; y < 29 + side - kInside; ++y) {
         for (int x = 107 + kInside; x < 100 + side - kInside; ++x) {
             const std::size_t inA = a.at(x - 100, y - 40), inB = b.at(x - 107, y - 29);
@@ -99,6 +106,36 @@ TEST(DrainageNetwork, FlowCountsNodesUpstream) {
         }
     }
     EXPECT_GT(largest, 100);
+}
+
+// From the sea and large rivers up, each stream is higher than the next by what its gradient and flow say.
+TEST(DrainageNetwork, StreamsRiseByTheirGradient) {
+    const DrainageNetwork n = networkOf(0, 0, 220, kDrainageSpec, roughLand, roughGradient);
+    const DrainageNetwork cut = networkOf(0, 0, 220, kDrainageSpec, roughLand);
+    EXPECT_EQ(n.drains, cut.drains);
+    const HeightKey sea = heightKey(kDrainageSpec.seaLevel, 0);
+    int trunks = 0, streams = 0;
+    for (int y = 1; y < n.side - 1; ++y) {
+        for (int x = 1; x < n.side - 1; ++x) {
+            const std::size_t node = n.at(x, y);
+            if (n.drains[node] == kNoDrain || n.flows[node] >= kTrunkFlow) {
+                ASSERT_EQ(n.levels[node], cut.levels[node]);
+                ++trunks;
+                continue;
+            }
+            const std::size_t next = n.drainOf(node);
+            const bool isDiagonal = next != node + 1 && next + 1 != node &&
+                                    next != node + static_cast<std::size_t>(n.side) &&
+                                    next + static_cast<std::size_t>(n.side) != node;
+            const double length = kDrainageSpec.spacing * (isDiagonal ? std::sqrt(2.0) : 1.0);
+            const double rise = roughGradient(x, y) * length / std::sqrt(n.flows[node]);
+            EXPECT_NEAR(heightOf(n.levels[node]) - heightOf(std::max(n.levels[next], sea)), rise, 1e-3);
+            EXPECT_GT(n.levels[node], n.levels[next]) << "every stream falls";
+            ++streams;
+        }
+    }
+    EXPECT_GT(trunks, 500);
+    EXPECT_GT(streams, 10000);
 }
 
 // A slope to the west with a hollow of 5×5 nodes, of which the bottom is in the middle.

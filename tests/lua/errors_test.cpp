@@ -65,6 +65,7 @@ constexpr Mistake kMistakes[] = {
     {"nothing()", "attempt to call a nil value (global 'nothing')"},
     {"local a = nothing.x", "attempt to index a nil value (global 'nothing')"},
     {"p:drainage(3)", "drainage: argument 1: expected Drainage, got number 3"},
+    {"p:valleys(3)", "valleys: argument 1: expected Drainage, got number 3"},
     {"g:drainage(\"d\", {}, function(p) return 1 end)", "drainage: not inside of a pass"},
 };
 
@@ -74,6 +75,32 @@ TEST(ScriptErrors, NameTheLineAndTheReason) {
         EXPECT_TRUE(message.starts_with("test.lua:2: ")) << mistake.text << "\n" << message;
         EXPECT_NE(message.find(mistake.reason), std::string::npos) << mistake.text << "\n" << message;
     }
+}
+
+// Of a drainage map and its valleys.
+TEST(ScriptErrors, OfGradients) {
+    const auto mistake = [](const std::string& functions, const std::string& pass) {
+        return mistakeOf("local map = g:drainage(\"d\", {}, " + functions + ")\n" + "g:" + pass +
+                         "(\"p\", function(p) local v = p:valleys(map) end)\n" +
+                         "g:pass3D(\"ground\", function(p) p:setBlock(\"air\") end)");
+    };
+    const std::string height = "function(p) return 100 end";
+    EXPECT_EQ(mistake(height + ", function(p) return 0.2 end", "pass2D"), "");
+    EXPECT_EQ(mistake(height, "pass2D"),
+              "test.lua:2: pass \"p\": drainage \"d\": has no gradients, so no valleys");
+    EXPECT_EQ(mistake(height + ", nil", "pass2D"), mistake(height, "pass2D")) << "no function";
+    EXPECT_EQ(mistake(height + ", function(p) return 0.2 end", "pass3D"),
+              "test.lua:2: pass \"p\": drainage \"d\": only in 2D passes");
+    EXPECT_EQ(mistake(height + ", 0.2", "pass2D"),
+              "test.lua:1: drainage: argument 4: expected a function, got number 0.2");
+    EXPECT_EQ(mistake(height + ", function(p) return p.x end", "pass2D"),
+              "test.lua:1: drainage: its gradient function must return a Float, got Int");
+    EXPECT_EQ(mistake(height + ", function(p) return \"steep\" end", "pass2D"),
+              "test.lua:1: drainage: its gradient function must return a Float, got a string");
+    EXPECT_EQ(mistake(height + ", function(p) end", "pass2D"),
+              "test.lua:1: drainage: its gradient function must return a Float, got nil");
+    EXPECT_EQ(mistake("function(p) return p.x end", "pass2D"),
+              "test.lua:1: drainage: its height function must return a Float, got Int");
 }
 
 TEST(ScriptErrors, OfTheWholeGeneratorNameTheFile) {

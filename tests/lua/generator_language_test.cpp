@@ -182,6 +182,50 @@ TEST(GeneratorLanguage, DrainageMaps) {
                 });
 }
 
+TEST(GeneratorLanguage, Valleys) {
+    expectEqual(R"(
+        local rivers = g:drainage("rivers", {spacing = 64, reach = 64},
+            function(p) return 100 + p:perlin2D("wide", 128, {5, 10}) end,
+            function(p) return 0.1 + 0.05 * p:perlin2D("steep", 512, {1}) end)
+        local height = g:field("height", "float")
+        g:pass2D("land", function(p)
+            local v = p:valleys(rivers)
+            p:set(height, v.level + v.distance * 0.2 + v.flow)
+        end)
+        g:pass3D("ground", function(p) p:setBlock(select(float(p.z):lt(p:read(height)), "stone", "air")) end))",
+                [](GeneratorBuilder& g) {
+                    const auto wide = [](Pass& p) { return 100.0f + p.perlin2D("wide", 128, {5.0f, 10.0f}); };
+                    const auto steep = [](Pass& p) {
+                        return 0.1f + 0.05f * p.perlin2D("steep", 512, {1.0f});
+                    };
+                    DrainageSpec spec;
+                    spec.spacing = 64;
+                    spec.reach = 64;
+                    const Drainage rivers = g.drainage("rivers", spec, wide, steep);
+                    const auto height = g.field<Float>("height");
+                    g.pass2D("land", [&](Pass& p) {
+                        const ValleySample v = p.valleys(rivers);
+                        p.set(height, v.level + v.distance * 0.2f + v.flow);
+                    });
+                    g.pass3D("ground", [&](Pass& p) {
+                        const Float z(p.z());
+                        const Bool isGround = z < p.read(height);
+                        p.setBlock(select(isGround, p.block("stone"), p.block("air")));
+                    });
+                });
+}
+
+// The constant gradient 0 is one: the map has valleys.
+TEST(GeneratorLanguage, AGradientMayBeANumber) {
+    const auto graph = recorded(R"(
+        local rivers = g:drainage("rivers", {}, function(p) return 100 end, function(p) return 0 end)
+        local height = g:field("height", "float")
+        g:pass2D("land", function(p) p:set(height, p:valleys(rivers).level) end)
+        g:pass3D("ground", function(p) p:setBlock(select(float(p.z):lt(p:read(height)), "stone", "air")) end))");
+    ASSERT_TRUE(graph) << graph.error().message;
+    EXPECT_TRUE(graph->drainages.front().hasValleys());
+}
+
 TEST(GeneratorLanguage, Tints) {
     const auto graph = recorded(R"(
         local color = g:field("color", "int")

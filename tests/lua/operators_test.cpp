@@ -63,6 +63,7 @@ constexpr const char* kMethods[] = {"read",
                                     "voronoi2D",
                                     "voronoi3D",
                                     "drainage",
+                                    "valleys",
                                     "random2D",
                                     "random3D",
                                     "randomBool2D",
@@ -86,7 +87,7 @@ void expectOneLine(const std::string& text, const char* a, const char* b) {
     constexpr const char* kPreamble = R"(
         local earlier, earlierPass, earlierVariable
         local field = g:field("field", "int")
-        local map = g:drainage("map", {}, function(p) return 100 end)
+        local map = g:drainage("map", {}, function(p) return 100 end, function(p) return 1 end)
         local trees = {oak = {first = 0, count = 4}}
         g:pass2D("first", function(p)
             earlier, earlierPass, earlierVariable = p.x, p, p:var(2)

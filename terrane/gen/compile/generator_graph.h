@@ -55,13 +55,15 @@ struct PassGraph {
 std::vector<NodeId> outputsOf(const PassGraph& pass);
 
 // A drainage map: how heights are computed at its nodes, by a pass with one field that calls noises and
-// hashes of its own.
+// hashes of its own. With valleys it has a second field, the gradients.
 struct DrainageGraph {
     std::string name;
     DrainageSpec spec;
     std::vector<NoiseCall> noises;
     std::vector<std::string> hashNames;
     PassGraph heights;
+
+    bool hasValleys() const { return heights.fields.size() == 2; }
 };
 struct TintGraph;  // builder.h
 

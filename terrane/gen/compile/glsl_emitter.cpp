@@ -45,9 +45,11 @@ std::string_view componentName(NoiseKind kind, std::uint32_t number) {
     static constexpr std::string_view kVoronoi3D[] = {".nearest", ".second", ".offset.x", ".offset.y",
                                                       ".offset.z"};
     static constexpr std::string_view kStripes2D[] = {".x", ".y"};
-    static constexpr std::string_view kDrainage[] = {".distance", ".halfWidth",    ".level",
-                                                     ".flow",     ".lakeDistance", ".lakeLevel"};
+    static constexpr std::string_view kDrainage[] = {".distance",     ".halfWidth", ".level", ".flow",
+                                                     ".lakeDistance", ".lakeLevel", ".fall"};
+    static constexpr std::string_view kValleys[] = {".distance", ".level", ".flow"};
     if (kind == NoiseKind::Drainage) return kDrainage[number];
+    if (kind == NoiseKind::Valleys) return kValleys[number];
     if (kind == NoiseKind::Voronoi2D) return kVoronoi2D[number];
     if (kind == NoiseKind::Stripes2D) return kStripes2D[number];
     return kind == NoiseKind::Voronoi3D ? kVoronoi3D[number] : "";
@@ -185,9 +187,12 @@ class Emitter {
 
     void emitNoise(const std::string& result, std::uint32_t number) {
         const NoiseCall& call = generator_.noises[number];
-        if (call.kind == NoiseKind::Drainage) {
-            const float reach = generator_.drainages[static_cast<std::size_t>(call.size)].spec.reach;
-            return line(fmt::format("Drainage {} = drainage({}u, {}u, {});", result, call.size,
+        if (readsDrainage(call.kind)) {
+            const DrainageSpec& spec = generator_.drainages[static_cast<std::size_t>(call.size)].spec;
+            const bool isValleys = call.kind == NoiseKind::Valleys;
+            const float reach = isValleys ? valleyReach(spec) : spec.reach;
+            return line(fmt::format("{} {} = {}({}u, {}u, {});", isValleys ? "Valleys" : "Drainage", result,
+                                    isValleys ? "valleys" : "drainage", call.size,
                                     generator_.drainages.size(), literal(Type::Float, bitsOf(reach))));
         }
         if (call.kind == NoiseKind::Voronoi2D) {

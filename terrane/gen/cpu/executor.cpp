@@ -265,6 +265,7 @@ void Executor::prepareNoise(std::uint32_t noise) {
         case NoiseKind::Stripes2D:
             return prepare(context_.stripes2D[noise], call, seed, grid_);
         case NoiseKind::Drainage:
+        case NoiseKind::Valleys:
             assert(parts_.drainages && "a program that reads maps is run with them");
             return parts_.drainages->prepare(context_.drainage[noise], static_cast<std::uint32_t>(call.size),
                                              grid_);

@@ -3,6 +3,11 @@
 //
 // The world is divided into square cells of `spacing` blocks with a node in each. drainage_network.h
 // describes how nodes drain, drainage_curves.h the course of the water between them.
+//
+// A map with gradients also has *valleys*: every node above the sea has a stream, dry where fewer than
+// minFlow nodes drain through it, and the streams' heights follow from the sea up (drainage_network.h). The
+// land between them is the generator's: Pass::valleys says how high the streams around a column are and how
+// far it is from them.
 #pragma once
 
 #include <cstdint>
@@ -41,9 +46,24 @@ struct DrainageSample {
     Float flow;          // nodes upstream, as far as kMaxUpstream steps
     Float lakeDistance;  // blocks to the shore of the nearest lake, below 0 in it; kNoRiver likewise
     Float lakeLevel;     // z of its surface
+    Float fall;          // of the river there: blocks that its water falls a block of its course
 };
 
-// Columns wider than this see no rivers.
-constexpr int kMaxDrainageStep = 32;
+// The streams around a column, dry or not: means over all pieces of streams within valleyReach(),
+// weighted by (1 / distance² − 1 / reach²)², so that they change smoothly and are a stream's own at the
+// stream.
+struct ValleySample {
+    Float distance;  // blocks: 0 at a stream, largest half way between streams; kNoRiver where none is near
+    Float level;     // z
+    Float flow;      // nodes upstream
+};
+
+// Columns wider than this see no rivers. Of valleys they see one straight stream a node, as far as
+// kMaxValleyStep.
+constexpr int kMaxDrainageStep = 32, kMaxValleyStep = 64;
+// Blocks within which streams count.
+constexpr float valleyReach(const DrainageSpec& spec) {
+    return 1.5f * static_cast<float>(spec.spacing);
+}
 
 }  // namespace terrane::gen

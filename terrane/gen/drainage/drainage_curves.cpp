@@ -9,7 +9,7 @@
 namespace terrane::gen {
 namespace {
 
-constexpr int kCurveSegments = 16;
+constexpr int kCurveSegments = 16, kDryCurveSegments = 8;
 constexpr int kRegionMargin =
     88;  // cells around a region: kNetworkMargin up to a multiple of what heights come in
 static_assert(kRegionMargin >= kNetworkMargin && kRegionMargin % (kTileSize / kCellSamples) == 0);
@@ -44,6 +44,11 @@ struct Control {
     float x, y, halfWidth, level, flow;
 };
 
+Control dry(Control c) {
+    c.halfWidth = 0.0f;
+    return c;
+}
+
 Control middle(const Control& a, const Control& b) {
     return {(a.x + b.x) * 0.5f, (a.y + b.y) * 0.5f, a.halfWidth, (a.level + b.level) * 0.5f, a.flow};
 }
@@ -57,6 +62,7 @@ class CurveMaker {
         places_ = std::move(nodes.places);
         network_.side = side;
         network_.heights = std::move(nodes.heights);
+        network_.gradients = std::move(nodes.gradients);
         findDrainage(network_, spec_);
         bendSeed_ = heights.hash({0, 0});
     }
@@ -78,7 +84,9 @@ class CurveMaker {
   private:
     std::size_t at(int x, int y) const { return network_.at(x + kRegionMargin, y + kRegionMargin); }
     bool isSea(std::size_t node) const { return network_.heights[node] < heightKey(spec_.seaLevel, 0); }
-    bool isRiver(std::size_t node) const { return !isSea(node) && network_.flows[node] >= spec_.minFlow; }
+    bool isRiver(std::size_t node) const { return network_.flows[node] >= spec_.minFlow; }
+    bool isStream(std::size_t node) const { return !isSea(node) && (hasValleys() || isRiver(node)); }
+    bool hasValleys() const { return !network_.gradients.empty(); }
 
     struct Place {
         float x, y;
@@ -96,7 +104,7 @@ class CurveMaker {
         const Place here = place(x, y);
         const std::size_t node = at(cellX_ + x, cellY_ + y);
         if (network_.drains[node] == kNoDrain) return here;
-        int before = kNoDrain, flow = spec_.minFlow - 1;
+        int before = kNoDrain, flow = hasValleys() ? 0 : spec_.minFlow - 1;
         for (int k = 0; k < kNoDrain; ++k) {
             const auto& [dx, dy] = kDirections[static_cast<std::size_t>(k)];
             const std::size_t other = at(cellX_ + x + dx, cellY_ + y + dy);
@@ -121,8 +129,8 @@ class CurveMaker {
         const Place place = smoothPlace(x, y);
         const auto flow = static_cast<float>(network_.flows[node]);
         const float share = flow / static_cast<float>(spec_.minFlow);
-        return {place.x, place.y, std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth),
-                levelOf(node), flow};
+        const float halfWidth = std::min(spec_.halfWidth * shared::detSqrt(share), spec_.maxHalfWidth);
+        return {place.x, place.y, isRiver(node) ? halfWidth : 0.0f, levelOf(node), flow};
     }
 
     float levelOf(std::size_t node) const {
@@ -135,7 +143,7 @@ class CurveMaker {
         cellY_ = y;
         const std::size_t node = at(x, y);
         const bool isEnd = network_.drains[node] == kNoDrain;
-        if (!isEnd && !isRiver(node)) return;
+        if (!isEnd && !isStream(node)) return;
         const Control here = control(0, 0);
         lake_ = {here.x, here.y, lakeRadius(node), here.level};
         Control out = here;
@@ -143,14 +151,20 @@ class CurveMaker {
             const auto& [dx, dy] = kDirections[network_.drains[node]];
             out = middle(here, control(dx, dy));
         }
-        bool isSource = true;
+        bool isSource = true, hasRiver = false;
         for (const auto& [dx, dy] : kDirections) {
             const std::size_t other = at(x + dx, y + dy);
-            if (!isRiver(other) || !drainsTo(other, node)) continue;
+            hasRiver |= isStream(other) && isRiver(other) && drainsTo(other, node);
+        }
+        for (const auto& [dx, dy] : kDirections) {
+            const std::size_t other = at(x + dx, y + dy);
+            if (!isStream(other) || !drainsTo(other, node)) continue;
             isSource = false;
             const Control in = middle(control(dx, dy), here);
             if (!isEnd) {
-                addCurve(in, here, out);
+                // Beside a river, a dry stream stays dry.
+                const bool staysDry = hasRiver && !isRiver(other);
+                addCurve(in, here, staysDry ? dry(out) : out);
                 continue;
             }
             Control last = here;
@@ -166,15 +180,16 @@ class CurveMaker {
 
     void addCurve(const Control& a, const Control& b, const Control& c) {
         CoursePoint from = point(a);
-        for (int k = 1; k <= kCurveSegments; ++k) {
-            const float t = static_cast<float>(k) * (1.0f / kCurveSegments), s = 1.0f - t;
+        const int pieces = a.halfWidth > 0.0f || c.halfWidth > 0.0f ? kCurveSegments : kDryCurveSegments;
+        for (int k = 1; k <= pieces; ++k) {
+            const float t = static_cast<float>(k * (kCurveSegments / pieces)) * (1.0f / kCurveSegments),
+                        s = 1.0f - t;
             const auto blend = [&](float p, float q, float r) {
                 return s * s * p + 2.0f * s * t * q + t * t * r;
             };
             Control at = {blend(a.x, b.x, c.x), blend(a.y, b.y, c.y), s * a.halfWidth + t * c.halfWidth,
                           blend(a.level, b.level, c.level), s * a.flow + t * c.flow};
-            if (lake_.radius > 0.0f && k < kCurveSegments)
-                at.level = levelNearLake(at, t < 0.5f ? a : c, a, c);
+            if (lake_.radius > 0.0f && k < pieces) at.level = levelNearLake(at, t < 0.5f ? a : c, a, c);
             at.level = std::min(at.level, from.level);
             const CoursePoint to = point(at);
             if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});

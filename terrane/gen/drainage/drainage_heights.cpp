@@ -48,21 +48,22 @@ DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
            "nodes are computed in whole tiles");
     const int spacing = graph_.spec.spacing, level = drainageLevel(graph_.spec);
     const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
-    DrainageNodes nodes{std::vector<HeightKey>(count), std::vector<NodePlace>(count)};
+    DrainageNodes nodes{std::vector<HeightKey>(count), std::vector<float>(hasValleys() ? count : 0),
+                        std::vector<NodePlace>(count)};
     Executor executor(graph_.noises, seeds_);
-    ColumnValues values;
-    ColumnValues* const results[] = {&values};
+    ColumnValues values, gradients;
+    ColumnValues* const results[] = {&values, &gradients};
     for (int tile = 0; tile < side / kTileCells * (side / kTileCells); ++tile) {
         const int tileX = tile % (side / kTileCells) * kTileCells,
                   tileY = tile / (side / kTileCells) * kTileCells;
         PassInputs inputs;
         const DrainageCell first = wrapped({corner.x + tileX, corner.y + tileY}, spacing);
         inputs.chunk = {first.x / kTileCells, first.y / kTileCells, static_cast<std::uint8_t>(level)};
-        executor.run2D(program_, inputs, results);
+        executor.run2D(program_, inputs, std::span(results).first(hasValleys() ? 2 : 1));
         for (int n = 0; n < kTileCells * kTileCells; ++n) {
             const int x = n % kTileCells, y = n / kTileCells;
             int lowest = 0;
-            float height = 0.0f;
+            float height = 0.0f, gradient = 0.0f;
             for (int s = 0; s < kCellSamples * kCellSamples; ++s) {
                 const int column =
                     x * kCellSamples + s % kCellSamples + kTileSize * (y * kCellSamples + s / kCellSamples);
@@ -70,10 +71,12 @@ DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
                 if (s > 0 && !(v < height)) continue;
                 height = v;
                 lowest = s;
+                gradient = asFloat(gradients[static_cast<std::size_t>(column)]);
             }
             const std::uint32_t h = hash({first.x + x, first.y + y});
             const auto at = static_cast<std::size_t>((tileY + y) * side + tileX + x);
             nodes.heights[at] = heightKey(height, h);
+            if (hasValleys()) nodes.gradients[at] = gradient;
             nodes.places[at] = {placeAlong(lowest % kCellSamples, spacing / kCellSamples,
                                            shared::mixBits(h + shared::kHashX)),
                                 placeAlong(lowest / kCellSamples, spacing / kCellSamples,

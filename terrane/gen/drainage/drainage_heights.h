@@ -24,6 +24,7 @@ constexpr std::int32_t kPlaceUnits = 16;  // a block
 
 struct DrainageNodes {
     std::vector<HeightKey> heights;  // by y, then x
+    std::vector<float> gradients;    // likewise; empty if the map has no valleys
     std::vector<NodePlace> places;
 };
 
@@ -42,6 +43,7 @@ class DrainageHeights {
     // Returns a hash of the cell, for random decisions.
     std::uint32_t hash(DrainageCell cell) const;
     const DrainageSpec& spec() const { return graph_.spec; }
+    bool hasValleys() const { return graph_.hasValleys(); }
 
   private:
     DrainageGraph graph_;

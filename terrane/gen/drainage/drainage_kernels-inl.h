@@ -19,11 +19,16 @@ constexpr float kNoPower = std::numeric_limits<float>::max();
 
 // The river and the lake that count so far, for one vector of columns.
 struct NearestWater {
-    VF power, distance2, halfWidth, level, flow;
+    VF power, distance2, halfWidth, level, flow, fall;
     VF lakePower, lakeDistance2, radius, lakeLevel;
 };
 
-HWY_INLINE void addSegment(NearestWater& w, const shared::RiverSegment& s, VF x, VF y, VF reach2) {
+// The nearest point of a segment.
+struct PlaceOnSegment {
+    VF along, distance2;  // 0…1 from its upper end; blocks²
+};
+
+HWY_INLINE PlaceOnSegment placeOn(const shared::RiverSegment& s, VF x, VF y) {
     const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
     const VF dx = hn::Set(df, s.line.z), dy = hn::Set(df, s.line.w);
     const VF fromX = hn::Sub(x, hn::Set(df, s.line.x)), fromY = hn::Sub(y, hn::Set(df, s.line.y));
@@ -31,10 +36,15 @@ HWY_INLINE void addSegment(NearestWater& w, const shared::RiverSegment& s, VF x,
     t = hn::IfThenElse(hn::Lt(t, zero), zero, t);
     t = hn::IfThenElse(hn::Lt(one, t), one, t);
     const VF offX = hn::Sub(fromX, hn::Mul(t, dx)), offY = hn::Sub(fromY, hn::Mul(t, dy));
-    const VF distance2 = hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY));
+    return {t, hn::Add(hn::Mul(offX, offX), hn::Mul(offY, offY))};
+}
+
+HWY_INLINE void addSegment(NearestWater& w, const shared::RiverSegment& s, VF x, VF y, VF reach2) {
+    const auto [t, distance2] = placeOn(s, x, y);
     const VF halfWidth = hn::Add(hn::Set(df, s.course.y), hn::Mul(t, hn::Set(df, s.course.z)));
     const VF power = hn::Sub(distance2, hn::Mul(halfWidth, halfWidth));
-    const auto counts = hn::And(hn::Lt(distance2, reach2), hn::Lt(power, w.power));
+    const auto counts =
+        hn::And(hn::And(hn::Lt(distance2, reach2), hn::Lt(power, w.power)), hn::Lt(hn::Zero(df), halfWidth));
     const VF level = hn::Add(hn::Set(df, s.course.w), hn::Mul(t, hn::Set(df, s.flow.x)));
     const VF flow = hn::Add(hn::Set(df, s.flow.y), hn::Mul(t, hn::Set(df, s.flow.z)));
     w.power = hn::IfThenElse(counts, power, w.power);
@@ -42,6 +52,7 @@ HWY_INLINE void addSegment(NearestWater& w, const shared::RiverSegment& s, VF x,
     w.halfWidth = hn::IfThenElse(counts, halfWidth, w.halfWidth);
     w.level = hn::IfThenElse(counts, level, w.level);
     w.flow = hn::IfThenElse(counts, flow, w.flow);
+    w.fall = hn::IfThenElse(counts, hn::Set(df, s.flow.w), w.fall);
 }
 
 HWY_INLINE void addLake(NearestWater& w, const shared::vec4& lake, VF x, VF y, float reach) {
@@ -65,15 +76,60 @@ void drainage(const Instruction& i, TileContext& c, const RowList& rows) {
     forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
         const VF x = hn::ConvertTo(df, hn::Mul(hn::Iota(di, static_cast<std::int32_t>(lane)), step));
         const VF y = hn::ConvertTo(df, hn::Set(di, row * tile.step));
-        NearestWater w = {noPower, zero, zero, zero, zero, noPower, zero, zero, zero};
+        NearestWater w = {noPower, zero, zero, zero, zero, zero, noPower, zero, zero, zero};
         for (const shared::RiverSegment& s : tile.segments) addSegment(w, s, x, y, reach2);
         for (const shared::vec4& lake : tile.lakes) addLake(w, lake, x, y, tile.reach);
         const VF distance = hn::IfThenElse(hn::Lt(w.power, noPower), squareRoot(w.distance2), none);
         const VF shore = hn::Sub(squareRoot(w.lakeDistance2), w.radius);
         const VF lakeDistance = hn::IfThenElse(hn::Lt(w.lakePower, noPower), shore, none);
-        const VF results[kDrainageResultCount] = {distance, w.halfWidth,  w.level,
-                                                  w.flow,   lakeDistance, w.lakeLevel};
+        const VF results[kDrainageResultCount] = {distance,     w.halfWidth, w.level, w.flow,
+                                                  lakeDistance, w.lakeLevel, w.fall};
         for (std::uint32_t k = 0; k < kDrainageResultCount; ++k) {
+            const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
+            storeBits(results[k], rowOf(c.arena, o, row) + lane);
+        }
+    });
+}
+
+// Sums over the pieces of streams around, for one vector of columns.
+struct StreamSums {
+    VF weight, distance, level, flow;
+};
+
+HWY_INLINE void addStream(StreamSums& sums, const shared::RiverSegment& s, VF x, VF y, VF reach2,
+                          VF reachWeight) {
+    const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
+    const PlaceOnSegment at = placeOn(s, x, y);
+    const auto isNear = hn::Lt(at.distance2, reach2);
+    if (hn::AllFalse(df, isNear)) return;
+    const VF part = hn::Sub(divide(one, hn::Add(at.distance2, one)), reachWeight);
+    const VF weight = hn::IfThenElse(isNear, hn::Mul(part, part), zero);
+    const VF level = hn::Add(hn::Set(df, s.course.w), hn::Mul(at.along, hn::Set(df, s.flow.x)));
+    const VF flow = hn::Add(hn::Set(df, s.flow.y), hn::Mul(at.along, hn::Set(df, s.flow.z)));
+    sums.weight = hn::Add(sums.weight, weight);
+    sums.distance = hn::Add(sums.distance, hn::Mul(weight, squareRoot(at.distance2)));
+    sums.level = hn::Add(sums.level, hn::Mul(weight, level));
+    sums.flow = hn::Add(sums.flow, hn::Mul(weight, flow));
+}
+
+void valleys(const Instruction& i, TileContext& c, const RowList& rows) {
+    const DrainageTile& tile = c.drainage[i.imm];
+    const VF reach2 = hn::Set(df, tile.valleyReach * tile.valleyReach);
+    const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
+    const VF reachWeight = divide(one, hn::Add(reach2, one));
+    const VI step = hn::Set(di, tile.step);
+    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
+        const VF x = hn::ConvertTo(df, hn::Mul(hn::Iota(di, static_cast<std::int32_t>(lane)), step));
+        const VF y = hn::ConvertTo(df, hn::Set(di, row * tile.step));
+        StreamSums sums = {zero, zero, zero, zero};
+        for (const shared::RiverSegment& s : tile.segments) addStream(sums, s, x, y, reach2, reachWeight);
+        const auto isValley = hn::Lt(hn::Set(df, shared::kLeastStreamWeight), sums.weight);
+        const VF weight = hn::IfThenElse(isValley, sums.weight, one);
+        const VF results[kValleysResultCount] = {
+            hn::IfThenElse(isValley, divide(sums.distance, weight), hn::Set(df, kNoRiver)),
+            hn::IfThenElse(isValley, divide(sums.level, weight), zero),
+            hn::IfThenElse(isValley, divide(sums.flow, weight), zero)};
+        for (std::uint32_t k = 0; k < kValleysResultCount; ++k) {
             const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
             storeBits(results[k], rowOf(c.arena, o, row) + lane);
         }

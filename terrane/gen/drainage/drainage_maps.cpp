@@ -96,12 +96,21 @@ shared::RiverSegment tileSegment(const TileSquare& tile, const CourseSegment& s)
     const float inverse = shared::detDivide(1.0f, dx * dx + dy * dy);
     return {{blocksOf(s.from.x - tile.x), blocksOf(s.from.y - tile.y), dx, dy},
             {inverse, s.from.halfWidth, s.to.halfWidth - s.from.halfWidth, s.from.level},
-            {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow, 0.0f}};
+            {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow,
+             (s.from.level - s.to.level) * shared::detSqrt(inverse)}};
 }
 
 void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
              const TileSquare& square) {
-    const auto reach = static_cast<std::int32_t>(tile.reach * static_cast<float>(kPlaceUnits)) + 1;
+    const float farthest = std::max(tile.reach, tile.valleyReach);
+    const auto reach = static_cast<std::int32_t>(farthest * static_cast<float>(kPlaceUnits)) + 1;
+    if (tile.step > kMaxDrainageStep) {
+        if (cell.segmentCount == 0) return;
+        const CourseSegment whole = {region.segments[cell.firstSegment].from,
+                                     region.segments[cell.firstSegment + cell.segmentCount - 1].to};
+        if (isNear(square, whole, reach)) tile.segments.push_back(tileSegment(square, whole));
+        return;
+    }
     for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
         const CourseSegment& s = region.segments[cell.firstSegment + k];
         if (isNear(square, s, reach)) tile.segments.push_back(tileSegment(square, s));
@@ -127,9 +136,11 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
     tile.segments.clear();
     tile.lakes.clear();
     tile.reach = spec.reach;
+    tile.valleyReach = m.heights.hasValleys() ? valleyReach(spec) : 0.0f;
     tile.step = grid.step;
     const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
-    const std::int32_t around = static_cast<std::int32_t>(spec.reach) + 1 + spacing * kCourseReach4 / 4;
+    const std::int32_t around =
+        static_cast<std::int32_t>(std::max(tile.reach, tile.valleyReach)) + 1 + spacing * kCourseReach4 / 4;
     const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
     const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
     const std::int32_t inX = grid.x & (spacing - 1), inY = grid.y & (spacing - 1);

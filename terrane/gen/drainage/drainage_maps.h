@@ -21,15 +21,15 @@ struct DrainageRegion;
 struct DrainageTile {
     std::vector<shared::RiverSegment> segments;
     std::vector<shared::vec4> lakes;
-    float reach = 0;
+    float reach = 0, valleyReach = 0;
     std::int32_t step = 1;  // blocks from column to column
 };
 
 // The number of cached regions per map. One is 128² cells, 32,768² blocks with the default spacing, and takes
-// up to 3 MB where few nodes have a river, 14 MB where all do: a row of 64 tiles of step 32 crosses three of
-// half that spacing.
+// up to 3 MB where few nodes have a river, 8 MB with valleys, 14 MB where all are rivers: a row of 64 tiles
+// of step 32 crosses three of half that spacing.
 constexpr std::size_t kMaxCachedRegions = 8;
-constexpr std::size_t kMaxCachedRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
+constexpr std::size_t kMaxCachedRegionBytes = std::size_t{64} << 20;  // the newest region is kept anyway
 
 class DrainageMaps {
   public:

@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <limits>
 
+#include "terrane/shared/det_math.h"
+
 namespace terrane::gen {
 namespace {
 
@@ -209,6 +211,30 @@ void countFlow(DrainageNetwork& n) {
     for (std::size_t k = 0; k < next.size(); ++k) n.flows[k] = static_cast<std::uint16_t>(flows[k]);
 }
 
+// Sets the levels of streams above trunks, the sea and lakes, from these up.
+void raiseStreams(DrainageNetwork& n, const DrainageSpec& spec, HeightKey sea) {
+    const std::vector<std::uint32_t> next = nextNodes(n);
+    std::vector<std::uint8_t> isDone(next.size(), 0);
+    std::vector<std::uint32_t> way;
+    for (std::uint32_t first = 0; first < next.size(); ++first) {
+        way.clear();
+        std::uint32_t node = first;
+        for (; next[node] != kNoNode && n.flows[node] < kTrunkFlow && isDone[node] == 0; node = next[node])
+            way.push_back(node);
+        for (; !way.empty(); way.pop_back()) {
+            const std::uint32_t from = way.back(), to = next[from];
+            const auto& [dx, dy] = kDirections[n.drains[from]];
+            const float length = static_cast<float>(spec.spacing) * (dx != 0 && dy != 0 ? 1.41421356f : 1.0f);
+            const float flow = static_cast<float>(n.flows[from]);
+            const float rise = shared::detDivide(n.gradients[from] * length, shared::detSqrt(flow));
+            // Not above what a key holds; a step of 1 / 65536 block keeps every stream falling.
+            n.levels[from] = heightKey(heightOf(std::max(n.levels[to], sea)) + std::max(rise, 0.0f), 0) +
+                             (HeightKey{1} << kTieBits);
+            isDone[from] = 1;
+        }
+    }
+}
+
 // Removes lakes too near a lower lake or a lake without outlet. Lakes without outlet stay.
 void thinLakes(DrainageNetwork& n) {
     const std::vector<std::uint8_t> found = n.lakeNodes;
@@ -257,6 +283,7 @@ void findDrainage(DrainageNetwork& n, const DrainageSpec& spec) {
     openPits(n, spec, sea);
     findDrains(n, sea);
     countFlow(n);
+    if (!n.gradients.empty()) raiseStreams(n, spec, sea);
     thinLakes(n);
 }
 

@@ -10,6 +10,10 @@
 //  2. Each land node drains to the lowest of its eight neighbors. Heights fall along every way, so there are
 //     no rings; drains to the lowest neighbor never cross. Ways end in the sea or in a pit without outlet.
 //  3. Flow is the number of nodes upstream within kMaxUpstream steps.
+//  4. With gradients, heights follow from the drains: a node with less than kTrunkFlow nodes upstream is
+//     higher than the next one by gradient · distance · flow^−½, the steady state of rivers that cut into
+//     rising land (Flint's law; K. X. Whipple and G. E. Tucker, 1999). Rivers of that flow, the sea and
+//     lakes without outlet keep their heights. Each step adds a node, so no way up from them is longer.
 #pragma once
 
 #include <array>
@@ -22,6 +26,9 @@ namespace terrane::gen {
 
 constexpr int kFloodReach = 10;   // cells
 constexpr int kMaxUpstream = 64;  // steps
+constexpr int kTrunkFlow = 32;    // nodes
+static_assert(2 * kTrunkFlow <= kMaxUpstream,
+              "heights read flows that many steps down, counted from as many up");
 // Flow reads drains kMaxUpstream cells away, drains at their neighbors, cuts at pits and pits at nodes
 // kFloodReach away, each flood at one more neighbor. Curves need flow two cells farther.
 constexpr int kNetworkMargin = kMaxUpstream + 1 + 2 * kFloodReach + 1 + 2;
@@ -38,12 +45,14 @@ constexpr std::uint8_t kNoDrain = 8;
 constexpr std::array<std::array<int, 2>, 8> kDirections = {
     {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
 
-// A square of nodes by y, then x. The caller sets `side` and `heights`; findDrainage() computes the rest.
+// A square of nodes by y, then x. The caller sets `side`, `heights` and, for valleys, `gradients`;
+// findDrainage() computes the rest.
 struct DrainageNetwork {
     int side = 0;
     std::vector<HeightKey> heights;
+    std::vector<float> gradients;  // of streams of one node, blocks a block, 0 or more; empty: no valleys
 
-    std::vector<HeightKey> levels;     // heights with the cuts
+    std::vector<HeightKey> levels;     // heights with the cuts, or those that follow from the gradients
     std::vector<std::uint8_t> drains;  // number of a direction, or kNoDrain: sea, pit without outlet, margin
     std::vector<std::uint16_t> flows;  // at most (2 · kMaxUpstream + 1)²
     std::vector<std::uint8_t> lakeNodes;  // nodes that the lake here would cover; 0 where there is none
@@ -54,7 +63,7 @@ struct DrainageNetwork {
     std::size_t drainOf(std::size_t node) const;  // the node that it drains to
 };
 
-// Computes all members after `heights`. Correct for nodes at least kNetworkMargin − 2 cells inside the
+// Computes all members after `gradients`. Correct for nodes at least kNetworkMargin − 2 cells inside the
 // window.
 void findDrainage(DrainageNetwork& network, const DrainageSpec& spec);
 

@@ -84,9 +84,11 @@ class GeneratorBuilder {
     }
     // Adds a map of rivers and lakes for Pass::drainage over the heights, in blocks, that `height` records.
     // It runs at every spacing / 2 blocks, for which p.step() stands, whatever the generator's level is:
-    // positions, noise and random numbers, no fields.
+    // positions, noise and random numbers, no fields. With `gradient`, likewise recorded, the map has
+    // valleys: it is how steep a stream with a single node upstream is, blocks a block, 0 or more.
     Drainage drainage(const std::string& name, const DrainageSpec& spec,
-                      const std::function<Float(Pass&)>& height);
+                      const std::function<Float(Pass&)>& height,
+                      const std::function<Float(Pass&)>& gradient = {});
     // Sets the color of each column for tinted blocks (docs/worldgen.md): a field of packColor(), once a
     // generator. Chunks do not contain it: only LevelGenerators::tint() computes it.
     template <class T>

@@ -227,7 +227,8 @@ std::string mistakeIn(const DrainageSpec& s) {
 }  // namespace
 
 Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec& spec,
-                                    const std::function<Float(Pass&)>& height) {
+                                    const std::function<Float(Pass&)>& height,
+                                    const std::function<Float(Pass&)>& gradient) {
     DrainageGraph map{name, spec, {}, {}, {}};
     const auto error = [&](std::string_view message) {
         errors_.push_back(fmt::format("drainage \"{}\": {}", name, message));
@@ -247,11 +248,16 @@ Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec&
     for (const FieldInfo& info : generator_.fields)
         heights.generator_.fields.push_back({info.name, info.type});
     const Field<Float> result = heights.field<Float>("height of drainage " + name);
-    heights.pass2D("heights", [&](Pass& p) { p.set(result, height(p)); });
+    std::optional<Field<Float>> gradients;
+    if (gradient) gradients = heights.field<Float>("gradient of drainage " + name);
+    heights.pass2D("heights", [&](Pass& p) {
+        p.set(result, height(p));
+        if (gradients) p.set(*gradients, gradient(p));
+    });
     for (const std::string& message : heights.errors_) error(message);
     noiseParameters_ = std::move(heights.noiseParameters_);
     map.heights = std::move(heights.generator_.passes.front());
-    if (map.heights.fields.size() != 1) error("its heights write a field");
+    if (map.heights.fields.size() != (gradient ? 2 : 1)) error("its heights write a field");
     for (auto& pass : heights.written_) written_.push_back(std::move(pass));
     map.noises = std::move(heights.generator_.noises);
     map.hashNames = std::move(heights.generator_.hashNames);
@@ -259,21 +265,37 @@ Drainage GeneratorBuilder::drainage(const std::string& name, const DrainageSpec&
     return {static_cast<std::uint32_t>(maps.size() - 1)};
 }
 
-DrainageSample Pass::drainage(Drainage map) {
-    const DrainageSample none = {kNoRiver, 0.0f, 0.0f, 0.0f, kNoRiver, 0.0f};
-    if (map.index >= generator_.generator_.drainages.size()) {
+const DrainageGraph* Pass::drainageMap(Drainage map) {
+    const auto& maps = generator_.generator_.drainages;
+    if (map.index >= maps.size()) {
         error("drainage: this generator has no such map");
-        return none;
+        return nullptr;
     }
-    const std::string& name = generator_.generator_.drainages[map.index].name;
     if (graph_.is3D) {
-        error(fmt::format("drainage \"{}\": only in 2D passes", name));
-        return none;
+        error(fmt::format("drainage \"{}\": only in 2D passes", maps[map.index].name));
+        return nullptr;
     }
-    if (step() > kMaxDrainageStep) return none;
-    const NoiseCall call = {NoiseKind::Drainage, name, static_cast<std::int32_t>(map.index), {}};
+    return &maps[map.index];
+}
+
+DrainageSample Pass::drainage(Drainage map) {
+    const DrainageGraph* graph = drainageMap(map);
+    if (graph == nullptr || step() > kMaxDrainageStep)
+        return {kNoRiver, 0.0f, 0.0f, 0.0f, kNoRiver, 0.0f, 0.0f};
+    const NoiseCall call = {NoiseKind::Drainage, graph->name, static_cast<std::int32_t>(map.index), {}};
     const auto result = [&](std::uint32_t k) { return Float(noise(call, k, Type::Float)); };
-    return {result(0), result(1), result(2), result(3), result(4), result(5)};
+    return {result(0), result(1), result(2), result(3), result(4), result(5), result(6)};
+}
+
+ValleySample Pass::valleys(Drainage map) {
+    const DrainageGraph* graph = drainageMap(map);
+    if (graph != nullptr && !graph->hasValleys())
+        error(fmt::format("drainage \"{}\": has no gradients, so no valleys", graph->name));
+    if (graph == nullptr || !graph->hasValleys() || step() > kMaxValleyStep) return {kNoRiver, 0.0f, 0.0f};
+    const NoiseCall call = {
+        NoiseKind::Valleys, "valleys of " + graph->name, static_cast<std::int32_t>(map.index), {}};
+    const auto result = [&](std::uint32_t k) { return Float(noise(call, k, Type::Float)); };
+    return {result(0), result(1), result(2)};
 }
 
 // Random numbers that stand for what columns of higher levels are too wide to show.

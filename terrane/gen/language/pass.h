@@ -109,6 +109,7 @@ class Pass {
     Voronoi3D voronoi3D(std::string_view name, int size, int maxPoints, int exponent = 2);
 
     DrainageSample drainage(Drainage map);  // 2D passes; see drainage.h
+    ValleySample valleys(Drainage map);     // of a map with gradients
 
     // These return a random number in [0, 1), by position.
     Float random2D(std::string_view name, Int x, Int y);
@@ -192,6 +193,7 @@ class Pass {
     bool requireField(std::uint32_t field, Type type);
     bool requireWritten(std::uint32_t field, Type type);
     bool requireBlocks();
+    const DrainageGraph* drainageMap(Drainage map);  // null after a mistake
     void error(std::string_view message);
     PassGraph finish();
 

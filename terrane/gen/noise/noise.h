@@ -46,14 +46,15 @@ enum class NoiseKind : std::uint8_t {
     Voronoi3D,
     Simplex2D,
     Stripes2D,
-    Drainage
+    Drainage,
+    Valleys
 };
 
 struct NoiseCall {
     NoiseKind kind = NoiseKind::Perlin2D;
     std::string name;  // names the seed: stable when code moves
-    // Blocks: width of the smallest lattice, 1…65,536; Voronoi: width of a cell, 1…kMaxVoronoiSize. Drainage:
-    // number of the map.
+    // Blocks: width of the smallest lattice, 1…65,536; Voronoi: width of a cell, 1…kMaxVoronoiSize. Drainage
+    // and valleys: number of the map.
     std::int32_t size = 1;
     std::vector<float> weights;  // Perlin, simplex: of octaves size, 2 size, 4 size, …
     int maxPoints = 1;           // Voronoi: 1…4
@@ -102,7 +103,8 @@ enum Voronoi3DResult : std::uint32_t {
 // Results of stripes, each in -1…1: cos and sin of the phase.
 enum StripeResult : std::uint32_t { kStripeCos, kStripeSin, kStripeResultCount };
 // Results of a drainage call, all Float: those of DrainageSample in its order (drainage.h).
-constexpr std::uint32_t kDrainageResultCount = 6;
+constexpr std::uint32_t kDrainageResultCount = 7;
+constexpr std::uint32_t kValleysResultCount = 3;  // likewise, those of ValleySample
 
 // Squared distances of candidates, at most (1.81 cells + two tile diagonals)², fit 31 bits.
 constexpr std::int32_t kMaxVoronoiSize = 16384;
@@ -126,7 +128,12 @@ constexpr std::uint32_t resultCount(NoiseKind kind) {
     if (kind == NoiseKind::Voronoi2D) return kVoronoiResultCount;
     if (kind == NoiseKind::Stripes2D) return kStripeResultCount;
     if (kind == NoiseKind::Drainage) return kDrainageResultCount;
+    if (kind == NoiseKind::Valleys) return kValleysResultCount;
     return kind == NoiseKind::Voronoi3D ? std::uint32_t{kVoronoi3DResultCount} : 1u;
+}
+
+constexpr bool readsDrainage(NoiseKind kind) {
+    return kind == NoiseKind::Drainage || kind == NoiseKind::Valleys;
 }
 
 constexpr bool is3D(NoiseKind kind) {

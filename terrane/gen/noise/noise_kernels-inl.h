@@ -130,6 +130,8 @@ void noise(const Instruction& i, TileContext& c, const RowList& rows) {
             return stripes2D(i, c, rows);
         case NoiseKind::Drainage:
             return drainage(i, c, rows);
+        case NoiseKind::Valleys:
+            return valleys(i, c, rows);
     }
 }
 
