@@ -2,7 +2,7 @@
 #pragma once
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/generators/trees/trees.h"
+#include "terrane/gen/generators/vegetation.h"
 #include "terrane/gen/language/builder.h"
 
 namespace terrane::gen::continents {
@@ -37,20 +37,11 @@ inline Int number(Biome biome) {
     return Int(static_cast<int>(biome));
 }
 
-// Returns the kinds of trees and small things that grow in some biome.
-std::vector<trees::Kind> groveKinds();
+// What grows in each biome (continents_plants.cpp).
+const vegetation::Tables& vegetationTables();
 
 // Returns the map that rivers and lakes follow (continents_relief.cpp).
 Drainage rivers(GeneratorBuilder& g);
-
-// Up to this step shapes are stamped; beyond it columns are crowns as often as crowns cover the ground.
-constexpr int kMaxShapeStep = 4;
-// Shapes smaller than trees are omitted beyond this step.
-constexpr int kMaxSmallStep = 2;
-// Returns whether columns hold a plant, or a crown, of their own.
-constexpr bool hasPlants(int step) {
-    return step == 1 || step > kMaxShapeStep;
-}
 
 // Fields that passes exchange, by column.
 struct Fields {
@@ -73,17 +64,8 @@ struct Fields {
           soil(g.field<Block>("soil")),
           rock(g.field<Block>("rock")),
           color(g.field<Int>("color")),
-          rivers(continents::rivers(g)) {
-        kinds = trees::record(g, groveKinds());
-        if (hasPlants(g.step())) {
-            plant = g.field<Block>("plant");
-            plantHeight = g.field<Int>("plant height");
-        }
-        if (g.step() <= kMaxShapeStep) {
-            tree = g.field<Int>("tree");
-            treeBase = g.field<Int>("tree base");
-        }
-        if (g.step() <= kMaxSmallStep) small = g.field<Int>("small");
+          rivers(continents::rivers(g)),
+          plants(g, vegetationTables()) {
         if (g.step() == 1) caveTop = g.field<Int>("cave top");
     }
 
@@ -105,12 +87,7 @@ struct Fields {
     Field<Int> color;              // of grass and leaves, as a tint has it
     Field<Int> caveTop;            // z below which caves may be; at level 0
     Drainage rivers;
-    // Vegetation. The level decides which of these fields there are.
-    trees::TreeKinds kinds;
-    Field<Int> tree, small;  // numbers of the shapes that stand in this column, or -1
-    Field<Int> treeBase;     // z of their feet
-    Field<Block> plant;      // on the ground, or air
-    Field<Int> plantHeight;
+    vegetation::Fields plants;
 };
 
 // The large landforms, from the position alone.

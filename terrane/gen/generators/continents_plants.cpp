@@ -1,14 +1,16 @@
-#include "terrane/gen/generators/continents_plants.h"
+#include <array>
 
-#include <algorithm>
+#include "terrane/gen/generators/continents.h"
 
-#include "terrane/gen/language/compounds.h"
+// What grows in each biome of continents, and where.
 
 namespace terrane::gen::continents {
 
 namespace {
 
 using trees::Kind;
+using vegetation::Grove;
+using vegetation::Plant;
 
 constexpr Grove kTrees[] = {
     {Biome::Meadow, Kind::Oak, 0.018f},         {Biome::Meadow, Kind::Birch, 0.008f},
@@ -77,37 +79,7 @@ constexpr Plant kPlants[] = {
     {Biome::Ocean, "seagrass", 0.015f},
 };
 
-}  // namespace
-
-std::span<const Grove> treeGroves() {
-    return kTrees;
-}
-
-std::span<const Grove> smallGroves() {
-    return kSmall;
-}
-
-std::span<const Plant> plants() {
-    return kPlants;
-}
-
-std::vector<Kind> groveKinds() {
-    std::vector<Kind> kinds;
-    for (const Grove& grove : kTrees) kinds.push_back(grove.kind);
-    for (const Grove& grove : kSmall) kinds.push_back(grove.kind);
-    return kinds;
-}
-
-// Vegetation of continents: positions of trees, bushes, stones and plants (2D), and their blocks (3D).
-
-namespace {
-
-std::vector<Grove> grovesOf(std::span<const Grove> groves, Biome biome) {
-    std::vector<Grove> result;
-    for (const Grove& g : groves)
-        if (g.biome == biome) result.push_back(g);
-    return result;
-}
+constexpr vegetation::Tables kTables = {kTrees, kSmall, kPlants, static_cast<int>(Biome::Count)};
 
 // 0…1: the share of the densities in the tables that woods and clearings leave.
 Float density(Pass& p, const Fields& f) {
@@ -131,146 +103,45 @@ Bool canGrow(Pass& p, const Fields& f) {
     return result;
 }
 
-// The shape at the point, by the groves of its biome; -1 for none.
-Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, const ScatterPoint& point, Float share) {
-    const Float chance = p.random2D("kind", point.at.x, point.at.y);
-    Var<Int> shape = p.var(Int(-1));
-    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
-        const std::vector<Grove> own = grovesOf(groves, static_cast<Biome>(b));
-        if (own.empty()) continue;
-        p.if_(point.isHere && p.read(f.biome) == Int(b), [&] {
-            float below = 0;
-            for (const Grove& g : own) below += g.share;
-            Int chosen = -1;
-            for (auto g = own.rbegin(); g != own.rend(); ++g) {
-                chosen =
-                    select(chance < share * below, trees::shapeOf(of(f.kinds, g->kind), point.hash), chosen);
-                below -= g->share;
-            }
-            shape = chosen;
-        });
-    }
-    return shape;
-}
-
-struct Growth {
-    Block block;
-    Int height;
-};
-
-Growth plantAt(Pass& p, const Fields& f) {
-    const Float chance = p.random2D("plant", p.x(), p.y());
-    const Float meadows = p.perlin2D("meadows", 16, {.5f, 1.0f}) * 0.8f + 1.0f;
+vegetation::Growth plantAt(Pass& p, const Fields& f) {
     const Block top = p.read(f.top);
     const auto isOn = [&](const char* name) { return top == p.block(name); };
     const Bool isEarth = isOn("grass") || isOn("moss") || isOn("mud") || isOn("sand") || isOn("red_sand");
     const Bool isFree = p.read(f.caveTop) < p.read(f.surface) - 3;
-    const Int depth = p.read(f.water) - p.read(f.surface);
-    Var<Block> plant = p.var(p.block("air"));
+    const Int depth = p.read(f.water) - p.read(f.surface), biome = p.read(f.biome);
+    const auto grows = [&](int b) {
+        const bool isInWater = b == static_cast<int>(Biome::Reef) || b == static_cast<int>(Biome::Ocean);
+        return (isInWater ? depth > 2 && depth < 20 : depth <= 0) && isEarth && isFree;
+    };
+    const Float chance = vegetation::plantChance(p);
+    Var<Block> plant = p.var(vegetation::plantAt(p, kTables, biome, grows));
     Var<Int> height = p.var(Int(1));
-    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
-        const bool growsInWater = b == static_cast<int>(Biome::Reef) || b == static_cast<int>(Biome::Ocean);
-        const Bool isPlace = growsInWater ? depth > 2 && depth < 20 : depth <= 0;
-        p.if_(p.read(f.biome) == Int(b) && isPlace && isEarth && isFree, [&] {
-            float below = 0;
-            for (const Plant& entry : plants())
-                if (entry.biome == static_cast<Biome>(b)) below += entry.share;
-            Block chosen = p.block("air");
-            for (auto entry = plants().rbegin(); entry != plants().rend(); ++entry) {
-                if (entry->biome != static_cast<Biome>(b)) continue;
-                chosen = select(chance < meadows * below, p.block(entry->block), chosen);
-                below -= entry->share;
-            }
-            plant = chosen;
-        });
-    }
     const Bool isBank = depth <= 0 && depth >= -2 && p.read(f.wet) > 0.5f && p.read(f.cold) > -0.3f;
     p.if_(isBank && isEarth && isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
-    p.if_(p.read(f.biome) == number(Biome::Desert) && isFree && depth <= 0 && chance > 0.9985f, [&] {
+    p.if_(biome == number(Biome::Desert) && isFree && depth <= 0 && chance > 0.9985f, [&] {
         plant = p.block("cactus");
         height = Int((chance - 0.9985f) * 2600.0f) + 1;
     });
     return {plant, height};
 }
 
-// Mean crown of a biome's trees, and the share of the ground that crowns cover.
-struct Canopy {
-    float cover = 0, height = 0;
-    std::string_view leaves;
-};
-
-Canopy canopyOf(const Fields& f, Biome biome) {
-    Canopy canopy;
-    float most = 0;
-    for (const Grove& g : grovesOf(treeGroves(), biome)) {
-        const trees::KindRecord& kind = of(f.kinds, g.kind);
-        const float cover = g.share * kind.cover / static_cast<float>(kTreeSpacing * kTreeSpacing);
-        canopy.cover += cover;
-        canopy.height += cover * kind.height;
-        if (cover > most) canopy.leaves = kind.leaves;
-        most = std::max(most, cover);
-    }
-    if (canopy.cover > 0) canopy.height /= canopy.cover;
-    // Crowns overlap where they are many.
-    canopy.cover = canopy.cover / (1.0f + 0.35f * canopy.cover);
-    return canopy;
-}
-
-// The share of columns with a crown is the share of the ground that crowns cover at level 0. A crown reaches
-// from the ground to about the height where crowns end at level 0.
-Growth crownAt(Pass& p, const Fields& f, Float share) {
-    const Float chance = p.random2D("crown", p.x(), p.y()), top = p.random2D("crown top", p.x(), p.y());
-    Var<Block> crown = p.var(p.block("air"));
-    Var<Int> height = p.var(Int(0));
-    for (int b = 0; b < static_cast<int>(Biome::Count); ++b) {
-        const Canopy canopy = canopyOf(f, static_cast<Biome>(b));
-        if (canopy.cover < 0.004f) continue;
-        const Bool isHere = p.read(f.biome) == Int(b) && chance < share * canopy.cover;
-        crown = select(isHere, p.block(canopy.leaves), static_cast<Block>(crown));
-        height = select(isHere, Int((top * 0.35f + 0.35f) * canopy.height), static_cast<Int>(height));
-    }
-    return {crown, height};
-}
-
 }  // namespace
+
+const vegetation::Tables& vegetationTables() {
+    return kTables;
+}
 
 void plantsPass(Pass& p, const Fields& f) {
     const Float share = select(canGrow(p, f), density(p, f), Float(0.0f));
-    if (p.step() > kMaxShapeStep) {
-        const Growth crown = crownAt(p, f, share);
-        p.set(f.plant, crown.block);
-        p.set(f.plantHeight, crown.height);
-        return;
-    }
-    p.set(f.treeBase, p.read(f.surface) + 1);
-    p.set(f.tree, shapeAt(p, f, treeGroves(), scatter(p, "trees", kTreeSpacing, 4), share));
-    if (p.step() > kMaxSmallStep) return;
-    p.set(f.small, shapeAt(p, f, smallGroves(), scatter(p, "small things", kSmallSpacing, 4), share));
+    vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, p.read(f.surface)});
     if (p.step() > 1) return;
-    const Growth plant = plantAt(p, f);
-    p.set(f.plant, plant.block);
-    p.set(f.plantHeight, plant.height);
+    const vegetation::Growth plant = plantAt(p, f);
+    p.set(f.plants.plant, plant.block);
+    p.set(f.plants.plantHeight, plant.height);
 }
 
 void landPass(Pass& p, const Fields& f) {
-    const Int surface = p.read(f.surface);
-    const Block air = p.block("air");
-    Var<Block> block = p.var(ground(p, f));
-    p.if_(p.z() > surface, [&] {
-        if (hasPlants(p.step())) {
-            const Bool isPlant = p.z() <= surface + p.read(f.plantHeight) && p.read(f.plant) != air;
-            block = select(isPlant, p.read(f.plant), static_cast<Block>(block));
-        }
-        if (p.step() <= kMaxSmallStep) {
-            const Block small = p.stamp(f.small, f.treeBase);
-            block = select(small != air, small, static_cast<Block>(block));
-        }
-        if (p.step() <= kMaxShapeStep) {
-            const Block tree = p.stamp(f.tree, f.treeBase);
-            block = select(tree != air, tree, static_cast<Block>(block));
-        }
-    });
-    p.setBlock(block);
+    p.setBlock(vegetation::overGround(p, f.plants, p.read(f.surface), ground(p, f)));
 }
 
 void caveLifePass(Pass& p, const Fields& f) {

@@ -1,0 +1,88 @@
+// Trees, bushes, stones and plants of a generator with biomes, from tables: which grow where, at every level.
+//
+// Up to kMaxShapeStep the same shapes stand at scattered points; with wider columns, columns are crowns as
+// often as crowns cover the ground.
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "terrane/gen/generators/trees/trees.h"
+#include "terrane/gen/language/builder.h"
+
+namespace terrane::gen::vegetation {
+
+// A number of a biome, from an enumeration of a generator.
+struct BiomeNumber {
+    int value;
+    template <class Biome>
+    constexpr BiomeNumber(Biome biome) : value(static_cast<int>(biome)) {}
+    friend bool operator==(BiomeNumber, BiomeNumber) = default;
+};
+
+// The share of the scattered points of a biome at which one stands, where its forest is whole.
+struct Grove {
+    BiomeNumber biome;
+    trees::Kind kind;
+    float share;
+};
+constexpr int kTreeSpacing = 7, kSmallSpacing = 9;  // blocks between points
+
+// The share of a biome's columns in which a plant of one block stands.
+struct Plant {
+    BiomeNumber biome;
+    const char* block;
+    float share;
+};
+
+struct Tables {
+    std::span<const Grove> trees;  // at points kTreeSpacing apart
+    std::span<const Grove> small;  // bushes, boulders, logs; kSmallSpacing apart
+    std::span<const Plant> plants;
+    int biomes;  // their number
+};
+
+// Up to this step shapes are stamped, and those smaller than trees up to kMaxSmallStep.
+constexpr int kMaxShapeStep = 4, kMaxSmallStep = 2;
+// Returns whether columns hold a plant, or a crown, of their own.
+constexpr bool hasPlants(int step) {
+    return step == 1 || step > kMaxShapeStep;
+}
+
+// By column. The level decides which of them there are.
+struct Fields {
+    Fields(GeneratorBuilder& g, const Tables& tables);
+
+    trees::TreeKinds kinds;  // those of the tables
+    Field<Int> tree, small;  // numbers of the shapes that stand in this column, or -1
+    Field<Int> treeBase;     // z of their feet
+    Field<Block> plant;      // on the ground, or air
+    Field<Int> plantHeight;
+};
+
+struct Site {
+    Int biome;
+    Float share;  // 0…1: of the shares in the tables
+    Int surface;  // z of the highest ground block
+};
+
+// Writes all fields but, at step 1, the plants: these are the generator's.
+void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site);
+
+struct Growth {
+    Block block;  // or air
+    Int height;
+};
+
+// Returns the random number that decides about the plant of this column.
+Float plantChance(Pass& p);
+// Returns the plant of the table in this column, or air. `grows` says where plants of a biome can stand.
+Block plantAt(Pass& p, const Tables& tables, Int biome, const std::function<Bool(int biome)>& grows);
+
+// Returns the block of plants and trees at this voxel, where the ground block is `ground` (3D passes).
+Block overGround(Pass& p, const Fields& f, Int surface, Block ground);
+
+// Returns the color of grass and leaves, as a tint has it, by the temperature at the ground and the moisture.
+Int grassColor(Pass& p, Float temperature, Float moisture);
+
+}  // namespace terrane::gen::vegetation
