@@ -9,7 +9,6 @@
 
 #include "terrane/gen/generators/catalogue.h"
 #include "tests/gen/gen_fixture.h"
-#include "tests/support/default_heights.h"
 
 namespace terrane::gen {
 
@@ -36,26 +35,26 @@ inline bool isOpaqueCube(BlockId block) {
 // A square of chunks; x and y from its corner.
 class Area {
   public:
-    Area(const Generator& generator, ChunkPos corner, int chunks) : corner_(corner), side_(chunks) {
+    Area(const Generator& generator, ChunkPos corner, int chunks)
+        : corner_(corner), side_(chunks), heights_(generator.heights()) {
         for (int k = 0; k < chunks * chunks; ++k) {
             chunks_.push_back(blocksOf(generator.generate({corner.x + k % chunks, corner.y + k / chunks})));
         }
     }
 
     int blocks() const { return side_ * world::kChunkSize; }
+    world::Heights heights() const { return heights_; }
 
     BlockId at(int x, int y, int z) const {
         const auto chunk = static_cast<std::size_t>(x / 16 + y / 16 * side_);
-        return chunks_[chunk][world::blockIndex(x % 16, y % 16, z)];
+        return chunks_[chunk][world::blockIndex(x % 16, y % 16, z - heights_.bottom)];
     }
 
     // The highest ground of a column, under water and trees.
     int groundHeight(int x, int y) const {
-        for (int z = world::kChunkHeight - 1; z > 0; --z) {
-            const BlockId block = at(x, y, z);
-            if (block != log_ && isOpaqueCube(block)) return z;
-        }
-        return 0;
+        int z = heights_.top - 1;
+        while (z > heights_.bottom && (at(x, y, z) == log_ || !isOpaqueCube(at(x, y, z)))) --z;
+        return z;
     }
 
     std::string where(int x, int y, int z) const {
@@ -66,6 +65,7 @@ class Area {
   private:
     ChunkPos corner_;
     int side_;
+    world::Heights heights_;
     BlockId log_ = idOf("oak_log");
     std::vector<std::vector<BlockId>> chunks_;
 };

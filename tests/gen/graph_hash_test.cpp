@@ -18,13 +18,13 @@ GeneratorGraph graphOf(const std::string& name, int level = 0) {
 }
 
 TEST(GraphHash, IsEqualForEqualGenerators) {
-    for (const char* name : {"continents", "overworld", "flat"})
+    for (const std::string& name : namesOf(builtInGenerators()))
         EXPECT_EQ(graphHash(graphOf(name)), graphHash(graphOf(name))) << name;
 }
 
 TEST(GraphHash, TellsGeneratorsAndLevelsApart) {
     std::map<std::uint64_t, std::string> found;
-    for (const char* name : {"continents", "overworld", "flat"})
+    for (const std::string& name : namesOf(builtInGenerators()))
         for (const int level : {0, 1, 5}) {
             const auto [at, isNew] = found.emplace(graphHash(graphOf(name, level)), name);
             EXPECT_TRUE(isNew) << name << " level " << level << " and " << at->second;

@@ -5,14 +5,11 @@
 #include <string>
 
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/generators/continents.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::gen {
 
 namespace {
-
-constexpr std::size_t kCount = static_cast<std::size_t>(continents::Biome::Count);
 
 base::Result<GeneratorGraph> columnPasses(const std::string& generator, const world::BlockRegistry& blocks,
                                           int level) {
@@ -25,26 +22,16 @@ base::Result<GeneratorGraph> columnPasses(const std::string& generator, const wo
 
 std::optional<Biomes> Biomes::create(std::string_view generator, const world::BlockRegistry& blocks,
                                      std::uint64_t seed) {
-    if (generator != "continents") return std::nullopt;
+    const auto names = biomesOf(generator);
+    if (names.empty()) return std::nullopt;
     const std::string name(generator);
     const auto graph = columnPasses(name, blocks, 0);
     if (!graph) return std::nullopt;
     const auto field = std::ranges::find(graph->fields, "biome", &FieldInfo::name);
     if (field == graph->fields.end()) return std::nullopt;
     const auto number = static_cast<std::uint32_t>(field - graph->fields.begin());
-    return Biomes(
-        LevelGenerators([name, &blocks](int level) { return columnPasses(name, blocks, level); }, seed),
-        number);
-}
-
-std::span<const std::string_view> Biomes::names() {
-    static const auto kNames = [] {
-        std::array<std::string_view, kCount> names;
-        for (std::size_t k = 0; k < kCount; ++k)
-            names[k] = continents::biomeName(static_cast<continents::Biome>(k));
-        return names;
-    }();
-    return kNames;
+    const auto make = [name, &blocks](int level) { return columnPasses(name, blocks, level); };
+    return Biomes(LevelGenerators(make, seed, graph->heights), number, names);
 }
 
 std::array<std::uint8_t, 256> Biomes::of(world::ChunkPos chunk) const {
@@ -52,9 +39,9 @@ std::array<std::uint8_t, 256> Biomes::of(world::ChunkPos chunk) const {
     if (!generator) throw std::invalid_argument(generator.error().message);
     const auto columns = (*generator)->columns(chunk, field_);
     std::array<std::uint8_t, 256> numbers;
-    std::ranges::transform(columns, numbers.begin(), [](Bits biome) {
-        return static_cast<std::uint8_t>(std::min<Bits>(biome, kCount - 1));
-    });
+    const auto last = static_cast<Bits>(names_.size() - 1);
+    std::ranges::transform(columns, numbers.begin(),
+                           [last](Bits biome) { return static_cast<std::uint8_t>(std::min(biome, last)); });
     return numbers;
 }
 
@@ -71,7 +58,7 @@ std::string_view BiomeMap::at(std::int32_t x, std::int32_t y) {
         numbers_ = biomes_.of(chunk);
         chunk_ = chunk;
     }
-    return Biomes::names()[numbers_[static_cast<std::size_t>((x & 15) + 16 * (y & 15))]];
+    return biomes_.names()[numbers_[static_cast<std::size_t>((x & 15) + 16 * (y & 15))]];
 }
 
 }  // namespace terrane::gen

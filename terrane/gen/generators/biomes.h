@@ -21,19 +21,20 @@ class Biomes {
     static std::optional<Biomes> create(std::string_view generator, const world::BlockRegistry& blocks,
                                         std::uint64_t seed);
 
-    // Returns the names of biomes by number: "birch forest".
-    static std::span<const std::string_view> names();
+    // Returns the names of the generator's biomes by number: "birch forest".
+    std::span<const std::string_view> names() const { return names_; }
 
     // Returns the numbers of the biomes of a chunk's columns, x + 16 y. Takes about 0.1 ms, and the first
     // time of a level some milliseconds. Throws std::invalid_argument for a position outside the world.
     std::array<std::uint8_t, 256> of(world::ChunkPos chunk) const;
 
   private:
-    Biomes(LevelGenerators generators, std::uint32_t field)
-        : generators_(std::move(generators)), field_(field) {}
+    Biomes(LevelGenerators generators, std::uint32_t field, std::span<const std::string_view> names)
+        : generators_(std::move(generators)), field_(field), names_(names) {}
 
-    LevelGenerators generators_;  // of the 2D passes
-    std::uint32_t field_;         // of their graphs
+    LevelGenerators generators_;               // of the 2D passes
+    std::uint32_t field_;                      // of their graphs
+    std::span<const std::string_view> names_;  // of the catalogue
 };
 
 // Returns the biome of a column, for generators that have biomes. It is used on one thread.

@@ -5,6 +5,8 @@
 #include <algorithm>
 
 #include "terrane/base/text.h"
+#include "terrane/gen/generators/continents.h"
+#include "terrane/gen/generators/wilderness.h"
 
 namespace terrane::gen {
 namespace {
@@ -18,6 +20,14 @@ CatalogueEntry builtIn(std::string name, int version, void (*write)(GeneratorBui
     return {name, version, record};
 }
 
+template <class Biome>
+std::vector<std::string_view> biomeNames(const char* (*nameOf)(Biome)) {
+    std::vector<std::string_view> names;
+    for (int k = 0; k < static_cast<int>(Biome::Count); ++k)
+        names.emplace_back(nameOf(static_cast<Biome>(k)));
+    return names;
+}
+
 const CatalogueEntry* find(const GeneratorCatalogue& catalogue, std::string_view name) {
     const auto found = std::ranges::find(catalogue, name, &CatalogueEntry::name);
     return found == catalogue.end() ? nullptr : &*found;
@@ -27,10 +37,19 @@ const CatalogueEntry* find(const GeneratorCatalogue& catalogue, std::string_view
 
 // Every change of a generated block increments the version; catalogue_test.cpp checks it.
 const GeneratorCatalogue& builtInGenerators() {
-    static const GeneratorCatalogue catalogue = {
-        builtIn("overworld", 2, writeOverworld), builtIn("continents", 1, writeContinents),
-        builtIn("flat", 1, writeFlat), builtIn("hills3d", 1, writeHills3D),
-        builtIn("voronoi", 1, writeVoronoi)};
+    static const GeneratorCatalogue catalogue = [] {
+        CatalogueEntry continents = builtIn("continents", 1, writeContinents),
+                       wilderness = builtIn("wilderness", 1, writeWilderness);
+        continents.biomes = biomeNames(continents::biomeName);
+        wilderness.biomes = biomeNames(wilderness::biomeName);
+        wilderness.seaLevel = wilderness::kSeaZ;
+        return GeneratorCatalogue{builtIn("overworld", 2, writeOverworld),
+                                  continents,
+                                  wilderness,
+                                  builtIn("flat", 1, writeFlat),
+                                  builtIn("hills3d", 1, writeHills3D),
+                                  builtIn("voronoi", 1, writeVoronoi)};
+    }();
     return catalogue;
 }
 
@@ -43,6 +62,16 @@ std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue) {
 int versionOf(const GeneratorCatalogue& catalogue, std::string_view name) {
     const CatalogueEntry* entry = find(catalogue, name);
     return entry ? entry->version : 0;
+}
+
+int seaLevelOf(std::string_view name, const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = find(catalogue, name);
+    return entry ? entry->seaLevel : kSeaLevel;
+}
+
+std::span<const std::string_view> biomesOf(std::string_view name, const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = find(catalogue, name);
+    return entry ? std::span<const std::string_view>(entry->biomes) : std::span<const std::string_view>();
 }
 
 namespace {

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,8 @@
 
 namespace terrane::gen {
 
-// Sea level of all generators whose land has a sea.
-constexpr int kSeaLevel = 80;  // z of the highest water
+// z of the highest water of the sea, of all generators whose entry does not say otherwise. Height 0 of maps.
+constexpr int kSeaLevel = 80;
 
 struct CatalogueEntry {
     std::string name;
@@ -23,6 +24,9 @@ struct CatalogueEntry {
     int version = 1;
     std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, GraphRequest request)>
         record;
+    int seaLevel = kSeaLevel;
+    // Names of its biomes, by the numbers in its field "biome"; empty if it has none. At most 256.
+    std::vector<std::string_view> biomes = {};
 };
 
 // Names are unique. It is a plain value.
@@ -34,6 +38,13 @@ std::vector<std::string> namesOf(const GeneratorCatalogue& catalogue);
 
 // Returns the version of a generator; 0 for an unknown name.
 int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
+
+// Returns the sea level of a world of this generator; kSeaLevel for an unknown name.
+int seaLevelOf(std::string_view name, const GeneratorCatalogue& catalogue = builtInGenerators());
+
+// Returns the names of a generator's biomes; empty if it has none. They are valid as long as the catalogue.
+std::span<const std::string_view> biomesOf(std::string_view name,
+                                           const GeneratorCatalogue& catalogue = builtInGenerators());
 
 // Returns a graph. An unknown name is an error that lists the known ones.
 [[nodiscard]] base::Result<GeneratorGraph> makeGenerator(
@@ -61,6 +72,7 @@ int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 void writeOverworld(
     GeneratorBuilder& g);  // overworld.cpp: seas, rivers, plains, deserts, mountains, caves, plants
 void writeContinents(GeneratorBuilder& g);  // continents.cpp: see docs/continents.md
+void writeWilderness(GeneratorBuilder& g);  // wilderness.cpp: see docs/wilderness.md
 void writeFlat(GeneratorBuilder& g);        // grass at sea level
 void writeHills3D(GeneratorBuilder& g);     // overhangs and arches from noise in space
 void writeVoronoi(GeneratorBuilder& g);     // bowls and ridges, boxy chambers

@@ -1,0 +1,121 @@
+// Passes of the generator wilderness and the fields they exchange. wilderness.cpp puts them together.
+#pragma once
+
+#include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/vegetation.h"
+#include "terrane/gen/language/builder.h"
+
+namespace terrane::gen::wilderness {
+
+constexpr int kSeaZ = 0;  // z of the highest water of the sea
+constexpr float kSea = static_cast<float>(kSeaZ);
+
+// In the order of their numbers in Fields::biome.
+enum class Biome {
+    DeepOcean,
+    Ocean,
+    KelpForest,
+    Reef,
+    Beach,
+    StonyShore,
+    Mangrove,
+    Meadow,
+    Steppe,
+    OakForest,
+    BeechForest,
+    BirchForest,
+    MapleForest,
+    OldForest,
+    GiantForest,
+    Swamp,
+    Bog,
+    Taiga,
+    FirForest,
+    LarchForest,
+    Tundra,
+    Snow,
+    Glacier,
+    AlpineMeadow,
+    Rocks,
+    Savanna,
+    Shrubland,
+    Desert,
+    Badlands,
+    RainForest,
+    CloudForest,
+    BambooForest,
+    CherryGrove,
+    LavaField,
+    Count
+};
+const char* biomeName(Biome biome);
+inline Int number(Biome biome) {
+    return Int(static_cast<int>(biome));
+}
+
+// Fields that passes exchange, by column. Shares are 0…1.
+struct Fields {
+    explicit Fields(GeneratorBuilder& g);
+
+    // The large forms, from the position alone.
+    Field<Float> land;               // above 0: land; 1 is some 4 km from the coast
+    Field<Float> range;              // share: part of a mountain range
+    Field<Float> hilly;              // share: how much of the lowland is hills
+    Field<Float> table;              // share: table land
+    Field<Float> rangeLine;          // 0 on the main ridges of ranges
+    Field<Float> temperature, rain;  // −1…1, at sea level; rain without the shadows of ranges
+    // The ground.
+    Field<Float> moisture;    // −1…1
+    Field<Float> canyon;      // share: table land that rivers have cut canyons into
+    Field<Float> volcanic;    // share: from a volcano's foot to its middle
+    Field<Float> base;        // z before gullies and rivers
+    Field<Float> fromStream;  // blocks to the streams around, see ValleySample
+    Field<Float> height;      // z
+    Field<Float> rocky;       // share: bare whatever its slope
+    Field<Float> wet;         // share: in a river or lake, or on its bank
+    Field<Int> water;         // z of the highest water, where the ground is lower
+    Field<Int> surface;       // z of the highest ground block
+    // What it is made of and what grows on it.
+    Field<Int> biome;
+    Field<Float> cold;             // the temperature at the ground's height
+    Field<Float> forest;           // share of the possible vegetation
+    Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
+    Field<Int> caveTop;            // z below which caves may be; at level 0
+    Field<Int> color;              // of grass and leaves, as a tint has it
+    Drainage rivers;
+    vegetation::Fields plants;
+};
+
+// What grows in each biome (wilderness_plants.cpp).
+const vegetation::Tables& vegetationTables();
+
+// The land that rivers find their way over, and how steep a stream of one node is on it
+// (wilderness_forms.cpp).
+Drainage rivers(GeneratorBuilder& g);
+
+// The 2D passes run in this order.
+void formsPass(Pass& p, const Fields& f);  // wilderness_forms.cpp
+void basePass(Pass& p, const Fields& f);   // wilderness_relief.cpp
+void reliefPass(Pass& p, const Fields& f);
+void surfacePass(Pass& p, const Fields& f);  // wilderness_surface.cpp
+void plantsPass(Pass& p, const Fields& f);   // wilderness_plants.cpp
+// A 2D pass for the tint alone.
+void colorPass(Pass& p, const Fields& f);
+
+// Returns the block of earth, caves and water at this voxel of a 3D pass (wilderness_ground.cpp).
+Block ground(Pass& p, const Fields& f);
+void caveLifePass(Pass& p, const Fields& f);
+
+// z of the ground when no river has cut it yet; forms that a climate has, for coarse heights and fields
+// alike.
+struct Volcano {
+    Float rise;   // blocks above the land around
+    Float share;  // 0…1: from its foot to its middle
+};
+Volcano volcanoAt(Pass& p);
+// Shares of the landforms of a climate.
+Float dryLand(Float temperature, Float moisture);
+Float sandLand(Float temperature, Float moisture);
+Float karstLand(Float temperature, Float moisture);
+
+}  // namespace terrane::gen::wilderness

@@ -1,0 +1,205 @@
+#include "terrane/gen/generators/wilderness.h"
+
+// Biomes of wilderness and what the ground is made of.
+
+namespace terrane::gen::wilderness {
+
+namespace {
+
+constexpr float kColder = 0.00062f;  // by block of height: the snow line of a temperate land is near 1,000
+
+// Inputs to the choice of a biome. Noise in temperature and moisture roughens borders.
+struct Site {
+    Float height, steepness, temperature, moisture;
+    Float cold;   // the temperature at the ground's height, lower on slopes that face north
+    Float rough;  // of borders
+};
+
+Site site(Pass& p, const Fields& f) {
+    const Float rough = p.perlin2DWithGrain("biome borders", 8, {.03f, .03f, .04f, .05f});
+    const Float height = p.read(f.height);
+    const Vec2 slope = p.slope(f.height);
+    const Float temperature = p.read(f.temperature) + rough;
+    const Float shaded = clamp(p.slope(f.base).y, -1.0f, 1.0f) * -0.07f;
+    return {height,
+            length(slope),
+            temperature,
+            p.read(f.moisture) + rough,
+            temperature + shaded - max(height - kSea, Float(0.0f)) * kColder,
+            rough};
+}
+
+Int biomeOf(Pass& p, const Fields& f, const Site& s) {
+    const auto is = [](Biome b) { return number(b); };
+    const Float t = s.temperature, m = s.moisture, land = p.read(f.land);
+    const Float patches = p.perlin2D("woods of one kind", 128, {.3f, .6f, 1.0f});
+    const Float shore = p.perlin2D("beach width", 64, {.4f, 1.0f}) * 0.008f + 0.009f;
+    const Bool isSea = s.height < kSea + 0.5f && land < 0.05f;
+    const Bool isShallow = s.height > kSea - 18.0f, isDeep = s.height < kSea - 60.0f;
+    const Int sea =
+        multiSelect({{isDeep, is(Biome::DeepOcean)},
+                     {isShallow && t > 0.2f, is(Biome::Reef)},
+                     {s.height > kSea - 30.0f && t < 0.05f && patches > 0.05f, is(Biome::KelpForest)}},
+                    is(Biome::Ocean));
+    const Bool isCoast = land < shore && s.height < kSea + 4.0f;
+    const Bool isLow = s.height < kSea + 14.0f && length(p.slope(f.base)) < 0.35f;
+    const Int coast = multiSelect({{s.steepness > 0.7f, is(Biome::StonyShore)},
+                                   {t > 0.25f && m > 0.1f && patches > 0.0f, is(Biome::Mangrove)}},
+                                  is(Biome::Beach));
+    const Int hot = multiSelect({{m < -0.48f, is(Biome::Desert)},
+                                 {m < -0.2f && p.read(f.canyon) > 0.1f, is(Biome::Badlands)},
+                                 {m < -0.22f, is(Biome::Shrubland)},
+                                 {m < 0.12f, is(Biome::Savanna)},
+                                 {s.height > kSea + 220.0f, is(Biome::CloudForest)},
+                                 {patches > 0.38f, is(Biome::BambooForest)}},
+                                is(Biome::RainForest));
+    const Int temperate = multiSelect({{m < -0.4f, is(Biome::Steppe)},
+                                       {p.read(f.canyon) > 0.3f, is(Biome::Badlands)},
+                                       {m < -0.12f, is(Biome::Meadow)},
+                                       {isLow && m > 0.08f, is(Biome::Swamp)},
+                                       {m > 0.42f, is(Biome::GiantForest)},
+                                       {m > 0.26f, is(Biome::OldForest)},
+                                       {t < 0.0f && patches > 0.1f, is(Biome::MapleForest)},
+                                       {t < 0.05f, is(Biome::BirchForest)},
+                                       {patches > 0.45f, is(Biome::CherryGrove)},
+                                       {patches < -0.2f, is(Biome::BeechForest)}},
+                                      is(Biome::OakForest));
+    const Int cool = multiSelect({{isLow && m > 0.1f, is(Biome::Bog)},
+                                  {p.read(f.range) > 0.2f, is(Biome::FirForest)},
+                                  {patches > 0.25f, is(Biome::LarchForest)}},
+                                 is(Biome::Taiga));
+    const Bool isHigh = s.height > kSea + 250.0f;
+    return multiSelect({{isSea, sea},
+                        {isCoast, coast},
+                        {p.read(f.volcanic) + s.rough > patches * 0.1f + 0.55f, is(Biome::LavaField)},
+                        {s.steepness > 1.6f && isHigh, is(Biome::Rocks)},
+                        {s.cold < -0.75f && isHigh && s.steepness < 0.8f, is(Biome::Glacier)},
+                        {s.cold < -0.6f, is(Biome::Snow)},
+                        {s.cold < -0.34f && isHigh, is(Biome::AlpineMeadow)},
+                        {s.cold < -0.4f, is(Biome::Tundra)},
+                        {s.cold < -0.14f, cool},
+                        {t > 0.24f && s.cold > 0.1f, hot}},
+                       temperate);
+}
+
+struct Ground {
+    Block top, soil, rock;
+};
+
+// Top block of a biome on gentle ground. `patches` and `spots`: noise of about 30 and 8 blocks.
+Block biomeTop(Pass& p, const Site& s, Int biome, Float patches, Float spots) {
+    const auto is = [&](Biome b) { return biome == number(b); };
+    const auto block = [&](const char* name) { return p.block(name); };
+    const Block tundra =
+        select(spots > 0.25f, block("moss"), select(patches > 0.35f, block("gravel"), block("grass")));
+    const Block alpine = multiSelect({{s.cold < spots * 0.05f - 0.54f, block("snow")},
+                                      {s.cold < spots * 0.15f - 0.46f, block("stone")},
+                                      {spots > 0.5f, block("gravel")}},
+                                     block("grass"));
+    const Block marsh =
+        multiSelect({{spots > 0.3f, block("moss")}, {patches > 0.1f, block("mud")}}, block("grass"));
+    const Block sea =
+        multiSelect({{s.height > kSea - 12.0f, select(s.cold < -0.3f, block("gravel"), block("sand"))},
+                     {patches > 0.3f, block("clay")},
+                     {patches < -0.25f, block("gravel")}},
+                    block("sand"));
+    const Block lava = select(spots > 0.2f, block("gravel"), block("basalt"));
+    return multiSelect({{is(Biome::Ocean) || is(Biome::DeepOcean) || is(Biome::KelpForest), sea},
+                        {is(Biome::Reef) || is(Biome::Desert), block("sand")},
+                        {is(Biome::Beach), select(s.cold < -0.25f, block("gravel"), block("sand"))},
+                        {is(Biome::StonyShore), select(spots > 0.2f, block("gravel"), block("stone"))},
+                        {is(Biome::Mangrove), select(spots > 0.2f, block("mud"), block("sand"))},
+                        {is(Biome::Badlands), select(patches > 0.4f, block("grass"), block("red_sand"))},
+                        {is(Biome::Snow) || is(Biome::Glacier), block("snow")},
+                        {is(Biome::Tundra), select(s.cold < spots * 0.12f - 0.54f, block("snow"), tundra)},
+                        {is(Biome::Taiga) || is(Biome::FirForest),
+                         select(patches > 0.2f && spots > 0.1f, block("moss"), block("grass"))},
+                        {is(Biome::AlpineMeadow), alpine},
+                        {is(Biome::Rocks), block("stone")},
+                        {is(Biome::LavaField), lava},
+                        {is(Biome::Swamp) || is(Biome::Bog), marsh},
+                        {(is(Biome::OldForest) || is(Biome::RainForest) || is(Biome::CloudForest) ||
+                          is(Biome::GiantForest)) &&
+                             spots > 0.3f,
+                         block("moss")}},
+                       block("grass"));
+}
+
+// The rock of a region: of a climate's landforms, else of a wide noise.
+Block rockOf(Pass& p, const Fields& f, Float patches) {
+    const Float temperature = p.read(f.temperature), moisture = p.read(f.moisture);
+    const Float kinds = p.perlin2D("kinds of rock", 512, {.1f, .2f, .5f, 1.0f});
+    return multiSelect({{p.read(f.volcanic) > patches * 0.1f + 0.15f, p.block("basalt")},
+                        {p.read(f.range) > patches * 0.05f + 0.2f && kinds < 0.5f, p.block("stone")},
+                        {dryLand(temperature, moisture) > 0.05f, p.block("red_sandstone")},
+                        {karstLand(temperature, moisture) > 0.05f, p.block("limestone")},
+                        {sandLand(temperature, moisture) > 0.05f, p.block("sandstone")},
+                        {kinds > 0.45f, p.block("limestone")}},
+                       p.block("stone"));
+}
+
+// The beds of rivers and lakes.
+Block bed(Pass& p, Float patches, Float spots) {
+    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}},
+                       p.block("sand"));
+}
+
+Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
+    const Float patches = p.perlin2DWithGrain("ground patches", 16, {.3f, .4f, .6f});
+    const Float spots = p.perlin2DWithGrain("ground spots", 4, {.35f, .6f});
+    const Block rock = rockOf(p, f, patches);
+    const Block top = biomeTop(p, s, biome, patches, spots);
+    const auto is = [&](Block block, const char* name) { return block == p.block(name); };
+    const Bool isSoil = is(top, "grass") || is(top, "moss") || is(top, "snow");
+    const Block soil = select(isSoil, p.block("dirt"), select(is(top, "red_sand"), p.block("red_sand"), top));
+    const Float bareFrom = spots * 0.25f + patches * 0.2f + 1.15f - smoothstep(0.0f, -0.4f, s.cold) * 0.2f;
+    // Sand lies on dunes, not on mountains.
+    const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
+    const Bool isDune = isSandy && p.read(f.range) < 0.1f && p.read(f.canyon) < 0.1f;
+    const Bool isBare =
+        (s.steepness > bareFrom + select(isDune, Float(0.4f), select(isSandy, Float(-0.6f), Float(0.0f)))) ||
+        (p.read(f.rocky) > 0.4f && s.steepness > spots * 0.2f + 0.6f);
+    // Stones that fall from cliffs lie below them.
+    const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
+    const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
+    const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
+    const Block bottom = bed(p, patches, spots);
+    return {multiSelect({{isUnderWater, bottom},
+                         {isBare && !keepsSnow, rock},
+                         {isScree && !keepsSnow, p.block("gravel")}},
+                        top),
+            multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
+            rock};
+}
+
+// z below which caves may be. The roof has holes, the mouths, in spots where its thickness is negative.
+Int caveTop(Pass& p, const Fields& f, const Site& s) {
+    const Float mouths = smoothstep(0.42f, 0.7f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
+    const Bool isDry = s.height > kSea + 5.0f && p.read(f.wet) <= 0.0f;
+    const Float roof = select(isDry, Float(8.0f) - mouths * 16.0f, Float(12.0f)) + s.steepness * 2.0f;
+    return Int(floor(s.height - roof));
+}
+
+}  // namespace
+
+void surfacePass(Pass& p, const Fields& f) {
+    const Site s = site(p, f);
+    const Int biome = biomeOf(p, f, s);
+    const Ground ground = groundOf(p, f, s, biome);
+    p.set(f.biome, biome);
+    p.set(f.top, ground.top);
+    p.set(f.soil, ground.soil);
+    p.set(f.rock, ground.rock);
+    p.set(f.cold, s.cold);
+    const Float gentle = smoothstep(1.2f, 0.8f, s.steepness);
+    const Bool isDry = p.read(f.surface) >= p.read(f.water);
+    p.set(f.forest, select(isDry, gentle, Float(0.0f)));
+    if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
+}
+
+void colorPass(Pass& p, const Fields& f) {
+    const Float high = max(p.read(f.base) - kSea, Float(0.0f)) * kColder;
+    p.set(f.color, vegetation::grassColor(p, p.read(f.temperature) - high, p.read(f.moisture)));
+}
+
+}  // namespace terrane::gen::wilderness
