@@ -70,9 +70,15 @@ class ColumnHeights {
     std::unordered_map<world::ChunkPos, world::Chunk, world::ChunkPosHash> chunks_;
 };
 
-// The yaw of the most open view: of 16 directions the one whose horizon is lowest, with those beside it,
-// which are on the screen too.
-float viewFrom(const gen::Generator& generator, const world::BlockRegistry& blocks, const glm::dvec3& eye) {
+struct View {
+    float yaw;
+    double
+        horizon;  // the largest slope from the eye to a column, a mean of that direction and those beside it
+};
+
+// The most open view: of 16 directions the one whose horizon is lowest, with those beside it, which are on
+// the screen too.
+View viewFrom(const gen::Generator& generator, const world::BlockRegistry& blocks, const glm::dvec3& eye) {
     constexpr int kDirections = 16;
     constexpr std::array<double, 8> kDistances = {3, 6, 10, 16, 28, 48, 80, 136};  // blocks
     ColumnHeights heights(generator, blocks);
@@ -96,26 +102,44 @@ float viewFrom(const gen::Generator& generator, const world::BlockRegistry& bloc
     int best = 0;
     for (int k = 1; k < kDirections; ++k)
         if (sumAround(k) < sumAround(best)) best = k;
-    return 360.0f * static_cast<float>(best) / kDirections;
+    return {360.0f * static_cast<float>(best) / kDirections, sumAround(best) / 4};
 }
 
 world::Pose standingAt(world::ChunkPos pos, int ground) {
     return {{pos.x * 16 + kMiddle + 0.5, pos.y * 16 + kMiddle + 0.5, ground + 1 + world::kEyeHeight}, 0, -4};
 }
 
-std::optional<world::Pose> findPleasant(const gen::Generator& generator, const world::BlockRegistry& blocks,
-                                        const IsGround& isGround) {
-    for (int ring = 0; ring <= kRings; ++ring) {
-        for (int y = -ring; y <= ring; ++y) {
-            for (int x = -ring; x <= ring; ++x) {
-                if (std::max(std::abs(x), std::abs(y)) != ring) continue;
-                const world::ChunkPos pos{x * kSpacing, y * kSpacing};
-                const auto ground = pleasantHeight(generator.generate(pos), blocks, isGround);
-                if (ground) return standingAt(pos, *ground);
-            }
+constexpr double kOpenHorizon = 0.05;  // slope: higher ground hides the land behind it
+
+// The first pleasant place of a ring of candidates.
+std::optional<world::Pose> findInRing(const gen::Generator& generator, const world::BlockRegistry& blocks,
+                                      const IsGround& isGround, int ring) {
+    for (int y = -ring; y <= ring; ++y) {
+        for (int x = -ring; x <= ring; ++x) {
+            if (std::max(std::abs(x), std::abs(y)) != ring) continue;
+            const world::ChunkPos pos{x * kSpacing, y * kSpacing};
+            const auto ground = pleasantHeight(generator.generate(pos), blocks, isGround);
+            if (ground) return standingAt(pos, *ground);
         }
     }
     return std::nullopt;
+}
+
+// The first place with an open view, else the one with the lowest horizon. A view costs some hundred chunks,
+// and places beside each other have much the same: one of each ring is tried.
+std::optional<world::Pose> findPleasant(const gen::Generator& generator, const world::BlockRegistry& blocks,
+                                        const IsGround& isGround) {
+    std::optional<world::Pose> best;
+    double lowest = std::numeric_limits<double>::max();
+    for (int ring = 0; ring <= kRings && lowest > kOpenHorizon; ++ring) {
+        std::optional<world::Pose> place = findInRing(generator, blocks, isGround, ring);
+        if (!place) continue;
+        const View view = viewFrom(generator, blocks, place->position);
+        place->yaw = view.yaw;
+        if (view.horizon < lowest) best = place;
+        lowest = std::min(lowest, view.horizon);
+    }
+    return best;
 }
 
 }  // namespace
@@ -128,8 +152,8 @@ world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistr
     if (!place) {
         const int ground = highest(generator.generate({}), blocks, kMiddle, kMiddle);
         place = standingAt({}, generator.heights().clamp(ground));
+        place->yaw = viewFrom(generator, blocks, place->position).yaw;
     }
-    place->yaw = viewFrom(generator, blocks, place->position);
     return *place;
 }
 

@@ -14,9 +14,9 @@
 
 namespace terrane::game {
 
-// Returns the start of a new world, which is the same for the same world. The player looks where the view is
-// most open. It generates up to some hundred chunks around 0,0, in a tenth of a second; if none of them is
-// suitable, the place is above 0,0.
+// Returns the start of a new world, which is the same for the same world: of dry, flat places near 0,0 the
+// first with an open view. The player looks where it is most open. It generates up to some hundred chunks
+// around 0,0, in a tenth of a second; if none of them is suitable, the place is above 0,0.
 world::Pose findSpawn(const gen::Generator& generator, const world::BlockRegistry& blocks);
 
 // Returns the free place nearest to `spawn`: on firm ground, not in a block or liquid, and apart from the

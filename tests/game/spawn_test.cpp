@@ -11,7 +11,7 @@
 #include "terrane/gen/language/builder.h"
 #include "terrane/world/character.h"
 #include "tests/game/session_fixture.h"
-#include "tests/support/default_heights.h"
+#include "tests/support/depth.h"
 
 namespace terrane::game {
 namespace {
@@ -90,7 +90,7 @@ int sightOf(const gen::Generator& generator, const world::Pose& pose, float yaw)
         const world::BlockPos column = world::blockOf(at);
         const world::ChunkPos pos = world::chunkOf(column);
         const auto& chunk = chunks.try_emplace({pos.x, pos.y}, generator.generate(pos)).first->second;
-        for (int z = static_cast<int>(at.z + 0.1 * distance); z < world::kChunkHeight; ++z)
+        for (int z = static_cast<int>(at.z + 0.1 * distance); z < generator.heights().top; ++z)
             if (!contentBlocks()
                      .type(chunk.block(world::blockIndex({column.x, column.y, z})))
                      .collision.empty())
@@ -109,6 +109,34 @@ TEST(FirstView, IsOpenInContinents) {
             farthest = std::max(farthest, sightOf(generator, pose, 22.5f * static_cast<float>(k)));
         EXPECT_GE(sightOf(generator, pose, pose.yaw), std::min(farthest, 80)) << "seed " << seed;
         EXPECT_EQ(findSpawn(generator, contentBlocks()), pose) << "the same each time";
+    }
+}
+
+// The spawn of a new world of `wilderness`, whose sea is at z = 0 and whose peaks rise to 1,700.
+TEST(WildernessSpawn, IsOnDryLandWithAView) {
+    constexpr const char* kName = "wilderness";
+    const int seaLevel = gen::seaLevelOf(kName);
+    const gen::GeneratorGraph graph = gen::makeGenerator(kName, contentBlocks(), 0).value();
+    for (std::uint64_t seed = 1; seed <= atDepth<std::uint64_t>(6, 200); ++seed) {
+        SCOPED_TRACE(seed);
+        const gen::Generator generator(graph, seed);
+        const world::Pose pose = findSpawn(generator, contentBlocks());
+        const glm::dvec3 feet = pose.position - glm::dvec3(0, 0, world::kEyeHeight - 0.01);  // rounded
+        const world::BlockPos at = world::blockOf(feet);
+        const world::Chunk chunk = generator.generate(world::chunkOf(at));
+        const auto typeAt = [&](int z) -> const world::BlockType& {
+            return contentBlocks().type(chunk.block(world::blockIndex({at.x, at.y, z})));
+        };
+        EXPECT_GE(at.z, seaLevel) << "on land";
+        EXPECT_TRUE(typeAt(at.z - 1).opaqueCube) << "on " << typeAt(at.z - 1).name;
+        for (int z = at.z; z < chunk.heights().top; ++z) {
+            EXPECT_TRUE(typeAt(z).collision.empty()) << typeAt(z).name << " at " << z;
+            EXPECT_NE(typeAt(z).shape, world::Shape::Liquid) << z;
+        }
+        int open = 0;  // of nine directions on the screen; a single tree may stand in the way
+        for (int k = -4; k <= 4; ++k)
+            open += sightOf(generator, pose, pose.yaw + 10.0f * static_cast<float>(k)) >= 64;
+        EXPECT_GE(open, 5);
     }
 }
 
@@ -145,7 +173,7 @@ class FreePlaceTest : public SessionTest {
                 if (std::max(std::abs(x - 5), std::abs(y - 5)) >= from) put({x, y, z}, name);
     }
     bool isStanding(const world::Pose& pose) const {
-        const glm::dvec3 feet = pose.position - glm::dvec3(0, 0, world::kEyeHeight);
+        const glm::dvec3 feet = pose.position - glm::dvec3(0, 0, world::kEyeHeight - 0.01);  // rounded
         const world::Aabb body = world::characterBox(feet);
         const world::Aabb below{body.min - glm::dvec3(0, 0, 0.1), body.max};
         return !world::collides(session_.world(), session_.blocks(), body) &&
