@@ -299,7 +299,9 @@ void TitleScreen::drawNewWorld(const Screen& screen) {
                       isWide ? most + row : screen.height - 2 * margin);
     beginMenu({tr_("New world"), {screen.width / 2, screen.height / 2}, size});
     const float inside = ImGui::GetContentRegionAvail().y;
-    const float side = isWide ? std::min(inside, ImGui::GetContentRegionAvail().x - formWidth) : most;
+    // In a narrow window the map is below the form, which has most of the height.
+    const float side =
+        isWide ? std::min(inside, ImGui::GetContentRegionAvail().x - formWidth) : std::min(most, inside / 3);
     ImGui::BeginChild(
         "form",
         {isWide ? ImGui::GetContentRegionAvail().x - side - margin : 0, isWide ? 0 : inside - side - margin},
