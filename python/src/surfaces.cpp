@@ -55,8 +55,9 @@ py::array_t<std::uint8_t> readBiomes(const PyWorld& self, const Arguments& argum
 }
 
 std::vector<std::string> biomeNames(const PyWorld& self) {
-    if (self.opened()->biomes() == nullptr) return {};
-    const auto names = gen::Biomes::names();
+    const gen::Biomes* biomes = self.opened()->biomes();
+    if (biomes == nullptr) return {};
+    const auto names = biomes->names();
     return {names.begin(), names.end()};
 }
 
@@ -84,7 +85,7 @@ most 2^28 columns.)");
               R"(The biome of each column: uint8 [y, x], an index of biome_names.
 
 area, step: as of heights(). Edits do not change biomes. Raises Error unsupported if the generator has no biomes:
-only "continents" has them.)");
+"continents" and "wilderness" have them.)");
     addProperty(
         world, "biome_names", &biomeNames,
         "list[str]: the names of the generator's biomes; the index is the number. Empty if it has none.");

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "terrane/content/resource_pack.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/io/open_session.h"
 #include "terrane/stream/edited_tiles.h"
 
@@ -27,7 +28,8 @@ base::Result<map::MapPainter> painterOf(MapWorld& world, map::SurfaceCache* cach
     const store::WorldIdentity& identity = world.parts.store->identity();
     return map::MapPainter::create(
         {world.parts.generators, *world.parts.blocks, world.textures, world.parts.store.get(), cache,
-         gen::Biomes::create(identity.generator, *world.parts.blocks, identity.seed)});
+         gen::Biomes::create(identity.generator, *world.parts.blocks, identity.seed),
+         gen::seaLevelOf(identity.generator)});
 }
 
 }  // namespace terrane::io

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "terrane/base/digest.h"
-#include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/generators/continents.h"
 #include "terrane/map/isometric.h"
 #include "terrane/map/paint.h"
 
@@ -16,27 +14,74 @@ namespace terrane::map {
 namespace {
 
 struct Stop {
-    int z;
+    int rise;  // above the sea
     Rgb color;
 };
-constexpr int kSea = static_cast<int>(gen::kSeaLevel);
-constexpr Stop kStops[] = {{world::kLowestBottom, {0, 0, 0}},
-                           {0, {10, 16, 60}},
-                           {kSea - 1, {70, 130, 200}},
-                           {kSea, {60, 140, 70}},
-                           {kSea + 30, {170, 190, 90}},
-                           {kSea + 70, {190, 140, 80}},
-                           {kSea + 110, {130, 90, 70}},
-                           {255, {255, 255, 255}},
-                           {700, {180, 200, 240}},
-                           {world::kHighestTop - 1, {150, 90, 220}}};
+constexpr Stop kStops[] = {{world::kLowestBottom - gen::kSeaLevel, {0, 0, 0}},
+                           {-80, {10, 16, 60}},
+                           {-1, {70, 130, 200}},
+                           {0, {60, 140, 70}},
+                           {30, {170, 190, 90}},
+                           {70, {190, 140, 80}},
+                           {110, {130, 90, 70}},
+                           {175, {255, 255, 255}},
+                           {620, {180, 200, 240}},
+                           {world::kHighestTop - 1 - gen::kSeaLevel, {150, 90, 220}}};
 
-// By the number of the biome.
-constexpr Rgb kBiomeColors[] = {{38, 84, 124},   {72, 180, 190},  {240, 220, 150}, {170, 200, 90},
-                                {80, 150, 60},   {150, 200, 140}, {40, 100, 50},   {50, 110, 100},
-                                {160, 170, 160}, {245, 248, 255}, {210, 180, 80},  {250, 200, 110},
-                                {200, 90, 50},   {90, 110, 70},   {150, 150, 170}, {20, 140, 60}};
-static_assert(std::size(kBiomeColors) == static_cast<std::size_t>(gen::continents::Biome::Count));
+struct BiomeColor {
+    std::string_view name;
+    Rgb color;
+};
+// Biomes of the same name have the same color in all generators.
+constexpr BiomeColor kBiomeColors[] = {
+    // Water and shores.
+    {"deep ocean", {20, 50, 88}},
+    {"ocean", {38, 84, 124}},
+    {"kelp forest", {28, 118, 108}},
+    {"reef", {72, 180, 190}},
+    {"beach", {240, 220, 150}},
+    {"stony shore", {176, 166, 148}},
+    {"mangrove", {112, 132, 92}},
+    // Temperate land.
+    {"meadow", {170, 200, 90}},
+    {"steppe", {206, 204, 128}},
+    {"oak forest", {80, 150, 60}},
+    {"beech forest", {108, 172, 44}},
+    {"birch forest", {150, 200, 140}},
+    {"maple forest", {196, 108, 36}},
+    {"old forest", {40, 100, 50}},
+    {"giant forest", {70, 82, 32}},
+    {"swamp", {90, 110, 70}},
+    {"bog", {116, 92, 66}},
+    // Cold land and heights.
+    {"taiga", {50, 110, 100}},
+    {"fir forest", {26, 78, 74}},
+    {"larch forest", {172, 164, 56}},
+    {"tundra", {160, 170, 160}},
+    {"snow", {245, 248, 255}},
+    {"glacier", {186, 222, 246}},
+    {"alpine", {150, 150, 170}},
+    {"alpine meadow", {126, 190, 112}},
+    {"rocks", {128, 124, 130}},
+    // Warm land.
+    {"savanna", {210, 180, 80}},
+    {"shrubland", {158, 146, 84}},
+    {"desert", {250, 200, 110}},
+    {"canyon land", {200, 90, 50}},
+    {"badlands", {214, 104, 62}},
+    {"rain forest", {20, 140, 60}},
+    {"cloud forest", {66, 164, 118}},
+    {"bamboo forest", {138, 216, 52}},
+    {"cherry grove", {246, 164, 192}},
+    {"lava field", {62, 40, 46}}};
+constexpr Rgb kUnknownBiome{128, 128, 128};
+
+std::vector<Rgb> biomeColors(const std::optional<gen::Biomes>& biomes) {
+    std::vector<Rgb> colors;
+    if (!biomes) return colors;
+    for (const std::string_view name : biomes->names()) colors.push_back(biomeColor(name));
+    return colors;
+}
 
 std::uint8_t between(std::uint8_t a, std::uint8_t b, float share) {
     return static_cast<std::uint8_t>(static_cast<float>(a) +
@@ -48,25 +93,28 @@ constexpr float kContourDarkness = 0.6f;
 
 }  // namespace
 
-Rgb heightColor(int z) {
-    const auto* after = std::ranges::find_if(kStops, [z](const Stop& stop) { return stop.z > z; });
+Rgb heightColor(int z, int seaLevel) {
+    const int rise = z - seaLevel;
+    const auto* after = std::ranges::find_if(kStops, [rise](const Stop& stop) { return stop.rise > rise; });
     if (after == std::begin(kStops)) return kStops[0].color;
     if (after == std::end(kStops)) return std::end(kStops)[-1].color;
     const Stop& before = after[-1];
-    const float share = static_cast<float>(z - before.z) / static_cast<float>(after->z - before.z);
+    const float share =
+        static_cast<float>(rise - before.rise) / static_cast<float>(after->rise - before.rise);
     return {between(before.color.red, after->color.red, share),
             between(before.color.green, after->color.green, share),
             between(before.color.blue, after->color.blue, share)};
 }
 
-Rgb biomeColor(std::size_t number) {
-    return kBiomeColors[std::min(number, std::size(kBiomeColors) - 1)];
+Rgb biomeColor(std::string_view name) {
+    const auto* found = std::ranges::find(kBiomeColors, name, &BiomeColor::name);
+    return found == std::end(kBiomeColors) ? kUnknownBiome : found->color;
 }
 
-base::Image paintHeights(const PaintedArea& area) {
+base::Image paintHeights(const PaintedArea& area, int seaLevel) {
     std::array<Rgb, world::kMostLayers> colors;  // from the lowest bottom
     for (std::size_t k = 0; k < colors.size(); ++k)
-        colors[k] = heightColor(world::kLowestBottom + static_cast<int>(k));
+        colors[k] = heightColor(world::kLowestBottom + static_cast<int>(k), seaLevel);
     const auto contour = [](int z) { return (z - world::kLowestBottom) / kContourBlocks; };
     return imageOf(gridOf(area), [&](int x, int y, glm::ivec2) {
         const int z = area.surfaces.at(x, y).underZ;
@@ -79,9 +127,10 @@ base::Image paintHeights(const PaintedArea& area) {
     });
 }
 
-base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes) {
+base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes,
+                        std::span<const Rgb> colors) {
     return imageOf({rect.width, rect.height, 0, scale}, [&](int x, int y, glm::ivec2) {
-        return biomeColor(biomes[static_cast<std::size_t>(y * rect.width + x)]);
+        return colors[biomes[static_cast<std::size_t>(y * rect.width + x)]];
     });
 }
 
@@ -134,6 +183,8 @@ MapPainter::MapPainter(Parts parts, MapColors colors)
       heights_(parts.generators.heights()),
       colors_(std::move(colors)),
       biomes_(std::move(parts.biomes)),
+      biomeColors_(biomeColors(biomes_)),
+      seaLevel_(parts.seaLevel),
       surfaces_(std::make_unique<SurfaceSource>(
           SurfaceSource::Parts{parts.generators, *kinds_, parts.store, parts.cache})),
       tints_(std::make_unique<TintSource>(parts.generators)) {}
@@ -181,13 +232,13 @@ base::Result<base::Image> MapPainter::image(const MapTile& tile, std::span<const
     if (tile.layer == Layer::Isometric) return isometricImage(tile, edited);
     const ColumnRect rect = columnsOf(tile);
     const int scale = columnPixels(tile.zoom);
-    if (tile.layer == Layer::Biome) return paintBiomes(rect, scale, biomesOf(*biomes_, rect));
+    if (tile.layer == Layer::Biome) return paintBiomes(rect, scale, biomesOf(*biomes_, rect), biomeColors_);
     const auto surfaces = surfaces_->area(rect, edited);
     if (!surfaces) return tl::unexpected(surfaces.error());
     const bool isHeight = tile.layer == Layer::Height;
     const TintField tint = isHeight ? TintField() : tints_->field(rect);
     const PaintedArea area{*surfaces, tint, marginOf(tile.layer), scale};
-    if (isHeight) return paintHeights(area);
+    if (isHeight) return paintHeights(area, seaLevel_);
     return tile.layer == Layer::Night ? paintNight(area, colors_) : paintDay(area, colors_);
 }
 
@@ -239,7 +290,7 @@ base::Result<ColumnInfo> MapPainter::columnInfo(std::int32_t x, std::int32_t y,
     const SurfaceColumn& column = (*surfaces->front())[index];
     const bool isLiquid = column.top < colors_.size() && colors_[column.top].kind == SurfaceKind::Liquid;
     return ColumnInfo{column.top, column.topZ, isLiquid ? column.topZ - column.underZ : 0,
-                      biomes_ ? gen::Biomes::names()[biomes_->of(chunk)[index]] : std::string_view()};
+                      biomes_ ? biomes_->names()[biomes_->of(chunk)[index]] : std::string_view()};
 }
 
 }  // namespace terrane::map

@@ -13,6 +13,7 @@
 #include "terrane/base/image.h"
 #include "terrane/base/result.h"
 #include "terrane/gen/generators/biomes.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/map_tile.h"
 #include "terrane/map/paint.h"
 #include "terrane/map/surface_source.h"
@@ -21,19 +22,20 @@
 namespace terrane::map {
 
 // Overlays of a map show heights and biomes as colors. Rows and columns are those of paint.h. The color of
-// ground at a height is the same in every world: blue below the sea, the darker the deeper, then green,
-// yellow, brown and white, and above 255 more and more violet.
-Rgb heightColor(int z);
-// Returns the color of a biome by its number (gen/generators/biomes.h).
-Rgb biomeColor(std::size_t number);
+// ground depends on its height above the sea alone: blue below it, the darker the deeper, then green, yellow,
+// brown and white, and from 175 blocks on more and more violet.
+Rgb heightColor(int z, int seaLevel);
+// Returns the color of a biome by its name (gen/generators/biomes.h); gray for an unknown one.
+Rgb biomeColor(std::string_view name);
 
 // Paints the height of the ground, under water too, with a darker line every 16 blocks. Under a tree crown
 // over water it paints the height of the water, since surfaces do not store its depth. The margin is
 // kReliefMargin.
-base::Image paintHeights(const PaintedArea& area);
-// Paints biomes. `biomes` are the numbers of the rectangle's columns, x + width · y. Each column is `scale`²
-// pixels.
-base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes);
+base::Image paintHeights(const PaintedArea& area, int seaLevel);
+// Paints biomes. `biomes` are the numbers of the rectangle's columns, x + width · y, and `colors` have one
+// for each number. Each column is `scale`² pixels.
+base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes,
+                        std::span<const Rgb> colors);
 
 // Information about one column of level 0, shown for the column under the mouse pointer.
 struct ColumnInfo {
@@ -63,6 +65,7 @@ class MapPainter {
         store::ReadableStore* store = nullptr;  // as SurfaceSource::Parts
         SurfaceCache* cache = nullptr;
         std::optional<gen::Biomes> biomes = {};
+        int seaLevel = gen::kSeaLevel;  // of the world; for the colors of heights
     };
     // Fails if a texture cannot be read. All parts but the textures outlive this.
     [[nodiscard]] static base::Result<MapPainter> create(Parts parts);
@@ -95,6 +98,8 @@ class MapPainter {
     world::Heights heights_;
     MapColors colors_;
     std::optional<gen::Biomes> biomes_;
+    std::vector<Rgb> biomeColors_;  // by their numbers
+    int seaLevel_;
     std::unique_ptr<SurfaceSource> surfaces_;
     std::unique_ptr<TintSource> tints_;
 };

@@ -11,6 +11,7 @@
 #include "terrane/base/log.h"
 #include "terrane/base/machine.h"
 #include "terrane/gen/generators/biomes.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/web/marker_list.h"
 #include "terrane/web/tile_service.h"
 #include "terrane/web/visible_changes.h"
@@ -255,7 +256,8 @@ base::Result<std::unique_ptr<MapSite>> MapSite::open(boost::asio::io_context& co
     const store::WorldIdentity& identity = parts.store.identity();
     auto painter = TERRANE_TRY(
         map::MapPainter::create({parts.generators, parts.blocks, parts.textures, &parts.store, parts.cache,
-                                 gen::Biomes::create(identity.generator, parts.blocks, identity.seed)}));
+                                 gen::Biomes::create(identity.generator, parts.blocks, identity.seed),
+                                 gen::seaLevelOf(identity.generator)}));
     const std::vector<world::ChunkPos> edited = std::move(parts.edited);
     auto impl = std::make_unique<Impl>(context, std::move(parts), std::move(painter));
     impl->tiles.addEdited(edited);

@@ -46,7 +46,7 @@ std::string textOf(const PageInfo& info) {
     Json json = {{"name", info.name},
                  {"seed", std::to_string(info.identity.seed)},
                  {"generator", info.identity.generator},
-                 {"seaLevel", gen::kSeaLevel},
+                 {"seaLevel", gen::seaLevelOf(info.identity.generator)},
                  {"isometricHeight", map::kIsometricHeight},
                  {"bottom", info.identity.heights.bottom},
                  {"top", info.identity.heights.top},

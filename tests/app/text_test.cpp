@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "apps/terrane/window/settings/key_help.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/render/frame/graphics_table.h"
 
 namespace terrane::app {
@@ -95,6 +96,15 @@ TEST(Text, EveryTextIsTranslated) {
             EXPECT_TRUE(language.texts.contains(text))
                 << "assets/languages/" << code << ".toml lacks \"" << text << "\"";
     }
+}
+
+// Biomes are shown in the facts about a place: tr() gets their names from the generator.
+TEST(Text, BiomesAreTexts) {
+    const std::set<std::string> texts = textsOfTheProgram();
+    for (const gen::CatalogueEntry& entry : gen::builtInGenerators())
+        for (const std::string_view biome : entry.biomes)
+            EXPECT_TRUE(texts.contains(std::string(biome)))
+                << "apps/terrane/window/hud/places_panel.cpp lacks \"" << biome << "\" of " << entry.name;
 }
 
 // Each action that has a key by default is in one line, with the key that the player chose.

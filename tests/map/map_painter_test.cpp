@@ -19,7 +19,8 @@ using world::ChunkPos;
 MapPainter painterOf(const std::string& generator) {
     const auto textures = content::builtInTextures();
     auto painter = MapPainter::create({generatorsOf(generator), contentBlocks(), textures, nullptr, nullptr,
-                                       gen::Biomes::create(generator, contentBlocks(), kMapSeed)});
+                                       gen::Biomes::create(generator, contentBlocks(), kMapSeed),
+                                       gen::seaLevelOf(generator)});
     if (!painter) throw std::runtime_error(painter.error().message);
     return std::move(*painter);
 }
@@ -89,7 +90,8 @@ base::Image fourTiles(const MapTile& first, std::span<const EditedChunk> edited)
     const TintField tint = tints.field(rect);
     const PaintedArea area{surfaces, tint, margin, scale};
     if (first.layer == Layer::Night) return paintNight(area, colors);
-    return first.layer == Layer::Height ? paintHeights(area) : paintDay(area, colors);
+    return first.layer == Layer::Height ? paintHeights(area, gen::seaLevelOf("overworld"))
+                                        : paintDay(area, colors);
 }
 
 bool isPartOf(const base::Image& part, const base::Image& whole, int x, int y) {
@@ -177,8 +179,28 @@ TEST(MapPainter, BiomesAreThoseOfTheGenerator) {
                 const int right = -1 - (chunk.x * 16 + x), down = chunk.y * 16 + y;
                 const auto* pixel = &image.rgba[static_cast<std::size_t>(down * 256 + right) * 4];
                 ASSERT_EQ((Rgb{pixel[0], pixel[1], pixel[2]}),
-                          biomeColor(numbers[static_cast<std::size_t>(x + 16 * y)]));
+                          biomeColor(biomes.names()[numbers[static_cast<std::size_t>(x + 16 * y)]]));
             }
+        }
+    }
+}
+
+// Below and above the sea are two colors that have no shade in common, in every generator with a sea.
+TEST(MapPainter, TheShoreIsWhereTheSeaIs) {
+    for (const gen::CatalogueEntry& entry : gen::builtInGenerators()) {
+        MapPainter painter = painterOf(entry.name);
+        const MapTile tile{Layer::Height, -4, -1, 0};
+        const base::Image heights = paintedTile(painter, tile);
+        SurfaceSource source({generatorsOf(entry.name), contentKinds()});
+        const SurfaceArea surfaces = source.area(columnsOf(tile), {}).value();
+        const int margin = marginOf(Layer::Height);
+        for (int k = 0; k < 256; ++k) {
+            const SurfaceColumn& column = surfaces.at(k + margin, k + margin);
+            const auto* pixel = &heights.rgba[static_cast<std::size_t>(k * 256 + 255 - k) * 4];
+            const int rise = column.underZ - entry.seaLevel;
+            const bool isSea = rise < 0 && column.topZ == entry.seaLevel, isLand = rise > 0 && rise < 100;
+            EXPECT_TRUE(!isSea || pixel[2] > pixel[0]) << entry.name << ", column " << k;
+            EXPECT_TRUE(!isLand || pixel[1] + 60 >= pixel[2]) << entry.name << ", column " << k;
         }
     }
 }
@@ -216,7 +238,7 @@ TEST(MapPainter, FactsOfAColumn) {
         const SurfaceColumn column = generatedSurface(generators, chunk)[index];
         EXPECT_EQ(info.top, column.top);
         EXPECT_EQ(info.topZ, column.topZ);
-        EXPECT_EQ(info.biome, gen::Biomes::names()[biomes.of(chunk)[index]]);
+        EXPECT_EQ(info.biome, biomes.names()[biomes.of(chunk)[index]]);
         const bool isLiquid = contentKinds()[column.top] == SurfaceKind::Liquid;
         EXPECT_EQ(info.depth, isLiquid ? column.topZ - column.underZ : 0);
         liquids += isLiquid;

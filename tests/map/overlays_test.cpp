@@ -1,8 +1,9 @@
 #include "terrane/map/map_painter.h"
 
+#include <cstdlib>
 #include <set>
 
-#include "terrane/gen/generators/biomes.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "tests/map/map_fixture.h"
 #include "tests/map/painted_columns.h"
 
@@ -10,39 +11,53 @@ namespace terrane::map {
 namespace {
 
 TEST(Overlays, HeightsHaveColors) {
-    EXPECT_EQ(heightColor(0), (Rgb{10, 16, 60}));
-    EXPECT_EQ(heightColor(255), (Rgb{255, 255, 255}));
-    EXPECT_GT(heightColor(79).blue, heightColor(79).green) << "the sea";
-    EXPECT_GT(heightColor(80).green, heightColor(80).blue) << "the shore";
-    for (int z = 1; z < 80; ++z) EXPECT_GE(heightColor(z).blue, heightColor(z - 1).blue) << z;
+    const auto color = [](int z) { return heightColor(z, 80); };
+    EXPECT_EQ(color(0), (Rgb{10, 16, 60}));
+    EXPECT_EQ(color(255), (Rgb{255, 255, 255}));
+    EXPECT_GT(color(79).blue, color(79).green) << "the sea";
+    EXPECT_GT(color(80).green, color(80).blue) << "the shore";
+    for (int z = 1; z < 80; ++z) EXPECT_GE(color(z).blue, color(z - 1).blue) << z;
     for (int z = world::kLowestBottom + 100; z <= 0; ++z)
-        EXPECT_LE(heightColor(z - 100).blue, heightColor(z).blue) << "deeper ground is darker";
-    EXPECT_LT(heightColor(-1500).blue, heightColor(0).blue);
-    for (int z = 256; z < world::kHighestTop; ++z) EXPECT_LE(heightColor(z).green, heightColor(z - 1).green);
-    EXPECT_LT(heightColor(1800).green, heightColor(1000).green);
-    EXPECT_EQ(heightColor(world::kLowestBottom - 1), heightColor(world::kLowestBottom));
-    EXPECT_EQ(heightColor(world::kHighestTop), heightColor(world::kHighestTop - 1));
+        EXPECT_LE(color(z - 100).blue, color(z).blue) << "deeper ground is darker";
+    EXPECT_LT(color(-1500).blue, color(0).blue);
+    for (int z = 256; z < world::kHighestTop; ++z) EXPECT_LE(color(z).green, color(z - 1).green);
+    EXPECT_LT(color(1800).green, color(1000).green);
+    EXPECT_EQ(color(world::kLowestBottom - 1), color(world::kLowestBottom));
+    EXPECT_EQ(color(world::kHighestTop), color(world::kHighestTop - 1));
+}
+
+TEST(Overlays, HeightsCountFromTheSea) {
+    for (const int rise : {-2000, -400, -81, -80, -1, 0, 1, 60, 200, 1700})
+        EXPECT_EQ(heightColor(rise, 0), heightColor(80 + rise, 80)) << rise;
 }
 
 TEST(Overlays, EachBiomeHasAColorOfItsOwn) {
-    std::set<int> colors;
-    const std::size_t count = gen::Biomes::names().size();
-    for (std::size_t k = 0; k < count; ++k) {
-        const Rgb color = biomeColor(k);
-        colors.insert(color.red << 16 | color.green << 8 | color.blue);
+    for (const gen::CatalogueEntry& entry : gen::builtInGenerators()) {
+        std::set<int> colors;
+        for (const std::string_view name : entry.biomes) {
+            const Rgb color = biomeColor(name);
+            EXPECT_NE(color, biomeColor("no such biome")) << entry.name << " has no color for " << name;
+            colors.insert(color.red << 16 | color.green << 8 | color.blue);
+            for (const std::string_view other : entry.biomes) {
+                if (name == other) continue;
+                const Rgb far = biomeColor(other);
+                const int difference = std::abs(color.red - far.red) + std::abs(color.green - far.green) +
+                                       std::abs(color.blue - far.blue);
+                EXPECT_GE(difference, 30) << name << " looks like " << other;
+            }
+        }
+        EXPECT_EQ(colors.size(), entry.biomes.size()) << entry.name;
     }
-    EXPECT_EQ(colors.size(), count);
-    EXPECT_EQ(biomeColor(1000), biomeColor(count - 1)) << "no memory beyond the table is read";
 }
 
 TEST(Overlays, GroundUnderWaterCounts) {
     PaintedColumns land(4, 3);
     land.at(1, 1) = {1, 1, 95, 20};
-    const base::Image image = paintHeights(land.area());
+    const base::Image image = paintHeights(land.area(), 80);
     ASSERT_EQ(image.width, 4);
     ASSERT_EQ(image.height, 3);
-    EXPECT_EQ(land.pixel(image, 1, 1), heightColor(20));
-    EXPECT_EQ(land.pixel(image, 3, 2), heightColor(80));
+    EXPECT_EQ(land.pixel(image, 1, 1), heightColor(20, 80));
+    EXPECT_EQ(land.pixel(image, 3, 2), heightColor(80, 80));
 }
 
 // A line is on the higher side of a step over a multiple of 16, seen from the west and the north.
@@ -50,23 +65,24 @@ TEST(Overlays, ContoursAreDarker) {
     PaintedColumns land(4, 4);
     land.at(1, 1) = {1, 1, 96, 96};
     land.at(2, 2) = {1, 1, 95, 95};
-    const base::Image image = paintHeights(land.area());
-    EXPECT_LT(land.pixel(image, 1, 1).green, heightColor(96).green);
-    EXPECT_EQ(land.pixel(image, 2, 2), heightColor(95)) << "the same step as 80";
-    EXPECT_EQ(land.pixel(image, 0, 1), heightColor(80));
+    const base::Image image = paintHeights(land.area(), 80);
+    EXPECT_LT(land.pixel(image, 1, 1).green, heightColor(96, 80).green);
+    EXPECT_EQ(land.pixel(image, 2, 2), heightColor(95, 80)) << "the same step as 80";
+    EXPECT_EQ(land.pixel(image, 0, 1), heightColor(80, 80));
 }
 
 TEST(Overlays, BiomesHaveTheirColorsColumnByColumn) {
     const PaintedColumns land(3, 2);
-    const std::vector<std::uint8_t> biomes = {3, 0, 0, 0, 5, 7};
+    const std::vector<std::uint8_t> biomes = {3, 0, 0, 0, 2, 1};
+    const std::vector<Rgb> colors = {{1, 2, 3}, {40, 50, 60}, {70, 80, 90}, {100, 110, 120}};
     for (const int scale : {1, 2}) {
-        const base::Image image = paintBiomes({0, -30, 7, 3, 2}, scale, biomes);
+        const base::Image image = paintBiomes({0, -30, 7, 3, 2}, scale, biomes, colors);
         ASSERT_EQ(image.width, 3 * scale);
         ASSERT_EQ(image.height, 2 * scale);
-        EXPECT_EQ(land.pixel(image, 0, 0, scale, scale - 1, scale - 1), biomeColor(3));
-        EXPECT_EQ(land.pixel(image, 1, 1, scale), biomeColor(5));
-        EXPECT_EQ(land.pixel(image, 2, 1, scale), biomeColor(7));
-        EXPECT_EQ(land.pixel(image, 1, 0, scale), biomeColor(0));
+        EXPECT_EQ(land.pixel(image, 0, 0, scale, scale - 1, scale - 1), colors[3]);
+        EXPECT_EQ(land.pixel(image, 1, 1, scale), colors[2]);
+        EXPECT_EQ(land.pixel(image, 2, 1, scale), colors[1]);
+        EXPECT_EQ(land.pixel(image, 1, 0, scale), colors[0]);
     }
 }
 

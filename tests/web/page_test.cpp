@@ -9,6 +9,7 @@
 #include <regex>
 #include <set>
 
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/map/map_tile.h"
 
 namespace terrane::web {
@@ -134,6 +135,14 @@ TEST(Page, FactsAreJson) {
     EXPECT_EQ(json["places"][1]["name"], "broken \xEF\xBF\xBD text");
     EXPECT_TRUE(json["isLive"]);
     EXPECT_EQ(textOf(someFacts()).find('\n'), std::string::npos) << "one line";
+}
+
+TEST(Page, TheSeaLevelIsThatOfTheGenerator) {
+    for (const gen::CatalogueEntry& entry : gen::builtInGenerators()) {
+        PageInfo info = someFacts();
+        info.identity.generator = entry.name;
+        EXPECT_EQ(nlohmann::json::parse(textOf(info))["seaLevel"], entry.seaLevel) << entry.name;
+    }
 }
 
 TEST(Page, FactsWithoutPlacesAreLists) {

@@ -28,7 +28,7 @@ def python(page):
     with page.step(1):
         page.run('export PYTHONPATH="$PWD/build/python"')
         page.run('/usr/bin/python3 -c "import terrane; print(terrane.__version__, terrane.generators())"')
-        page.prints("['overworld', 'continents', 'flat', 'hills3d', 'voronoi']")
+        page.prints("['overworld', 'continents', 'wilderness', 'flat', 'hills3d', 'voronoi']")
     with page.step(2, 6):
         page.do("mkdir -p ~/python && cd ~/python")
         count = page.text.count("```python")

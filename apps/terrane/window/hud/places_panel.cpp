@@ -14,12 +14,17 @@ namespace terrane::app {
 
 namespace {
 
-// The names of gen::continents::biomeName(), listed here for translation.
+// The biomes of all built-in generators, listed here for translation (tests/app/text_test.cpp).
 [[maybe_unused]] constexpr const char* kBiomes[] = {
-    trLater("ocean"),       trLater("reef"),         trLater("beach"),      trLater("meadow"),
-    trLater("oak forest"),  trLater("birch forest"), trLater("old forest"), trLater("taiga"),
-    trLater("tundra"),      trLater("snow"),         trLater("savanna"),    trLater("desert"),
-    trLater("canyon land"), trLater("swamp"),        trLater("alpine"),     trLater("rain forest")};
+    trLater("deep ocean"),   trLater("ocean"),         trLater("kelp forest"),   trLater("reef"),
+    trLater("beach"),        trLater("stony shore"),   trLater("mangrove"),      trLater("meadow"),
+    trLater("steppe"),       trLater("oak forest"),    trLater("beech forest"),  trLater("birch forest"),
+    trLater("maple forest"), trLater("old forest"),    trLater("giant forest"),  trLater("swamp"),
+    trLater("bog"),          trLater("taiga"),         trLater("fir forest"),    trLater("larch forest"),
+    trLater("tundra"),       trLater("snow"),          trLater("glacier"),       trLater("alpine"),
+    trLater("rocks"),        trLater("savanna"),       trLater("alpine meadow"), trLater("shrubland"),
+    trLater("desert"),       trLater("canyon land"),   trLater("badlands"),      trLater("rain forest"),
+    trLater("cloud forest"), trLater("bamboo forest"), trLater("cherry grove"),  trLater("lava field")};
 constexpr const char* kDirections[] = {trLater("north"),      trLater("north-east"), trLater("east"),
                                        trLater("south-east"), trLater("south"),      trLater("south-west"),
                                        trLater("west"),       trLater("north-west")};
