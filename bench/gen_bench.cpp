@@ -33,7 +33,7 @@ using world::ChunkPos;
 
 constexpr std::uint64_t kSeed = 1;
 
-constexpr world::Heights kTall = {-1024, 1024};
+constexpr world::Heights kTall = {-1024, 1024}, kOfWilderness = {-512, 1792};
 
 gen::GeneratorGraph graphOf(std::string_view name, world::Heights heights = {}) {
     return orExit(gen::makeGenerator(name, blocks(), {0, heights}));
@@ -115,6 +115,16 @@ BENCHMARK_CAPTURE(generateArea, overworld_under_sky, "overworld", ChunkPos{0, 0}
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);
 BENCHMARK_CAPTURE(generateArea, continents_under_sky, "continents", ChunkPos{195, -125}, kTall,
+                  Depth::UnderSky)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+// Mountains, a coast and a river.
+BENCHMARK_CAPTURE(generateArea, wilderness_under_sky, "wilderness", ChunkPos{0, 20}, kOfWilderness,
+                  Depth::UnderSky)
+    ->Unit(benchmark::kMillisecond)
+    ->Iterations(2);
+// Plains.
+BENCHMARK_CAPTURE(generateArea, wilderness_plains_under_sky, "wilderness", ChunkPos{-160, 250}, kOfWilderness,
                   Depth::UnderSky)
     ->Unit(benchmark::kMillisecond)
     ->Iterations(2);

@@ -1,213 +1,182 @@
-// Statistics of the land that `continents` makes: bench_land [SEEDS]. A table, not times.
+// Statistics of the land that a generator makes, beside those of Earth. Tables, not times.
+//   bench_land [GENERATOR [SEEDS [SPAWNS]]]     continents, 16 seeds, spawns of 200
+// tools/land_plots.py draws them.
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
-#include <map>
-#include <memory>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "bench/bench_content.h"
-#include "terrane/gen/drainage/drainage_heights.h"
-#include "terrane/gen/drainage/drainage_network.h"
-#include "terrane/gen/generator.h"
+#include "bench/land_figures.h"
+#include "bench/river_figures.h"
+#include "bench/spawn_figures.h"
 #include "terrane/gen/generators/catalogue.h"
-#include "terrane/gen/generators/continents.h"
 
 namespace {
 
 using namespace terrane;
-using gen::Bits;
-using gen::continents::Biome;
+using namespace terrane::bench;
 
-// 1,024 columns of 64 blocks along x and y: 4,295 km² a seed.
-constexpr int kLevel = 6, kTiles = 64, kSide = kTiles * 16;
-
-// The 2D passes of continents at one level, whose fields are read by name.
-class Columns {
-  public:
-    Columns(std::uint64_t seed, int level)
-        : level_(level), graph_(bench::orExit(gen::makeGenerator("continents", bench::blocks(), level))) {
-        std::erase_if(graph_.passes, [](const gen::PassGraph& pass) { return pass.is3D; });
-        generator_ = std::make_unique<gen::Generator>(graph_, seed);
-    }
-
-    // A square of tiles from (first, first), by y, then x.
-    std::vector<Bits> square(std::string_view field, int first, int tiles) const {
-        const auto number = static_cast<std::uint32_t>(
-            std::ranges::find(graph_.fields, field, &gen::FieldInfo::name) - graph_.fields.begin());
-        const int side = tiles * 16;
-        std::vector<Bits> values(static_cast<std::size_t>(side * side));
-        for (int k = 0; k < tiles * tiles; ++k) {
-            const int tileX = k % tiles, tileY = k / tiles;
-            const auto tile = generator_->columns(
-                {first + tileX, first + tileY, static_cast<std::uint8_t>(level_)}, number);
-            for (int n = 0; n < 256; ++n) {
-                const int x = tileX * 16 + n % 16, y = tileY * 16 + n / 16;
-                values[static_cast<std::size_t>(x + y * side)] = tile[static_cast<std::size_t>(n)];
-            }
-        }
-        return values;
-    }
-
-  private:
-    int level_;
-    gen::GeneratorGraph graph_;
-    std::unique_ptr<gen::Generator> generator_;
-};
-
-struct Statistics {
-    std::array<double, static_cast<std::size_t>(Biome::Count)> biomes{};  // columns
-    double columns = 0, land = 0;
-    std::array<double, 5> slopes{};             // land columns with slopes above 0.5, 1, 2, 4, and all
-    double correlation = 0;                     // of heights far apart, the largest
-    int straightBorder = 0, straightNoise = 0;  // columns
-};
-
-bool isLand(Bits biome) {
-    return biome > static_cast<Bits>(Biome::Reef);
+const LandKind& kindNamed(std::string_view name) {
+    const auto found = std::ranges::find(landKinds(), name, &LandKind::generator);
+    if (found != landKinds().end()) return *found;
+    std::fprintf(stderr, "usage: bench_land [GENERATOR [SEEDS [SPAWNS]]]; generators:");
+    for (const LandKind& kind : landKinds())
+        std::fprintf(stderr, " %.*s", static_cast<int>(kind.generator.size()), kind.generator.data());
+    std::fprintf(stderr, "\n");
+    std::exit(1);
 }
 
-// Steps along x whose heights have the largest correlation, beyond the size of continents.
-double farCorrelation(const std::vector<double>& heights, int along) {
-    double mean = 0, variance = 0;
-    for (const double h : heights) mean += h / static_cast<double>(heights.size());
-    for (const double h : heights) variance += (h - mean) * (h - mean);
+void printLand(const LandStatistics& s, const LandKind& kind) {
+    std::printf("%.0f seeds, %.0f km2 of columns 64 blocks wide\n", s.seeds, s.columns * 64 * 64 / 1e6);
+    std::printf("land %.1f %%\n", 100 * s.land / s.columns);
+    for (int b = 0; b < kind.biomes; ++b) {
+        const double share = s.biomes[static_cast<std::size_t>(b)];
+        const bool isLand = b >= kind.firstLandBiome;
+        std::printf("  %-13s %5.1f %% of the %s\n", kind.biomeName(b),
+                    100 * share / (isLand ? s.land : s.columns - s.land), isLand ? "land" : "sea");
+    }
+    std::printf("slopes above 0.5: %.1f %%, 1: %.1f %%, 2: %.2f %%, 4: %.2f %%\n",
+                100 * s.slopes[0] / s.slopes[4], 100 * s.slopes[1] / s.slopes[4],
+                100 * s.slopes[2] / s.slopes[4], 100 * s.slopes[3] / s.slopes[4]);
+}
+
+// Earth's land and sea have the same shares of the area as those of the generator.
+void printHeights(const LandStatistics& s) {
+    std::printf(
+        "hypsometry: blocks above the sea, %% of the area, Earth's (%.0f m a block above, %.0f below)\n",
+        kEarthLand, kEarthSea);
+    double land = 0;
+    for (const auto& [number, columns] : s.heights) land += number >= 0 ? columns / s.columns : 0;
+    for (int number = s.heights.begin()->first; number <= s.heights.rbegin()->first; ++number) {
+        const auto found = s.heights.find(number);
+        const double share = found == s.heights.end() ? 0 : found->second / s.columns;
+        const int from = number * kHeightClass;
+        std::printf("%7d %8.3f %8.3f\n", from, 100 * share, earthShare(from) * (from >= 0 ? land : 1 - land));
+    }
+}
+
+void printRelief(const char* where, std::vector<float>& relief) {
+    std::printf("  %-28s median %4.0f, 10 %% below %4.0f, 10 %% above %4.0f; %zu windows\n", where,
+                static_cast<double>(percentile(relief, 0.5)), static_cast<double>(percentile(relief, 0.1)),
+                static_cast<double>(percentile(relief, 0.9)), relief.size());
+}
+
+void printReliefs(LandStatistics& s) {
+    std::printf(
+        "of the land: %.1f %% range, %.1f %% lowland, %.2f %% lowland with nothing else within 0.5 km\n",
+        100 * static_cast<double>(s.rangeRelief.size()) / s.places,
+        100 * static_cast<double>(s.lowlandRelief.size()) / s.places,
+        100 * static_cast<double>(s.wideLowlandRelief.size()) / s.places);
+    std::printf("local relief within 1 km, blocks:\n");
+    printRelief("around a place in a range", s.rangeRelief);
+    printRelief("around a place in a lowland", s.lowlandRelief);
+    printRelief("where all is lowland", s.wideLowlandRelief);
+    std::printf(
+        "peaks, highest within 2 km, in ranges: median %.0f, 90th percentile %.0f, highest %.0f; %zu peaks\n",
+        static_cast<double>(percentile(s.peaks, 0.5)), static_cast<double>(percentile(s.peaks, 0.9)),
+        static_cast<double>(percentile(s.peaks, 1)), s.peaks.size());
+}
+
+void printCorrelation(const LandStatistics& s) {
+    std::printf("correlation of heights, mean of seeds: km, along x, along y\n");
     double largest = 0;
-    const int other = along == 1 ? kSide : 1;
-    for (int lag = 192; lag < kSide / 2; lag += 4) {
-        double sum = 0;
-        for (int a = 0; a + lag < kSide; ++a) {
-            for (int b = 0; b < kSide; b += 2) {
-                const auto at = static_cast<std::size_t>(a * along + b * other);
-                sum +=
-                    2 * (heights[at] - mean) * (heights[at + static_cast<std::size_t>(lag * along)] - mean);
-            }
-        }
-        largest = std::max(largest, std::abs(sum / variance * kSide / (kSide - lag)));
+    for (std::size_t k = 0; k < s.correlation[0].size(); ++k) {
+        const double x = s.correlation[0][k] / s.seeds, y = s.correlation[1][k] / s.seeds;
+        if (k >= kFarLag / kLagStep) largest = std::max({largest, std::abs(x), std::abs(y)});
+        if (k % 8 == 0 || (k < 8 && k % 2 == 0))
+            std::printf("%7.2f %7.3f %7.3f\n", static_cast<double>(k) * kLagStep * 64 / 1000, x, y);
     }
-    return largest;
+    std::printf("12 to 32 km apart: at most %.3f in the mean, %.3f for one seed\n", largest,
+                s.largestCorrelation);
 }
 
-// The longest straight piece of a border between different values, along either axis.
-int longestStraight(const std::vector<Bits>& values, int side) {
-    int longest = 0;
-    for (const int along : {1, side}) {
-        const int across = along == 1 ? side : 1;
-        for (int a = 0; a + 1 < side; ++a) {
-            int run = 0;
-            for (int b = 0; b < side; ++b) {
-                const auto at = static_cast<std::size_t>(a * across + b * along);
-                run = values[at] != values[at + static_cast<std::size_t>(across)] ? run + 1 : 0;
-                longest = std::max(longest, run);
-            }
-        }
-    }
-    return longest;
+void printBorders(const char* what, const Borders& borders) {
+    const StraightPiece& p = borders.longest;
+    std::printf("longest straight border of %s: %d blocks (seed %d, %d, %d); %ld longer than %d\n", what,
+                p.blocks, static_cast<int>(p.seed), p.x, p.y, borders.tooLong, kMaxStraight);
 }
 
-void addCoarse(Statistics& s, std::uint64_t seed) {
-    const Columns columns(seed, kLevel);
-    const auto biomes = columns.square("biome", -kTiles / 2, kTiles);
-    const auto heights = columns.square("height", -kTiles / 2, kTiles);
-    for (const Bits b : biomes) {
-        s.biomes[b] += 1;
-        s.columns += 1;
-        s.land += isLand(b);
-    }
-    std::vector<double> values;
-    for (const Bits h : heights) values.push_back(double{gen::asFloat(h)});
-    s.correlation = std::max({s.correlation, farCorrelation(values, 1), farCorrelation(values, kSide)});
+void printOrders(const char* what, const StreamOrders& orders) {
+    std::printf("%s by Strahler order (number, mean km):", what);
+    for (std::size_t k = 0; k < orders.streams.size() && orders.streams[k] > 0; ++k)
+        std::printf(" %.0f, %.2f;", orders.streams[k], orders.length[k] / orders.streams[k]);
+    std::printf(" Horton's bifurcation ratio %.2f, length ratio %.2f\n", bifurcationRatio(orders),
+                lengthRatio(orders));
 }
 
-// At level 0: slopes, and how straight borders of biomes are beside those of a noise.
-void addFine(Statistics& s, std::uint64_t seed) {
-    constexpr int kFine = 24, kFineSide = kFine * 16;
-    const Columns columns(seed, 0);
-    for (const int corner : {-300, -100, 60, 250}) {
-        const auto biomes = columns.square("biome", corner, kFine);
-        const auto heights = columns.square("height", corner, kFine);
-        s.straightBorder = std::max(s.straightBorder, longestStraight(biomes, kFineSide));
-        std::vector<Bits> noise;
-        for (const Bits h : heights) noise.push_back(gen::asFloat(h) > 100.0f ? 1 : 0);
-        s.straightNoise = std::max(s.straightNoise, longestStraight(noise, kFineSide));
-        for (int k = 0; k + kFineSide + 1 < kFineSide * kFineSide; ++k) {
-            const auto at = static_cast<std::size_t>(k);
-            if (!isLand(biomes[at]) || k % kFineSide == kFineSide - 1)
-                continue;  // the next one is of another row
-            const float here = gen::asFloat(heights[at]);
-            const float slope = std::hypot(gen::asFloat(heights[at + 1]) - here,
-                                           gen::asFloat(heights[at + kFineSide]) - here);
-            constexpr std::array<float, 4> kAbove = {0.5f, 1, 2, 4};
-            for (std::size_t n = 0; n < kAbove.size(); ++n) s.slopes[n] += slope > kAbove[n];
-            s.slopes[4] += 1;
-        }
+void printBins(const char* what, const std::vector<AreaBin>& bins) {
+    std::printf("%s by area: km2, slope, longest way upstream in km, nodes\n", what);
+    for (const AreaBin& bin : bins) {
+        if (!counts(bin)) continue;
+        std::printf("%10.4f %9.6f %8.3f %8.0f\n", std::pow(10.0, bin.area / bin.nodes), bin.slope / bin.nodes,
+                    std::pow(10.0, bin.length / bin.nodes), bin.nodes);
     }
 }
 
-struct Rivers {
-    long rivers = 0, reachSea = 0, reachLake = 0, rings = 0, leave = 0;  // nodes; `leave`: the window
-};
+void printFlint(const char* where, const PowerLaw& flint) {
+    std::printf("Flint's law%s: S = %.4f A^%.3f, R2 %.3f\n", where, flint.factor, flint.exponent, flint.r2);
+}
 
-// Follows the water of each river node of a window of 256×256 nodes, the same square as the columns.
-void addRivers(Rivers& r, std::uint64_t seed) {
-    constexpr int kNodes = 256, kMargin = gen::kNetworkMargin + 2, kWindow = (kNodes + 2 * kMargin) / 8 * 8;
-    const gen::GeneratorGraph graph = bench::orExit(gen::makeGenerator("continents", bench::blocks()));
-    const gen::DrainageHeights heights(graph.drainages.front(), seed);
-    gen::DrainageNetwork n;
-    n.side = kWindow;
-    n.heights = heights.nodes({-kWindow / 16 * 8, -kWindow / 16 * 8}, kWindow).heights;
-    gen::findDrainage(n, heights.spec());
-    for (int k = 0; k < kNodes * kNodes; ++k) {
-        std::size_t node = n.at(kMargin + k % kNodes, kMargin + k / kNodes);
-        if (n.flows[node] < heights.spec().minFlow || n.drains[node] == gen::kNoDrain) continue;
-        ++r.rivers;
-        int steps = 0;
-        while (n.drains[node] != gen::kNoDrain && ++steps < kWindow * kWindow) node = n.drainOf(node);
-        const int x = static_cast<int>(node) % kWindow, y = static_cast<int>(node) / kWindow;
-        if (steps == kWindow * kWindow) {
-            ++r.rings;
-        } else if (gen::heightOf(n.heights[node]) < heights.spec().seaLevel) {
-            ++r.reachSea;
-        } else if (n.lakeNodes[node] > 0) {
-            ++r.reachLake;
-        } else if (std::min({x, y, kWindow - 1 - x, kWindow - 1 - y}) <= gen::kFloodReach) {
-            ++r.leave;
-        }
+void printRivers(const RiverStatistics& s) {
+    const auto share = [&](long nodes) {
+        return 100.0 * static_cast<double>(nodes) / static_cast<double>(s.rivers);
+    };
+    std::printf(
+        "rivers: %ld nodes in %.0f km2; %.2f %% reach the sea, %.2f %% a lake, %.2f %% leave the area; %ld "
+        "end, "
+        "%ld in rings\n",
+        s.rivers, s.km2, share(s.reachSea), share(s.reachLake), share(s.leave), s.end, s.rings);
+    std::printf("largest basin %.1f km2, longest river %.1f km\n", s.largestKm2, s.longestKm);
+    printBins("streams", s.bins);
+    printFlint("", slopeLaw(s, s.bins));
+    if (!s.steepBins.empty()) {
+        printBins("streams of steep land", s.steepBins);
+        printFlint(" of steep land", slopeLaw(s, s.steepBins));
+        printBins("streams of gentle land", s.gentleBins);
+        printFlint(" of gentle land", slopeLaw(s, s.gentleBins));
     }
+    const PowerLaw hack = lengthLaw(s);
+    std::printf("Hack's law: L = %.3f A^%.3f, R2 %.3f\n", hack.factor, hack.exponent, hack.r2);
+    for (std::size_t k = 0; k < kStreamKinds.size(); ++k) printOrders(kStreamKinds[k].name, s.orders[k]);
+}
+
+void printSpawns(SpawnStatistics& s) {
+    std::printf(
+        "spawns: %d of %d on land; of the 2 km around in view: median %.1f %%, 10 %% below %.1f %%; relief "
+        "in "
+        "view: median %.0f, 10 %% below %.0f\n",
+        s.onLand, s.spawns, 100.0 * double{percentile(s.seen, 0.5)}, 100.0 * double{percentile(s.seen, 0.1)},
+        double{percentile(s.relief, 0.5)}, double{percentile(s.relief, 0.1)});
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    const int seeds = argc > 1 ? std::max(1, std::atoi(argv[1])) : 16;
-    Statistics s;
-    Rivers r;
-    for (int seed = 1; seed <= seeds; ++seed) {
-        addCoarse(s, static_cast<std::uint64_t>(seed));
-        addFine(s, static_cast<std::uint64_t>(seed));
-        addRivers(r, static_cast<std::uint64_t>(seed));
+    const LandKind& kind = kindNamed(argc > 1 ? argv[1] : "continents");
+    const int seeds = argc > 2 ? std::max(1, std::atoi(argv[2])) : 16;
+    const int spawns = argc > 3 ? std::max(0, std::atoi(argv[3])) : 200;
+    const gen::GeneratorGraph graph = orExit(gen::makeGenerator(kind.generator, blocks()));
+    LandStatistics land;
+    RiverStatistics rivers;
+    SpawnStatistics starts;
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(seeds); ++seed) {
+        addLand(land, kind, seed);
+        addRelief(land, kind, seed);
+        addGround(land, kind, seed);
+        addRivers(rivers, graph.drainages.front(), seed);
     }
-    std::printf("%d seeds, %.0f km2 of columns 64 blocks wide\n", seeds, s.columns * 64 * 64 / 1e6);
-    std::printf("land %.1f %%\n", 100 * s.land / s.columns);
-    for (std::size_t b = 0; b < s.biomes.size(); ++b) {
-        if (!isLand(static_cast<Bits>(b))) continue;
-        std::printf("  %-12s %5.1f %% of the land\n", gen::continents::biomeName(static_cast<Biome>(b)),
-                    100 * s.biomes[b] / s.land);
-    }
-    std::printf("slopes above 0.5: %.1f %%, 1: %.1f %%, 2: %.2f %%, 4: %.2f %%\n",
-                100 * s.slopes[0] / s.slopes[4], 100 * s.slopes[1] / s.slopes[4],
-                100 * s.slopes[2] / s.slopes[4], 100 * s.slopes[3] / s.slopes[4]);
-    std::printf("correlation of heights 12 to 32 km apart: at most %.3f\n", s.correlation);
-    std::printf(
-        "rivers: %ld nodes; %.2f %% reach the sea, %.2f %% a lake, %.2f %% leave the area; %ld rings\n",
-        r.rivers, 100.0 * static_cast<double>(r.reachSea) / static_cast<double>(r.rivers),
-        100.0 * static_cast<double>(r.reachLake) / static_cast<double>(r.rivers),
-        100.0 * static_cast<double>(r.leave) / static_cast<double>(r.rivers), r.rings);
-    std::printf("longest straight border: of biomes %d blocks, of a contour line of the ground %d blocks\n",
-                s.straightBorder, s.straightNoise);
+    for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(spawns); ++seed)
+        addSpawn(starts, kind, seed);
+    printLand(land, kind);
+    printHeights(land);
+    printReliefs(land);
+    printCorrelation(land);
+    printBorders("biomes", land.biomeBorders);
+    printBorders("contour lines", land.contours);
+    printRivers(rivers);
+    if (spawns > 0) printSpawns(starts);
 }

@@ -1,5 +1,4 @@
 #include "bench/level_figures.h"
-#include "tests/support/default_heights.h"
 
 #include <fmt/format.h>
 
@@ -41,7 +40,7 @@ double shareOf(const Columns& columns, Window window, Cover cover) {
 bool isPit(const Columns& columns, std::size_t k) {
     constexpr int kReach = 6, kDepth = 4;
     const int x = static_cast<int>(k) % columns.width, y = static_cast<int>(k) / columns.width;
-    int lowest = world::kChunkHeight;
+    int lowest = world::kHighestTop;
     for (const auto& [dx, dy] : {std::pair(-kReach, 0), {kReach, 0}, {0, -kReach}, {0, kReach}}) {
         const int ox = std::clamp(x + dx, 0, columns.width - 1),
                   oy = std::clamp(y + dy, 0, columns.width - 1);
@@ -152,7 +151,7 @@ Columns LevelComparison::columnsOf(ChunkPos corner, int side, int level) const {
             const int x = n % side * 16 + c % 16, y = n / side * 16 + c / 16;
             const auto k = static_cast<std::size_t>(x + columns.width * y);
             bool isCovered = false;
-            for (int z = world::kChunkHeight - 1; z >= 0; --z) {
+            for (int z = chunk.heights().top - 1; z >= chunk.heights().bottom; --z) {
                 const world::BlockId block = chunk.block(world::blockIndex(c % 16, c / 16, z));
                 if (block == world::kAir || !isSeen_[block]) continue;
                 const Cover cover = covers_[block];

@@ -30,11 +30,12 @@ constexpr std::array<ChunkPos, 24> kPlaces = {
      {768, 1536},    {-1056, -1536}, {1632, -1536},  {-1056, 864},   {-288, -2304},  {-2208, -2208}}};
 
 // Microseconds of CPU time per chunk of a new generator, the minimum of some rounds.
-double costOf(const std::string& name, int level) {
+double costOf(const std::string& name, world::Heights heights, int level) {
     constexpr int kRounds = 3, kTiles = 24;
     double best = 1e9;
     for (int round = 0; round < kRounds; ++round) {
-        const gen::Generator generator(bench::orExit(gen::makeGenerator(name, bench::blocks(), level)), 1);
+        const gen::Generator generator(
+            bench::orExit(gen::makeGenerator(name, bench::blocks(), {level, heights})), 1);
         const std::clock_t start = std::clock();
         for (int k = 0; k < kTiles * kTiles; ++k) {
             static_cast<void>(generator.generate({k % kTiles, k / kTiles, static_cast<std::uint8_t>(level)}));
@@ -50,14 +51,18 @@ double costOf(const std::string& name, int level) {
 int main(int argc, char** argv) {
     const std::string name = argc > 1 ? argv[1] : "overworld";
     const int places = std::clamp(argc > 2 ? std::atoi(argv[2]) : 24, 1, static_cast<int>(kPlaces.size()));
-    const double chunkCost = costOf(name, 0);
+    const auto heights = bench::orExit(gen::heightsOf(name, bench::blocks(), {}, gen::builtInGenerators()));
+    const double chunkCost = costOf(name, heights, 0);
     fmt::print("level  us a chunk  of level 0\n");
     for (int level = 0; level <= 10; ++level) {
-        const double cost = level == 0 ? chunkCost : costOf(name, level);
+        const double cost = level == 0 ? chunkCost : costOf(name, heights, level);
         fmt::print("{:5}  {:10.1f}  {:10.3f}\n", level, cost, cost / chunkCost);
     }
     const gen::LevelGenerators generators(
-        [&](int level) { return gen::makeGenerator(name, bench::blocks(), level); }, 1);
+        [&](int level) {
+            return gen::makeGenerator(name, bench::blocks(), {level, heights});
+        },
+        1, heights);
     const bench::LevelComparison comparison(generators, bench::blocks(),
                                             {kSide, {kPlaces.begin(), kPlaces.begin() + places}});
     std::vector<bench::LevelFigures> figures;
