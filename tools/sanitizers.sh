@@ -18,16 +18,16 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 readonly LONG_ADDRESS=(
     'All/MixAndMethod*' 'AreaImageTest.EveryLevelHasOne*' 'Areas/Overworld*' 'ArenasTest*' 'BackgroundCompilerTest*' 'BatchLighter.DoesWhat*'
     'Catalogue.AVersion*' 'ChecksumTest.OneFlippedBit*' 'ClosedRoomTest*' 'CollisionTest.NeverTunnels*'
-    'ContinentsLand.IsWhereWorldsBegin*' 'ContinentsLevels*' 'Downsample.WhatIsEqualStays*' 'EdgeExpansion*'
+    'Downsample.WhatIsEqualStays*' 'EdgeExpansion*'
     'Effects*' 'Examples.HaveTheirBlocks*' 'ExprMath*' 'FaceSampling*' 'FarSamenessTest*' 'FarViewTest*' 'FarWalkTest*' 'FirstMinutesTest*' 'Flight*'
     'GeneratedSurface.IsThatOfTheWholeChunk*' 'Generators/ScriptEqualsCpp*' 'GpuGeneratorTest.LevelsEqualCpu*'
-    'GpuGeneratorTest.Overworld*' 'GoldenProof*' 'GraphicsTest*' 'HudTest*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
+    'GpuGeneratorTest.Overworld*' 'GoldenProof*' 'GraphicsTest*' 'HudTest*' 'LandsLevels*' 'LandsWithSeas*' 'LightChunk.EqualsTheReferenceOfALarger*' 'LiquidProperty*'
     'MapPainter.AnEditChangesTheTiles*' 'MapPainter.FactsOfAColumn*' 'MapPainter.TilesFitTogether*' 'Overworld*'
-    'Places/Continents*' 'PlayTest*' 'RayCast.Equals*' 'RelightRandom.Caves*' 'RelightRandom.Layers*'
+    'Places/Lands*' 'PlayTest*' 'RayCast.Equals*' 'RelightRandom.Caves*' 'RelightRandom.Layers*'
     'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*' 'RelightRandom.Solid*'
     'Seeds/Convergence.EverybodyHasTheServersWorld/1*' 'Shaders.ReferenceCompiler*' 'ShadowAcneTest*' 'ShapeSurface.CoversEachPart*'
-    'SimulationTest.NothingIsLost*' 'Sites*' 'TilesOfArea.Seen*' 'TitleTest*' 'Utf8.ExactlyTheCodes*'
-    'Voronoi3D.EverySample*'
+    'SimulationTest.NothingIsLost*' 'Sites*' 'TallHolesTest*' 'TilesOfArea.Seen*' 'TitleTest*' 'Utf8.ExactlyTheCodes*'
+    'Voronoi3D.EverySample*' 'WildernessSpawn*'
 )
 # Also cases of objects that threads do not share.
 readonly LONG_THREADS=(
