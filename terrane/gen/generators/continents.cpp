@@ -3,6 +3,7 @@
 #include <numbers>
 
 #include "terrane/gen/generators/catalogue.h"
+#include "terrane/gen/generators/landforms.h"
 
 namespace terrane::gen {
 
@@ -46,9 +47,7 @@ namespace {
 Float originLand(Pass& p) {
     constexpr int kRadius = 1800;
     constexpr float kRaise = 0.5f;
-    const auto near = [](Int v) { return Float(clamp(v, -kRadius, kRadius)) * (1.0f / kRadius); };
-    const Float x = near(p.x()), y = near(p.y());
-    return smoothstep(1.0f, 0.0f, x * x + y * y) * kRaise;
+    return smoothstep(1.0f, 0.0f, landforms::fromOrigin(p, kRadius)) * kRaise;
 }
 
 Float landNoise(Pass& p) {

@@ -1,6 +1,5 @@
-#include <array>
-
 #include "terrane/gen/generators/continents.h"
+#include "terrane/gen/generators/landforms.h"
 
 // What grows in each biome of continents, and where.
 
@@ -79,14 +78,9 @@ constexpr Plant kPlants[] = {
     {Biome::Ocean, "seagrass", 0.015f},
 };
 
-constexpr vegetation::Tables kTables = {kTrees, kSmall, kPlants, static_cast<int>(Biome::Count)};
-
-// 0…1: the share of the densities in the tables that woods and clearings leave.
-Float density(Pass& p, const Fields& f) {
-    const Float woods = p.perlin2DWithGrain("woods", 64, {.1f, .2f, .3f, .5f});
-    const Float clearings = smoothstep(0.42f, 0.56f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
-    return p.read(f.forest) * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f);
-}
+constexpr vegetation::BiomeNumber kInWater[] = {Biome::Reef, Biome::Ocean};
+constexpr vegetation::Tables kTables = {kTrees,   kSmall, kPlants,      static_cast<int>(Biome::Count),
+                                        kInWater, 20,     Biome::Desert};
 
 // Trees stand on earth that no cave is near. On beaches only where it is warm, in mountains up to the tree
 // line.
@@ -103,28 +97,6 @@ Bool canGrow(Pass& p, const Fields& f) {
     return result;
 }
 
-vegetation::Growth plantAt(Pass& p, const Fields& f) {
-    const Block top = p.read(f.top);
-    const auto isOn = [&](const char* name) { return top == p.block(name); };
-    const Bool isEarth = isOn("grass") || isOn("moss") || isOn("mud") || isOn("sand") || isOn("red_sand");
-    const Bool isFree = p.read(f.caveTop) < p.read(f.surface) - 3;
-    const Int depth = p.read(f.water) - p.read(f.surface), biome = p.read(f.biome);
-    const auto grows = [&](int b) {
-        const bool isInWater = b == static_cast<int>(Biome::Reef) || b == static_cast<int>(Biome::Ocean);
-        return (isInWater ? depth > 2 && depth < 20 : depth <= 0) && isEarth && isFree;
-    };
-    const Float chance = vegetation::plantChance(p);
-    Var<Block> plant = p.var(vegetation::plantAt(p, kTables, biome, grows));
-    Var<Int> height = p.var(Int(1));
-    const Bool isBank = depth <= 0 && depth >= -2 && p.read(f.wet) > 0.5f && p.read(f.cold) > -0.3f;
-    p.if_(isBank && isEarth && isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
-    p.if_(biome == number(Biome::Desert) && isFree && depth <= 0 && chance > 0.9985f, [&] {
-        plant = p.block("cactus");
-        height = Int((chance - 0.9985f) * 2600.0f) + 1;
-    });
-    return {plant, height};
-}
-
 }  // namespace
 
 const vegetation::Tables& vegetationTables() {
@@ -132,12 +104,12 @@ const vegetation::Tables& vegetationTables() {
 }
 
 void plantsPass(Pass& p, const Fields& f) {
-    const Float share = select(canGrow(p, f), density(p, f), Float(0.0f));
+    const Float share = select(canGrow(p, f), vegetation::woodland(p, p.read(f.forest)), Float(0.0f));
     vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, p.read(f.surface)});
     if (p.step() > 1) return;
-    const vegetation::Growth plant = plantAt(p, f);
-    p.set(f.plants.plant, plant.block);
-    p.set(f.plants.plantHeight, plant.height);
+    vegetation::setPlants(p, f.plants, kTables,
+                          {p.read(f.biome), p.read(f.top), p.read(f.water) - p.read(f.surface),
+                           p.read(f.caveTop) < p.read(f.surface) - 3, p.read(f.wet), p.read(f.cold)});
 }
 
 void landPass(Pass& p, const Fields& f) {
@@ -145,18 +117,7 @@ void landPass(Pass& p, const Fields& f) {
 }
 
 void caveLifePass(Pass& p, const Fields& f) {
-    Var<Block> block = p.var(p.blockHere());
-    p.if_(p.z() < p.read(f.caveTop) && p.blockHere() == p.block("air"), [&] {
-        const Block below = p.blockInColumn(p.z() - 1);
-        const Bool isFloor = below != p.block("air") && below != p.block("water");
-        const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
-        const Block grown = multiSelect({{chance < 0.012f && p.z() < 40, p.block("crystal")},
-                                         {chance < 0.04f, p.block("glowing_mushroom")},
-                                         {chance < 0.05f, p.block("brown_mushroom")}},
-                                        p.block("air"));
-        block = select(isFloor, grown, static_cast<Block>(block));
-    });
-    p.setBlock(block);
+    landforms::growCaveLife(p, p.read(f.caveTop), {40, 0.012f, 0.04f, 0.05f});
 }
 
 }  // namespace terrane::gen::continents

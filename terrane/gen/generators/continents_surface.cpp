@@ -1,4 +1,5 @@
 #include "terrane/gen/generators/continents.h"
+#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/language/expr.h"
 
 namespace terrane::gen::continents {
@@ -96,12 +97,6 @@ Block rockOf(Pass& p, const Fields& f, Int biome, Float patches) {
         p.block("stone"));
 }
 
-// The beds of rivers and lakes.
-Block bed(Pass& p, Float patches, Float spots) {
-    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}},
-                       p.block("sand"));
-}
-
 Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Float patches = p.perlin2DWithGrain("ground patches", 16, {.3f, .4f, .6f});
     const Float spots = p.perlin2DWithGrain("ground spots", 4, {.35f, .6f});
@@ -117,7 +112,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
                         (p.read(f.rocky) > 0.4f && s.steepness > spots * 0.2f + 0.6f);
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.5f + 1.5f;
     const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
-    const Block bottom = bed(p, patches, spots);
+    const Block bottom = landforms::riverBed(p, patches, spots);
     return {multiSelect({{isUnderWater, bottom}, {isBare && !keepsSnow, rock}}, top),
             multiSelect({{isUnderWater, bottom}, {isBare || s.steepness > bareFrom - 0.25f, rock}}, soil),
             rock};
@@ -170,11 +165,7 @@ Bool isCave(Pass& p, const Fields& f) {
     Var<Bool> result = p.var(Bool(false));
     const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
     p.if_(p.z() > p.heights().bottom + 2 && p.z() < p.read(f.caveTop), [&] {
-        p.if_(where > -0.05f, [&] {
-            const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}),
-                        b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
-            result = a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
-        });
+        p.if_(where > -0.05f, [&] { result = landforms::isTunnel(p, where); });
         p.if_(where < -0.12f, [&] {
             const Float hall =
                 p.perlin3D("halls", 30, {.3f, 1.0f}) - smoothstep(0.0f, 60.0f, Float(p.z()) - 30.0f) * 0.25f;
@@ -183,16 +174,6 @@ Bool isCave(Pass& p, const Fields& f) {
         });
     });
     return result;
-}
-
-Block veins(Pass& p, Block rock) {
-    Var<Block> block = p.var(rock);
-    const Float where = p.perlin2D("ore places", 64, {.6f, 1.0f});
-    p.if_(where > 0.1f && p.z() < 72, [&] {
-        const Float ore = p.perlin3D("ore", 4, {1.0f, .5f});
-        block = select(ore > 0.78f, p.block("glowing_ore"), static_cast<Block>(block));
-    });
-    return block;
 }
 
 Block earth(Pass& p, const Fields& f) {
@@ -207,7 +188,7 @@ Block earth(Pass& p, const Fields& f) {
                 select(p.read(f.soil) == p.block("red_sandstone"), strata(p, f), p.read(f.soil));
             block = select(depth == 0, top, soil);
         },
-        [&] { block = p.step() == 1 ? veins(p, strata(p, f)) : strata(p, f); });
+        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 72) : strata(p, f); });
     if (p.step() > 1) return block;
     const Block inside = select(z <= p.heights().bottom + kCaveWater, p.block("water"), p.block("air"));
     return select(isCave(p, f), inside, static_cast<Block>(block));

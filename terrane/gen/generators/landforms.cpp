@@ -38,4 +38,48 @@ Float towers(Pass& p) {
     return lerp(Float(0.2f), tower, left) * (radius * 2.1f);
 }
 
+Float fromOrigin(Pass& p, int radius) {
+    const auto near = [&](Int v) {
+        return Float(clamp(v, -radius, radius)) * (1.0f / static_cast<float>(radius));
+    };
+    const Float x = near(p.x()), y = near(p.y());
+    return x * x + y * y;
+}
+
+Block riverBed(Pass& p, Float patches, Float spots) {
+    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}},
+                       p.block("sand"));
+}
+
+Bool isTunnel(Pass& p, Float where) {
+    const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}), b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
+    return a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
+}
+
+Block withOre(Pass& p, Block rock, int below) {
+    Var<Block> block = p.var(rock);
+    const Float where = p.perlin2D("ore places", 64, {.6f, 1.0f});
+    p.if_(where > 0.1f && p.z() < below, [&] {
+        const Float ore = p.perlin3D("ore", 4, {1.0f, .5f});
+        block = select(ore > 0.78f, p.block("glowing_ore"), static_cast<Block>(block));
+    });
+    return block;
+}
+
+void growCaveLife(Pass& p, Int caveTop, const CaveLife& life) {
+    Var<Block> block = p.var(p.blockHere());
+    p.if_(p.z() < caveTop && p.blockHere() == p.block("air"), [&] {
+        const Block below = p.blockInColumn(p.z() - 1);
+        const Bool isFloor = below != p.block("air") && below != p.block("water");
+        const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
+        const Block grown =
+            multiSelect({{chance < life.crystals && p.z() < life.crystalsBelow, p.block("crystal")},
+                         {chance < life.glowingMushrooms, p.block("glowing_mushroom")},
+                         {chance < life.mushrooms, p.block("brown_mushroom")}},
+                        p.block("air"));
+        block = select(isFloor, grown, static_cast<Block>(block));
+    });
+    p.setBlock(block);
+}
+
 }  // namespace terrane::gen::landforms

@@ -64,6 +64,11 @@ Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, int biomes,
     return shape;
 }
 
+struct Growth {
+    Block block;  // or air
+    Int height;
+};
+
 // Mean crown of a biome's trees, and the share of the ground that crowns cover.
 struct Canopy {
     float cover = 0, height = 0;
@@ -119,18 +124,21 @@ void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site)
           shapeAt(p, f, tables.small, tables.biomes, site, scatter(p, "small things", kSmallSpacing, 4)));
 }
 
-Float plantChance(Pass& p) {
-    return p.random2D("plant", p.x(), p.y());
-}
-
-Block plantAt(Pass& p, const Tables& tables, Int biome, const std::function<Bool(int biome)>& grows) {
-    const Float chance = plantChance(p);
+void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& site) {
+    const Float chance = p.random2D("plant", p.x(), p.y());
     const Float meadows = p.perlin2D("meadows", 16, {.5f, 1.0f}) * 0.8f + 1.0f;
+    const auto isOn = [&](const char* name) { return site.top == p.block(name); };
+    const Bool isEarth = isOn("grass") || isOn("moss") || isOn("mud") || isOn("sand") || isOn("red_sand");
+    const Int depth = site.depth;
     Var<Block> plant = p.var(p.block("air"));
+    Var<Int> height = p.var(Int(1));
     for (int b = 0; b < tables.biomes; ++b) {
         const std::vector<Plant> own = entriesOf(tables.plants, b);
         if (own.empty()) continue;
-        p.if_(biome == Int(b) && grows(b), [&] {
+        const bool isInWater =
+            std::ranges::any_of(tables.inWater, [b](BiomeNumber biome) { return biome.value == b; });
+        const Bool isPlace = isInWater ? depth > 2 && depth < tables.deepest : depth <= 0;
+        p.if_(site.biome == Int(b) && isPlace && isEarth && site.isFree, [&] {
             float below = 0;
             for (const Plant& entry : own) below += entry.share;
             Block chosen = p.block("air");
@@ -141,7 +149,20 @@ Block plantAt(Pass& p, const Tables& tables, Int biome, const std::function<Bool
             plant = chosen;
         });
     }
-    return plant;
+    const Bool isBank = depth <= 0 && depth >= -2 && site.wet > 0.5f && site.cold > -0.3f;
+    p.if_(isBank && isEarth && site.isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
+    p.if_(site.biome == Int(tables.cacti.value) && site.isFree && depth <= 0 && chance > 0.9985f, [&] {
+        plant = p.block("cactus");
+        height = Int((chance - 0.9985f) * 2600.0f) + 1;
+    });
+    p.set(f.plant, static_cast<Block>(plant));
+    p.set(f.plantHeight, static_cast<Int>(height));
+}
+
+Float woodland(Pass& p, Float forest) {
+    const Float woods = p.perlin2DWithGrain("woods", 64, {.1f, .2f, .3f, .5f});
+    const Float clearings = smoothstep(0.42f, 0.56f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
+    return forest * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f);
 }
 
 Block overGround(Pass& p, const Fields& f, Int surface, Block ground) {

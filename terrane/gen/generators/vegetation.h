@@ -4,7 +4,6 @@
 // often as crowns cover the ground.
 #pragma once
 
-#include <functional>
 #include <span>
 
 #include "terrane/gen/generators/trees/trees.h"
@@ -39,7 +38,10 @@ struct Tables {
     std::span<const Grove> trees;  // at points kTreeSpacing apart
     std::span<const Grove> small;  // bushes, boulders, logs; kSmallSpacing apart
     std::span<const Plant> plants;
-    int biomes;  // their number
+    int biomes;                            // their number
+    std::span<const BiomeNumber> inWater;  // biomes whose plants grow in water…
+    int deepest;                           // …less deep than this, in blocks
+    BiomeNumber cacti;                     // the biome where they grow
 };
 
 // Up to this step shapes are stamped, and those smaller than trees up to kMaxSmallStep.
@@ -69,15 +71,19 @@ struct Site {
 // Writes all fields but, at step 1, the plants: these are the generator's.
 void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site);
 
-struct Growth {
-    Block block;  // or air
-    Int height;
+// Where a column's plant would stand.
+struct PlantSite {
+    Int biome;
+    Block top;        // of the ground
+    Int depth;        // blocks of water above it; 0 or less where it is dry
+    Bool isFree;      // no cave is near
+    Float wet, cold;  // share: on the bank of a river; the temperature
 };
+// Writes the plant of the table in this column, reeds on banks, or a cactus; at step 1.
+void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& site);
 
-// Returns the random number that decides about the plant of this column.
-Float plantChance(Pass& p);
-// Returns the plant of the table in this column, or air. `grows` says where plants of a biome can stand.
-Block plantAt(Pass& p, const Tables& tables, Int biome, const std::function<Bool(int biome)>& grows);
+// Returns `forest`, the share of the vegetation that a column can have, less what woods and clearings leave.
+Float woodland(Pass& p, Float forest);
 
 // Returns the block of plants and trees at this voxel, where the ground block is `ground` (3D passes).
 Block overGround(Pass& p, const Fields& f, Int surface, Block ground);

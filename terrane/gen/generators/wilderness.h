@@ -106,14 +106,13 @@ void colorPass(Pass& p, const Fields& f);
 Block ground(Pass& p, const Fields& f);
 void caveLifePass(Pass& p, const Fields& f);
 
-// z of the ground when no river has cut it yet; forms that a climate has, for coarse heights and fields
-// alike.
+// A cone with a crater, of the coarse heights and of the ground alike (wilderness_forms.cpp).
 struct Volcano {
     Float rise;   // blocks above the land around
     Float share;  // 0…1: from its foot to its middle
 };
 Volcano volcanoAt(Pass& p);
-// Shares of the landforms of a climate.
+// Shares of the landforms of a climate: canyons, dunes, limestone towers.
 Float dryLand(Float temperature, Float moisture);
 Float sandLand(Float temperature, Float moisture);
 Float karstLand(Float temperature, Float moisture);

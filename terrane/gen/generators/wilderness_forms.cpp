@@ -1,5 +1,6 @@
 #include <numbers>
 
+#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
 // The large forms of wilderness: land and sea, ranges, table lands, volcanoes, climate.
@@ -10,23 +11,17 @@ namespace {
 
 constexpr int kClimatePeriod = 32768;  // blocks from one warm belt to the next, along y
 
-// Where new worlds begin: the square of the distance from block 0, 0, in radii; beyond 1 of no meaning.
-Float fromOrigin(Pass& p) {
-    constexpr int kRadius = 2400;
-    const auto near = [](Int v) { return Float(clamp(v, -kRadius, kRadius)) * (1.0f / kRadius); };
-    const Float x = near(p.x()), y = near(p.y());
-    return x * x + y * y;
-}
+constexpr int kOriginRadius = 2400;  // blocks
 
-// Raises the land value there.
+// Raises the land value around block 0, 0, where new worlds begin.
 Float originLand(Pass& p) {
     constexpr float kRaise = 0.5f;
-    return smoothstep(1.0f, 0.0f, fromOrigin(p)) * kRaise;
+    return smoothstep(1.0f, 0.0f, landforms::fromOrigin(p, kOriginRadius)) * kRaise;
 }
 
 // 0…1: the land there is low, so that one sees far.
 Float beyondOrigin(Pass& p) {
-    return smoothstep(0.06f, 0.4f, fromOrigin(p));
+    return smoothstep(0.06f, 0.4f, landforms::fromOrigin(p, kOriginRadius));
 }
 
 Float landAt(Pass& p) {

@@ -1,3 +1,4 @@
+#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
 // Ground of wilderness: soil, strata, ore, water, caves and what lives in them.
@@ -26,16 +27,12 @@ Block strata(Pass& p, const Fields& f) {
                        rock);
 }
 
-// Winding tunnels where two noises are both near 0, great halls, and shafts between them.
+// Winding tunnels where two noises are both near 0, and great halls.
 Bool isCave(Pass& p, const Fields& f) {
     Var<Bool> result = p.var(Bool(false));
     const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
     p.if_(p.z() > p.heights().bottom + 2 && p.z() < p.read(f.caveTop), [&] {
-        p.if_(where > -0.05f, [&] {
-            const Float a = p.perlin3D("tunnels", 22, {.45f, 1.0f}),
-                        b = p.perlin3D("more tunnels", 22, {.45f, 1.0f});
-            result = a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
-        });
+        p.if_(where > -0.05f, [&] { result = landforms::isTunnel(p, where); });
         p.if_(where < -0.15f, [&] {
             const Float hall = p.perlin3D("halls", 48, {.25f, 1.0f});
             const Float column = p.perlin2D("columns", 5, {1.0f, .5f});
@@ -43,16 +40,6 @@ Bool isCave(Pass& p, const Fields& f) {
         });
     });
     return result;
-}
-
-Block veins(Pass& p, Block rock) {
-    Var<Block> block = p.var(rock);
-    const Float where = p.perlin2D("ore places", 64, {.6f, 1.0f});
-    p.if_(where > 0.1f && p.z() < 300, [&] {
-        const Float ore = p.perlin3D("ore", 4, {1.0f, .5f});
-        block = select(ore > 0.78f, p.block("glowing_ore"), static_cast<Block>(block));
-    });
-    return block;
 }
 
 Block earth(Pass& p, const Fields& f) {
@@ -66,7 +53,7 @@ Block earth(Pass& p, const Fields& f) {
             const auto ofRock = [&](Block b) { return select(b == rock, strata(p, f), b); };
             block = select(depth == 0, ofRock(p.read(f.top)), ofRock(p.read(f.soil)));
         },
-        [&] { block = p.step() == 1 ? veins(p, strata(p, f)) : strata(p, f); });
+        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 300) : strata(p, f); });
     if (p.step() > 1) return block;
     const Block inside = select(z <= kCaveWater, p.block("water"), p.block("air"));
     return select(isCave(p, f), inside, static_cast<Block>(block));
@@ -88,18 +75,7 @@ Block ground(Pass& p, const Fields& f) {
 }
 
 void caveLifePass(Pass& p, const Fields& f) {
-    Var<Block> block = p.var(p.blockHere());
-    p.if_(p.z() < p.read(f.caveTop) && p.blockHere() == p.block("air"), [&] {
-        const Block below = p.blockInColumn(p.z() - 1);
-        const Bool isFloor = below != p.block("air") && below != p.block("water");
-        const Float chance = p.random3D("cave life", p.x(), p.y(), p.z());
-        const Block grown = multiSelect({{chance < 0.012f && p.z() < -40, p.block("crystal")},
-                                         {chance < 0.018f, p.block("glowing_mushroom")},
-                                         {chance < 0.03f, p.block("brown_mushroom")}},
-                                        p.block("air"));
-        block = select(isFloor, grown, static_cast<Block>(block));
-    });
-    p.setBlock(block);
+    landforms::growCaveLife(p, p.read(f.caveTop), {-40, 0.012f, 0.018f, 0.03f});
 }
 
 }  // namespace terrane::gen::wilderness

@@ -1,3 +1,4 @@
+#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
 // What grows in each biome of wilderness, and where.
@@ -214,27 +215,13 @@ constexpr Plant kPlants[] = {
     {Biome::KelpForest, "seagrass", 0.2f},
 };
 
-constexpr vegetation::Tables kTables = {kTrees, kSmall, kPlants, static_cast<int>(Biome::Count)};
-
-bool growsInWater(int biome) {
-    return biome == static_cast<int>(Biome::Reef) || biome == static_cast<int>(Biome::Ocean) ||
-           biome == static_cast<int>(Biome::KelpForest);
-}
+constexpr vegetation::BiomeNumber kInWater[] = {Biome::Reef, Biome::Ocean, Biome::KelpForest};
+constexpr vegetation::Tables kTables = {kTrees,   kSmall, kPlants,      static_cast<int>(Biome::Count),
+                                        kInWater, 30,     Biome::Desert};
 
 // 0…1: worlds begin in a glade around block 0, 0, so that one sees far.
 Float beyondGlade(Pass& p) {
-    constexpr int kRadius = 256;
-    const auto near = [](Int v) { return Float(clamp(v, -kRadius, kRadius)) * (1.0f / kRadius); };
-    const Float x = near(p.x()), y = near(p.y());
-    return smoothstep(0.16f, 0.8f, x * x + y * y);
-}
-
-// 0…1: the share of the densities in the tables that woods and clearings leave.
-Float density(Pass& p, const Fields& f) {
-    const Float woods = p.perlin2DWithGrain("woods", 64, {.1f, .2f, .3f, .5f});
-    const Float clearings = smoothstep(0.42f, 0.56f, p.perlin2DWithGrain("clearings", 32, {.3f, 1.0f}));
-    return p.read(f.forest) * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f) *
-           beyondGlade(p);
+    return smoothstep(0.16f, 0.8f, landforms::fromOrigin(p, 256));
 }
 
 // Trees stand on earth that no cave is near, below the tree line. On beaches only where it is warm.
@@ -251,27 +238,6 @@ Bool canGrow(Pass& p, const Fields& f) {
     return result;
 }
 
-vegetation::Growth plantAt(Pass& p, const Fields& f) {
-    const Block top = p.read(f.top);
-    const auto isOn = [&](const char* name) { return top == p.block(name); };
-    const Bool isEarth = isOn("grass") || isOn("moss") || isOn("mud") || isOn("sand") || isOn("red_sand");
-    const Bool isFree = p.read(f.caveTop) < p.read(f.surface) - 3;
-    const Int depth = p.read(f.water) - p.read(f.surface), biome = p.read(f.biome);
-    const auto grows = [&](int b) {
-        return (growsInWater(b) ? depth > 2 && depth < 30 : depth <= 0) && isEarth && isFree;
-    };
-    const Float chance = vegetation::plantChance(p);
-    Var<Block> plant = p.var(vegetation::plantAt(p, kTables, biome, grows));
-    Var<Int> height = p.var(Int(1));
-    const Bool isBank = depth <= 0 && depth >= -2 && p.read(f.wet) > 0.5f && p.read(f.cold) > -0.3f;
-    p.if_(isBank && isEarth && isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
-    p.if_(biome == number(Biome::Desert) && isFree && depth <= 0 && chance > 0.9985f, [&] {
-        plant = p.block("cactus");
-        height = Int((chance - 0.9985f) * 2600.0f) + 1;
-    });
-    return {plant, height};
-}
-
 }  // namespace
 
 const vegetation::Tables& vegetationTables() {
@@ -279,12 +245,13 @@ const vegetation::Tables& vegetationTables() {
 }
 
 void plantsPass(Pass& p, const Fields& f) {
-    const Float share = select(canGrow(p, f), density(p, f), Float(0.0f));
+    const Float share =
+        select(canGrow(p, f), vegetation::woodland(p, p.read(f.forest)) * beyondGlade(p), Float(0.0f));
     vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, p.read(f.surface)});
     if (p.step() > 1) return;
-    const vegetation::Growth plant = plantAt(p, f);
-    p.set(f.plants.plant, plant.block);
-    p.set(f.plants.plantHeight, plant.height);
+    vegetation::setPlants(p, f.plants, kTables,
+                          {p.read(f.biome), p.read(f.top), p.read(f.water) - p.read(f.surface),
+                           p.read(f.caveTop) < p.read(f.surface) - 3, p.read(f.wet), p.read(f.cold)});
 }
 
 }  // namespace terrane::gen::wilderness

@@ -1,3 +1,4 @@
+#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
 // Biomes of wilderness and what the ground is made of.
@@ -138,12 +139,6 @@ Block rockOf(Pass& p, const Fields& f, Float patches) {
                        p.block("stone"));
 }
 
-// The beds of rivers and lakes.
-Block bed(Pass& p, Float patches, Float spots) {
-    return multiSelect({{patches > 0.25f, p.block("clay")}, {spots > 0.1f, p.block("gravel")}},
-                       p.block("sand"));
-}
-
 Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Float patches = p.perlin2DWithGrain("ground patches", 16, {.3f, .4f, .6f});
     const Float spots = p.perlin2DWithGrain("ground spots", 4, {.35f, .6f});
@@ -163,7 +158,7 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
     const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
-    const Block bottom = bed(p, patches, spots);
+    const Block bottom = landforms::riverBed(p, patches, spots);
     return {multiSelect({{isUnderWater, bottom},
                          {isBare && !keepsSnow, rock},
                          {isScree && !keepsSnow, p.block("gravel")}},
