@@ -1,6 +1,8 @@
-// Land where tiles replace chunks: twenty views of 96 chunks (light of more than 97 does not fit), each
-// compared with the same view with tiles of one level from the distance on where its ring begins.
-//   bench_far_view [FOLDER [DISTANCE [PLACES]]]     96 chunks, 5 places; FOLDER gets the pictures, "" none
+// Land where tiles replace chunks: twenty views of a land, each compared with the same view with tiles of one
+// level from the distance on where its ring begins.
+//   bench_far_view [LAND [FOLDER [DISTANCE [PLACES]]]]
+// LAND is overworld, wilderness or tall (examples/lua/generators/tall.lua). 96 chunks (light of more than 97
+// does not fit), 5 places; FOLDER gets the pictures, "" none.
 #include <fmt/format.h>
 
 #include <array>
@@ -10,15 +12,18 @@
 #include <filesystem>
 #include <glm/trigonometric.hpp>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "bench/bench_content.h"
 #include "bench/picture_figures.h"
+#include "bench/tall_land.h"
 #include "terrane/gen/generators/catalogue.h"
 #include "terrane/gpu/context.h"
 #include "terrane/gpu/shader_loader.h"
 #include "terrane/mesh/chunk_mesher.h"
 #include "terrane/store/overlay_store.h"
+#include "terrane/stream/meshing.h"
 #include "terrane/view/camera_path.h"
 #include "terrane/view/world_view.h"
 
@@ -29,18 +34,39 @@ using world::ChunkPos;
 
 constexpr glm::ivec2 kSize{640, 360};
 constexpr int kDetail = 8, kTopLevel = 4;  // the coarsest; the ring of level 4 begins 64 chunks away
-constexpr float kNoon = 0.5f, kDusk = 0.78f, kNight = 0.0f;
+
+struct ViewKind {
+    const char* name;
+    float time;
+};
+// The last one looks elsewhere.
+constexpr std::array kViews = {ViewKind{"noon", 0.5f}, ViewKind{"dusk", 0.78f}, ViewKind{"night", 0},
+                               ViewKind{"other", 0.5f}};
 constexpr world::BlockPos kTown{-1024, 512, 84};
 
 struct Place {
-    const char* name;
-    world::Pose pose;
+    const char *land, *name;
+    glm::dvec2 at;
+    double above;  // the highest block there
+    float yaw, pitch;
     float otherYaw;  // of the fourth view
 };
 constexpr std::array kPlaces = {
-    Place{"mountains", {{-1048, -108, 122}, 136, -6}, 40}, Place{"coast", {{196, -522, 120}, 0, -6}, 90},
-    Place{"plains", {{1697, -392, 110}, 90, -6}, 200},     Place{"forest", {{-2546, 2220, 130}, 0, -8}, 200},
-    Place{"town", {{-992, 96, 130}, 90, -8}, 60},
+    Place{"overworld", "mountains", {-1048, -108}, 30, 136, -6, 40},
+    Place{"overworld", "coast", {196, -522}, 30, 0, -6, 90},
+    Place{"overworld", "plains", {1697, -392}, 30, 90, -6, 200},
+    Place{"overworld", "forest", {-2546, 2220}, 30, 0, -8, 200},
+    Place{"overworld", "town", {-992, 96}, 30, 90, -8, 60},
+    Place{"wilderness", "range", {1322, 773}, 120, 70, -8, 250},
+    Place{"wilderness", "canyon", {2930, 2866}, 60, 0, -8, 90},
+    Place{"wilderness", "karst", {-2709, 2467}, 60, 90, -6, 40},
+    Place{"wilderness", "volcano", {-290, 774}, 60, 220, 2, 120},
+    Place{"wilderness", "snow", {4300, -5800}, 100, 60, -6, 300},
+    Place{"tall", "islands", {-1527, 715}, 60, 315, 12, 180},
+    Place{"tall", "foot", {-390, -1500}, 60, 350, 8, 250},
+    Place{"tall", "peak", {1700, -1900}, 60, 60, -6, 200},
+    Place{"tall", "shade", {760, 900}, 60, 90, -4, 180},
+    Place{"tall", "plateau", {-1500, 715}, 100, 0, 0, 270},
 };
 
 // Houses, lamps and a tower on a platform.
@@ -63,9 +89,15 @@ std::vector<game::EditCommand> villageAt(world::BlockPos corner) {
     return commands;
 }
 
+gen::LevelGenerators generatorsOf(std::string_view land) {
+    if (land == "tall") return {bench::recordTallLand(bench::blocks()), 1, bench::kTallHeights};
+    return bench::orExit(gen::makeLevelGenerators(land, bench::blocks(), 1));
+}
+
 struct Stage {
-    gen::LevelGenerators generators =
-        bench::orExit(gen::makeLevelGenerators("overworld", bench::blocks(), 1));
+    explicit Stage(std::string_view land) : generators(generatorsOf(land)) {}
+
+    gen::LevelGenerators generators;
     world::BlockRegistry farBlocks = bench::blocks().forFarTiles();
     gpu::ShaderLoader shaders = gpu::builtInShaders("");
     render::Renderer renderer = bench::orExit(
@@ -76,19 +108,29 @@ struct Stage {
     int distance = 0;
 };
 
-void load(Stage& stage, const Place& place, int distance) {
+render::Camera cameraAt(const Stage& stage, const Place& place) {
+    const world::BlockPos at{static_cast<int>(place.at.x), static_cast<int>(place.at.y), 0};
+    const world::Chunk chunk = stage.generators.generate(world::chunkOf(at));
+    int z = chunk.heights().top - 1;
+    while (z > chunk.heights().bottom &&
+           chunk.block(world::blockIndex(at.x & 15, at.y & 15, z)) == world::kAir)
+        --z;
+    return {{place.at, z + place.above}, place.yaw, place.pitch};
+}
+
+void load(Stage& stage, const Place& place, const render::Camera& camera, int distance) {
     stage.view.reset();
     stage.session.reset();
     stage.renderer.clearChunks();
     game::SessionParts parts{std::make_unique<const world::BlockRegistry>(bench::blocks()),
-                             bench::orExit(gen::makeLevelGenerators("overworld", bench::blocks(), 1)),
-                             std::make_unique<store::MemoryStore>(store::WorldIdentity{1, "overworld", 1}),
+                             generatorsOf(place.land),
+                             std::make_unique<store::MemoryStore>(
+                                 store::WorldIdentity{1, place.land, 1, stage.generators.heights()}),
                              2};
     parts.storesGenerated = false;
     stage.session.emplace(std::move(parts));
     stage.view.emplace(*stage.session, stage.renderer);
     stage.renderer.setViewDistance(distance);
-    const render::Camera camera = view::cameraOf(place.pose);
     const auto loadAll = [&](const render::Camera& at, int radius) {
         view::loadAll(*stage.session, *stage.view, at, radius, std::chrono::steady_clock::now());
     };
@@ -124,7 +166,8 @@ int ringOf(int level) {
     return std::max(16, kDetail / 2 << level);
 }
 
-// Tiles of the level, from its ring on, that lie wholly within the view distance.
+// Tiles of the level, from its ring on, that lie wholly within the view distance, but not at its border: the
+// sides of the land that is loaded are the same in both images.
 std::vector<ChunkPos> tilesOf(const Stage& stage, int level) {
     std::vector<ChunkPos> tiles;
     const int width = 1 << level, across = stage.distance / width + 1;
@@ -134,28 +177,59 @@ std::vector<ChunkPos> tilesOf(const Stage& stage, int level) {
                                 static_cast<std::uint8_t>(level)};
             const int x0 = tile.x * width - stage.center.x, y0 = tile.y * width - stage.center.y;
             const bool isWhole =
-                std::min(x0, y0) >= -stage.distance && std::max(x0, y0) + width - 1 <= stage.distance;
+                std::min(x0, y0) > -stage.distance && std::max(x0, y0) + width - 1 < stage.distance;
             if (isWhole && stream::tileDistance(stage.center, tile) >= ringOf(level)) tiles.push_back(tile);
         }
     }
     return tiles;
 }
 
-// Shows the tiles, or the chunks under them.
-void show(Stage& stage, const std::vector<ChunkPos>& tiles, bool isShown) {
-    mesh::MeshScratch scratch;
+// The chunks under some tiles.
+std::set<ChunkPos> chunksUnder(const std::vector<ChunkPos>& tiles) {
+    std::set<ChunkPos> chunks;
     for (const ChunkPos tile : tiles) {
-        if (isShown) {
-            const store::LoadedChunk saved = stage.session->store().load(tile);
-            const world::Chunk chunk = saved.chunk ? *saved.chunk : stage.generators.generate(tile);
-            if (!stage.renderer.setChunk(tile, mesh::meshTile(chunk, stage.farBlocks, {}, scratch)))
-                bench::orExit(base::fail("no room for a tile on the GPU"));
-        } else {
-            stage.renderer.removeChunk(tile);
-        }
         const int width = 1 << tile.level;
         for (int k = 0; k < width * width; ++k)
-            stage.renderer.setShown({tile.x * width + k % width, tile.y * width + k / width}, !isShown);
+            chunks.insert({tile.x * width + k % width, tile.y * width + k / width});
+    }
+    return chunks;
+}
+
+// Meshes the chunks beside those that are gone again: their sides there are open, as beside tiles.
+void meshAround(Stage& stage, const std::set<ChunkPos>& gone, mesh::MeshScratch& scratch) {
+    constexpr std::array<std::pair<int, int>, 4> kSides = {{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+    const world::ChunkPtr open = stream::borderChunk(bench::blocks(), stage.generators.heights());
+    std::set<ChunkPos> around;
+    for (const ChunkPos pos : gone) {
+        for (const auto& [x, y] : kSides) {
+            const ChunkPos beside = world::offsetBy(pos, x, y);
+            if (!gone.contains(beside)) around.insert(beside);
+        }
+    }
+    const auto& chunks = stage.session->world();
+    for (const ChunkPos pos : around) {
+        mesh::MeshBlocks blocks{chunks.maybeChunkAt(pos)};
+        for (std::size_t side = 0; side < kSides.size(); ++side) {
+            const ChunkPos beside = world::offsetBy(pos, kSides[side].first, kSides[side].second);
+            blocks[side + 1] = gone.contains(beside) ? open : chunks.maybeChunkAt(beside);
+        }
+        const mesh::MeshInput input = mesh::meshInput(blocks, bench::blocks(), {});
+        if (!stage.renderer.setChunk(pos, mesh::meshChunk(input, scratch)))
+            bench::orExit(base::fail("no room for a chunk on the GPU"));
+    }
+}
+
+// Replaces chunks by tiles.
+void replaceBy(const std::vector<ChunkPos>& tiles, Stage& stage) {
+    mesh::MeshScratch scratch;
+    const std::set<ChunkPos> gone = chunksUnder(tiles);
+    for (const ChunkPos pos : gone) stage.renderer.removeChunk(pos);
+    meshAround(stage, gone, scratch);
+    for (const ChunkPos tile : tiles) {
+        const store::LoadedChunk saved = stage.session->store().load(tile);
+        const world::Chunk chunk = saved.chunk ? *saved.chunk : stage.generators.generate(tile);
+        if (!stage.renderer.setChunk(tile, mesh::meshTile(chunk, stage.farBlocks, {}, scratch)))
+            bench::orExit(base::fail("no room for a tile on the GPU"));
     }
 }
 
@@ -188,42 +262,45 @@ void print(std::string_view name, std::string_view view, int level, const Sum& s
 }  // namespace
 
 int main(int argc, char** argv) {
-    const std::filesystem::path folder = argc > 1 ? argv[1] : "";
-    const int distance = argc > 2 ? std::atoi(argv[2]) : 96;
-    const auto places = static_cast<std::size_t>(std::clamp(argc > 3 ? std::atoi(argv[3]) : 5, 1, 5));
+    const std::string_view land = argc > 1 ? argv[1] : "overworld";
+    const std::filesystem::path folder = argc > 2 ? argv[2] : "";
+    const int distance = argc > 3 ? std::atoi(argv[3]) : 96;
+    int places = argc > 4 ? std::atoi(argv[4]) : 5;
     const auto context = bench::orExit(gpu::HeadlessContext::create({}));
     context.makeCurrent();
-    Stage stage;
+    Stage stage(land);
     std::array<Sum, kTopLevel + 1> sums;
     fmt::print(
         "place      view   level       mean  worst mean      99 %   brightness         water IoU  skyline, "
         "px  beyond a cell, %\n");
-    for (std::size_t n = 0; n < places; ++n) {
-        const Place& place = kPlaces[n];
-        load(stage, place, distance);
-        for (int k = 0; k < 4; ++k) {
-            constexpr std::array kNames = {"noon", "dusk", "night", "other"};
-            constexpr std::array kTimes = {kNoon, kDusk, kNight, kNoon};
-            const auto at = static_cast<std::size_t>(k);
-            render::Camera camera = view::cameraOf(place.pose);
-            if (k == 3) camera.yaw = place.otherYaw;
-            const bench::Pictures chunks = draw(stage, camera, kTimes[at]);
-            for (int level = 1; level <= kTopLevel && ringOf(level) < distance; ++level) {
-                const std::vector<ChunkPos> shown = tilesOf(stage, level);
-                show(stage, shown, true);
-                const bench::Pictures tiles = draw(stage, camera, kTimes[at]);
-                show(stage, shown, false);
-                const double focal = kSize.y / 2 / std::tan(glm::radians(camera.fieldOfView) / 2);
-                const double cell = (1 << level) * focal / (ringOf(level) * world::kChunkSize);
-                const bench::PictureFigures figures = comparePictures(chunks, tiles, cell);
+    for (const Place& place : kPlaces) {
+        if (place.land != land || places-- <= 0) continue;
+        const render::Camera first = cameraAt(stage, place);
+        load(stage, place, first, distance);
+        std::array<render::Camera, kViews.size()> cameras;
+        cameras.fill(first);
+        cameras.back().yaw = place.otherYaw;
+        std::array<bench::Pictures, kViews.size()> chunks;
+        for (std::size_t k = 0; k < kViews.size(); ++k) chunks[k] = draw(stage, cameras[k], kViews[k].time);
+        // A finer level replaces the chunks of all coarser ones and more.
+        for (int level = kTopLevel; level >= 1; --level) {
+            if (ringOf(level) >= distance) continue;
+            const std::vector<ChunkPos> shown = tilesOf(stage, level);
+            replaceBy(shown, stage);
+            const double focal = kSize.y / 2 / std::tan(glm::radians(first.fieldOfView) / 2);
+            const double cell = (1 << level) * focal / (ringOf(level) * world::kChunkSize);
+            for (std::size_t k = 0; k < kViews.size(); ++k) {
+                const bench::Pictures tiles = draw(stage, cameras[k], kViews[k].time);
+                const bench::PictureFigures figures = comparePictures(chunks[k], tiles, cell);
                 Sum one;
                 one.add(figures);
-                print(place.name, kNames[at], level, one);
+                print(place.name, kViews[k].name, level, one);
                 sums[static_cast<std::size_t>(level)].add(figures);
                 if (folder.empty()) continue;
-                const auto file = folder / fmt::format("{}_{}_{}.png", place.name, kNames[at], level);
-                if (!base::writePng(file, bench::above(chunks.color, tiles.color))) return 1;
+                const auto file = folder / fmt::format("{}_{}_{}.png", place.name, kViews[k].name, level);
+                if (!base::writePng(file, bench::above(chunks[k].color, tiles.color))) return 1;
             }
+            for (const ChunkPos tile : shown) stage.renderer.removeChunk(tile);
         }
     }
     for (int level = 1; level <= kTopLevel && ringOf(level) < distance; ++level)

@@ -1,7 +1,7 @@
 -- Tall land: mountains of 1,500, cliffs, islands in the sky, and caves down to -800.
 g:heights(-1024, 1792)
 
-local height = g:field("height", "int")
+local height = g:field("height", "float")
 local cover = g:field("cover", "block")
 
 g:pass2D("land", function(p)
@@ -13,27 +13,27 @@ g:pass2D("land", function(p)
     local tops = where * (max(crest, 0.0) * 1900.0 + rocks * 1.5)
     -- A step up of some hundred blocks: the edge of a plateau.
     local plateau = smoothstep(0.28, 0.3, p:perlin2D("plateaus", 1024, {0.3, 1})) * 340.0
-    p:set(height, int(min(90.0 + land + tops + plateau, 1700.0)))
+    p:set(height, floor(min(90.0 + land + tops + plateau, 1700.0)))
 end)
 
 g:pass2D("cover", function(p)
     local here = p:read(height)
-    local dx = p:readAt(height, 1, 0) - p:readAt(height, -1, 0)
-    local dy = p:readAt(height, 0, 1) - p:readAt(height, 0, -1)
+    local slope = p:slope(height)
     p:set(cover, multiSelect({
-        {here:le(81), "sand"},
-        {(abs(dx) + abs(dy)):gt(5), "stone"},
-        {here:gt(640), "snow"},
+        {here:le(81.0), "sand"},
+        {(abs(slope.x) + abs(slope.y)):gt(2.5), "stone"},
+        {here:gt(640.0), "snow"},
     }, "grass"))
 end)
 
 g:pass3D("ground", function(p)
-    local depth = p:read(height) - p.z
+    local top = int(p:read(height))
+    local depth = top - p.z
     local block = p:var(select(p.z:le(80), "water", "air"))
     p:if_(depth:ge(0), function() block.value = "stone" end)
     p:if_(depth:ge(0) & depth:lt(3), function() block.value = p:read(cover) end)
     -- Caves: halls in the deep, passages near the ground, none near the sea and below -800.
-    p:if_(depth:gt(2) & p:read(height):gt(90) & p.z:gt(-800), function()
+    p:if_(depth:gt(2) & top:gt(90) & p.z:gt(-800), function()
         local hall = p:perlin3D("halls", 24, {0.2, 0.4, 1})
         block.value = select(hall:gt(0.40), "air", block.value)
     end)
