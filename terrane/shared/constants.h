@@ -1,4 +1,4 @@
-// Sizes of the world that C++ and GLSL agree on.
+// Sizes of the world, and limits of its image, that C++ and GLSL agree on.
 #ifndef TERRANE_SHARED_CONSTANTS_H
 #define TERRANE_SHARED_CONSTANTS_H
 
@@ -12,6 +12,10 @@ const uint kSectionSize = 16u;   // a section is 16³ blocks
 
 const uint kBlocksPerLayer = 256u;     // 16 × 16
 const uint kBlocksPerSection = 4096u;  // 16³
+
+// Corners of nearly folded quads move no farther along them than this many times the growth of their edges
+// (render/frame/edge_expansion.glsl).
+const float kLongestMiter = 64.0f;
 
 SHARED_END
 #endif

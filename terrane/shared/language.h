@@ -1,6 +1,6 @@
 // Lets one header be read as C++20 and as GLSL 4.50. Every header in this folder includes it first.
 // In both languages: `uint` is 32 bits, typed constants are `const uint kName = 4u;`, functions start with
-// SHARED_FN, structs hold scalars, two- and four-vectors only (std430 aligns a three-vector to 16 bytes).
+// SHARED_FN or SHARED_INLINE, structs hold scalars, two- and four-vectors only (std430 aligns a three-vector to 16 bytes).
 #ifndef TERRANE_SHARED_LANGUAGE_H
 #define TERRANE_SHARED_LANGUAGE_H
 
@@ -31,6 +31,10 @@ constexpr float uintBitsToFloat(uint v) {
 }  // namespace terrane::shared
 
 #define SHARED_FN constexpr
+// Functions that call others which are no constant expressions, such as min() of vectors.
+#define SHARED_INLINE inline
+// A large parameter that is read only.
+#define SHARED_REF(Type) const Type&
 // On float variables whose bits must be the same everywhere: no contraction, no reordering.
 #define SHARED_PRECISE
 #define SHARED_BEGIN namespace terrane::shared {
@@ -39,6 +43,8 @@ constexpr float uintBitsToFloat(uint v) {
 #else
 
 #define SHARED_FN
+#define SHARED_INLINE
+#define SHARED_REF(Type) Type
 #define SHARED_PRECISE precise
 #define SHARED_BEGIN
 #define SHARED_END

@@ -131,25 +131,31 @@ const uint kHiZThreads = 8u;
 // many.
 const uint kHiZTexelPixels = 2u;
 
+// What the tests of boxes and quads read (culling.h).
+struct CullView {
+    mat4 viewProjection;
+    vec2 viewportSize;    // pixels
+    float nearPlane;      // blocks
+    float edgeExpansion;  // pixels, as in Frame
+    float blockPixels;    // pixels that a block takes, one block ahead
+    uint samples;         // a pixel
+    int hiZLevels;
+    uint unused;
+};
+
 // Uniforms of culling. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.
 struct CullFrame {
     vec4 cameraPlanes[5];
     vec4 cameraPosition;                       // from the corner of its chunk
     uvec4 firstCommand[kFirstCommandVectors];  // by arena × kDrawLists + list, in the buffer of commands
-    mat4 viewProjection;
+    CullView view;
     ivec2 cameraChunk;
-    vec2 viewportSize;  // pixels
-    float nearPlane;    // blocks
-    int hiZLevels;
     uint meshSectionCount;
-    uint phase;           // kCullAll and so on
-    uint arenaQuads;      // addresses of an arena
-    float edgeExpansion;  // pixels, as in Frame
-    float blockPixels;    // pixels that a block takes, one block ahead
-    uint samples;         // a pixel
-    uint commandsEnd;     // of the last list
-    uint maxTestGroups;   // of quad_cull.comp.glsl
-    uint unused0, unused1;
+    uint phase;          // kCullAll and so on
+    uint arenaQuads;     // addresses of an arena
+    uint commandsEnd;    // of the last list
+    uint maxTestGroups;  // of quad_cull.comp.glsl
+    uint unused;
 };
 
 // Mesh sections whose quads are to be tested: work groups, as glDispatchComputeIndirect reads them, and their

@@ -23,6 +23,12 @@
 #define LIGHT_SIMPLE 2
 
 // MASK: the pixels in which any sample has a surface; shows the sky or may fade into it; has a layer
+// RESIZING: of the image, to that of the screen
+#define RESIZE_LINEAR 0
+#define RESIZE_NEAREST 1
+#define RESIZE_EDGES 2
+#define RESIZE_SHARPEN 3
+
 #define MASK_SURFACES 0
 #define MASK_SKY 1
 #define MASK_LAYERS 2

@@ -89,7 +89,7 @@ class CullPassTest : public gpu::GlTest {
         ring_->beginFrame();
         pass_->run(CullPhase::All, {cameraChunk(camera), view.cameraPosition, frustumOf(view.viewProjection)},
                    *meshSections_, *ring_);
-        pass_->queueCounts();
+        pass_->endFrame();
         ring_->endFrame();
         glFinish();
         const shared::DrawCounts& counts = pass_->counts();

@@ -110,6 +110,7 @@ class DrawCheckTest : public gpu::GlTest {
         for (const auto& [pos, mesh] : golden::meshWorld(world)) renderer->setChunk(pos, mesh);
         RenderOptions options;
         options.msaaSamples = 2;
+        options.draw = DrawMethod::Indirect;
         EXPECT_TRUE(renderer->configure({160, 90}, options));
         const FrameInput input{{{-9, 5, 86}, 10, -14}, world::environmentAt(0.4f), 120, 1, View::Color};
         for (int frame = 0; frame < 3; ++frame) renderer->draw(input);

@@ -157,14 +157,14 @@ TEST_F(FramePassesTest, ShadersCanBeWrittenBeforeThereIsAnImage) {
 TEST_F(FramePassesTest, EachPassThatIsOnIsMeasured) {
     RenderOptions options = fullOptions(1);
     options.tJunctions = TJunctions::Filled;
+    options.renderScale = 50;
     ASSERT_TRUE(renderer_->configure(kPassesSize, options));
     for (int frame = 0; frame < 4; ++frame) {
         draw({{-9, 5, 340}, 10, -50});  // clouds are drawn for a camera near or above them
         glFinish();
     }
     std::vector<std::string_view> expected = passNames();
-    ASSERT_EQ(expected.back(), "debug view");
-    expected.pop_back();
+    ASSERT_EQ(std::erase(expected, "debug view"), 1u);
     std::vector<std::string_view> measured;
     for (const gpu::GpuTiming& pass : renderer_->passTimes()) measured.push_back(pass.name);
     EXPECT_EQ(measured, expected) << "all options are on";

@@ -49,7 +49,7 @@ TEST(RenderOptions, UltraHasMoreThanHigh) {
 // How draws reach the driver is a matter of the driver.
 TEST(RenderOptions, PresetsKeepTheWayOfDrawing) {
     GraphicsSettings settings;
-    EXPECT_EQ(withPreset(settings, "low", true).render.draw, DrawMethod::Indirect);
+    EXPECT_EQ(withPreset(settings, "low", true).render.draw, DrawMethod::Auto);
     settings.render.draw = DrawMethod::Loop;
     for (const Preset& preset : presets())
         EXPECT_EQ(withPreset(settings, preset.name, true).render.draw, DrawMethod::Loop) << preset.name;

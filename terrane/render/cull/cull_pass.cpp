@@ -61,16 +61,10 @@ shared::CullFrame frameOf(CullPhase phase, const CullInput& input, std::uint32_t
     shared::CullFrame frame{};
     std::ranges::copy(input.camera, frame.cameraPlanes);
     frame.cameraPosition = glm::vec4(input.cameraPosition, 0);
-    frame.viewProjection = input.viewProjection;
+    frame.view = input.view();
     frame.cameraChunk = {input.cameraChunk.x, input.cameraChunk.y};
-    frame.viewportSize = input.size;
-    frame.nearPlane = kNearPlane;
-    frame.hiZLevels = input.hiZ ? input.hiZ->levels() : 0;
     frame.meshSectionCount = meshSections;
     frame.phase = static_cast<shared::uint>(phase);
-    frame.edgeExpansion = input.edgeExpansion;
-    frame.blockPixels = input.blockPixels;
-    frame.samples = static_cast<shared::uint>(input.samples);
     return frame;
 }
 
@@ -142,12 +136,17 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
     glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections) const {
-    return bytesWhileGrowing(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand))) +
-           bytesWhileGrowing(records_, commandBytes(meshSections, sizeof(shared::DrawRecord))) +
-           bytesWhileGrowing(visible_, meshSections.count() * sizeof(std::uint32_t)) +
-           bytesWhileGrowing(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t)) +
-           countBuffer_.sizeBytes() + quadCull_.gpuBytes() + quadList_.gpuBytes();
+std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
+                               DrawMethod method) const {
+    const std::size_t onGpu = commands_.sizeBytes() + records_.sizeBytes() + visible_.sizeBytes() +
+                              visibleLastFrame_.sizeBytes() + countBuffer_.sizeBytes() +
+                              quadCull_.gpuBytes() + quadList_.gpuBytes();
+    if (method == DrawMethod::Loop) return onGpu + cpu_.gpuBytes(meshSections, quads, limits_);
+    return onGpu + cpu_.gpuBytes() +
+           grownBytes(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand))) +
+           grownBytes(records_, commandBytes(meshSections, sizeof(shared::DrawRecord))) +
+           grownBytes(visible_, meshSections.count() * sizeof(std::uint32_t)) +
+           grownBytes(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t));
 }
 
 // Mesh sections not tested before count as hidden: the late pass draws them.
@@ -184,39 +183,25 @@ void CullPass::dispatch(const CullInput& input, const MeshSectionTable& meshSect
                     GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
 }
 
-// Waits for the GPU: draws of the CPU need the selection of the GPU.
-void CullPass::readCommands() {
-    std::vector<TwoCounts> counts(lists_.size());
-    countBuffer_.download(0, std::as_writable_bytes(std::span(counts)));
-    onCpu_.resize(lists_.size());
-    for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
-        const shared::DrawCounts& ofPass = counts[arena][phase_ == CullPhase::Late ? 1 : 0];
-        for (std::uint32_t list = 0; list < shared::kDrawLists; ++list) {
-            const ListCommands& commands = lists_[arena][list];
-            onCpu_[arena][list].resize(std::min(ofPass.commands[list], commands.max));
-            commands_.download(commands.first * sizeof(shared::DrawCommand),
-                               std::as_writable_bytes(std::span(onCpu_[arena][list])));
-        }
-    }
-}
-
 void CullPass::run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
                    gpu::MappedRing& ring) {
     const gpu::DebugGroup group("cull");
     phase_ = phase;
     method_ = input.method;
-    onCpu_.clear();
+    if (method_ == DrawMethod::Loop) {
+        cpu_.run(phase, input, meshSections, limits_);
+        return;
+    }
     const GLuint zero = 0;
     if (phase != CullPhase::Late) {
         reserve(meshSections);
         glClearNamedBufferData(countBuffer_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
     if (meshSections.count() == 0) return;
-    if (!hasIndirectCount_ && method_ == DrawMethod::Indirect) {
+    if (!hasIndirectCount_) {
         glClearNamedBufferData(commands_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
     }
     dispatch(input, meshSections, ring);
-    if (method_ == DrawMethod::Loop) readCommands();
 }
 
 std::size_t CullPass::countsOffset(std::size_t arena) const {
@@ -224,13 +209,21 @@ std::size_t CullPass::countsOffset(std::size_t arena) const {
 }
 
 void CullPass::drawList(shared::uint list, std::size_t arena) const {
-    CommandList commands{.commands = &commands_,
-                         .first = lists_[arena][list].first,
-                         .count = lists_[arena][list].max,
-                         .counts = hasIndirectCount_ ? &countBuffer_ : nullptr,
-                         .countOffsetBytes = countsOffset(arena) + list * sizeof(shared::uint)};
-    if (arena < onCpu_.size()) commands.onCpu = onCpu_[arena][list];
-    drawCommands(method_, commands);
+    if (method_ == DrawMethod::Loop) {
+        cpu_.bindListed();
+        drawCommands(method_, {.onCpu = cpu_.commands(arena, list)});
+        return;
+    }
+    quadList_.bind();
+    drawCommands(method_, {.commands = &commands_,
+                           .first = lists_[arena][list].first,
+                           .count = lists_[arena][list].max,
+                           .counts = hasIndirectCount_ ? &countBuffer_ : nullptr,
+                           .countOffsetBytes = countsOffset(arena) + list * sizeof(shared::uint)});
+}
+
+bool CullPass::isEmpty(shared::uint list, std::size_t arena) const {
+    return method_ == DrawMethod::Loop ? cpu_.commands(arena, list).empty() : lists_[arena][list].max == 0;
 }
 
 void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& state, const QuadStore& quads,
@@ -240,17 +233,20 @@ void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& st
         bucketState.cullsBackFaces = !isTwoSided;
         pipeline.set(bucketState);
         const auto list = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
-        for (std::size_t arena = 0; arena < lists_.size(); ++arena) {
-            if (lists_[arena][list].max == 0) continue;
+        for (std::size_t arena = 0; arena < arenaCount(); ++arena) {
+            if (isEmpty(list, arena)) continue;
             quads.texels(arena).bind(shared::kQuadsUnit);
-            quadList_.bind();
             drawList(list, arena);
         }
     }
 }
 
 // Skipped if the GPU is as many frames behind as there are buffers.
-void CullPass::queueCounts() {
+void CullPass::endFrame() {
+    if (method_ == DrawMethod::Loop) {
+        cpu_.endFrame();
+        return;
+    }
     counts();
     Readback& readback = readbacks_[nextReadback_];
     if (readback.isPending) return;
@@ -262,6 +258,7 @@ void CullPass::queueCounts() {
 }
 
 const shared::DrawCounts& CullPass::counts() {
+    if (method_ == DrawMethod::Loop) return cpu_.counts();
     for (std::size_t k = 0; k < kReadbacks; ++k) {
         Readback& readback = readbacks_[(nextReadback_ + k) % kReadbacks];
         if (!readback.isPending || !readback.fence.passed()) continue;
@@ -276,6 +273,12 @@ const shared::DrawCounts& CullPass::counts() {
 }
 
 std::vector<CullPass::Draw> CullPass::readDraws(shared::uint list, std::size_t arena) const {
+    if (method_ == DrawMethod::Loop) {
+        std::vector<Draw> draws;
+        for (const shared::DrawCommand& command : cpu_.commands(arena, list))
+            draws.push_back({command, cpu_.recordOf(command)});
+        return draws;
+    }
     shared::DrawCounts counts{};
     countBuffer_.download(countsOffset(arena), std::as_writable_bytes(std::span(&counts, 1)));
     std::vector<Draw> draws(counts.commands[list]);

@@ -1,6 +1,7 @@
-// Selects the draws on the GPU: mesh sections in view, without face directions that face away from the
-// camera, become indirect draw commands, nearest first; with occlusion culling the commands draw lists of
-// quads (quad_list.h). The renderer uses it on the context's thread.
+// Selects the draws: mesh sections in view, without face directions that face away from the camera, become
+// draw commands, nearest first; with occlusion culling the commands draw lists of quads. Compute shaders
+// select them for indirect draws (quad_list.h), or the CPU does (cpu_cull.h). The renderer uses it on the
+// context's thread.
 #pragma once
 
 #include <array>
@@ -10,10 +11,10 @@
 #include "terrane/gpu/pipeline_state.h"
 #include "terrane/gpu/program.h"
 #include "terrane/gpu/readback_buffer.h"
+#include "terrane/render/cull/cpu_cull.h"
+#include "terrane/render/cull/cull_input.h"
 #include "terrane/render/cull/quad_list.h"
 #include "terrane/render/quads/mesh_section_table.h"
-#include "terrane/render/quads/quad_resources.h"
-#include "terrane/render/quads/quad_store.h"
 
 namespace terrane::render {
 
@@ -40,33 +41,16 @@ class QuadCull {
     gpu::Buffer list_;  // shared::TestedMeshSections, then their numbers
 };
 
-struct CullInput {
-    world::ChunkPos cameraChunk;
-    glm::vec3 cameraPosition;  // from the corner of its chunk
-    Frustum camera;
-    glm::mat4 viewProjection{1};
-    glm::vec2 size{1};                    // of the image in pixels
-    const gpu::Texture2D* hiZ = nullptr;  // for the late pass
-    // With Hi-Z the late pass tests quads, and both passes list those to draw.
-    const QuadStore* quads = nullptr;
-    const QuadResources* resources = nullptr;
-    float edgeExpansion = 0;  // pixels that edges of quads move
-    float blockPixels = 0;    // pixels of a block, one block ahead
-    int samples = 1;          // a pixel
-    DrawMethod method = DrawMethod::Indirect;
-};
-
-// All: everything in view. Early: everything that was visible in the frame before. Late: everything that the
-// depth of the early pass does not hide. Mesh sections first, then their quads: cull_pass.h.
-enum class CullPhase : std::uint8_t { All, Early, Late };
-
 class CullPass {
   public:
     static base::Result<CullPass> create(const gpu::ShaderLoader& shaders, const gpu::DeviceInfo& device,
                                          const DrawLimits& limits = {});
 
     // Call this after all mesh sections were removed: new ones count as not visible in the last frame.
-    void invalidate() { visibleLastFrame_ = {}; }
+    void invalidate() {
+        visibleLastFrame_ = {};
+        cpu_.invalidate();
+    }
     // Runs a pass. `meshSections` is up to date. The early and the late pass of a frame follow each other,
     // with drawing between them.
     void run(CullPhase phase, const CullInput& input, const MeshSectionTable& meshSections,
@@ -78,10 +62,12 @@ class CullPass {
                      mesh::AlphaClass alphaClass) const;
 
     const DrawLimits& limits() const { return limits_; }
-    const gpu::Buffer& drawRecords() const { return records_; }  // shared::DrawRecord by command
+    const gpu::Buffer& drawRecords() const {  // shared::DrawRecord by command
+        return method_ == DrawMethod::Loop ? cpu_.drawRecords() : records_;
+    }
 
-    // Ends the frame: queues a read-back of its counts.
-    void queueCounts();
+    // Ends the frame. Its counts follow, those of the GPU some frames later.
+    void endFrame();
     // Counts of the newest finished frame, summed over its passes; does not wait.
     const shared::DrawCounts& counts();
 
@@ -92,15 +78,17 @@ class CullPass {
     // Returns the draws of the last run, for tests: waits for the GPU.
     std::vector<Draw> readDraws(shared::uint list, std::size_t arena = 0) const;
 
-    // Returns the GPU memory as of the next run. Includes buffers that it replaces; QuadCull and QuadList
-    // count with their present size.
-    std::size_t gpuBytes(const MeshSectionTable& meshSections) const;
+    // Returns the GPU memory as of the next run, by this method. Includes buffers that it replaces; QuadCull
+    // and QuadList count with their present size.
+    std::size_t gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
+                         DrawMethod method) const;
 
   private:
     void reserve(const MeshSectionTable& meshSections);
     void dispatch(const CullInput& input, const MeshSectionTable& meshSections, gpu::MappedRing& ring);
     void drawList(shared::uint list, std::size_t arena) const;
-    void readCommands();
+    bool isEmpty(shared::uint list, std::size_t arena) const;
+    std::size_t arenaCount() const { return method_ == DrawMethod::Loop ? cpu_.arenaCount() : lists_.size(); }
     std::size_t commandBytes(const MeshSectionTable& meshSections, std::size_t bytesEach) const;
     std::size_t countsOffset(std::size_t arena) const;
 
@@ -117,6 +105,7 @@ class CullPass {
     using ArenaLists = std::array<ListCommands, shared::kDrawLists>;
     static constexpr std::size_t kReadbacks = 4;
 
+    CpuCull cpu_;
     gpu::Program cull_, compact_;
     QuadCull quadCull_;
     QuadList quadList_;
@@ -126,8 +115,6 @@ class CullPass {
     DrawLimits limits_;
     std::vector<ArenaLists> lists_;  // by arena
     std::uint32_t commandsEnd_ = 0;  // of the last list
-    // Commands of the last run by arena and list, for DrawMethod::Loop.
-    std::vector<std::array<std::vector<shared::DrawCommand>, shared::kDrawLists>> onCpu_;
     std::array<Readback, kReadbacks> readbacks_;
     std::size_t nextReadback_ = 0;
     shared::DrawCounts counts_{};

@@ -52,7 +52,7 @@ MaybePass makeDepthPyramid(FrameBuilder& build) {
         .reads = {depth},
         .writes = {hiZ},
         .record =
-            [=](FrameContext&) {
+            [=](FrameContext& context) {
                 const GLuint id = hiZ->id();
                 glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);  // the frame before may still read it
                 glBindImageTexture(shared::kHiZToImage, id, 0, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
@@ -61,7 +61,9 @@ MaybePass makeDepthPyramid(FrameBuilder& build) {
                 dispatch(usedSize(pixels));
                 next->use();
                 glm::ivec2 drawn = usedSize(pixels);
-                for (int level = 1; level < hiZ->plain().levels(); ++level) {
+                // On the CPU the finest level is read back.
+                const bool isFinestOnly = context.culling.method == DrawMethod::Loop;
+                for (int level = 1; level < hiZ->plain().levels() && !isFinestOnly; ++level) {
                     drawn = (drawn + 1) / 2;
                     glMemoryBarrier(GL_SHADER_IMAGE_ACCESS_BARRIER_BIT);
                     glBindImageTexture(shared::kHiZFromImage, id, level - 1, GL_FALSE, 0, GL_READ_ONLY,
@@ -69,7 +71,7 @@ MaybePass makeDepthPyramid(FrameBuilder& build) {
                     glBindImageTexture(shared::kHiZToImage, id, level, GL_FALSE, 0, GL_WRITE_ONLY, GL_R32F);
                     dispatch(drawn);
                 }
-                glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT);
+                glMemoryBarrier(GL_TEXTURE_FETCH_BARRIER_BIT | GL_TEXTURE_UPDATE_BARRIER_BIT);
             },
         .isNeeded = [](FrameContext& context) { return context.cullsOccluded(); },
         .drawnIn = DrawnIn::EveryView};

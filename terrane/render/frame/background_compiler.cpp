@@ -41,10 +41,12 @@ world::Chunk sampleChunk(const world::BlockRegistry& blocks) {
     return chunk;
 }
 
-// Options that select the same programs, with a small shadow map.
+// Options that select the same programs, with a small shadow map. An image that is enlarged takes all programs
+// of one that is not.
 RenderOptions withTheSamePrograms(RenderOptions options) {
     options.shadowSize = 256;
     options.animation = options.distanceFog = true;
+    options.renderScale = options.renderScale > 100 ? 200 : 50;
     return options;
 }
 

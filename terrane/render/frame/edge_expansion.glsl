@@ -3,8 +3,7 @@
 // the background. So every edge moves outward by the largest error that OpenGL allows (edge_expansion.cpp), far less
 // than a pixel: neighbors overlap, and silhouettes stay where they are.
 
-// Corners of nearly folded quads move no farther along them than this many times the growth.
-const float kLongestMiter = 64.0;
+#include "terrane/shared/constants.h"
 
 // Screen direction from a point toward another, which may lie behind the camera: the derivative of the projection.
 vec2 screenDirection(vec4 from, vec4 to, vec2 halfViewport) {

@@ -18,7 +18,7 @@ MaybePass makeCull(FrameBuilder&), makeShadowMap(FrameBuilder&), makeSurfaces(Fr
     makeHoleFill(FrameBuilder&), makeFigures(FrameBuilder&), makeOcclusion(FrameBuilder&),
     makeSky(FrameBuilder&), makeShade(FrameBuilder&), makePeel(FrameBuilder&), makeShadeLayers(FrameBuilder&),
     makeClouds(FrameBuilder&), makeGodRays(FrameBuilder&), makeDepthOfField(FrameBuilder&),
-    makeFinal(FrameBuilder&), makeDebugView(FrameBuilder&);
+    makeFinal(FrameBuilder&), makeDebugView(FrameBuilder&), makeResize(FrameBuilder&);
 
 namespace {
 
@@ -46,7 +46,8 @@ constexpr PassRow kPasses[] = {
     {"god rays", makeGodRays},             //
     {"depth of field", makeDepthOfField},  //
     {"final", makeFinal},                  // applies effects and display colors
-    {"debug view", makeDebugView}};        // shows the G-buffer instead of the image
+    {"debug view", makeDebugView},         // shows the G-buffer instead of the image
+    {"resize", makeResize}};               // makes the image as large as it is shown
 
 bool isDrawn(const Pass& pass, const FrameInput& input) {
     switch (pass.drawnIn) {
@@ -139,6 +140,7 @@ base::Result<void> FrameBuilder::makeSharedTargets() {
     t.image = target({"image", GL_RGBA8, size});
     frame.gbuffer = TERRANE_TRY(framebuffer("G-buffer", {t.surfaces}, t.depth));
     frame.image = TERRANE_TRY(framebuffer("image", {t.image}));
+    frame.output = frame.image;
     if (samples() > 1) {
         t.mask = target({"mask", GL_DEPTH_COMPONENT16, size});
         frame.mask = TERRANE_TRY(framebuffer("mask", {}, t.mask));

@@ -80,9 +80,13 @@ struct Pass {
 using MaybePass = base::Result<std::optional<Pass>>;
 
 struct FrameSpec {
-    glm::ivec2 size{0};  // pixels
+    glm::ivec2 size{0};        // pixels that are drawn
+    glm::ivec2 outputSize{0};  // pixels of the image that is shown: see RenderOptions::renderScale
     RenderOptions options;
     QuadFeatures features;
+    // As the options say, for this driver: not Auto.
+    DrawMethod draw = DrawMethod::Indirect;
+    Upscaling upscaling = Upscaling::Linear;
 
     bool operator==(const FrameSpec&) const = default;
 };
@@ -105,7 +109,8 @@ struct Frame {
     SharedTargets targets;
     // gbuffer: surfaces and depth. scene: with the depth of the one sample, or the mask. image: alone.
     // direct: with one sample a pixel, the image with the depth: see isDirectImage().
-    std::shared_ptr<const gpu::Framebuffer> gbuffer, scene, image, direct, mask;
+    // output: what is shown, the image or another size of it.
+    std::shared_ptr<const gpu::Framebuffer> gbuffer, scene, image, direct, mask, output;
     std::shared_ptr<ShadowMap> shadowMap;  // null: off
     std::vector<Pass> passes;
     std::vector<TargetRef> allTargets;

@@ -14,6 +14,7 @@ namespace {
 constexpr std::array kSamples = {1, 2, 4, 8};
 constexpr std::array kShadowSizes = {1024, 2048, 4096};
 constexpr std::array kMeshSectionHeights = {8, 16, 32, 64, 128};
+constexpr std::array kRenderScales = {25, 33, 40, 50, 60, 67, 75, 85, 100, 150, 200, 300, 400};
 constexpr std::array kHorizons = {0, 128, 256, 512, 1024, 2048, 4096};
 constexpr std::array kDetails = {8, 12, 16, 20, 24, 28, 32};
 
@@ -157,10 +158,33 @@ std::vector<GraphicsRow> makeTable() {
          .valueNames = {"8", "12", "16", "20", "24", "28", "32"},
          .get = [](const GraphicsSettings& s) { return indexOf(kDetails, s.detail); },
          .set = [](GraphicsSettings& s, int value) { s.detail = kDetails[static_cast<std::size_t>(value)]; }},
-        {.name = "draw",
+        {.name = "render-scale",
          .description =
-             "Draw calls: by indirect lists on the GPU, or one by one, for drivers that draw lists wrongly",
-         .valueNames = {"indirect", "loop"},
+             "Size of the image that is drawn, in percent of the one that is shown, along each side",
+         .valueNames = {"25", "33", "40", "50", "60", "67", "75", "85", "100", "150", "200", "300", "400"},
+         .get = [](const GraphicsSettings& s) { return indexOf(kRenderScales, s.render.renderScale); },
+         .set = [](GraphicsSettings& s,
+                   int value) { s.render.renderScale = kRenderScales[static_cast<std::size_t>(value)]; },
+         .label = "Render scale",
+         .tip = "Draws the world smaller and enlarges the image; text stays sharp.\nSaves time where pixels "
+                "take it.",
+         .valueLabels = {"25 %", "33 %", "40 %", "50 %", "60 %", "67 %", "75 %", "85 %", "100 %", "150 %",
+                         "200 %", "300 %", "400 %"},
+         .isOfPreset = false},
+        {.name = "upscaling",
+         .description = "Enlargement of a smaller image: by blending, in square pixels, along edges (FSR 1), "
+                        "or as suits the driver",
+         .valueNames = {"auto", "linear", "nearest", "edges"},
+         .get = getMember<&RenderOptions::upscaling>,
+         .set = setMember<&RenderOptions::upscaling>,
+         .label = "Enlargement",
+         .tip = "How a smaller image is enlarged: see the render scale.\nCost: low on a graphics card.",
+         .valueLabels = {"Automatic", "Soft", "Square pixels", "Along edges"},
+         .isOfPreset = false},
+        {.name = "draw",
+         .description = "Culling and draw calls: in lists by the graphics card, one by one by the processor, "
+                        "or as suits the driver",
+         .valueNames = {"auto", "indirect", "loop"},
          .get = getMember<&RenderOptions::draw>,
          .set = setMember<&RenderOptions::draw>,
          .isOfPreset = false},

@@ -104,6 +104,8 @@ GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view nam
                               preset->viewDistance.value_or(before.viewDistance),
                               preset->horizon.value_or(before.horizon), preset->detail};
     settings.render.draw = before.render.draw;
+    settings.render.renderScale = before.render.renderScale;
+    settings.render.upscaling = before.render.upscaling;
     return settings;
 }
 

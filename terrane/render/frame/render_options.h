@@ -39,10 +39,19 @@ enum class ShadowReach : std::uint8_t {
     Horizon,  // as far as land is visible
 };
 
-// How lists of draws reach the driver: docs/rendering.md, Drawing.
+// Who selects the draws, and how they reach the driver: docs/rendering.md, Draw calls.
 enum class DrawMethod : std::uint8_t {
+    Auto,      // the loop without a graphics card and for drivers that draw lists wrongly
     Indirect,  // one call draws a list that the GPU wrote
-    Loop,      // the CPU reads the list back and calls once for each command: for drivers with errors
+    Loop,      // the CPU culls, and calls once for each command
+};
+
+// How an image that is drawn smaller than the screen is enlarged.
+enum class Upscaling : std::uint8_t {
+    Auto,  // Linear without a graphics card, else Edges
+    Linear,
+    Nearest,  // square pixels
+    Edges,    // along edges, and sharpened
 };
 
 struct RenderOptions {
@@ -64,8 +73,10 @@ struct RenderOptions {
     int transparencyLayers = 3;       // of blended faces, 0 to 3
     int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
     TJunctions tJunctions = TJunctions::Covered;
-    bool occlusionCulling = true;            // of mesh sections behind others
-    DrawMethod draw = DrawMethod::Indirect;  // no preset sets it
+    bool occlusionCulling = true;  // of mesh sections behind others
+    int renderScale = 100;         // size of the drawn image, percent of the screen's: no preset sets it
+    Upscaling upscaling = Upscaling::Auto;  // no preset sets it
+    DrawMethod draw = DrawMethod::Auto;     // no preset sets it
 
     bool operator==(const RenderOptions&) const = default;
 };

@@ -1,6 +1,7 @@
 #include "terrane/render/frame/renderer.h"
 
 #include <algorithm>
+#include <glm/common.hpp>
 #include <span>
 #include <utility>
 
@@ -95,11 +96,18 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
         return base::fail(base::ErrorCode::BadInput, "{} × {} pixels: an image has at least 1 per side",
                           size.x, size.y);
     }
-    if (std::max(size.x, size.y) > device_.maxTextureSize) {
-        return base::fail("{} × {} pixels: the graphics driver has at most {} per side", size.x, size.y,
+    const glm::ivec2 drawn = glm::max((size * options.renderScale + 50) / 100, glm::ivec2(1));
+    const glm::ivec2 larger = glm::max(size, drawn);
+    if (std::max(larger.x, larger.y) > device_.maxTextureSize) {
+        return base::fail("{} × {} pixels: the graphics driver has at most {} per side", larger.x, larger.y,
                           device_.maxTextureSize);
     }
-    return rebuild({size, options, features()});
+    Upscaling upscaling = options.upscaling;
+    if (upscaling == Upscaling::Auto) upscaling = device_.software ? Upscaling::Linear : Upscaling::Edges;
+    const bool isLoop = !device_.indirectDraws || (options.draw == DrawMethod::Auto && device_.software) ||
+                        options.draw == DrawMethod::Loop;
+    return rebuild(
+        {drawn, size, options, features(), isLoop ? DrawMethod::Loop : DrawMethod::Indirect, upscaling});
 }
 
 base::Result<void> Renderer::reloadShaders() {
@@ -135,7 +143,7 @@ bool Renderer::hasShadows(const FrameInput& input) const {
 
 void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) {
     shared::Frame frame = frameUniforms(
-        input, options(), {view, glm::vec2(size()), edgeExpansion(device_.subpixelBits, size())});
+        input, options(), {view, glm::vec2(drawnSize()), edgeExpansion(device_.subpixelBits, drawnSize())});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
@@ -152,15 +160,15 @@ void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) 
     land_.writeUniforms(input.camera, ring_);
 }
 
-CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) const {
+CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view) {
     CullInput cull{cameraChunk(input.camera), view.cameraPosition, frustumOf(view.viewProjection),
-                   view.viewProjection, glm::vec2(size())};
+                   view.viewProjection, glm::vec2(drawnSize())};
     cull.quads = &quads_;
     cull.resources = &resources_;
-    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, size());
+    cull.edgeExpansion = edgeExpansion(device_.subpixelBits, drawnSize());
     cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
     cull.samples = frame_.samples;
-    cull.method = device_.indirectDraws ? options().draw : DrawMethod::Loop;
+    cull.method = frame_.spec.draw;
     if (input.cullingCamera)
         cull.camera = frustumOf(viewMatrices(*input.cullingCamera, aspectOf(size())).viewProjection);
     else if (frame_.targets.hiZ)
@@ -212,7 +220,7 @@ void Renderer::draw(const FrameInput& input) {
     recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
     gpu::Program::useNone();
-    cull_.queueCounts();
+    cull_.endFrame();
     ring_.endFrame();
 }
 
@@ -222,7 +230,7 @@ std::size_t Renderer::shadowTriangles(const FrameInput& input) const {
 }
 
 void Renderer::presentToWindow(glm::ivec2 windowSize) const {
-    gpu::blitToWindow(*frame_.image, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
+    gpu::blitToWindow(*frame_.output, 0, windowSize, size() == windowSize ? GL_NEAREST : GL_LINEAR);
 }
 
 void Renderer::setHeights(world::Heights heights) {
@@ -252,13 +260,14 @@ std::size_t lightShare(std::size_t bytes) {
 }  // namespace
 
 GpuMemory Renderer::memory() const {
-    return {.quads = quads_.bufferBytes(),
-            .light = light_.textureBytes(),
-            .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_),
-            .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
-                        land_.gpuBytes(),
-            .targets = frame_.targetBytes(),
-            .staging = stagingBytes_};
+    return {
+        .quads = quads_.bufferBytes(),
+        .light = light_.textureBytes(),
+        .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_, quads_, frame_.spec.draw),
+        .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
+                    land_.gpuBytes(),
+        .targets = frame_.targetBytes(),
+        .staging = stagingBytes_};
 }
 
 void Renderer::setMemoryBudget(std::size_t bytes) {

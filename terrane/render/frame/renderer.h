@@ -31,8 +31,9 @@ class Renderer {
     // Replaces the textures, for the same blocks, from the next frame on. On failure the old ones stay.
     base::Result<void> setTextures(const world::BlockRegistry& blocks, const TextureSource& textures);
 
-    // Sets the size of the image in pixels and the options. Comes before the first frame and whenever one of
-    // them changes. If the driver does not support them it fails, and the old configuration stays.
+    // Sets the size of the image in pixels, as readImage() and presentToWindow() have it, and the options.
+    // Comes before the first frame and whenever one of them changes. If the driver does not support them it
+    // fails, and the old configuration stays.
     base::Result<void> configure(glm::ivec2 size, const RenderOptions& options);
     const RenderOptions& options() const { return frame_.spec.options; }
     // Loads all shaders again, for the next frame. On failure the old ones stay.
@@ -100,7 +101,7 @@ class Renderer {
     // Draws into the renderer's own image.
     void draw(const FrameInput& input);
 
-    base::Image readImage() const { return gpu::readPixels(*frame_.image); }  // waits for the GPU
+    base::Image readImage() const { return gpu::readPixels(*frame_.output); }  // waits for the GPU
     void presentToWindow(glm::ivec2 windowSize) const;
 
     // Returns the statistics of the newest frame that the GPU has finished.
@@ -115,16 +116,17 @@ class Renderer {
     const world::TopColors& topColors() const { return topColors_; }            // of the textures in use
     std::size_t lightBytes() const { return light_.usedBytes(); }
     std::size_t chunkCount() const { return std::max(light_.chunkCount(), quads_.chunks().size()); }
-    glm::ivec2 size() const { return frame_.spec.size; }
+    glm::ivec2 size() const { return frame_.spec.outputSize; }
     const Frame& frame() const { return frame_; }  // for tests and documents
 
   private:
+    glm::ivec2 drawnSize() const { return frame_.spec.size; }
     // Rebuilds the frame and replaces the old one. If it fails, the old one stays.
     base::Result<void> rebuild(const FrameSpec& spec);
     QuadFeatures features() const { return {resources_.hasFaceSampling(), tints_.isUsed(), land_.isUsed()}; }
     FrameContext prepare(const FrameInput& input);
     void writeUniforms(const FrameInput& input, const ViewMatrices& view);
-    CullInput cullInput(const FrameInput& input, const ViewMatrices& view) const;
+    CullInput cullInput(const FrameInput& input, const ViewMatrices& view);
     bool hasShadows(const FrameInput& input) const;
     void forgetShadows() {
         if (frame_.shadowMap) frame_.shadowMap->invalidate();

@@ -270,6 +270,14 @@ std::vector<FinalVariant> FinalVariant::all() {
     return with(with(variants, &FinalVariant::hasGodRays), &FinalVariant::showsOcclusion);
 }
 
+gpu::ShaderDefines ResizeVariant::defines() const {
+    return defined({{"RESIZING", number(resizing)}});
+}
+
+std::vector<ResizeVariant> ResizeVariant::all() {
+    return {{Resizing::Linear}, {Resizing::Nearest}, {Resizing::Edges}, {Resizing::Sharpen}};
+}
+
 gpu::ShaderDefines DebugViewVariant::defines() const {
     return defined({{"MSAA_SAMPLES", samples}, {"LIGHT", number(light)}});
 }
@@ -349,6 +357,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
         {"effects/depth_of_field.frag", [] { return definesOf(DepthOfFieldVariant::all()); }},
         {"effects/hole_fill.frag", [] { return definesOf(HoleFillVariant::all()); }},
         {"frame/final.frag", [] { return definesOf(FinalVariant::all()); }},
+        {"effects/resize.frag", [] { return definesOf(ResizeVariant::all()); }},
         {"frame/debug_view.frag", [] { return definesOf(DebugViewVariant::all()); }},
         {"cull/hi_z.comp", [] { return definesOf(HiZVariant::all()); }},
         {"figures/figure.vert",

@@ -153,6 +153,19 @@ struct FinalVariant {
     static std::vector<FinalVariant> all();
 };
 
+enum class Resizing : std::uint8_t {
+    Linear = RESIZE_LINEAR,
+    Nearest = RESIZE_NEAREST,
+    Edges = RESIZE_EDGES,
+    Sharpen = RESIZE_SHARPEN
+};
+struct ResizeVariant {
+    Resizing resizing = Resizing::Linear;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<ResizeVariant> all();
+};
+
 struct DebugViewVariant {
     int samples = 1;
     LightDetail light = LightDetail::Classic;

@@ -39,6 +39,8 @@ class MeshSectionTable {
     const gpu::Buffer& records() const { return records_; }  // shared::MeshSectionRecord by slot
     void bindOrder() const { orderBuffer_.bindStorage(shared::kMeshSectionOrderBinding); }
 
+    // Returns the slots in their order, nearest first.
+    const std::vector<std::uint32_t>& order() const { return order_.slots(); }
     // Returns the records by slot; heights are 0 if the slot is free, and only then.
     std::span<const shared::MeshSectionRecord> slotRecords() const { return cpuRecords_; }
     // Returns the boxes of mesh sections that were replaced, removed or added since the last call, before and

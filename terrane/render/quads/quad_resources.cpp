@@ -56,7 +56,8 @@ gpu::Buffer materialRecords(const world::BlockRegistry& blocks, const BlockTextu
 }  // namespace
 
 QuadResources::QuadResources(const world::BlockRegistry& blocks, BlockTextures textures, float anisotropy)
-    : smooth_({.minFilter = GL_LINEAR_MIPMAP_LINEAR,
+    : tables_{mesh::shapeFaces(blocks), {}},
+      smooth_({.minFilter = GL_LINEAR_MIPMAP_LINEAR,
                .magFilter = GL_LINEAR,
                .wrapS = GL_REPEAT,
                .wrapT = GL_REPEAT,
@@ -68,11 +69,12 @@ QuadResources::QuadResources(const world::BlockRegistry& blocks, BlockTextures t
                 .wrapT = GL_REPEAT},
                "block textures, nearest"),
       indices_(quadIndices()),
-      shapeFaces_(std::as_bytes(std::span<const shared::ShapeFace>(mesh::shapeFaces(blocks))), 0,
-                  "shape faces"),
+      shapeFaces_(std::as_bytes(std::span<const shared::ShapeFace>(tables_.shapeFaces)), 0, "shape faces"),
       shapeFaceTexels_(shapeFaces_, GL_RGBA32F, "shape faces"),
       vertexArray_("quads") {
     vertexArray_.setElementBuffer(indices_);
+    for (const world::Material& m : blocks.materials())
+        tables_.isWaving.push_back(m.animation != world::Animation::None);
     setTextures(blocks, std::move(textures));
 }
 

@@ -7,9 +7,16 @@
 #include "terrane/gpu/texture.h"
 #include "terrane/gpu/vertex_array.h"
 #include "terrane/render/quads/block_textures.h"
+#include "terrane/shared/shape_face.h"
 #include "terrane/world/blocks/block_registry.h"
 
 namespace terrane::render {
+
+// The same on the CPU, for culling.
+struct QuadTables {
+    std::vector<shared::ShapeFace> shapeFaces;
+    std::vector<std::uint32_t> isWaving;  // by material
+};
 
 class QuadResources {
   public:
@@ -26,9 +33,11 @@ class QuadResources {
     void bind(const gpu::Buffer& drawRecords, bool isSmooth);
     // Binds only shapes and materials.
     void bindTables() const;
+    const QuadTables& tables() const { return tables_; }
     std::size_t gpuBytes() const;
 
   private:
+    QuadTables tables_;
     BlockTextures textures_;
     gpu::Sampler smooth_, nearest_;
     gpu::Buffer indices_, shapeFaces_, materials_;

@@ -79,20 +79,36 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                     const mesh::MeshSectionSet& meshSections) {
     base::require(quadsOf(mesh.meshSections) == mesh.quads.size(),
                   "Renderer::setChunk: the mesh sections do not name each quad once");
-    if (!reserve(pos, mesh.meshSections, meshSections)) return false;
+    if (!replaceRanges(pos, mesh.meshSections, meshSections)) return false;
     if (mesh.quads.empty()) return true;
     const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
     const auto lowest = std::ranges::find_if(mesh.meshSections, mesh::quadCount);
     const std::uint32_t first =
         mesh::firstQuad(*std::ranges::find(stored, lowest->bottom, &mesh::MeshSection::bottom));
-    arenas_[ranges_.arenaOf(first)].buffer.uploadVector(
-        std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
+    Arena& arena = arenas_[ranges_.arenaOf(first)];
+    arena.buffer.uploadVector(std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
+    if (!arena.onCpu.empty()) std::ranges::copy(mesh.quads, arena.onCpu.begin() + ranges_.offsetOf(first));
     uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
     return true;
 }
 
 bool QuadStore::reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
                         const mesh::MeshSectionSet& meshSections) {
+    for (Arena& arena : arenas_) arena.onCpu.clear();
+    return replaceRanges(pos, meshes, meshSections);
+}
+
+std::span<shared::Quad> QuadStore::quadsOnCpu(std::size_t arena) {
+    Arena& a = arenas_[arena];
+    if (a.onCpu.empty()) {
+        a.onCpu.resize(a.buffer.sizeBytes() / shared::kQuadBytes);
+        a.buffer.download(0, std::as_writable_bytes(std::span(a.onCpu)));
+    }
+    return a.onCpu;
+}
+
+bool QuadStore::replaceRanges(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
+                              const mesh::MeshSectionSet& meshSections) {
     for (const mesh::MeshSection& meshSection : meshes) {
         base::require(meshSections.has(meshSection) || mesh::quadCount(meshSection) == 0,
                       "Renderer::setChunk: quads of a mesh section that is not set");
@@ -166,9 +182,12 @@ bool QuadStore::grow(std::uint32_t count) {
         arenas_.push_back(std::move(arena));
     } else {
         peakBytes_ = std::max(peakBytes_, bytes + arena.buffer.sizeBytes());
-        gpu::Buffer& old = arenas_[growth->arena].buffer;
-        glCopyNamedBufferSubData(old.id(), arena.buffer.id(), 0, 0, static_cast<GLsizeiptr>(old.sizeBytes()));
-        arenas_[growth->arena] = std::move(arena);
+        Arena& old = arenas_[growth->arena];
+        glCopyNamedBufferSubData(old.buffer.id(), arena.buffer.id(), 0, 0,
+                                 static_cast<GLsizeiptr>(old.buffer.sizeBytes()));
+        arena.onCpu = std::move(old.onCpu);
+        if (!arena.onCpu.empty()) arena.onCpu.resize(growth->capacity);
+        old = std::move(arena);
     }
     ranges_.grow(*growth);
     return true;

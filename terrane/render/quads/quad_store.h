@@ -26,6 +26,7 @@
 #include "terrane/mesh/remesh.h"
 #include "terrane/render/quads/draw_commands.h"
 #include "terrane/shared/mesh_section.h"
+#include "terrane/shared/quad.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::render {
@@ -87,6 +88,9 @@ class QuadStore {
     // Returns the mesh sections of a chunk; the result is empty if it has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
     gpu::ArenaBuffers buffers() const;  // until the next change
+    // Returns the quads of an arena in memory, for culling on the CPU, which changes their bits. The first
+    // call, and each after quads that a shader wrote, waits for the GPU.
+    std::span<shared::Quad> quadsOnCpu(std::size_t arena);
     const gpu::BufferTexture& texels(std::size_t arena) const {
         return arenas_[arena].texels;
     }  // a quad each
@@ -101,8 +105,11 @@ class QuadStore {
     struct Arena {
         gpu::Buffer buffer;
         gpu::BufferTexture texels;
+        std::vector<shared::Quad> onCpu = {};  // empty until it is asked for
     };
 
+    bool replaceRanges(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
+                       const mesh::MeshSectionSet& meshSections);
     bool hasRoomFor(std::span<const mesh::MeshSection> meshes) const;
     void free(ChunkMeshSections& chunk, const mesh::MeshSectionSet& meshSections);
     std::optional<std::uint32_t> allocate(std::uint32_t count);
