@@ -45,9 +45,11 @@ TEST_F(GraphicsTest, TheFirstStartMeasuresWhichPresetToTake) {
         Program program = startPlain({});
         program.until("the world is played", [&] { return program.isPlaying(); });
         EXPECT_TRUE(program.game().preset.isBusy());
-        EXPECT_FALSE(program.window().hasVsync);
+        program.frames();
+        EXPECT_EQ(program.window().vsync, Vsync::Off);
         program.until("the choice", [&] { return !program.game().preset.isBusy(); });
-        EXPECT_TRUE(program.window().hasVsync);
+        program.frames(2);
+        EXPECT_EQ(program.window().vsync, Vsync::On);
         preset = program.game().settings.preset;
         EXPECT_NE(log().find("graphics: " + preset + ", for "), std::string::npos);
         expectGood(program.quit());
@@ -71,6 +73,42 @@ TEST_F(GraphicsTest, AChosenPresetIsNotMeasured) {
             << chosen[0];
         std::filesystem::remove(data() / "settings.toml");
     }
+}
+
+TEST_F(GraphicsTest, FramesWaitForTheScreenAndTheLimit) {
+    makeWorld("home");
+    Program program = play("home", {"--frame-limit", "10", "--vsync", "adaptive"});
+    program.untilDrawn();
+    EXPECT_EQ(program.window().vsync, Vsync::Adaptive);
+    // A frame takes 50 ms in the window of tests, of the 100 that the limit leaves.
+    const double paused = program.window().pausedSeconds;
+    EXPECT_GT(paused, 0);
+    program.game().settings.frameLimit = 0;
+    program.game().settings.vsync = Vsync::Off;
+    program.frames(3);
+    EXPECT_EQ(program.window().vsync, Vsync::Off);
+    const double before = program.window().pausedSeconds;
+    program.frames(3);
+    EXPECT_EQ(program.window().pausedSeconds, before);
+    expectGood(program.quit());
+}
+
+// Frames of the window of tests take 50 ms, whatever is drawn.
+TEST_F(GraphicsTest, TheWorldIsDrawnSmallerWhereFramesTakeTooLong) {
+    makeWorld("home");
+    Program program = play("home");
+    program.untilDrawn();
+    const auto scale = [&] { return program.game().parts.renderer.options().renderScale; };
+    program.frames(40);
+    EXPECT_EQ(scale(), 100) << "without a rate to hold";
+    const glm::ivec2 size = program.game().parts.renderer.size();
+    program.game().settings.targetFps = 30;
+    program.until("a smaller image", [&] { return scale() < 100; });
+    EXPECT_EQ(program.game().parts.renderer.size(), size);
+    EXPECT_EQ(program.worldImage().width, size.x);
+    program.until("the full size, as a smaller one was no faster", [&] { return scale() == 100; });
+    EXPECT_EQ(program.game().settings.graphics.render.renderScale, 100) << "the player's own";
+    expectGood(program.quit());
 }
 
 TEST_F(GraphicsTest, OnlyChangesOfThePlayerAreKept) {

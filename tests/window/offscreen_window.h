@@ -30,7 +30,9 @@ class OffscreenWindow final : public Window {
     float contentScale() const override { return scale; }
     void setFullScreen(bool isFull) override { isFullScreen = isFull; }
     void setIcon(glm::ivec2, std::span<const std::byte> pixels) override { hasIcon = !pixels.empty(); }
-    void setVsync(bool isOn) override { hasVsync = isOn; }
+    void setVsync(Vsync given) override { vsync = given; }
+    void pause(double given) override { pausedSeconds += given; }
+    double refreshRate() const override { return 60; }
     void setTextCursor(bool isOverText) override { hasTextCursor = isOverText; }
     std::string clipboard() const override { return clipboardText; }
     void setClipboard(const std::string& text) override { clipboardText = text; }
@@ -42,7 +44,9 @@ class OffscreenWindow final : public Window {
     glm::ivec2 units{0};
     float scale = 1, unitPixels = 1;  // of the interface; pixels per unit
     bool isMinimised = false, isFullScreen = false, isClosed = false, isCaptured = false;
-    bool hasIcon = false, hasVsync = true, hasTextCursor = false;
+    bool hasIcon = false, hasTextCursor = false;
+    Vsync vsync = Vsync::On;
+    double pausedSeconds = 0;
     std::optional<glm::dvec2> cursorAt;
     std::optional<Gamepad> pad;
     std::string clipboardText;

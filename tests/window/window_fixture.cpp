@@ -54,9 +54,20 @@ void WindowTest::TearDown() {
 }
 
 Program WindowTest::start(std::vector<std::string> arguments) {
-    const std::vector<std::string> usual = {"--debug-gl", "--preset",  "low", "--view-distance",
-                                            "2",          "--horizon", "0",   "--language",
-                                            "en",         "--threads", "1",   "--reduced-motion"};
+    const std::vector<std::string> usual = {"--debug-gl",
+                                            "--preset",
+                                            "low",
+                                            "--view-distance",
+                                            "2",
+                                            "--horizon",
+                                            "0",
+                                            "--language",
+                                            "en",
+                                            "--threads",
+                                            "1",
+                                            "--reduced-motion",
+                                            "--target-fps",
+                                            "off"};
     const auto isGiven = [&](const std::string& name) { return std::ranges::count(arguments, name) > 0; };
     arguments.insert(arguments.begin(), usual.begin(), usual.end());
     if (!isGiven("--size")) arguments.insert(arguments.end(), {"--size", "480x300"});

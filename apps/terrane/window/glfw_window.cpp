@@ -3,6 +3,7 @@
 #define GLFW_INCLUDE_NONE  // epoxy declares OpenGL
 #include <GLFW/glfw3.h>
 #include <epoxy/gl.h>
+#include <chrono>
 #include <glm/geometric.hpp>
 #include <glm/vec4.hpp>
 
@@ -10,6 +11,7 @@
 #include <cstring>
 #include <filesystem>
 #include <optional>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -154,7 +156,11 @@ class GlfwWindow final : public Window {
     float contentScale() const override;
     void setFullScreen(bool isFullScreen) override;
     void setIcon(glm::ivec2 size, std::span<const std::byte> pixels) override;
-    void setVsync(bool isOn) override { glfwSwapInterval(isOn ? 1 : 0); }
+    void setVsync(Vsync vsync) override;
+    void pause(double seconds) override {
+        std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+    }
+    double refreshRate() const override;
     void setTextCursor(bool isOverText) override;
     std::string clipboard() const override;
     void setClipboard(const std::string& text) override { glfwSetClipboardString(window_, text.c_str()); }
@@ -192,7 +198,7 @@ base::Result<void> GlfwWindow::open(const WindowOptions& options) {
     if (options.drawsWorlds)
         if (base::Result<void> fit = gpu::checkRequirements(); !fit) return fit;
     if (options.debug) debugLog_ = gpu::enableDebugOutput(false);
-    setVsync(true);
+    setVsync(Vsync::On);
     glfwSetTime(0.0);
     textCursor_ = glfwCreateStandardCursor(GLFW_IBEAM_CURSOR);
     installCallbacks();
@@ -269,6 +275,21 @@ void GlfwWindow::setFullScreen(bool isFullScreen) {
     const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
     if (mode == nullptr) return;
     glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+void GlfwWindow::setVsync(Vsync vsync) {
+    const bool isAdaptive =
+        vsync == Vsync::Adaptive && (glfwExtensionSupported("GLX_EXT_swap_control_tear") ||
+                                     glfwExtensionSupported("WGL_EXT_swap_control_tear"));
+    glfwSwapInterval(isAdaptive ? -1 : vsync == Vsync::Off ? 0 : 1);
+}
+
+double GlfwWindow::refreshRate() const {
+    glm::ivec2 position{0};
+    glfwGetWindowPos(window_, &position.x, &position.y);
+    GLFWmonitor* monitor = monitorOfWindow({position, size()});
+    const GLFWvidmode* mode = monitor != nullptr ? glfwGetVideoMode(monitor) : nullptr;
+    return mode != nullptr ? mode->refreshRate : 0;
 }
 
 void GlfwWindow::setIcon(glm::ivec2 size, std::span<const std::byte> pixels) {

@@ -42,6 +42,10 @@ struct ScreenArea {
 // on none.
 std::size_t monitorOf(const ScreenArea& window, std::span<const ScreenArea> monitors);
 
+// Whether frames wait for the vertical sync of the screen. Adaptive: only those that are in time, where the
+// driver can; On elsewhere.
+enum class Vsync : std::uint8_t { Off, On, Adaptive };
+
 class Window {
   public:
     Window() = default;
@@ -78,7 +82,9 @@ class Window {
     virtual void setFullScreen(bool isFullScreen) = 0;
     // `pixels`: width × height × 4 bytes, RGBA, top row first. Does nothing on systems without window icons.
     virtual void setIcon(glm::ivec2 size, std::span<const std::byte> pixels) = 0;
-    virtual void setVsync(bool isOn) = 0;  // frames wait for vertical sync
+    virtual void setVsync(Vsync vsync) = 0;
+    virtual void pause(double seconds) = 0;
+    [[nodiscard]] virtual double refreshRate() const = 0;  // of the monitor that the window is on, a second
 
     // A captured cursor is hidden and its motion is unlimited.
     void setCursorCaptured(bool captured);

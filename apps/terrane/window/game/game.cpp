@@ -114,6 +114,18 @@ bool hasNewContent(const GameOptions& options, Notices& notices) {
     return false;
 }
 
+void useVsync(GameState& game, Vsync vsync) {
+    if (std::exchange(game.vsync, vsync) != vsync) game.parts.window.setVsync(vsync);
+}
+
+// Waits until the frame after the one that began at `begin` may begin.
+void limitFrames(const GameState& game, double begin) {
+    if (game.settings.frameLimit <= 0) return;
+    Window& window = game.parts.window;
+    const double left = begin + 1 / game.settings.frameLimit - window.timeSeconds();
+    if (left > 0) window.pause(left);
+}
+
 base::Result<void> drawFrame(GameState& game, double seconds) {
     const glm::ivec2 size = game.parts.window.framebufferSize();
     if (size.x == 0 || size.y == 0) return {};  // minimised
@@ -139,7 +151,9 @@ base::Result<void> drawFrames(GameState& game) {
             game.notices.say(std::move(*notice));
         if (!game.leaving.isAsked && hasNewContent(game.options, game.notices))
             game.leaving = {.isAsked = true, .toTitle = false, .forReload = true};
+        useVsync(game, game.preset.isMeasuring() ? Vsync::Off : game.settings.vsync);
         TERRANE_TRY(drawFrame(game, seconds));
+        limitFrames(game, now);
         if (game.perfLog) game.perfLog->add(game.seconds, seconds, statisticsOf(game));
     }
     return {};
@@ -167,6 +181,7 @@ base::Result<void> runGame(GameState& game) {
         saved = save(parts.session);
     } while (drawn && !saved && askBeforeLoss(game));
     game.preset.end();
+    useVsync(game, Vsync::On);
     const glm::dvec3& p = game.player.pose().position;
     base::logInfo("closed after {} frames at {:.2f},{:.2f},{:.2f}", game.frames, p.x, p.y, p.z);
     if (game.perfLog) base::logInfo("most seconds had {} frames", game.meter.mode());

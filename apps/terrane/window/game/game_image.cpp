@@ -22,6 +22,28 @@ world::Environment environmentOf(const game::DayClock& clock) {
     return world::environmentAt(static_cast<float>(clock.timeDay));
 }
 
+// The time that a frame should take, milliseconds; 0: as long as it likes. A graphics card waits for the
+// screen, so a part of its time is left over.
+double targetMilliseconds(GameState& game) {
+    int rate = game.settings.targetFps;
+    if (rate == 0 || game.preset.isBusy()) return 0;
+    constexpr int kSoftwareRate = 30;
+    constexpr double kShareOfCard = 0.9;
+    const bool isSoftware = game.options.isSoftwareRenderer;
+    if (rate == PlaySettings::kAutomaticRate)
+        rate = isSoftware ? kSoftwareRate : static_cast<int>(game.refreshRate.at(game.seconds, [&] {
+            return game.parts.window.refreshRate();
+        }));
+    return rate > 0 ? 1000.0 / rate * (isSoftware ? 1 : kShareOfCard) : 0;
+}
+
+// As the settings say, and as small as the rate of frames needs.
+render::RenderOptions optionsOf(GameState& game) {
+    render::RenderOptions options = game.preset.options(game.settings);
+    if (targetMilliseconds(game) > 0) options.renderScale = game.scale.scaleFor(options.renderScale);
+    return options;
+}
+
 bool shadersAreReady(render::BackgroundCompiler& compiler, const render::Renderer& renderer, glm::ivec2 size,
                      const render::RenderOptions& options) {
     constexpr glm::ivec2 kPreview(view::BlockPreview::kSize);
@@ -35,7 +57,7 @@ bool shadersAreReady(render::BackgroundCompiler& compiler, const render::Rendere
 // not at all at first. Options that cannot be drawn are reverted.
 base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
     render::Renderer& renderer = game.parts.renderer;
-    render::RenderOptions options = game.preset.options(game.settings);
+    render::RenderOptions options = optionsOf(game);
     if (!shadersAreReady(game.parts.compiler, renderer, size, options)) {
         game.notices.say(game.tr("compiling shaders"));
         if (!hasWorldImage(renderer)) return {};
@@ -46,7 +68,10 @@ base::Result<void> configureRenderer(GameState& game, glm::ivec2 size) {
     if (configured || !hasWorldImage(renderer) || options == renderer.options()) return configured;
     base::logWarning("{}", configured.error().message);
     game.notices.say(configured.error().message);
+    const int ownScale = game.settings.graphics.render.renderScale;
     game.settings.graphics.render = renderer.options();
+    game.settings.graphics.render.renderScale = std::min(ownScale, 100);
+    game.scale.reset();
     game.preset.end();
     return {};
 }
@@ -78,15 +103,29 @@ double sumOf(const std::vector<gpu::GpuTiming>& passes) {
     return milliseconds;
 }
 
+bool isComplete(const GameParts& parts) {
+    return parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
+}
+
 // Call after a frame: feeds the preset measurement, and reports its choice once its shaders are in use.
 void pickPreset(const GameParts& parts, PresetPicker& preset, PlaySettings& settings, Notices& notices,
                 double seconds) {
     if (!preset.isBusy()) return;
     const auto isDrawn = [&] { return preset.options(settings) == parts.renderer.options(); };
-    const bool isComplete = parts.session.pipeline().progress().complete() && parts.view.waiting() == 0;
-    if (isDrawn()) preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete}, settings);
+    if (isDrawn()) preset.add({seconds, sumOf(parts.renderer.passTimes()), isComplete(parts)}, settings);
     if (!isDrawn()) return;
     if (auto message = preset.takeMessage()) notices.say(std::move(*message), kPresetMessageSeconds);
+}
+
+// Call after a frame.
+void holdRate(GameState& game, double seconds) {
+    const double target = targetMilliseconds(game);
+    if (target <= 0) return game.scale.reset();
+    const GameParts& parts = game.parts;
+    const double onCard = sumOf(parts.renderer.passTimes());
+    const double milliseconds = game.options.isSoftwareRenderer || onCard <= 0 ? 1000 * seconds : onCard;
+    game.scale.add({seconds, milliseconds, isComplete(parts)}, target,
+                   game.settings.graphics.render.renderScale);
 }
 
 void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
@@ -95,6 +134,7 @@ void drawWorld(GameState& game, glm::ivec2 size, double seconds) {
     if (auto notice = parts.view.takeNotice()) game.notices.say(std::move(*notice));
     parts.renderer.draw(frameInputOf(game));
     parts.renderer.presentToWindow(size);
+    holdRate(game, seconds);
     pickPreset(parts, game.preset, game.settings, game.notices, seconds);
 }
 

@@ -112,6 +112,7 @@ Statistics statisticsOf(GameState& game) {
     return {.frames = &game.meter,
             .camera = cameraOf(game.player, game.settings),
             .timeDay = session.clock.timeDay,
+            .renderScale = parts.renderer.options().renderScale,
             .progress = session.pipeline().progress(),
             .tiles = &session.tiles().table(),
             .activeChunks = session.world().chunkCount(),

@@ -16,7 +16,7 @@ GameState::GameState(const GameParts& given, const GameOptions& chosen)
       imgui(given.window),
       building(chosen.dataFolder),
       sounds(given.session),
-      preset(given.window, chosen.deviceName, chosen.isSoftwareRenderer),
+      preset(chosen.deviceName, chosen.isSoftwareRenderer),
       shaders(given.shaders) {
     remote.play = given.remote;
     interaction.hotbar = game::parseHotbar(chosen.hotbar, given.session.blocks());

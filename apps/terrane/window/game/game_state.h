@@ -22,6 +22,7 @@
 #include "terrane/game/block_interaction.h"
 #include "terrane/game/places.h"
 #include "terrane/game/player_state.h"
+#include "terrane/render/frame/scale_governor.h"
 #include "terrane/view/frame_times.h"
 
 namespace terrane::app {
@@ -93,6 +94,9 @@ struct GameState {
     GameSounds sounds;
 
     PresetPicker preset;
+    render::ScaleGovernor scale;
+    base::TimedValue<double> refreshRate{1};  // of the monitor; a window may move
+    Vsync vsync = Vsync::On;                  // of the window
     ShaderWatch shaders;
     double untilThumbnail = kThumbnailPause;  // seconds
     view::FrameMeter meter;

@@ -162,8 +162,8 @@ void drawStatistics(OverlayLayout& layout, const Statistics& f) {
         return;
     ImGui::PushTextWrapPos(std::min(400 * uiScale(), layout.widest()));
     const glm::dvec3& p = f.camera.position;
-    ImGui::Text("%.1f frames/s (%.1f to %.1f), %d in the last second", f.frames->now(), f.frames->min(),
-                f.frames->max(), f.frames->lastSecond());
+    ImGui::Text("%.1f frames/s (%.1f to %.1f), %d in the last second; drawn at %d %%", f.frames->now(),
+                f.frames->min(), f.frames->max(), f.frames->lastSecond(), f.renderScale);
     ImGui::Text("x %.1f  y %.1f  z %.1f  yaw %.0f  pitch %.0f  time %.3f", p.x, p.y, p.z,
                 double{f.camera.yaw}, double{f.camera.pitch}, f.timeDay);
     ImGui::Text("chunks: %zu active, %zu of %zu visible, %zu queued", f.activeChunks, f.progress.visible,

@@ -74,6 +74,7 @@ struct Statistics {
     const view::FrameMeter* frames = nullptr;
     render::Camera camera;
     double timeDay = 0;
+    int renderScale = 100;  // percent
     stream::Progress progress;
     const stream::TileTable* tiles = nullptr;
     std::size_t activeChunks = 0, queuedChunks = 0;

@@ -11,6 +11,7 @@
 #include "apps/terrane/settings.h"
 #include "apps/terrane/window/game/remote_play.h"
 #include "apps/terrane/window/settings/key_bindings.h"
+#include "apps/terrane/window/window.h"
 #include "terrane/game/player.h"
 #include "terrane/mesh/mesh_options.h"
 #include "terrane/render/frame/frame_uniforms.h"
@@ -23,7 +24,12 @@ struct PlaySettings {
     render::GraphicsSettings graphics;  // of the preset, with changes
     render::View view = render::View::Color;
     game::Movement movement = game::Movement::Walk;
-    float fieldOfView = 70;          // degrees
+    float fieldOfView = 70;  // degrees
+    // Frames a second that the render scale holds: 0 none, kAutomaticRate the monitor's, or 30 in software.
+    static constexpr int kAutomaticRate = -1;
+    int targetFps = kAutomaticRate;
+    double frameLimit = 0;  // frames a second; 0: none
+    Vsync vsync = Vsync::On;
     float mouseSensitivity = 0.15f;  // degrees per screen unit
     double dayMinutes = 20;
     bool fullScreen = false;

@@ -55,18 +55,6 @@ std::string messageOf(const render::PresetChoice& choice, std::string_view rende
                        choice.preset->name, choice.framesPerSecond, renderer.substr(0, end));
 }
 
-// Turns vsync off during the measurement: a graphics card that waits lowers its clock.
-void PresetPicker::begin() {
-    measurement_.emplace();
-    window_.setVsync(false);
-}
-
-void PresetPicker::end() {
-    if (!measurement_) return;
-    measurement_.reset();
-    window_.setVsync(true);
-}
-
 void PresetPicker::add(const PresetMeasurement::Frame& frame, PlaySettings& settings) {
     if (!measurement_) return;
     const auto choice = measurement_->add(frame);

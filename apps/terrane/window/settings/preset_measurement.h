@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "apps/terrane/window/settings/play_settings.h"
-#include "apps/terrane/window/window.h"
 #include "terrane/render/frame/render_options.h"
 
 namespace terrane::app {
@@ -50,13 +49,15 @@ std::string messageOf(const render::PresetChoice& choice, std::string_view rende
 // then the settings change, and a message tells the player.
 class PresetPicker {
   public:
-    // `deviceName`: of the graphics driver. The window outlives this.
-    PresetPicker(Window& window, std::string deviceName, bool isSoftwareRenderer)
-        : window_(window), deviceName_(std::move(deviceName)), isSoftwareRenderer_(isSoftwareRenderer) {}
+    // `deviceName`: of the graphics driver.
+    PresetPicker(std::string deviceName, bool isSoftwareRenderer)
+        : deviceName_(std::move(deviceName)), isSoftwareRenderer_(isSoftwareRenderer) {}
 
     bool isBusy() const { return measurement_ || message_; }
-    void begin();
-    void end();  // does nothing if no measurement runs
+    // While it measures, no frame waits for the screen: a graphics card that waits lowers its clock.
+    bool isMeasuring() const { return measurement_.has_value(); }
+    void begin() { measurement_.emplace(); }
+    void end() { measurement_.reset(); }
     // The options to draw with: those of the measured preset, else of the settings.
     const render::RenderOptions& options(const PlaySettings& settings) const {
         return measurement_ ? measurement_->preset().options : settings.graphics.render;
@@ -68,7 +69,6 @@ class PresetPicker {
     std::optional<std::string> takeMessage();
 
   private:
-    Window& window_;
     std::string deviceName_;
     bool isSoftwareRenderer_;
     std::optional<PresetMeasurement> measurement_;  // set while measuring

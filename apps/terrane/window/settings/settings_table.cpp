@@ -67,6 +67,28 @@ ChoiceSetting movementChoice() {
     return choice;
 }
 
+ChoiceSetting targetFpsChoice() {
+    static constexpr std::array kRates = {
+        PlaySettings::kAutomaticRate, 0, 30, 45, 60, 75, 90, 120, 144, 165, 240};
+    ChoiceSetting choice;
+    choice.names = {"auto", "off"};
+    choice.labels = {trLater("Automatic"), trLater("Off")};
+    choice.get = [](const PlaySettings& s) {
+        return static_cast<int>(std::ranges::find(kRates, s.targetFps) - kRates.begin());
+    };
+    choice.set = [](PlaySettings& s, int value) { s.targetFps = kRates[static_cast<std::size_t>(value)]; };
+    static const auto kTexts = [] {
+        std::array<std::string, kRates.size()> texts;
+        for (std::size_t k = 2; k < kRates.size(); ++k) texts[k] = std::to_string(kRates[k]);
+        return texts;
+    }();
+    for (std::size_t k = 2; k < kRates.size(); ++k) {
+        choice.names.push_back(kTexts[k]);
+        choice.labels.push_back(kTexts[k].c_str());
+    }
+    return choice;
+}
+
 // Each language has its own name, so that everyone finds theirs.
 ChoiceSetting languageChoice() {
     ChoiceSetting choice;
@@ -113,6 +135,22 @@ std::vector<Setting> makeTable() {
         {"field-of-view", "Vertical field of view in degrees", Section::View, trLater("Field of view"),
          trLater("Vertical.\nCost: a little higher if it is wider."),
          numberOf<&PlaySettings::fieldOfView>({.low = 40, .high = 110, .shown = trLater("%.0f degrees")})},
+        {"target-fps",
+         "Frames a second to hold: the world is drawn smaller where it takes too long; auto: the rate of the "
+         "monitor, or 30 without a graphics card",
+         Section::View, trLater("Frames per second"),
+         trLater("Held by drawing the world smaller where it takes too long, down to half the render scale."),
+         targetFpsChoice()},
+        {"frame-limit", "The most frames a second; 0: no limit", Section::View, trLater("Frame limit"),
+         trLater("The most frames per second; 0: no limit. Saves power."),
+         numberOf<&PlaySettings::frameLimit>({.low = 0, .high = 1000, .shown = "%.0f"})},
+        {"vsync", "Frames wait for the screen: never, always, or only those that are in time (adaptive)",
+         Section::View, trLater("Vertical sync"),
+         trLater("Frames wait for the screen, so that no image is torn.\nAdaptive: late frames do not wait."),
+         ChoiceSetting{.names = {"off", "on", "adaptive"},
+                       .labels = {trLater("Off"), trLater("On"), trLater("Adaptive")},
+                       .get = [](const PlaySettings& s) { return static_cast<int>(s.vsync); },
+                       .set = [](PlaySettings& s, int value) { s.vsync = static_cast<Vsync>(value); }}},
         {"full-screen", "Use the whole screen", Section::View, trLater("Full screen"), nullptr,
          switchOf<&PlaySettings::fullScreen>()},
     };
