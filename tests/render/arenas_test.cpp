@@ -125,7 +125,7 @@ TEST_F(ArenasTest, ABudgetIsNeverPassed) {
         if (chunks % 100 == 0) renderer.draw(frames()[0]);
         ASSERT_LE(renderer.peakMemory(), kBudget);
     }
-    EXPECT_GT(renderer.quadBytes(), kBudget / 8);
+    EXPECT_GT(renderer.quadBytes(), kBudget / 10);
     renderer.draw(frames()[0]);
     EXPECT_LE(renderer.memory().total(), kBudget);
     renderer.clearChunks();

@@ -1,7 +1,6 @@
 #include "terrane/render/cull/cpu_cull.h"
 
 #include <algorithm>
-#include <numeric>
 #include <utility>
 
 #include "terrane/base/profile.h"
@@ -11,23 +10,7 @@
 namespace terrane::render {
 namespace {
 
-// The lists of a frame have room for one in this many of all quads, and for as many in any case: in a
-// landscape one in fifteen is in the image.
-constexpr std::size_t kQuadsForOneListed = 16, kLeastListed = 1 << 16;
-
-std::size_t listedRoom(const QuadStore* quads, const DrawLimits& limits) {
-    const std::size_t all = quads ? quads->usedBytes() / shared::kQuadBytes : 0;
-    return std::min<std::size_t>(std::max(all / kQuadsForOneListed, kLeastListed), limits.listedQuads);
-}
-
-// Of the lists and the records of both passes.
-std::size_t frameBytes(std::size_t listed, const MeshSectionTable& meshSections) {
-    constexpr std::size_t kAlignment = 1024;
-    std::size_t commands = 0;
-    for (const BucketCommands& buckets : meshSections.maxCommands())
-        commands += std::accumulate(buckets.begin(), buckets.end(), std::size_t{0});
-    return listed * sizeof(shared::uint) + 2 * commands * sizeof(shared::DrawRecord) + kAlignment;
-}
+constexpr std::size_t kFirstSliceBytes = 1 << 16;  // of a frame: 16,000 listed quads
 
 // Calls use(range, direction) for the ranges of a bucket that have quads, in these directions.
 template <class Use>
@@ -82,7 +65,7 @@ void CpuCull::run(CullPhase phase, const CullInput& input, const MeshSectionTabl
         for (std::vector<shared::DrawCommand>& list : lists) list.clear();
     records_.clear();
     listed_.clear();
-    reserve(phase, meshSections, input.quads, limits);
+    maxListed_ = limits.listedQuads;
     visibleLastFrame_.resize(meshSections.slots());
     if (phase == CullPhase::Late) {
         readDepth(*input.hiZ, glm::ivec2(input.size));
@@ -163,7 +146,7 @@ void CpuCull::drawRanges(const Section& section, shared::uint bucket, shared::ui
 // The quads that were listed from number `first` on; without room for them, all quads of the directions.
 void CpuCull::drawListed(const Section& section, shared::uint bucket, std::size_t first,
                          shared::uint directions) {
-    if (listed_.size() > leftToList_) {
+    if (listed_.size() > maxListed_) {
         listed_.resize(first);
         drawRanges(section, bucket, directions);
         return;
@@ -212,36 +195,29 @@ std::uint8_t CpuCull::drawNew(const Section& section, shared::uint directions, s
     return static_cast<std::uint8_t>(seenDirections);
 }
 
-std::size_t CpuCull::gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
-                              const DrawLimits& limits) const {
-    const std::size_t slice =
-        gpu::grownBytes(ring_.frameSliceBytes(), frameBytes(listedRoom(&quads, limits), meshSections));
-    return ring_.buffer().sizeBytes() + slice * gpu::MappedRing::kFrameSlices;
-}
-
-void CpuCull::reserve(CullPhase phase, const MeshSectionTable& meshSections, const QuadStore* quads,
-                      const DrawLimits& limits) {
-    if (phase == CullPhase::Late) return;
-    endFrame();  // of a frame that failed
-    leftToList_ = listedRoom(quads, limits);
-    const std::size_t bytes = gpu::grownBytes(ring_.frameSliceBytes(), frameBytes(leftToList_, meshSections));
-    if (bytes > 0) {
-        ring_ = gpu::MappedRing(bytes, "draws");
+// Replaces the ring where the frame has no more room. Draws of this frame so far keep the old one.
+gpu::MappedRing::Allocation CpuCull::allocate(std::size_t bytes) {
+    if (!isInFrame_ && ring_.isMapped()) ring_.beginFrame();
+    auto allocation = ring_.isMapped() ? ring_.allocate(bytes) : std::nullopt;
+    if (!allocation) {
+        ring_ = gpu::MappedRing(std::max({kFirstSliceBytes, bytes, 2 * ring_.frameSliceBytes()}), "draws");
         base::require(ring_.isMapped(), "the graphics driver has no memory for draws");
         ringTexels_ = gpu::BufferTexture(ring_.buffer(), GL_R32UI, "draws");
+        ring_.beginFrame();
+        allocation = ring_.allocate(bytes);
     }
-    ring_.beginFrame();
     isInFrame_ = true;
+    return *allocation;
 }
 
 // Moves the numbers of records and lists to their places in the ring.
 void CpuCull::upload() {
-    const auto listed = ring_.allocate(listed_.size() * sizeof(shared::uint));
-    const auto records = ring_.allocate(records_.size() * sizeof(shared::DrawRecord));
-    base::require(listed && records, "CpuCull: the frame has no room for its draws");
-    leftToList_ -= listed_.size();
-    firstRecord_ = records->offsetBytes / sizeof(shared::DrawRecord);
-    const auto firstListed = static_cast<shared::uint>(listed->offsetBytes / sizeof(shared::uint));
+    // Both in one piece, so that they are in the same ring.
+    const std::size_t recordBytes = records_.size() * sizeof(shared::DrawRecord);
+    const auto both = allocate(recordBytes + listed_.size() * sizeof(shared::uint));
+    firstRecord_ = both.offsetBytes / sizeof(shared::DrawRecord);
+    const auto firstListed =
+        static_cast<shared::uint>((both.offsetBytes + recordBytes) / sizeof(shared::uint));
     for (ArenaLists& lists : lists_) {
         for (std::vector<shared::DrawCommand>& list : lists) {
             for (shared::DrawCommand& command : list)
@@ -250,8 +226,8 @@ void CpuCull::upload() {
     }
     for (shared::DrawRecord& record : records_)
         if (record.firstQuad >= shared::kFirstListedQuad) record.firstQuad += firstListed;
-    std::ranges::copy(std::as_bytes(std::span(listed_)), listed->data.begin());
-    std::ranges::copy(std::as_bytes(std::span(records_)), records->data.begin());
+    const auto end = std::ranges::copy(std::as_bytes(std::span(records_)), both.data.begin()).out;
+    std::ranges::copy(std::as_bytes(std::span(listed_)), end);
 }
 
 void CpuCull::endFrame() {

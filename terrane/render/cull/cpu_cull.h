@@ -39,10 +39,7 @@ class CpuCull {
     void bindListed() const { ringTexels_.bind(shared::kListedQuadsUnit); }
     // Returns the counts of the frame, summed over its passes so far.
     const shared::DrawCounts& counts() const { return counts_; }
-    // Returns the GPU memory as of the next frame, with what it replaces.
-    std::size_t gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
-                         const DrawLimits& limits) const;
-    std::size_t gpuBytes() const { return ring_.buffer().sizeBytes(); }  // now
+    std::size_t gpuBytes() const { return ring_.buffer().sizeBytes(); }
 
   private:
     using ArenaLists = std::array<std::vector<shared::DrawCommand>, shared::kDrawLists>;
@@ -56,14 +53,13 @@ class CpuCull {
     std::uint32_t* listRoom(std::uint32_t count);
     void readDepth(const gpu::Texture2D& hiZ, glm::ivec2 pixels);
     bool isHidden(glm::vec3 low, glm::vec3 high) const;
-    void reserve(CullPhase phase, const MeshSectionTable& meshSections, const QuadStore* quads,
-                 const DrawLimits& limits);
+    gpu::MappedRing::Allocation allocate(std::size_t bytes);
     void upload();
 
     const CullInput* input_ = nullptr;  // during run()
     shared::CullView view_{};
     shared::uint arenaQuads_ = 0;
-    std::size_t leftToList_ = 0;  // quads, in this frame
+    std::size_t maxListed_ = 0;
     DepthPyramid pyramid_;
     std::vector<std::uint8_t> visibleLastFrame_;  // by slot: directions with quads that were not hidden
     std::vector<ArenaLists> lists_;               // by arena

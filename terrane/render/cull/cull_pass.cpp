@@ -136,14 +136,12 @@ void CullPass::reserve(const MeshSectionTable& meshSections) {
     glClearNamedBufferData(visibleLastFrame_.id(), GL_R32UI, GL_RED_INTEGER, GL_UNSIGNED_INT, &zero);
 }
 
-std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
-                               DrawMethod method) const {
-    const std::size_t onGpu = commands_.sizeBytes() + records_.sizeBytes() + visible_.sizeBytes() +
-                              visibleLastFrame_.sizeBytes() + countBuffer_.sizeBytes() +
-                              quadCull_.gpuBytes() + quadList_.gpuBytes();
-    if (method == DrawMethod::Loop) return onGpu + cpu_.gpuBytes(meshSections, quads, limits_);
-    return onGpu + cpu_.gpuBytes() +
-           grownBytes(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand))) +
+std::size_t CullPass::gpuBytes(const MeshSectionTable& meshSections, DrawMethod method) const {
+    const std::size_t now = commands_.sizeBytes() + records_.sizeBytes() + visible_.sizeBytes() +
+                            visibleLastFrame_.sizeBytes() + countBuffer_.sizeBytes() + quadCull_.gpuBytes() +
+                            quadList_.gpuBytes() + cpu_.gpuBytes();
+    if (method == DrawMethod::Loop) return now;
+    return now + grownBytes(commands_, commandBytes(meshSections, sizeof(shared::DrawCommand))) +
            grownBytes(records_, commandBytes(meshSections, sizeof(shared::DrawRecord))) +
            grownBytes(visible_, meshSections.count() * sizeof(std::uint32_t)) +
            grownBytes(visibleLastFrame_, meshSections.slots() * sizeof(std::uint32_t));

@@ -78,10 +78,10 @@ class CullPass {
     // Returns the draws of the last run, for tests: waits for the GPU.
     std::vector<Draw> readDraws(shared::uint list, std::size_t arena = 0) const;
 
-    // Returns the GPU memory as of the next run, by this method. Includes buffers that it replaces; QuadCull
-    // and QuadList count with their present size.
-    std::size_t gpuBytes(const MeshSectionTable& meshSections, const QuadStore& quads,
-                         DrawMethod method) const;
+    // Returns the GPU memory as of the next run, by this method. Includes buffers that it replaces; QuadCull,
+    // QuadList and CpuCull count with their present size.
+    std::size_t gpuBytes(const MeshSectionTable& meshSections, DrawMethod method) const;
+    std::size_t listBytes() const { return cpu_.gpuBytes(); }  // part of it: the lists of the CPU
 
   private:
     void reserve(const MeshSectionTable& meshSections);

@@ -260,14 +260,13 @@ std::size_t lightShare(std::size_t bytes) {
 }  // namespace
 
 GpuMemory Renderer::memory() const {
-    return {
-        .quads = quads_.bufferBytes(),
-        .light = light_.textureBytes(),
-        .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_, quads_, frame_.spec.draw),
-        .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
-                    land_.gpuBytes(),
-        .targets = frame_.targetBytes(),
-        .staging = stagingBytes_};
+    return {.quads = quads_.bufferBytes(),
+            .light = light_.textureBytes(),
+            .meshSections = meshSections_.gpuBytes() + cull_.gpuBytes(meshSections_, frame_.spec.draw),
+            .textures = resources_.gpuBytes() + noise_.gpuBytes() + sky_.gpuBytes() + tints_.gpuBytes() +
+                        land_.gpuBytes(),
+            .targets = frame_.targetBytes(),
+            .staging = stagingBytes_};
 }
 
 void Renderer::setMemoryBudget(std::size_t bytes) {
@@ -283,7 +282,9 @@ void Renderer::setMemoryBudget(std::size_t bytes) {
 void Renderer::shareBudget() {
     if (budgetBytes_ == SIZE_MAX) return;
     const GpuMemory used = memory();
-    const std::size_t records = std::max(used.meshSections, budgetBytes_ / kRecordsShare);
+    // What doubles exists twice for a while.
+    const std::size_t growing = meshSections_.gpuBytes() + cull_.listBytes();
+    const std::size_t records = std::max(used.meshSections + 2 * growing, budgetBytes_ / kRecordsShare);
     const std::size_t taken = used.fixed() + used.quads + used.light + records;
     const std::size_t room = budgetBytes_ - std::min(budgetBytes_, taken);
     quads_.setMaxBytes(used.quads + room);
