@@ -17,8 +17,8 @@ namespace terrane::game {
 namespace {
 
 constexpr int kSkyReach = 40;  // blocks above the ears that are searched for a roof
-// Wind grows from kLeastWind at the first height to 1 at the second; z.
-constexpr double kCalm = 70, kStormy = 200, kLeastWind = 0.15;
+// Wind grows from kLeastWind at the first height over the sea to 1 at the second.
+constexpr double kCalm = -10, kStormy = 120, kLeastWind = 0.15;
 constexpr int kStep = 2;        // between the columns that are searched for water
 constexpr int kWaterDepth = 5;  // blocks above and below the ears
 constexpr float kLakeWeight = 0.012f, kStreamWeight = 0.06f;  // volume for each surface found
@@ -76,13 +76,14 @@ void addWater(Ambience& ambience, const world::World& world, const world::BlockR
 
 }  // namespace
 
-Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears) {
+Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears,
+                    int seaLevel) {
     Ambience ambience;
     if (isWater(world, blocks, world::blockOf(ears))) {
         ambience.water = 0.5f;  // all around
         return ambience;
     }
-    const double height = std::clamp((ears.z - kCalm) / (kStormy - kCalm), 0.0, 1.0);
+    const double height = std::clamp((ears.z - seaLevel - kCalm) / (kStormy - kCalm), 0.0, 1.0);
     ambience.wind = static_cast<float>(kLeastWind + (1 - kLeastWind) * height) *
                     openness(world, blocks, world::blockOf(ears));
     addWater(ambience, world, blocks, ears);

@@ -21,11 +21,12 @@ struct Ambience {
     std::optional<glm::dvec3> waterAt;  // the nearest surface; none: under water, or no water
 };
 
-// Returns the ambient sounds at `ears`. Wind grows with height and with the share of open sky. Water is heard
-// within kWaterReach blocks of its surface, louder where it flows. Reads up to 2,200 blocks: a few times a
-// second is enough.
+// Returns the ambient sounds at `ears`. Wind grows with height over the sea and with the share of open sky.
+// Water is heard within kWaterReach blocks of its surface, louder where it flows. Reads up to 2,200 blocks: a
+// few times a second is enough.
 constexpr int kWaterReach = 12;
-Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears);
+Ambience ambienceAt(const world::World& world, const world::BlockRegistry& blocks, const glm::dvec3& ears,
+                    int seaLevel);
 
 // The sounds that changes of blocks make. Plain data; plays nothing.
 struct BlockSound {

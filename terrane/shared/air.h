@@ -12,20 +12,21 @@ const uint kSkyTableRows = 32u;
 
 struct AirFrame {
     // x, y: level direction toward the light, unit length; z: scale of the table; w: optical depth of haze at
-    // z = 0, as in depth.y: it is no denser below.
+    // levels.x, as in depth.y.
     vec4 lightAzimuth;
     vec4 aureole;  // narrow glow around the light; w: its sharpness
     // x, y: optical depth of a block at the camera's altitude in powers of ½: of molecules for red, and of
     // haze for all colors. z: 1 / scale height of the haze. w: share by which the mean density of molecules
     // on the way decreases with each block of rise.
     vec4 depth;
+    vec4 levels;  // x: z below which haze is no denser; y: z of the clouds' plane
 };
 
 SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(AirFrame) == 3 * 16);
+static_assert(sizeof(AirFrame) == 4 * 16);
 }  // namespace terrane::shared
 #endif
 #endif

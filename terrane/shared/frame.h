@@ -75,8 +75,7 @@ const int kSwitchAnimation = 1;
 const int kSwitchDistanceFog = 4;
 const int kSwitchUnlit = 8;  // the colors of the blocks alone
 
-// The plane of the clouds, in blocks. A camera is in them up to kCloudDepth below and above it.
-const float kCloudHeight = 360.0f;
+// A camera is in the clouds up to so many blocks below and above their plane.
 const float kCloudDepth = 24.0f;
 
 // Alpha modes and animations are the values of world::AlphaMode and world::Animation.

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "terrane/game/session.h"
+#include "terrane/gen/generators/catalogue.h"
 #include "terrane/mesh_gpu/mesh_queue.h"
 #include "terrane/render/frame/renderer.h"
 #include "terrane/view/far_view.h"
@@ -49,6 +50,7 @@ class WorldView {
           tints_(session, renderer),
           land_(session, renderer) {
         renderer.setHeights(session.world().heights());
+        renderer.setAirLevels(gen::airLevelsOf(session.store().identity().generator));
     }
 
     // Meshes whole chunks on the GPU, within a time budget for each frame, for a session whose pipeline

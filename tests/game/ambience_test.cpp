@@ -21,7 +21,9 @@ class AmbienceTest : public testing::Test {
             for (int y = from.y; y <= to.y; ++y)
                 for (int x = from.x; x <= to.x; ++x) world::putBlock(world_, {x, y, z}, contentBlock(name));
     }
-    Ambience at(const glm::dvec3& ears) const { return ambienceAt(world_, contentBlocks(), ears); }
+    Ambience at(const glm::dvec3& ears, int seaLevel = 80) const {
+        return ambienceAt(world_, contentBlocks(), ears, seaLevel);
+    }
 
     world::World world_;
 };
@@ -32,6 +34,7 @@ TEST_F(AmbienceTest, WindGrowsWithHeight) {
     EXPECT_GT(hill, 1.5f * valley);
     EXPECT_GT(peak, hill);
     EXPECT_FLOAT_EQ(peak, 1);
+    EXPECT_EQ(at({8, 8, 20}, 40).wind, valley) << "above the sea, wherever that is";
 }
 
 TEST_F(AmbienceTest, NoWindUnderARoof) {

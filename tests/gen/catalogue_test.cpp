@@ -34,6 +34,16 @@ TEST(Catalogue, EveryGeneratorIsWithoutMistakes) {
     }
 }
 
+// Clouds float as high over every sea but where ranges are tall: there peaks are above them.
+TEST(Catalogue, CloudsFloatOverTheSea) {
+    EXPECT_EQ(airLevelsOf("continents"), world::AirLevels());
+    EXPECT_EQ(airLevelsOf("a pack's"), world::AirLevels());
+    const world::AirLevels tall = airLevelsOf("wilderness");
+    EXPECT_EQ(tall.sea, 0);
+    EXPECT_GT(tall.clouds, 360);
+    EXPECT_LT(tall.clouds, 1000);
+}
+
 // Highest water, of the sea wherever there is one, is at the sea level that maps and the like are told.
 TEST(Catalogue, SeasHaveTheSeaLevelOfTheirGenerator) {
     EXPECT_EQ(seaLevelOf("continents"), kSeaLevel);

@@ -315,6 +315,28 @@ TEST_F(TallWorldTest, OneCanClimbThroughTheClouds) {
     EXPECT_GT(differencesOf(at(1200, -60, true), at(1200, -60, false)).mean, 2) << "below";
 }
 
+// Air and clouds count from the sea of the world: all moved up look as before.
+TEST_F(TallWorldTest, AirAndCloudsLieOverTheSea) {
+    RenderOptions options = plainOptions(1);
+    options.clouds = true;
+    ASSERT_TRUE(renderer_->configure(kTallImage, options));
+    const auto lookFrom = [&](double z, float pitch, int up) {
+        renderer_->setAirLevels({80.0f + static_cast<float>(up), 360.0f + static_cast<float>(up)});
+        return draw({{{40, 40, z + up}, 70, pitch}, world::environmentAt(0.4f), 4000, 0, View::Color});
+    };
+    for (const auto& [z, pitch] :
+         {std::pair{104.0, -4.0f}, {104.0, 35.0f}, {350.0, -10.0f}, {900.0, -60.0f}}) {
+        show(kTall, 0);
+        const base::Image here = lookFrom(z, pitch, 0);
+        for (const int sections : {-24, 40}) {
+            show(kTall, sections);
+            EXPECT_LT(differencesOf(lookFrom(z, pitch, 16 * sections), here).mean, 0.06)
+                << z << " " << sections;
+        }
+    }
+    renderer_->setAirLevels({});
+}
+
 // Ground higher than the clouds is behind them for a camera below, and so is low ground for a camera above.
 TEST_F(TallWorldTest, CloudsAreBeforeWhatIsBeyondThem) {
     RenderOptions options = plainOptions(4);

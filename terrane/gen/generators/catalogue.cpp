@@ -43,6 +43,7 @@ const GeneratorCatalogue& builtInGenerators() {
         continents.biomes = biomeNames(continents::biomeName);
         wilderness.biomes = biomeNames(wilderness::biomeName);
         wilderness.seaLevel = wilderness::kSeaZ;
+        wilderness.cloudRise = wilderness::kCloudZ - wilderness::kSeaZ;
         return GeneratorCatalogue{builtIn("overworld", 2, writeOverworld),
                                   continents,
                                   wilderness,
@@ -67,6 +68,12 @@ int versionOf(const GeneratorCatalogue& catalogue, std::string_view name) {
 int seaLevelOf(std::string_view name, const GeneratorCatalogue& catalogue) {
     const CatalogueEntry* entry = find(catalogue, name);
     return entry ? entry->seaLevel : kSeaLevel;
+}
+
+world::AirLevels airLevelsOf(std::string_view name, const GeneratorCatalogue& catalogue) {
+    const CatalogueEntry* entry = find(catalogue, name);
+    const int sea = entry ? entry->seaLevel : kSeaLevel, rise = entry ? entry->cloudRise : kCloudRise;
+    return {static_cast<float>(sea), static_cast<float>(sea + rise)};
 }
 
 std::span<const std::string_view> biomesOf(std::string_view name, const GeneratorCatalogue& catalogue) {

@@ -12,11 +12,14 @@
 #include "terrane/base/result.h"
 #include "terrane/gen/language/builder.h"
 #include "terrane/gen/level_generators.h"
+#include "terrane/world/sky/air.h"
 
 namespace terrane::gen {
 
 // z of the highest water of the sea, of all generators whose entry does not say otherwise. Height 0 of maps.
 constexpr int kSeaLevel = 80;
+// Blocks from the sea up to the clouds, likewise.
+constexpr int kCloudRise = 280;
 
 struct CatalogueEntry {
     std::string name;
@@ -25,6 +28,7 @@ struct CatalogueEntry {
     std::function<base::Result<GeneratorGraph>(const world::BlockRegistry& blocks, GraphRequest request)>
         record;
     int seaLevel = kSeaLevel;
+    int cloudRise = kCloudRise;
     // Names of its biomes, by the numbers in its field "biome"; empty if it has none. At most 256.
     std::vector<std::string_view> biomes = {};
 };
@@ -41,6 +45,10 @@ int versionOf(const GeneratorCatalogue& catalogue, std::string_view name);
 
 // Returns the sea level of a world of this generator; kSeaLevel for an unknown name.
 int seaLevelOf(std::string_view name, const GeneratorCatalogue& catalogue = builtInGenerators());
+
+// Returns the levels of the air over a world of this generator, likewise.
+world::AirLevels airLevelsOf(std::string_view name,
+                             const GeneratorCatalogue& catalogue = builtInGenerators());
 
 // Returns the names of a generator's biomes; empty if it has none. They are valid as long as the catalogue.
 std::span<const std::string_view> biomesOf(std::string_view name,

@@ -7,7 +7,8 @@
 
 namespace terrane::gen::wilderness {
 
-constexpr int kSeaZ = 0;  // z of the highest water of the sea
+constexpr int kSeaZ = 0;      // z of the highest water of the sea
+constexpr int kCloudZ = 640;  // where clouds float: below the peaks of ranges, whose median is 1,015
 constexpr float kSea = static_cast<float>(kSeaZ);
 
 // In the order of their numbers in Fields::biome.

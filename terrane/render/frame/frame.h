@@ -54,7 +54,8 @@ struct FrameContext {
     gpu::TextureSet worldTextures = {};  // that shaders of surfaces read: light, noise, sky, land, tint
     CullInput culling;
     bool hasShadows = false;
-    int top = 0;  // of the world: its highest layer is below
+    int top = 0;        // of the world: its highest layer is below
+    float cloudsZ = 0;  // of the clouds' plane
 
     const Target* nearestDepth = nullptr;       // of the nearest surfaces: the layers' where there are any
     std::vector<ScreenRect> blendedRects = {};  // pixels with blended faces; empty: there are none in view

@@ -153,7 +153,7 @@ void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) 
     frame.top = heights_.top;
     ring_.writeUniform(shared::kFrameBinding, frame);
     tints_.writeUniforms(input.camera, ring_);
-    sky_.update(input.environment, view.cameraPosition.z, ring_);
+    sky_.update(input.environment, airLevels_, view.cameraPosition.z, ring_);
     const int levels = std::exchange(completesLand_, false) ? LandTextures::kAllLevels : 1;
     if (!readsLand()) return;
     land_.update(input.camera, {input.environment.lightDirection, input.environment.discRadius}, levels);
@@ -201,6 +201,7 @@ FrameContext Renderer::prepare(const FrameInput& input) {
                          .culling = cullInput(input, view),
                          .hasShadows = isShadowed,
                          .top = heights_.top,
+                         .cloudsZ = airLevels_.clouds,
                          .nearestDepth = frame_.targets.depth.get()};
     light_.addTo(context.worldTextures);
     noise_.addTo(context.worldTextures);

@@ -42,6 +42,8 @@ class Renderer {
     // Sets the heights of the world that is drawn, 0…255 at first. Comes before its chunks; removes all
     // chunks and the tiles of the land.
     void setHeights(world::Heights heights);
+    // Sets where sea and clouds of the world that is drawn lie, from the next frame on.
+    void setAirLevels(const world::AirLevels& levels) { airLevels_ = levels; }
 
     // Sets the most bytes that the renderer may take on the GPU: quads and light do not grow beyond it. Comes
     // before configure() and setViewDistance(), which allocate memory; removes all chunks.
@@ -161,6 +163,7 @@ class Renderer {
     TextureLimits textureLimits_;
     QuadStoreSizes quadSizes_;
     world::Heights heights_;
+    world::AirLevels airLevels_;
     int viewDistance_ = 0;  // chunks
     std::size_t budgetBytes_ = SIZE_MAX, stagingBytes_ = 0, peakBytes_ = 0;
 };

@@ -17,9 +17,9 @@ const float kLog2E = 1.442695;
 // Optical depth of the air for each color, in powers of ½ (world/sky/air.h). Molecules have half as much for red as for
 // green and a fifth as much as for blue. Haze is equal for all colors: its mean density on the way is the integral of
 // its exponential density in closed form (C. Wenzel, Real-time Atmospheric Effects in Games, 2006), and constant on the
-// part of the way below z = 0. `share2`: square of the share of the view's distance.
+// part of the way below its floor. `share2`: square of the share of the view's distance.
 vec3 airDepth(vec3 toPoint, float blocks, float share2) {
-    float camera = frame.cameraPosition.z, below = max(-camera - toPoint.z, 0.0) - max(-camera, 0.0);
+    float camera = frame.cameraPosition.z - air.levels.x, below = max(-camera - toPoint.z, 0.0) - max(-camera, 0.0);
     float shareBelow = abs(toPoint.z) < 1e-3 ? float(camera < 0.0) : -below / toPoint.z;
     float rise = max((toPoint.z + below) * air.depth.z, -80.0);
     rise = abs(rise) < 1e-3 ? 1e-3 : rise;

@@ -165,8 +165,7 @@ MaybePass makeClouds(FrameBuilder& build) {
                     [](FrameContext& context) {
                         const float highest =
                             std::max(context.view.cameraPosition.z, static_cast<float>(context.top));
-                        return !context.isUnderWater() &&
-                               highest > shared::kCloudHeight - shared::kCloudDepth;
+                        return !context.isUnderWater() && highest > context.cloudsZ - shared::kCloudDepth;
                     }};
 }
 

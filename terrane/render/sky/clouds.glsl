@@ -1,5 +1,5 @@
-// Clouds on a plane high above sea level, seen from below and from above. Needs frame_uniforms.glsl; the texture of
-// SkyNoise is bound.
+// Clouds on a plane high above sea level, seen from below and from above. Needs frame_uniforms.glsl and sky_color.glsl;
+// the texture of SkyNoise is bound.
 
 layout(binding = kSkyNoiseUnit) uniform sampler2D cloudNoise;
 
@@ -8,7 +8,7 @@ const float kCloudShown = 0.92;      // of what is behind a cloud, at most
 
 // Blocks from the camera up to the plane; below 0 above it.
 float cloudRise() {
-    return kCloudHeight - frame.cameraPosition.z;
+    return air.levels.y - frame.cameraPosition.z;
 }
 
 // Place of a point of the plane in tiles.

@@ -122,16 +122,17 @@ static_assert(shared::kSkyTableColumns == world::SkyTable::kColumns &&
 
 }  // namespace
 
-shared::AirFrame airUniforms(const world::Environment& e, float altitudeZ) {
-    const float altitude = std::max(altitudeZ - world::kSeaLevel, 0.0f);
+shared::AirFrame airUniforms(const world::Environment& e, const world::AirLevels& levels, float cameraZ) {
+    const float ground = levels.sea - world::kSeaAltitude, floor = ground + world::kHazeFloor;
+    const float altitude = std::max(cameraZ - ground, 0.0f), overFloor = std::max(cameraZ - floor, 0.0f);
     const glm::vec2 level(e.lightDirection), azimuth = level / std::max(glm::length(level), 1e-6f);
     shared::AirFrame frame{};
     const float haze = kLog2E * world::kHazeExtinction * std::exp(-altitude / world::kHazeScale);
-    frame.lightAzimuth =
-        glm::vec4(azimuth, e.ambientColor.y, haze * std::exp(std::max(altitudeZ, 0.0f) / world::kHazeScale));
+    frame.lightAzimuth = glm::vec4(azimuth, e.ambientColor.y, haze * std::exp(overFloor / world::kHazeScale));
     frame.aureole = glm::vec4((e.isMoon ? kMoonAureole : kSunAureole) * e.lightColor, kAureoleSharpness);
     frame.depth = {kLog2E * world::kRayleigh.x * std::exp(-altitude / world::kRayleighScale), haze,
                    1 / world::kHazeScale, 0.5f / world::kRayleighScale};
+    frame.levels = {floor, levels.clouds, 0, 0};
     return frame;
 }
 
@@ -145,7 +146,8 @@ SkyTexture SkyTexture::create() {
 
 // The table is scaled by 1 / the ambient light of its step, and the frame multiplies it by its own: between
 // steps only the shape of the sky is constant, not its brightness.
-void SkyTexture::update(const world::Environment& e, float altitudeZ, gpu::MappedRing& ring) {
+void SkyTexture::update(const world::Environment& e, const world::AirLevels& levels, float cameraZ,
+                        gpu::MappedRing& ring) {
     const int step = static_cast<int>(std::lround(e.lightDirection.z * kSteps));
     if (step != step_ || e.isMoon != isMoon_) {
         TERRANE_ZONE("sky table");
@@ -160,7 +162,7 @@ void SkyTexture::update(const world::Environment& e, float altitudeZ, gpu::Mappe
         step_ = step;
         isMoon_ = e.isMoon;
     }
-    const shared::AirFrame frame = airUniforms(e, altitudeZ);
+    const shared::AirFrame frame = airUniforms(e, levels, cameraZ);
     ring.writeUniform(shared::kAirBinding, frame);
 }
 

@@ -70,8 +70,9 @@ class MilkyWay {
     gpu::Sampler sampler_;
 };
 
-// Returns the uniforms of the air. `altitudeZ` is that of the camera in blocks.
-shared::AirFrame airUniforms(const world::Environment& environment, float altitudeZ);
+// Returns the uniforms of the air around a camera at a height.
+shared::AirFrame airUniforms(const world::Environment& environment, const world::AirLevels& levels,
+                             float cameraZ);
 
 class SkyTexture {
   public:
@@ -80,7 +81,8 @@ class SkyTexture {
 
     // Writes the uniforms of a frame. Takes some 2 ms if the sine of the light's elevation has moved by a
     // step of 1/2,500: every half second of a day of 20 minutes.
-    void update(const world::Environment& environment, float altitudeZ, gpu::MappedRing& ring);
+    void update(const world::Environment& environment, const world::AirLevels& levels, float cameraZ,
+                gpu::MappedRing& ring);
     void addTo(gpu::TextureSet& textures) const;
     std::size_t gpuBytes() const { return texture_.sizeBytes() + milkyWay_.gpuBytes(); }
 

@@ -8,16 +8,23 @@
 // times as large: the sky looks like the Earth's, and a mountain three kilometres away is as blue as one
 // twelve kilometres away on the Earth.
 //
-// Lengths are in blocks, one block a metre. Altitude counts from kSeaLevel.
+// Lengths are in blocks, one block a metre. Altitude counts from kSeaAltitude below the sea of the world.
 #pragma once
 
 #include <glm/vec3.hpp>
 
 namespace terrane::world {
 
-constexpr float kSeaLevel = 64;           // z of altitude 0
-constexpr float kPlanetRadius = 1.59e6f;  // 6,360 km / 4
-constexpr float kAirTop = 25e3f;          // altitude where space begins, 100 km / 4
+// Where the air of a world lies, z; of the generator continents unless set.
+struct AirLevels {
+    float sea = 80, clouds = 360;
+
+    bool operator==(const AirLevels&) const = default;
+};
+
+constexpr float kSeaAltitude = 16, kHazeFloor = -64;  // altitudes: of the sea; below it haze is no denser
+constexpr float kPlanetRadius = 1.59e6f;              // 6,360 km / 4
+constexpr float kAirTop = 25e3f;                      // altitude where space begins, 100 km / 4
 
 constexpr float kRayleighScale = 2000;  // altitude at which the density is 1/e, 8 km / 4
 constexpr float kHazeScale = 150;       // lower than the Earth's: valleys are hazier than peaks

@@ -7,6 +7,7 @@
 
 #include "terrane/base/log.h"
 #include "terrane/game/sounds.h"
+#include "terrane/gen/generators/catalogue.h"
 
 namespace terrane::app {
 namespace {
@@ -105,7 +106,8 @@ void GameSounds::followAmbience(const glm::dvec3& ears, bool isInMenu, double se
     untilAmbience_ -= seconds;
     if (untilAmbience_ > 0) return;
     untilAmbience_ = kAmbiencePause;
-    game::Ambience ambience = game::ambienceAt(session_.world(), session_.blocks(), ears);
+    game::Ambience ambience = game::ambienceAt(session_.world(), session_.blocks(), ears,
+                                               gen::seaLevelOf(session_.store().identity().generator));
     if (isInMenu) ambience.wind = ambience.water = 0;
     player_->setLoop({.name = "wind_loop", .position = {}, .volume = kWindVolume * ambience.wind});
     player_->setLoop(
