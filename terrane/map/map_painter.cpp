@@ -1,6 +1,7 @@
 #include "terrane/map/map_painter.h"
 
 #include <algorithm>
+#include <bit>
 #include <iterator>
 #include <type_traits>
 #include <utility>
@@ -88,8 +89,14 @@ std::uint8_t between(std::uint8_t a, std::uint8_t b, float share) {
                                      (static_cast<float>(b) - static_cast<float>(a)) * share + 0.5f);
 }
 
-constexpr int kContourBlocks = 16;
-constexpr float kContourDarkness = 0.6f;
+constexpr int kLinePixels = 8;     // between lines on a slope of 45°
+constexpr int kFewestLines = 16;   // from the bottom of a world to its top
+constexpr int kLinesPerThick = 4;  // the thick one included
+constexpr float kLineShade = 0.6f, kThickShade = 0.45f;
+
+Rgb shaded(const Rgb& color, float share) {
+    return {between(0, color.red, share), between(0, color.green, share), between(0, color.blue, share)};
+}
 
 }  // namespace
 
@@ -111,19 +118,32 @@ Rgb biomeColor(std::string_view name) {
     return found == std::end(kBiomeColors) ? kUnknownBiome : found->color;
 }
 
-base::Image paintHeights(const PaintedArea& area, int seaLevel) {
+// Powers of two: lines of a finer step are lines of a coarser one or vanish.
+ContourSteps contourSteps(int level, world::Heights heights) {
+    constexpr auto kLeast = static_cast<unsigned>(ContourSteps{}.line);
+    const unsigned most = std::bit_floor(static_cast<unsigned>(heights.layers() / kFewestLines));
+    if (most <= kLeast) return {};
+    const auto line = static_cast<int>(std::clamp(unsigned{kLinePixels} << level, kLeast, most));
+    return {line, kLinesPerThick * line};
+}
+
+base::Image paintHeights(const PaintedArea& area, int seaLevel, ContourSteps steps) {
     std::array<Rgb, world::kMostLayers> colors;  // from the lowest bottom
     for (std::size_t k = 0; k < colors.size(); ++k)
         colors[k] = heightColor(world::kLowestBottom + static_cast<int>(k), seaLevel);
-    const auto contour = [](int z) { return (z - world::kLowestBottom) / kContourBlocks; };
     return imageOf(gridOf(area), [&](int x, int y, glm::ivec2) {
         const int z = area.surfaces.at(x, y).underZ;
-        const auto step = [&](int toX, int toY) { return contour(area.surfaces.at(toX, toY).underZ); };
-        const bool isContour = contour(z) > step(x + 1, y) || contour(z) > step(x, y - 1);
+        // Whether a line of a step lies between this column and a lower neighbor.
+        const auto isOver = [&](int toX, int toY, int step) {
+            const auto band = [step](int height) { return (height - world::kLowestBottom) / step; };
+            return band(z) > band(area.surfaces.at(toX, toY).underZ);
+        };
         const Rgb color = colors[static_cast<std::size_t>(z - world::kLowestBottom)];
-        if (!isContour) return color;
-        return Rgb{between(0, color.red, kContourDarkness), between(0, color.green, kContourDarkness),
-                   between(0, color.blue, kContourDarkness)};
+        if (steps.thick > 0 && (isOver(x + 1, y, steps.thick) || isOver(x, y - 1, steps.thick) ||
+                                isOver(x - 1, y, steps.thick) || isOver(x, y + 1, steps.thick)))
+            return shaded(color, kThickShade);
+        const bool isLine = isOver(x + 1, y, steps.line) || isOver(x, y - 1, steps.line);
+        return isLine ? shaded(color, kLineShade) : color;
     });
 }
 
@@ -238,7 +258,7 @@ base::Result<base::Image> MapPainter::image(const MapTile& tile, std::span<const
     const bool isHeight = tile.layer == Layer::Height;
     const TintField tint = isHeight ? TintField() : tints_->field(rect);
     const PaintedArea area{*surfaces, tint, marginOf(tile.layer), scale};
-    if (isHeight) return paintHeights(area, seaLevel_);
+    if (isHeight) return paintHeights(area, seaLevel_, contourSteps(rect.level, heights_));
     return tile.layer == Layer::Night ? paintNight(area, colors_) : paintDay(area, colors_);
 }
 
@@ -253,7 +273,7 @@ base::Result<base::Image> MapPainter::paintArea(const ColumnRect& rect, const Ed
 std::uint64_t MapPainter::colorDigest() const {
     // Increase it when painting changes, so that folders do not mix images of two versions
     // (terrane/web/static_map.h).
-    constexpr int kPainting = 2;
+    constexpr int kPainting = 3;
     std::string text = fmt::format("{}", kPainting);
     const auto add = [&](const glm::vec3& color) {
         text += fmt::format(" {} {} {}", color.r, color.g, color.b);

@@ -28,10 +28,19 @@ Rgb heightColor(int z, int seaLevel);
 // Returns the color of a biome by its name (gen/generators/biomes.h); gray for an unknown one.
 Rgb biomeColor(std::string_view name);
 
-// Paints the height of the ground, under water too, with a darker line every 16 blocks. Under a tree crown
-// over water it paints the height of the water, since surfaces do not store its depth. The margin is
-// kReliefMargin.
-base::Image paintHeights(const PaintedArea& area, int seaLevel);
+// Blocks between the contour lines of a map, and between its thick lines; 0: there are none.
+struct ContourSteps {
+    int line = 16, thick = 0;
+
+    bool operator==(const ContourSteps&) const = default;
+};
+// Returns those of a map of a level: 16, and in a tall world so many that a slope of 45° has at most a line
+// every 8 pixels.
+ContourSteps contourSteps(int level, world::Heights heights);
+
+// Paints the height of the ground, under water too, with darker contour lines. Under a tree crown over water
+// it paints the height of the water, since surfaces do not store its depth. The margin is kReliefMargin.
+base::Image paintHeights(const PaintedArea& area, int seaLevel, ContourSteps steps = {});
 // Paints biomes. `biomes` are the numbers of the rectangle's columns, x + width · y, and `colors` have one
 // for each number. Each column is `scale`² pixels.
 base::Image paintBiomes(const ColumnRect& rect, int scale, std::span<const std::uint8_t> biomes,

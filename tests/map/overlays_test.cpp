@@ -1,5 +1,6 @@
 #include "terrane/map/map_painter.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <set>
 
@@ -69,6 +70,34 @@ TEST(Overlays, ContoursAreDarker) {
     EXPECT_LT(land.pixel(image, 1, 1).green, heightColor(96, 80).green);
     EXPECT_EQ(land.pixel(image, 2, 2), heightColor(95, 80)) << "the same step as 80";
     EXPECT_EQ(land.pixel(image, 0, 1), heightColor(80, 80));
+}
+
+// Lines of steep, tall land stay apart at any scale; those of a world of 256 layers are every 16 blocks.
+TEST(Overlays, ContoursOfTallLandStayApart) {
+    const world::Heights tall{-512, 1792};
+    for (int level = 0; level <= 10; ++level) {
+        EXPECT_EQ(contourSteps(level, {}), ContourSteps()) << level;
+        const ContourSteps steps = contourSteps(level, tall);
+        EXPECT_TRUE(steps.line >= 8 << level || steps.line == 128) << level;
+        EXPECT_EQ(steps.thick, 4 * steps.line);
+        EXPECT_EQ(steps.line % contourSteps(std::max(level - 1, 0), tall).line, 0);
+    }
+    EXPECT_EQ(contourSteps(0, tall).line, 16);
+}
+
+// Thick lines are darker, and wherever the higher ground is.
+TEST(Overlays, SomeContoursAreThick) {
+    PaintedColumns land(4, 4);
+    for (int x = 0; x < 4; ++x) land.at(x, 1) = {1, 1, 130, 130};
+    land.at(1, 2) = {1, 1, 100, 100};
+    const base::Image image = paintHeights(land.area(), 80, {32, 128});
+    const auto shareAt = [&](int x, int y, int z) {
+        return static_cast<float>(land.pixel(image, x, y).green) / heightColor(z, 80).green;
+    };
+    EXPECT_LT(shareAt(0, 1, 130), 0.5f) << "over 128";
+    EXPECT_GT(shareAt(1, 2, 100), 0.5f) << "over 96";
+    EXPECT_LT(shareAt(1, 2, 100), 0.7f);
+    EXPECT_EQ(shareAt(3, 3, 80), 1);
 }
 
 TEST(Overlays, BiomesHaveTheirColorsColumnByColumn) {
