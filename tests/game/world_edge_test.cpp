@@ -116,7 +116,7 @@ TEST_P(WorldEdgeTest, PlayersWalkLookBuildAndHear) {
             interaction.building.press();
             interaction.act(session_, kVisitor, player, 0.01);
             interaction.building.release();
-            (void)ambienceAt(session_.world(), session_.blocks(), player.pose().position);
+            (void)ambienceAt(session_.world(), session_.blocks(), player.pose().position, 0);
         }
         player.placeAt(player.pose(), Movement::Noclip);
         for (int k = 0; k < 100; ++k)
