@@ -172,7 +172,7 @@ TEST(Catalogue, AVersionAlwaysMakesTheSameTiles) {
          "6ab4bb c2c7c3 280303 fa6296 b203c5 af28de 6fce05 68bd81 effa8c 926bc0 fedd7a 11c855 beca2e 7df9de "
          "9d7cf4"},
         {"wilderness",
-         "e09778 3640d0 42216b c9967b ca2d49 4fef9a 7ee76a f6db46 977b8b 0e2542 7f6f81 c0f774 f639b2 68798f "
+         "e09778 3640d0 a13bcf ce3ff5 ca2d49 4fef9a 7ee76a ac1c7f 977b8b 0e2542 7f6f81 c0f774 f639b2 68798f "
          "07ac8a"},
         {"flat",
          "c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba c976ba "

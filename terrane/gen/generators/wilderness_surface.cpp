@@ -139,6 +139,11 @@ Block rockOf(Pass& p, const Fields& f, Float patches) {
                        p.block("stone"));
 }
 
+// Limestone towers: plants cover them but for the steepest of their walls.
+Bool isTower(Pass& p, const Fields& f) {
+    return p.read(f.rocky) > 0.4f && p.read(f.canyon) < 0.1f;
+}
+
 Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     const Float patches = p.perlin2DWithGrain("ground patches", 16, {.3f, .4f, .6f});
     const Float spots = p.perlin2DWithGrain("ground spots", 4, {.35f, .6f});
@@ -151,9 +156,10 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     // Sand lies on dunes, not on mountains.
     const Bool isSandy = is(top, "sand") && biome == number(Biome::Desert);
     const Bool isDune = isSandy && p.read(f.range) < 0.1f && p.read(f.canyon) < 0.1f;
+    const Float sandFrom = select(isDune, Float(0.4f), select(isSandy, Float(-0.6f), Float(0.0f)));
     const Bool isBare =
-        (s.steepness > bareFrom + select(isDune, Float(0.4f), select(isSandy, Float(-0.6f), Float(0.0f)))) ||
-        (p.read(f.rocky) > 0.4f && s.steepness > spots * 0.2f + 0.6f);
+        s.steepness > select(isTower(p, f), spots * 0.9f + patches * 0.9f + 2.3f,
+                             select(p.read(f.rocky) > 0.4f, spots * 0.2f + 0.6f, bareFrom + sandFrom));
     // Stones that fall from cliffs lie below them.
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
@@ -186,7 +192,8 @@ void surfacePass(Pass& p, const Fields& f) {
     p.set(f.soil, ground.soil);
     p.set(f.rock, ground.rock);
     p.set(f.cold, s.cold);
-    const Float gentle = smoothstep(1.2f, 0.8f, s.steepness);
+    const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.2f));
+    const Float gentle = smoothstep(steepest, steepest - 0.4f, s.steepness);
     const Bool isDry = p.read(f.surface) >= p.read(f.water);
     p.set(f.forest, select(isDry, gentle, Float(0.0f)));
     if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
