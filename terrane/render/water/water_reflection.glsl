@@ -41,7 +41,7 @@ vec4 seenBehind(vec3 before, vec3 at, vec2 onScreen) {
 vec4 shoreReflection(vec3 position, vec3 direction, float mirror) {
     vec4 from = frame.viewProjection * vec4(position, 1.0), along = frame.viewProjection * vec4(direction, 0.0);
     vec3 start = from.xyz / from.w, way = along.xyz / max(along.w, 0.02) - start;
-    vec2 toEdge = (sign(way.xy) - start.xy) / (way.xy + vec2(lessThan(abs(way.xy), vec2(1e-5))) * 2e-5);
+    vec2 toEdge = (1.0 - sign(way.xy) * start.xy) / max(abs(way.xy), 1e-5);
     way *= clamp(min(toEdge.x, toEdge.y), 0.0, 1.0);
     float before = 0.0;
     int count = mirror > kLeastMirror && along.w > 0.02 ? kMarchSteps : 0;
