@@ -12,7 +12,8 @@
 namespace terrane::gen {
 namespace {
 
-constexpr std::int32_t kRegionBlocks = kRegionCells * kDrainageSpec.spacing;
+// A region of many rivers.
+constexpr std::int32_t kCells = 128, kBlocks = kCells * kDrainageSpec.spacing;
 
 DrainageHeights heightsOf(std::uint64_t seed) {
     return {DrainageRunner(seed).graph.drainages[0], seed};
@@ -50,12 +51,12 @@ Reference nearestRiver(const DrainageRegion& region, std::int32_t x, std::int32_
 }
 
 TEST(DrainageMaps, ColumnsFindTheRiverThatCounts) {
-    const DrainageRegion region = makeDrainageRegion(heightsOf(kTestSeed), {0, 0});
+    const DrainageRegion region = makeDrainageRegion(heightsOf(kTestSeed), {0, 0}, kCells);
     DrainageSpec spec = kDrainageSpec;
     spec.reach = kShortReach;
     DrainageRunner runner(kTestSeed, 0, spec);
     int found = 0;
-    const auto isInside = [](std::int32_t v) { return v > 200 && v < kRegionBlocks - 200; };
+    const auto isInside = [](std::int32_t v) { return v > 200 && v < kBlocks - 200; };
     onEachTarget([&] {
         for (std::uint32_t k = 0; k < kRandomCases / 4; ++k) {
             // As far from some segment as the map sees, away from the region's border, so that it has all
@@ -105,7 +106,7 @@ std::array<double, 3> valleyReference(const DrainageRegion& region, double reach
 
 TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
     DrainageRunner runner(kTestSeed, 0, kDrainageSpec, Valleys::Yes);
-    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0}, kCells);
     const double reach = valleyReach(kDrainageSpec);
     int found = 0, dry = 0;
     for (const CourseSegment& s : region.segments) dry += s.from.halfWidth == 0 && s.to.halfWidth == 0;
@@ -113,8 +114,8 @@ TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
     onEachTarget([&] {
         for (std::uint32_t k = 0; k < 200; ++k) {
             const std::uint32_t h = shared::hash2(k, 1, 5);
-            const auto x = static_cast<std::int32_t>(h % (kRegionBlocks - 800)) + 400;
-            const auto y = static_cast<std::int32_t>((h >> 8) % (kRegionBlocks - 800)) + 400;
+            const auto x = static_cast<std::int32_t>(h % (kBlocks - 800)) + 400;
+            const auto y = static_cast<std::int32_t>((h >> 8) % (kBlocks - 800)) + 400;
             const DrainageResults results = runner.run({x >> 4, y >> 4});
             const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
             const std::array<double, 3> expected = valleyReference(region, reach, x, y);
@@ -131,7 +132,7 @@ TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
 // Beside a stream, its level and the distance to it count alone.
 TEST(DrainageMaps, ValleysAreTheStreamAtTheStream) {
     DrainageRunner runner(kTestSeed, 0, kDrainageSpec, Valleys::Yes);
-    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0}, kCells);
     for (std::uint32_t k = 0; k < 100; ++k) {
         const CourseSegment& s = region.segments[shared::hash2(k, 2, 5) % region.segments.size()];
         const std::int32_t x = s.from.x / 16, y = s.from.y / 16;
@@ -146,9 +147,9 @@ TEST(DrainageMaps, LakesHaveTheirShores) {
     DrainageSpec spec = kDrainageSpec;
     spec.lakeDepth = 2.0f;
     DrainageRunner runner(kTestSeed, 0, spec);
-    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0});
+    const DrainageRegion region = makeDrainageRegion({runner.graph.drainages[0], kTestSeed}, {0, 0}, kCells);
     ASSERT_GT(region.lakes.size(), 2u);
-    const auto isWithin = [](std::int32_t v) { return v > 8192 && v < kRegionBlocks * 16 - 8192; };
+    const auto isWithin = [](std::int32_t v) { return v > 8192 && v < kBlocks * 16 - 8192; };
     int looked = 0;
     for (const LakeDisc& lake : region.lakes) {
         if (!isWithin(lake.x) || !isWithin(lake.y)) continue;
@@ -169,7 +170,7 @@ TEST(DrainageMaps, RiversInLakesHaveTheirLevel) {
     spec.lakeDepth = 2.0f;
     spec.bend = 0.0f;
     const DrainageRegion region =
-        makeDrainageRegion({DrainageRunner(7, 0, spec).graph.drainages[0], 7}, {0, 0});
+        makeDrainageRegion({DrainageRunner(7, 0, spec).graph.drainages[0], 7}, {0, 0}, kCells);
     int inside = 0;
     for (const CellCourses& cell : region.cells) {
         if (cell.lake < 0) continue;
@@ -187,12 +188,12 @@ TEST(DrainageMaps, RiversInLakesHaveTheirLevel) {
 
 // Water that flows from a segment's end flows on at another's beginning, as wide and as high.
 TEST(DrainageMaps, CoursesHaveNoGapsAndNeverRise) {
-    const DrainageRegion region = makeDrainageRegion(heightsOf(7), {64, -64});
+    const DrainageRegion region = makeDrainageRegion(heightsOf(7), {64, -64}, kCells);
     ASSERT_GT(region.segments.size(), 500u);
     std::multimap<std::pair<std::int32_t, std::int32_t>, const CourseSegment*> begins;
     for (const CourseSegment& s : region.segments) begins.emplace(std::pair(s.from.x, s.from.y), &s);
     int ends = 0, rises = 0;
-    const auto isInside = [](std::int32_t v) { return v > 1280 && v < (kRegionBlocks - 80) * 16; };
+    const auto isInside = [](std::int32_t v) { return v > 1280 && v < (kBlocks - 80) * 16; };
     const auto isLake = [&](const CoursePoint& p) {
         return std::any_of(region.lakes.begin(), region.lakes.end(),
                            [&](const LakeDisc& l) { return l.x == p.x && l.y == p.y; });
@@ -220,13 +221,13 @@ TEST(DrainageMaps, RegionsMeetWithoutSeams) {
     DrainageSpec spec = kDrainageSpec;
     spec.seaLevel = 20.0f;  // much land: long rivers
     const DrainageHeights heights(DrainageRunner(7, 0, spec).graph.drainages[0], 7);
-    const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}),
-                         shifted = makeDrainageRegion(heights, {32, 24});
+    const DrainageRegion whole = makeDrainageRegion(heights, {0, 0}, kCells),
+                         shifted = makeDrainageRegion(heights, {32, 24}, kCells);
     ASSERT_GT(whole.segments.size(), 5000u);
-    for (std::int32_t y = 24; y < kRegionCells; ++y) {
-        for (std::int32_t x = 32; x < kRegionCells; ++x) {
-            const CellCourses& a = whole.cells[static_cast<std::size_t>(y * kRegionCells + x)];
-            const CellCourses& b = shifted.cells[static_cast<std::size_t>((y - 24) * kRegionCells + x - 32)];
+    for (std::int32_t y = 24; y < kCells; ++y) {
+        for (std::int32_t x = 32; x < kCells; ++x) {
+            const CellCourses& a = whole.cells[static_cast<std::size_t>(y * kCells + x)];
+            const CellCourses& b = shifted.cells[static_cast<std::size_t>((y - 24) * kCells + x - 32)];
             ASSERT_EQ(a.segmentCount, b.segmentCount) << x << "," << y;
             ASSERT_EQ(a.lake < 0, b.lake < 0) << x << "," << y;
             for (std::uint32_t k = 0; k < a.segmentCount; ++k) {
@@ -320,6 +321,7 @@ TEST(DrainageMaps, NothingBreaksAtTheWorldsEdge) {
 TEST(DrainageMaps, KeepsABoundedNumberOfRegions) {
     DrainageMaps maps(DrainageRunner(kTestSeed).graph.drainages, kTestSeed);
     DrainageTile tile;
+    constexpr std::int32_t kRegionBlocks = kRegionCells * kDrainageSpec.spacing;
     for (std::size_t k = 0; k < kMaxCachedRegions + 3; ++k) {
         const auto x = static_cast<std::int32_t>(k) * kRegionBlocks + kRegionBlocks / 2;
         maps.prepare(tile, 0, {x, kRegionBlocks / 2, 1});
@@ -334,6 +336,7 @@ TEST(DrainageMaps, KeepsABoundedNumberOfBytes) {
     graphs.front().spec.minFlow = 1;
     DrainageMaps maps(graphs, kTestSeed);
     DrainageTile tile;
+    constexpr std::int32_t kRegionBlocks = kRegionCells * kDrainageSpec.spacing;
     for (std::int32_t k = 0; k < static_cast<std::int32_t>(kMaxCachedRegions); ++k) {
         maps.prepare(tile, 0, {k * kRegionBlocks + kRegionBlocks / 2, kRegionBlocks / 2, 1});
         EXPECT_LE(maps.bytes(), kMaxCachedRegionBytes);

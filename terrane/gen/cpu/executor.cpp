@@ -267,8 +267,9 @@ void Executor::prepareNoise(std::uint32_t noise) {
         case NoiseKind::Drainage:
         case NoiseKind::Valleys:
             assert(parts_.drainages && "a program that reads maps is run with them");
-            return parts_.drainages->prepare(context_.drainage[noise], static_cast<std::uint32_t>(call.size),
-                                             grid_);
+            return parts_.drainages->prepare(
+                context_.drainage[noise], static_cast<std::uint32_t>(call.size), grid_,
+                {call.kind == NoiseKind::Drainage, call.kind == NoiseKind::Valleys});
     }
 }
 

@@ -55,12 +55,13 @@ Control middle(const Control& a, const Control& b) {
 
 class CurveMaker {
   public:
-    CurveMaker(const DrainageHeights& heights, DrainageCell corner) : spec_(heights.spec()) {
+    CurveMaker(const DrainageHeights& heights, DrainageCell corner, int side) : spec_(heights.spec()) {
         region_.corner = corner;
-        const int side = kRegionCells + 2 * kRegionMargin;
-        DrainageNodes nodes = heights.nodes({corner.x - kRegionMargin, corner.y - kRegionMargin}, side);
+        region_.side = side;
+        network_.side = side + 2 * kRegionMargin;
+        DrainageNodes nodes =
+            heights.nodes({corner.x - kRegionMargin, corner.y - kRegionMargin}, network_.side);
         places_ = std::move(nodes.places);
-        network_.side = side;
         network_.heights = std::move(nodes.heights);
         network_.gradients = std::move(nodes.gradients);
         findDrainage(network_, spec_);
@@ -68,8 +69,8 @@ class CurveMaker {
     }
 
     DrainageRegion make() {
-        for (int y = 0; y < kRegionCells; ++y) {
-            for (int x = 0; x < kRegionCells; ++x) {
+        for (int y = 0; y < region_.side; ++y) {
+            for (int x = 0; x < region_.side; ++x) {
                 CellCourses cell;
                 cell.firstSegment = static_cast<std::uint32_t>(region_.segments.size());
                 addCurves(x, y);
@@ -273,8 +274,8 @@ std::size_t DrainageRegion::bytes() const {
            cells.capacity() * sizeof(CellCourses);
 }
 
-DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner) {
-    return CurveMaker(heights, corner).make();
+DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner, int side) {
+    return CurveMaker(heights, corner, side).make();
 }
 
 }  // namespace terrane::gen

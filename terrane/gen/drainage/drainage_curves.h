@@ -15,9 +15,10 @@
 
 namespace terrane::gen {
 
-// Along x and along y. A region reads kNetworkMargin cells around it, so small regions consist mostly of
-// margin: of 64 cells they cost four times as much a cell.
-constexpr int kRegionCells = 128;
+// Cells of the regions that maps keep, along x and along y. A region reads kNetworkMargin cells around it: of
+// these, small ones read more for each cell of their own, and large ones make more that no view sees. The
+// heights of cells are shared by the regions (drainage_heights.h).
+constexpr int kRegionCells = 32;
 
 // A point of a river's course.
 struct CoursePoint {
@@ -45,14 +46,16 @@ struct CellCourses {
 
 struct DrainageRegion {
     DrainageCell corner;
+    int side = 0;  // cells
     std::vector<CourseSegment> segments;
     std::vector<LakeDisc> lakes;
-    std::vector<CellCourses> cells;  // kRegionCells² by y, then x
+    std::vector<CellCourses> cells;  // side² by y, then x
 
     std::size_t bytes() const;
 };
 
-// Returns the region whose first cell is `corner`, a multiple of 8. Takes milliseconds.
-DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner);
+// Returns the region of side² cells whose first is `corner`; both are multiples of 8. Takes milliseconds.
+DrainageRegion makeDrainageRegion(const DrainageHeights& heights, DrainageCell corner,
+                                  int side = kRegionCells);
 
 }  // namespace terrane::gen

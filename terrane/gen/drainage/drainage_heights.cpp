@@ -1,5 +1,6 @@
 #include "terrane/gen/drainage/drainage_heights.h"
 
+#include <algorithm>
 #include <bit>
 #include <cassert>
 
@@ -8,8 +9,6 @@
 
 namespace terrane::gen {
 namespace {
-
-constexpr int kTileCells = kTileSize / kCellSamples;
 
 // The node's place along one axis, in 1/16 blocks from the cell's corner: a random place in the middle three
 // quarters of the sample's square, which is `width` blocks wide.
@@ -43,44 +42,77 @@ std::uint32_t DrainageHeights::hash(DrainageCell cell) const {
     return shared::hash2(static_cast<std::uint32_t>(cell.x), static_cast<std::uint32_t>(cell.y), seed_);
 }
 
+std::shared_ptr<const DrainageHeights::Block> DrainageHeights::findBlock(world::ChunkPos tile) const {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = blocks_.find(tile); found != blocks_.end()) return found->second;
+    const auto found = olderBlocks_.find(tile);
+    if (found == olderBlocks_.end()) return nullptr;
+    auto block = found->second;
+    blocks_.emplace(tile, block);
+    return block;
+}
+
+// Runs the author's expression on a tile of samples. Two threads may make the same block.
+std::shared_ptr<const DrainageHeights::Block> DrainageHeights::makeBlock(Executor& executor,
+                                                                         world::ChunkPos tile) const {
+    ColumnValues values, gradients{};
+    ColumnValues* const results[] = {&values, &gradients};
+    PassInputs inputs;
+    inputs.chunk = tile;
+    executor.run2D(program_, inputs, std::span(results).first(hasValleys() ? 2 : 1));
+    const int width = graph_.spec.spacing / kCellSamples;
+    auto block = std::make_shared<Block>();
+    for (int n = 0; n < kBlockNodes; ++n) {
+        const int x = n % kBlockCells, y = n / kBlockCells;
+        int lowest = 0;
+        float height = 0.0f, gradient = 0.0f;
+        for (int s = 0; s < kCellSamples * kCellSamples; ++s) {
+            const int column =
+                x * kCellSamples + s % kCellSamples + kTileSize * (y * kCellSamples + s / kCellSamples);
+            const float v = asFloat(values[static_cast<std::size_t>(column)]);
+            if (s > 0 && !(v < height)) continue;
+            height = v;
+            lowest = s;
+            gradient = asFloat(gradients[static_cast<std::size_t>(column)]);
+        }
+        const std::uint32_t h = hash({tile.x * kBlockCells + x, tile.y * kBlockCells + y});
+        const auto at = static_cast<std::size_t>(n);
+        block->heights[at] = heightKey(height, h);
+        block->gradients[at] = gradient;
+        block->places[at] = {
+            placeAlong(lowest % kCellSamples, width, shared::mixBits(h + shared::kHashX)),
+            placeAlong(lowest / kCellSamples, width, shared::mixBits(h + shared::kHashY))};
+    }
+    const std::lock_guard lock(mutex_);
+    if (blocks_.size() >= kMaxBlocks) {
+        olderBlocks_ = std::move(blocks_);
+        blocks_.clear();
+    }
+    blocks_.emplace(tile, block);
+    return block;
+}
+
 DrainageNodes DrainageHeights::nodes(DrainageCell corner, int side) const {
-    assert(corner.x % kTileCells == 0 && corner.y % kTileCells == 0 && side % kTileCells == 0 &&
-           "nodes are computed in whole tiles");
-    const int spacing = graph_.spec.spacing, level = drainageLevel(graph_.spec);
+    assert(corner.x % kBlockCells == 0 && corner.y % kBlockCells == 0 && side % kBlockCells == 0 &&
+           "nodes are computed in whole blocks");
+    const auto level = static_cast<std::uint8_t>(drainageLevel(graph_.spec));
     const auto count = static_cast<std::size_t>(side) * static_cast<std::size_t>(side);
     DrainageNodes nodes{std::vector<HeightKey>(count), std::vector<float>(hasValleys() ? count : 0),
                         std::vector<NodePlace>(count)};
     Executor executor(graph_.noises, seeds_);
-    ColumnValues values, gradients;
-    ColumnValues* const results[] = {&values, &gradients};
-    for (int tile = 0; tile < side / kTileCells * (side / kTileCells); ++tile) {
-        const int tileX = tile % (side / kTileCells) * kTileCells,
-                  tileY = tile / (side / kTileCells) * kTileCells;
-        PassInputs inputs;
-        const DrainageCell first = wrapped({corner.x + tileX, corner.y + tileY}, spacing);
-        inputs.chunk = {first.x / kTileCells, first.y / kTileCells, static_cast<std::uint8_t>(level)};
-        executor.run2D(program_, inputs, std::span(results).first(hasValleys() ? 2 : 1));
-        for (int n = 0; n < kTileCells * kTileCells; ++n) {
-            const int x = n % kTileCells, y = n / kTileCells;
-            int lowest = 0;
-            float height = 0.0f, gradient = 0.0f;
-            for (int s = 0; s < kCellSamples * kCellSamples; ++s) {
-                const int column =
-                    x * kCellSamples + s % kCellSamples + kTileSize * (y * kCellSamples + s / kCellSamples);
-                const float v = asFloat(values[static_cast<std::size_t>(column)]);
-                if (s > 0 && !(v < height)) continue;
-                height = v;
-                lowest = s;
-                gradient = asFloat(gradients[static_cast<std::size_t>(column)]);
+    for (int y = 0; y < side; y += kBlockCells) {
+        for (int x = 0; x < side; x += kBlockCells) {
+            const DrainageCell first = wrapped({corner.x + x, corner.y + y}, graph_.spec.spacing);
+            const world::ChunkPos tile = {first.x / kBlockCells, first.y / kBlockCells, level};
+            std::shared_ptr<const Block> block = findBlock(tile);
+            if (!block) block = makeBlock(executor, tile);
+            for (int row = 0; row < kBlockCells; ++row) {
+                const auto to = (y + row) * side + x, from = row * kBlockCells;
+                std::copy_n(block->heights.begin() + from, kBlockCells, nodes.heights.begin() + to);
+                std::copy_n(block->places.begin() + from, kBlockCells, nodes.places.begin() + to);
+                if (hasValleys())
+                    std::copy_n(block->gradients.begin() + from, kBlockCells, nodes.gradients.begin() + to);
             }
-            const std::uint32_t h = hash({first.x + x, first.y + y});
-            const auto at = static_cast<std::size_t>((tileY + y) * side + tileX + x);
-            nodes.heights[at] = heightKey(height, h);
-            if (hasValleys()) nodes.gradients[at] = gradient;
-            nodes.places[at] = {placeAlong(lowest % kCellSamples, spacing / kCellSamples,
-                                           shared::mixBits(h + shared::kHashX)),
-                                placeAlong(lowest / kCellSamples, spacing / kCellSamples,
-                                           shared::mixBits(h + shared::kHashY))};
         }
     }
     return nodes;

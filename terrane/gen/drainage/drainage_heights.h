@@ -2,12 +2,17 @@
 // lowest becomes the cell's node. One DrainageHeights a map and seed; any thread may use it.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <memory>
+#include <mutex>
+#include <unordered_map>
 #include <vector>
 
 #include "terrane/gen/compile/generator_graph.h"
 #include "terrane/gen/compile/program.h"
 #include "terrane/gen/drainage/drainage_network.h"
+#include "terrane/world/coords.h"
 
 namespace terrane::gen {
 
@@ -34,6 +39,9 @@ constexpr int kCellSamples = 2;
 constexpr int kCellSamplesLog2 = 1;
 int drainageLevel(const DrainageSpec& spec);
 
+class Executor;
+
+// Regions overlap by their margins, so nodes are kept in blocks of one tile of samples.
 class DrainageHeights {
   public:
     DrainageHeights(const DrainageGraph& graph, std::uint64_t worldSeed);
@@ -46,10 +54,26 @@ class DrainageHeights {
     bool hasValleys() const { return graph_.hasValleys(); }
 
   private:
+    static constexpr int kBlockCells = kTileSize / kCellSamples, kBlockNodes = kBlockCells * kBlockCells;
+    struct Block {
+        std::array<HeightKey, kBlockNodes> heights;
+        std::array<float, kBlockNodes> gradients;
+        std::array<NodePlace, kBlockNodes> places;
+    };
+    using Blocks = std::unordered_map<world::ChunkPos, std::shared_ptr<const Block>, world::ChunkPosHash>;
+    // Regions of a row of 64 tiles need 1,000 to 1,500 blocks: 2 × 2,048 × 1.3 KB = 5 MB.
+    static constexpr std::size_t kMaxBlocks = 2048;
+
+    std::shared_ptr<const Block> findBlock(world::ChunkPos tile) const;
+    std::shared_ptr<const Block> makeBlock(Executor& executor, world::ChunkPos tile) const;
+
     DrainageGraph graph_;
     Seeds seeds_;
     std::uint32_t seed_;
     Program program_;
+    mutable std::mutex mutex_;
+    // Blocks used lately, and those used before these were kMaxBlocks; guarded by mutex_.
+    mutable Blocks blocks_, olderBlocks_;
 };
 
 // Returns the same cell on the other side of the world's edge.

@@ -80,11 +80,13 @@ std::int32_t gap(std::int32_t first, std::int32_t last, std::int32_t low, std::i
     return std::max({first - high, low - last, 0});
 }
 
-bool isNear(const TileSquare& tile, const CourseSegment& s, std::int32_t reach) {
+// Whether a box around the piece is within reach.
+bool isNear(const TileSquare& tile, const CourseSegment& s, std::int64_t reach) {
     const auto [lowX, highX] = std::minmax(s.from.x, s.to.x);
     const auto [lowY, highY] = std::minmax(s.from.y, s.to.y);
-    return gap(tile.x, tile.x + tile.width, lowX, highX) <= reach &&
-           gap(tile.y, tile.y + tile.width, lowY, highY) <= reach;
+    const std::int64_t dx = gap(tile.x, tile.x + tile.width, lowX, highX),
+                       dy = gap(tile.y, tile.y + tile.width, lowY, highY);
+    return dx * dx + dy * dy <= reach * reach;
 }
 
 float blocksOf(std::int32_t units) {
@@ -100,22 +102,26 @@ shared::RiverSegment tileSegment(const TileSquare& tile, const CourseSegment& s)
              (s.from.level - s.to.level) * shared::detSqrt(inverse)}};
 }
 
+std::int32_t unitsOf(float reach) {
+    return static_cast<std::int32_t>(reach * static_cast<float>(kPlaceUnits)) + 1;
+}
+
 void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
-             const TileSquare& square) {
-    const float farthest = std::max(tile.reach, tile.valleyReach);
-    const auto reach = static_cast<std::int32_t>(farthest * static_cast<float>(kPlaceUnits)) + 1;
+             const TileSquare& square, DrainageUses uses) {
+    const std::int32_t riverReach = unitsOf(tile.reach), valleyReach = unitsOf(tile.valleyReach);
+    const auto add = [&](const CourseSegment& s) {
+        const bool isWet = s.from.halfWidth > 0.0f || s.to.halfWidth > 0.0f;
+        const bool isRiver = uses.rivers && isWet && isNear(square, s, riverReach);
+        if (isRiver || (uses.valleys && isNear(square, s, valleyReach)))
+            tile.segments.push_back(tileSegment(square, s));
+    };
     if (tile.step > kMaxDrainageStep) {
         if (cell.segmentCount == 0) return;
-        const CourseSegment whole = {region.segments[cell.firstSegment].from,
-                                     region.segments[cell.firstSegment + cell.segmentCount - 1].to};
-        if (isNear(square, whole, reach)) tile.segments.push_back(tileSegment(square, whole));
-        return;
+        return add({region.segments[cell.firstSegment].from,
+                    region.segments[cell.firstSegment + cell.segmentCount - 1].to});
     }
-    for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
-        const CourseSegment& s = region.segments[cell.firstSegment + k];
-        if (isNear(square, s, reach)) tile.segments.push_back(tileSegment(square, s));
-    }
-    if (cell.lake < 0) return;
+    for (std::uint32_t k = 0; k < cell.segmentCount; ++k) add(region.segments[cell.firstSegment + k]);
+    if (cell.lake < 0 || !uses.rivers) return;
     const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
     tile.lakes.emplace_back(blocksOf(lake.x - square.x), blocksOf(lake.y - square.y), lake.radius,
                             lake.level);
@@ -130,34 +136,40 @@ DrainageMaps::DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64
 DrainageMaps::~DrainageMaps() = default;
 
 // Cells are counted from the tile's own and then wrapped: the world's edge is no special case.
-void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid) {
+void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid, DrainageUses uses) {
     Map& m = *maps_[map];
     const DrainageSpec& spec = m.heights.spec();
     tile.segments.clear();
     tile.lakes.clear();
     tile.reach = spec.reach;
     tile.valleyReach = m.heights.hasValleys() ? valleyReach(spec) : 0.0f;
+    uses.valleys = uses.valleys && m.heights.hasValleys();
+    const float farthest = std::max(uses.rivers ? tile.reach : 0.0f, uses.valleys ? tile.valleyReach : 0.0f);
     tile.step = grid.step;
     const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
-    const std::int32_t around =
-        static_cast<std::int32_t>(std::max(tile.reach, tile.valleyReach)) + 1 + spacing * kCourseReach4 / 4;
+    const std::int32_t around = static_cast<std::int32_t>(farthest) + 1 + spacing * kCourseReach4 / 4;
     const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
     const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
     const std::int32_t inX = grid.x & (spacing - 1), inY = grid.y & (spacing - 1);
-    std::shared_ptr<KeptRegion> region;
+    std::vector<std::shared_ptr<KeptRegion>> regions;  // met so far: few
+    const auto regionAt = [&](DrainageCell corner) -> const DrainageRegion& {
+        for (const auto& r : regions)
+            if (r->corner.x == corner.x && r->corner.y == corner.y) return *r->region;
+        regions.push_back(m.region(corner));
+        return *regions.back()->region;
+    };
     for (std::int32_t dy = (inY - around) >> shift; dy <= (inY + width + around) >> shift; ++dy) {
         for (std::int32_t dx = (inX - around) >> shift; dx <= (inX + width + around) >> shift; ++dx) {
             const DrainageCell cell = wrapped({cellX + dx, cellY + dy}, spacing);
             const DrainageCell corner = {cell.x & -kRegionCells, cell.y & -kRegionCells};
-            if (!region || region->corner.x != corner.x || region->corner.y != corner.y)
-                region = m.region(corner);
+            const DrainageRegion& region = regionAt(corner);
             const auto number =
                 static_cast<std::size_t>((cell.y - corner.y) * kRegionCells + cell.x - corner.x);
             // From the region's corner to the tile, by way of the cell: both differences are small.
             const TileSquare square = {((cell.x - corner.x - dx) * spacing + inX) * kPlaceUnits,
                                        ((cell.y - corner.y - dy) * spacing + inY) * kPlaceUnits,
                                        width * kPlaceUnits};
-            addCell(tile, *region->region, region->region->cells[number], square);
+            addCell(tile, region, region.cells[number], square, uses);
         }
     }
 }

@@ -25,19 +25,26 @@ struct DrainageTile {
     std::int32_t step = 1;  // blocks from column to column
 };
 
-// The number of cached regions per map. One is 128² cells, 32,768² blocks with the default spacing, and takes
-// up to 3 MB where few nodes have a river, 8 MB with valleys, 14 MB where all are rivers: a row of 64 tiles
-// of step 32 crosses three of half that spacing.
-constexpr std::size_t kMaxCachedRegions = 8;
-constexpr std::size_t kMaxCachedRegionBytes = std::size_t{64} << 20;  // the newest region is kept anyway
+// The number of cached regions per map. One is 32² cells, 8,192² blocks with the default spacing, and takes
+// up to 0.2 MB where few nodes have a river, 0.5 MB with valleys, 0.9 MB where all are rivers: a row of 64
+// tiles of step 32 crosses nine of half that spacing, or both rows of them that meet there.
+constexpr std::size_t kMaxCachedRegions = 64;
+constexpr std::size_t kMaxCachedRegionBytes = std::size_t{32} << 20;  // the newest region is kept anyway
+
+// Calls that read a tile: Pass::drainage, Pass::valleys. A tile for one of them leaves out pieces that cannot
+// count in the other.
+struct DrainageUses {
+    bool rivers, valleys;
+};
 
 class DrainageMaps {
   public:
     DrainageMaps(const std::vector<DrainageGraph>& graphs, std::uint64_t worldSeed);
     ~DrainageMaps();
 
-    // Prepares the tile whose first column is at the grid's position.
-    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid);
+    // Prepares the tile whose first column is at the grid's position, for the calls of `uses`.
+    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid,
+                 DrainageUses uses = {true, true});
 
     std::size_t cachedRegions() const;  // of all maps
     std::size_t bytes() const;          // that they take
