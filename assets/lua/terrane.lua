@@ -208,6 +208,11 @@ function Pass:readAt(field, dx, dy) end
 ---@return Vec2
 function Pass:slope(field) end
 
+---The lowest value of a Float field in the four columns beside.
+---@param field Field
+---@return Float
+function Pass:lowestBeside(field) end
+
 ---A field of Float at an offset of any fraction of a block.
 ---@param field Field
 ---@param offset Vec2

@@ -51,6 +51,10 @@ int slope(Call& c) {
     return c.push(c.pass().slope(gen::Field<Float>{c.field(1, Kind::Float)}));
 }
 
+int lowestBeside(Call& c) {
+    return c.push(c.pass().lowestBeside(gen::Field<Float>{c.field(1, Kind::Float)}));
+}
+
 int readBetween(Call& c) {
     const gen::Field<Float> field{c.field(1, Kind::Float)};
     return c.push(c.pass().readBetween(field, c.get<gen::Vec2>(2)));
@@ -174,6 +178,7 @@ int while_(Call& c) {
 constexpr Function kPassMethods[] = {{"read", read},
                                      {"readAt", readAt},
                                      {"slope", slope},
+                                     {"lowestBeside", lowestBeside},
                                      {"readBetween", readBetween},
                                      {"set", set},
                                      {"setAt", setAt},

@@ -142,6 +142,22 @@ TEST(BuilderLevels, SlopesAndBlendsCountBlocks) {
     }
 }
 
+// A plane that falls toward +x and +y: of the columns beside, one of these is the lowest.
+TEST(BuilderLevels, LowestBesideLooksAtTheNextColumns) {
+    for (const int level : {0, 1, 3, 8}) {
+        const auto write = [](GeneratorBuilder& g) {
+            const auto f = g.field<Float>("f");
+            g.pass2D("f", [&](Pass& p) {
+                p.set(f, Float(p.x() & 0xFFFF) * -2.0f - Float(p.y() & 0xFFFF) * 3.0f);
+            });
+            g.pass3D("only", [&](Pass& p) { p.setBlock(Block(Int(p.read(f) - p.lowestBeside(f)))); });
+        };
+        const Generator generator(buildLevel(level, write), kTestSeed);
+        const BlockId number = numbersOf(generator, {1, 1, static_cast<std::uint8_t>(level)})[16 * 8 + 8];
+        EXPECT_EQ(number, static_cast<BlockId>(3 << level)) << level;
+    }
+}
+
 // Octaves of 3, 6 and 12 blocks at 4 blocks a column: none, half and all of the weight.
 TEST(BuilderLevels, ShortOctavesFade) {
     const auto write = [](GeneratorBuilder& g) {

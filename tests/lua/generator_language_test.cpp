@@ -34,7 +34,7 @@ TEST(GeneratorLanguage, FieldsOfAllTypes) {
         g:pass3D("ground", function(p)
             local here = p:readAt(i, -3, 4)
             local slope = p:slope(f)
-            local between = p:readBetween(f, vec2(0.5, 1.5))
+            local between = p:readBetween(f, vec2(0.5, 1.5)) + p:lowestBeside(f)
             local value = select(slope.x:lt(between), p:read(k), "stone")
             p:setBlock(select(p.z:lt(here) & p:read(b), value, "air"))
         end))",
@@ -52,7 +52,7 @@ TEST(GeneratorLanguage, FieldsOfAllTypes) {
                     g.pass3D("ground", [&](Pass& p) {
                         const Int here = p.readAt(i, {-3, 4});
                         const Vec2 slope = p.slope(f);
-                        const Float between = p.readBetween(f, {0.5f, 1.5f});
+                        const Float between = p.readBetween(f, {0.5f, 1.5f}) + p.lowestBeside(f);
                         const Bool isFlat = slope.x < between;
                         const Block value = select(isFlat, p.read(k), p.block("stone"));
                         const Bool isLow = p.z() < here;

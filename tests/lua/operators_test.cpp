@@ -43,6 +43,7 @@ constexpr const char* kOperators[] = {
 constexpr const char* kMethods[] = {"read",
                                     "readAt",
                                     "slope",
+                                    "lowestBeside",
                                     "readBetween",
                                     "set",
                                     "setAt",

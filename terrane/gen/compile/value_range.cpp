@@ -217,6 +217,11 @@ ValueRange boolResult(Op op, Ranges a) {
     }
 }
 
+// Whether `value & mask` is in 0…mask whatever part of its range the value is in.
+bool isMaskOf(const ValueRange& mask, const ValueRange& value) {
+    return isCertain(mask) && mask.low >= 0 && (value.high < 0 || value.low >= mask.low);
+}
+
 }  // namespace
 
 ValueRange rangeOf(Type type, Bits value) {
@@ -246,6 +251,7 @@ ValueRange resultRange(Op op, Type type, std::span<const ValueRange> args) {
     r.mayNarrow = false;
     if (type != Type::Float && isCertain(r)) return r;
     for (const ValueRange& a : args) r.mayNarrow = r.mayNarrow || a.mayNarrow;
+    if (op == Op::AndI && isMaskOf(args[1], args[0])) r.mayNarrow = false;
     return r;
 }
 

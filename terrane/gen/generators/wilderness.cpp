@@ -48,7 +48,7 @@ Fields::Fields(GeneratorBuilder& g)
       color(g.field<Int>("color")),
       rivers(wilderness::rivers(g)),
       plants(g, vegetationTables()) {
-    if (g.step() == 1) caveTop = g.field<Int>("cave top");
+    (g.step() == 1 ? caveTop : hidden) = g.field<Int>(g.step() == 1 ? "cave top" : "hidden");
 }
 
 }  // namespace wilderness

@@ -82,6 +82,7 @@ struct Fields {
     Field<Float> forest;           // share of the possible vegetation
     Field<Block> top, soil, rock;  // the highest block, the few below it, and all below these
     Field<Int> caveTop;            // z below which caves may be; at level 0
+    Field<Int> hidden;             // z below which nobody sees what rock is like; at other levels
     Field<Int> color;              // of grass and leaves, as a tint has it
     Drainage rivers;
     vegetation::Fields plants;

@@ -1,3 +1,7 @@
+#include <cstdint>
+#include <initializer_list>
+#include <utility>
+
 #include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
@@ -9,22 +13,54 @@ namespace {
 
 constexpr int kCaveWater = -180;  // up to this height caves are lakes
 
-// Bands of rock, a little bent, in every cliff, mine and cave alike.
+// Layers of a period of 64 that bands of another rock take: bit k stands for layer k.
+using Bands = std::uint64_t;
+constexpr Bands bandsOf(std::initializer_list<std::pair<int, int>> firstAndLast) {
+    Bands bands = 0;
+    for (const auto& [first, last] : firstAndLast)
+        for (int k = first; k <= last; ++k) bands |= Bands{1} << k;
+    return bands;
+}
+constexpr Bands kTerracotta =
+    bandsOf({{0, 3}, {13, 13}, {17, 20}, {30, 30}, {34, 37}, {47, 47}, {51, 53}, {59, 59}});
+constexpr Bands kPaleLines = bandsOf({{9, 9}, {26, 26}, {43, 43}, {56, 56}});
+constexpr Bands kCobble = bandsOf({{0, 5}, {30, 30}, {32, 32}});
+constexpr Bands kSandstone = bandsOf({{0, 2}, {40, 40}});
+
+Int half(Bands bands, int shift) {
+    return Int(static_cast<std::int32_t>(static_cast<std::uint32_t>(bands >> shift)));
+}
+
+// Bands of rock, a little bent, in every cliff, mine and cave alike. What kind of bands a column has does not
+// depend on z: a layer only looks up a bit.
 Block strata(Pass& p, const Fields& f) {
     const Block rock = p.read(f.rock);
+    const Bool isRed = rock == p.block("red_sandstone"), isChalk = rock == p.block("limestone");
     const Int bend = Int(p.perlin2D("strata", 64, {1.5f, 3.0f, 6.0f}) + 16.0f);
-    const Int z = p.z() + bend;
-    const Int band = floorModulo(z, 17), wide = floorModulo(z, 61);
-    const Block red = multiSelect({{band < 4, p.block("terracotta")},
-                                   {band == 9, p.block("sandstone")},
-                                   {band == 13, p.block("terracotta")}},
-                                  rock);
-    const Block grey = select(wide < 6 || wide == 30 || wide == 32, p.block("cobble"), rock);
-    const Block chalk = select(wide < 3 || wide == 40, p.block("sandstone"), rock);
-    return multiSelect({{rock == p.block("red_sandstone"), red},
-                        {rock == p.block("stone"), grey},
-                        {rock == p.block("limestone"), chalk}},
-                       rock);
+    const Int at = (p.z() + bend) & 63;
+    const Bool isUpper = at >= 32;
+    const auto isIn = [&](Int lower, Int upper) { return (select(isUpper, upper, lower) >> at & 1) == 1; };
+    const auto halfOf = [&](int shift) {
+        return multiSelect({{isRed, half(kTerracotta, shift)}, {isChalk, half(kSandstone, shift)}},
+                           half(kCobble, shift));
+    };
+    const Block other =
+        multiSelect({{isRed, p.block("terracotta")}, {isChalk, p.block("sandstone")}}, p.block("cobble"));
+    Var<Block> block = p.var(rock);
+    p.if_(isRed || isChalk || rock == p.block("stone"),
+          [&] { block = select(isIn(halfOf(0), halfOf(32)), other, rock); });
+    p.if_(isRed, [&] {
+        const Bool isLine = isIn(half(kPaleLines, 0), half(kPaleLines, 32));
+        block = select(isLine, p.block("sandstone"), static_cast<Block>(block));
+    });
+    return block;
+}
+
+// Plain rock where no side shows it: tiles span many layers, and those of one block cost nothing.
+Block visibleStrata(Pass& p, const Fields& f) {
+    Var<Block> block = p.var(p.read(f.rock));
+    p.if_(p.z() >= p.read(f.hidden), [&] { block = strata(p, f); });
+    return block;
 }
 
 // Winding tunnels where two noises are both near 0, and great halls.
@@ -53,7 +89,7 @@ Block earth(Pass& p, const Fields& f) {
             const auto ofRock = [&](Block b) { return select(b == rock, strata(p, f), b); };
             block = select(depth == 0, ofRock(p.read(f.top)), ofRock(p.read(f.soil)));
         },
-        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 300) : strata(p, f); });
+        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 300) : visibleStrata(p, f); });
     if (p.step() > 1) return block;
     const Block inside = select(z <= kCaveWater, p.block("water"), p.block("air"));
     return select(isCave(p, f), inside, static_cast<Block>(block));

@@ -181,6 +181,13 @@ Int caveTop(Pass& p, const Fields& f, const Site& s) {
     return Int(floor(s.height - roof));
 }
 
+// The ground shows at its sides down to the columns beside, and farther beside tiles of another level.
+Int hiddenBelow(Pass& p, const Fields& f) {
+    constexpr float kMore = 4.0f;
+    const Float height = p.read(f.height);
+    return Int(floor(height - max(height - p.lowestBeside(f.height), Float(0.0f)) * 2.0f - kMore));
+}
+
 }  // namespace
 
 void surfacePass(Pass& p, const Fields& f) {
@@ -196,7 +203,11 @@ void surfacePass(Pass& p, const Fields& f) {
     const Float gentle = smoothstep(steepest, steepest - 0.4f, s.steepness);
     const Bool isDry = p.read(f.surface) >= p.read(f.water);
     p.set(f.forest, select(isDry, gentle, Float(0.0f)));
-    if (p.step() == 1) p.set(f.caveTop, caveTop(p, f, s));
+    if (p.step() == 1) {
+        p.set(f.caveTop, caveTop(p, f, s));
+    } else {
+        p.set(f.hidden, hiddenBelow(p, f));
+    }
 }
 
 void colorPass(Pass& p, const Fields& f) {

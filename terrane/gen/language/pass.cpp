@@ -409,6 +409,12 @@ Vec2 Pass::slope(Field<Float> field) {
     return {(at(reach, 0) - at(-reach, 0)) * perBlock, (at(0, reach) - at(0, -reach)) * perBlock};
 }
 
+Float Pass::lowestBeside(Field<Float> field) {
+    requireWritten(field.index, Type::Float);
+    const auto at = [&](int dx, int dy) { return Float(readColumn(field.index, Type::Float, {dx, dy})); };
+    return min(min(at(1, 0), at(-1, 0)), min(at(0, 1), at(0, -1)));
+}
+
 Float Pass::readBetween(Field<Float> field, Vec2 offset) {
     requireWritten(field.index, Type::Float);
     if (step() > 1) offset = offset * (1.0f / static_cast<float>(step()));

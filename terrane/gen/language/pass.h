@@ -130,6 +130,9 @@ class Pass {
     // Returns the slope of a field per block, measured over 4 blocks at level 0 and over two columns at other
     // levels.
     Vec2 slope(Field<Float> field);
+    // Returns the lowest value of a field in the four columns beside, at every level: the ground of a column
+    // shows at its sides down to there.
+    Float lowestBeside(Field<Float> field);
     // Returns a field at an offset of any fraction of a block, blended from the four columns around it.
     // Offset and the block beyond it within ±kMaxReadOffset.
     Float readBetween(Field<Float> field, Vec2 offset);
