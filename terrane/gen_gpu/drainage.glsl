@@ -90,10 +90,12 @@ Valleys valleys(uint map, uint mapCount, float reach) {
         placeOn(line, course.x, x, y, along, distance2);
         if (!(distance2 < reach2)) continue;
         precise float plusOne = distance2 + 1.0;
-        precise float part = detDivide(1.0, plusOne) - reachWeight;
+        float inverse = detInverseSqrt(plusOne);
+        precise float part = inverse * inverse - reachWeight;
         precise float weight = part * part;
+        precise float distance = plusOne * inverse;
         precise float level = course.w + along * flow.x, nodes = flow.y + along * flow.z;
-        distances = distances + weight * detSqrt(distance2);
+        distances = distances + weight * distance;
         levels = levels + weight * level;
         flows = flows + weight * nodes;
         weights = weights + weight;

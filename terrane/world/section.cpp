@@ -135,6 +135,16 @@ int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& pal
                 i += kLongRun;
             }
             if (i == kBlocksPerSection) break;
+            // Layers are mostly like those below them.
+            const auto here = static_cast<std::size_t>(i), below = here - kBlocksPerLayer;
+            if (i >= kBlocksPerLayer &&
+                std::memcmp(&values[here], &values[below], kLongRun * sizeof(Section::Value)) == 0) {
+                std::memcpy(&indices[here], &indices[below], kLongRun);
+                at = indices[here + kLongRun - 1];
+                run = palette[static_cast<std::size_t>(at)] * 0x0001000100010001u;
+                i += kLongRun - kRun;
+                continue;
+            }
         }
         if (count > 0 && differs(i) == 0) {
             std::memset(&indices[static_cast<std::size_t>(i)], at, kRun);

@@ -18,6 +18,7 @@ namespace terrane::gen {
 namespace {
 
 using shared::detDivide;
+using shared::detInverseSqrt;
 using shared::detReciprocal;
 using shared::detSqrt;
 
@@ -35,6 +36,7 @@ static_assert(detSqrt(4.0f) == 2.0f);
 static_assert(detSqrt(2.0f) == 1.41421354f);
 static_assert(detSqrt(0x1p-100f) == 0x1p-50f);
 static_assert(detSqrt(0.0f) == 0.0f);
+static_assert(detInverseSqrt(4.0f) > 0.499999f && detInverseSqrt(4.0f) < 0.500001f);
 
 // Uniform in sign and mantissa, the exponent uniform in [lowest, highest].
 float randomFloat(std::mt19937_64& random, int lowest, int highest) {
@@ -51,6 +53,16 @@ double errorUlp(float value, double exact) {
     std::frexp(exact, &exponent);
     const int unit = std::max(exponent - 24, -149);
     return std::abs(double{value} - exact) / std::ldexp(1.0, unit);
+}
+
+TEST(DetMath, InverseRootsAreWithinFiveMillionths) {
+    std::mt19937_64 random(4);
+    double worst = 0;
+    for (int k = 0; k < kSamples; ++k) {
+        const float x = std::abs(randomFloat(random, -100, 100));
+        worst = std::max(worst, std::abs(double{detInverseSqrt(x)} * std::sqrt(double{x}) - 1));
+    }
+    EXPECT_LT(worst, 5e-6);
 }
 
 TEST(DetMath, DivisionIsWithinTwoUnitsInTheLastPlace) {

@@ -96,7 +96,7 @@ std::array<double, 3> valleyReference(const DrainageRegion& region, double reach
         if (distance2 >= reach * reach) continue;
         const double part = 1 / (distance2 + 1) - 1 / (reach * reach + 1), weight = part * part;
         weights += weight;
-        distances += weight * std::sqrt(distance2);
+        distances += weight * std::sqrt(distance2 + 1);
         levels += weight * (s.from.level + t * (s.to.level - s.from.level));
         flows += weight * (s.from.flow + t * (s.to.flow - s.from.flow));
     }

@@ -74,17 +74,25 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayer
         slabs_.push_back({SlabRun::Way::Whole, heights.layers(), pass.layerInstructions()});
         return runLayers(pass.program(), heights.bottom, heights.layers());
     }
-    int height = kFirstSlab;
+    int height = kFirstSlab, whole = 0;  // `whole`: of the slab that was split, 0: none
     for (int z = heights.bottom; z < heights.top;) {
         height = std::min(height, heights.top - z);
         ranges_.analyze(z, height);
         if (!ranges_.isSettled() && height > kLowestSlab) {
+            whole = height;
+            wholeDecisions_ = ranges_.decisions();
             height = std::max(height / 4, kLowestSlab);
             continue;
         }
+        // Where the first part decides no more than the whole, as on steep land, the others are not looked at.
+        const bool isAlike = whole > 0 && !ranges_.block() && ranges_.decisions() == wholeDecisions_;
+        if (isAlike) height = whole;
+        whole = 0;
         runSlab(z, height);
         z += height;
+        if (isAlike) continue;
         height = heightAfter(height, ranges_.isSettled(), slabs_.back().way == SlabRun::Way::Filled);
+        if (!ranges_.isSettled() && z % kFirstSlab == 0) height = kFirstSlab;
     }
 }
 

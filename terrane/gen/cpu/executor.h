@@ -129,6 +129,7 @@ class Executor {
     SampleGrid grid_;
     std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
+    Decisions wholeDecisions_;  // of a slab that was split
     bool shortens_ = true;
     std::vector<SlabRun> slabs_;
     // Arguments of the 3D pass that runs.

@@ -53,7 +53,7 @@ struct DrainageSample {
 // weighted by (1 / distance² − 1 / reach²)², so that they change smoothly and are a stream's own at the
 // stream.
 struct ValleySample {
-    Float distance;  // blocks: 0 at a stream, largest half way between streams; kNoRiver where none is near
+    Float distance;  // blocks: 1 at a stream, largest half way between streams; kNoRiver where none is near
     Float level;     // z
     Float flow;      // nodes upstream
 };

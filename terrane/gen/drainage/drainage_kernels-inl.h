@@ -98,16 +98,18 @@ struct StreamSums {
 
 HWY_INLINE void addStream(StreamSums& sums, const shared::RiverSegment& s, VF x, VF y, VF reach2,
                           VF reachWeight) {
-    const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
+    const VF one = hn::Set(df, 1.0f);
     const PlaceOnSegment at = placeOn(s, x, y);
     const auto isNear = hn::Lt(at.distance2, reach2);
     if (hn::AllFalse(df, isNear)) return;
-    const VF part = hn::Sub(divide(one, hn::Add(at.distance2, one)), reachWeight);
-    const VF weight = hn::IfThenElse(isNear, hn::Mul(part, part), zero);
+    // One root for the distance, to a point one block above the stream, and for its weight.
+    const VF distance2 = hn::Add(at.distance2, one), inverse = inverseRoot(distance2);
+    const VF part = hn::Sub(hn::Mul(inverse, inverse), reachWeight);
+    const VF weight = hn::IfThenElseZero(isNear, hn::Mul(part, part));
     const VF level = hn::Add(hn::Set(df, s.course.w), hn::Mul(at.along, hn::Set(df, s.flow.x)));
     const VF flow = hn::Add(hn::Set(df, s.flow.y), hn::Mul(at.along, hn::Set(df, s.flow.z)));
     sums.weight = hn::Add(sums.weight, weight);
-    sums.distance = hn::Add(sums.distance, hn::Mul(weight, squareRoot(at.distance2)));
+    sums.distance = hn::Add(sums.distance, hn::Mul(weight, hn::Mul(distance2, inverse)));
     sums.level = hn::Add(sums.level, hn::Mul(weight, level));
     sums.flow = hn::Add(sums.flow, hn::Mul(weight, flow));
 }

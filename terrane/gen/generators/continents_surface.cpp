@@ -188,7 +188,7 @@ Block earth(Pass& p, const Fields& f) {
                 select(p.read(f.soil) == p.block("red_sandstone"), strata(p, f), p.read(f.soil));
             block = select(depth == 0, top, soil);
         },
-        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 72) : strata(p, f); });
+        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), z < 72) : strata(p, f); });
     if (p.step() > 1) return block;
     const Block inside = select(z <= p.heights().bottom + kCaveWater, p.block("water"), p.block("air"));
     return select(isCave(p, f), inside, static_cast<Block>(block));

@@ -56,10 +56,10 @@ Bool isTunnel(Pass& p, Float where) {
     return a * a + b * b * 1.6f < min(where + 0.05f, Float(0.25f)) * 0.10f + 0.006f;
 }
 
-Block withOre(Pass& p, Block rock, int below) {
+Block withOre(Pass& p, Block rock, Bool isDeep) {
     Var<Block> block = p.var(rock);
     const Float where = p.perlin2D("ore places", 64, {.6f, 1.0f});
-    p.if_(where > 0.1f && p.z() < below, [&] {
+    p.if_(where > 0.1f && isDeep, [&] {
         const Float ore = p.perlin3D("ore", 4, {1.0f, .5f});
         block = select(ore > 0.78f, p.block("glowing_ore"), static_cast<Block>(block));
     });

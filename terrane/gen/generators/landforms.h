@@ -26,8 +26,8 @@ Block riverBed(Pass& p, Float patches, Float spots);
 // Returns whether this voxel is in a winding tunnel: two noises are both near 0. `where`, above -0.05: how
 // wide tunnels are here.
 Bool isTunnel(Pass& p, Float where);
-// Returns the rock with veins of ore below a height.
-Block withOre(Pass& p, Block rock, int below);
+// Returns the rock with veins of ore where it is deep enough.
+Block withOre(Pass& p, Block rock, Bool isDeep);
 
 // Shares of the floor of caves, each with those before it.
 struct CaveLife {

@@ -41,15 +41,37 @@ std::vector<Entry> entriesOf(std::span<const Entry> table, int biome) {
     return result;
 }
 
+// The biomes of a table, in order.
+template <class Entry>
+std::vector<int> biomesOf(std::span<const Entry> table) {
+    std::vector<int> biomes;
+    for (const Entry& entry : table) biomes.push_back(entry.biome.value);
+    std::ranges::sort(biomes);
+    biomes.erase(std::ranges::unique(biomes).begin(), biomes.end());
+    return biomes;
+}
+
+// Calls write() once for each of the biomes, in a branch for the columns that have it. Branches are halved:
+// rows of one biome come past a few of them.
+template <class Write>
+void forBiomes(Pass& p, Int biome, std::span<const int> biomes, const Write& write) {
+    if (biomes.empty()) return;
+    const int first = biomes.front();
+    if (biomes.size() == 1) return p.if_(biome == Int(first), [&] { write(first); });
+    const std::size_t half = biomes.size() / 2;
+    p.if_(
+        biome < Int(biomes[half]), [&] { forBiomes(p, biome, biomes.first(half), write); },
+        [&] { forBiomes(p, biome, biomes.subspan(half), write); });
+}
+
 // The shape at the point, by the groves of its biome; -1 for none.
-Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, int biomes, const Site& site,
+Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, const Site& site,
             const ScatterPoint& point) {
     const Float chance = p.random2D("kind", point.at.x, point.at.y);
     Var<Int> shape = p.var(Int(-1));
-    for (int b = 0; b < biomes; ++b) {
-        const std::vector<Grove> own = entriesOf(groves, b);
-        if (own.empty()) continue;
-        p.if_(point.isHere && site.biome == Int(b), [&] {
+    p.if_(point.isHere, [&] {
+        forBiomes(p, site.biome, biomesOf(groves), [&](int biome) {
+            const std::vector<Grove> own = entriesOf(groves, biome);
             float below = 0;
             for (const Grove& g : own) below += g.share;
             Int chosen = -1;
@@ -60,7 +82,7 @@ Int shapeAt(Pass& p, const Fields& f, std::span<const Grove> groves, int biomes,
             }
             shape = chosen;
         });
-    }
+    });
     return shape;
 }
 
@@ -118,10 +140,9 @@ void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site)
         return;
     }
     p.set(f.treeBase, site.surface + 1);
-    p.set(f.tree, shapeAt(p, f, tables.trees, tables.biomes, site, scatter(p, "trees", kTreeSpacing, 4)));
+    p.set(f.tree, shapeAt(p, f, tables.trees, site, scatter(p, "trees", kTreeSpacing, 4)));
     if (p.step() > kMaxSmallStep) return;
-    p.set(f.small,
-          shapeAt(p, f, tables.small, tables.biomes, site, scatter(p, "small things", kSmallSpacing, 4)));
+    p.set(f.small, shapeAt(p, f, tables.small, site, scatter(p, "small things", kSmallSpacing, 4)));
 }
 
 void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& site) {
@@ -132,13 +153,11 @@ void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& 
     const Int depth = site.depth;
     Var<Block> plant = p.var(p.block("air"));
     Var<Int> height = p.var(Int(1));
-    for (int b = 0; b < tables.biomes; ++b) {
-        const std::vector<Plant> own = entriesOf(tables.plants, b);
-        if (own.empty()) continue;
-        const bool isInWater =
-            std::ranges::any_of(tables.inWater, [b](BiomeNumber biome) { return biome.value == b; });
-        const Bool isPlace = isInWater ? depth > 2 && depth < tables.deepest : depth <= 0;
-        p.if_(site.biome == Int(b) && isPlace && isEarth && site.isFree, [&] {
+    p.if_(isEarth && site.isFree, [&] {
+        forBiomes(p, site.biome, biomesOf(tables.plants), [&](int biome) {
+            const std::vector<Plant> own = entriesOf(tables.plants, biome);
+            const bool isInWater = std::ranges::any_of(
+                tables.inWater, [biome](BiomeNumber other) { return other.value == biome; });
             float below = 0;
             for (const Plant& entry : own) below += entry.share;
             Block chosen = p.block("air");
@@ -146,9 +165,10 @@ void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& 
                 chosen = select(chance < meadows * below, p.block(entry->block), chosen);
                 below -= entry->share;
             }
-            plant = chosen;
+            const Bool isPlace = isInWater ? depth > 2 && depth < tables.deepest : depth <= 0;
+            plant = select(isPlace, chosen, static_cast<Block>(plant));
         });
-    }
+    });
     const Bool isBank = depth <= 0 && depth >= -2 && site.wet > 0.5f && site.cold > -0.3f;
     p.if_(isBank && isEarth && site.isFree && chance > 0.72f, [&] { plant = p.block("reeds"); });
     p.if_(site.biome == Int(tables.cacti.value) && site.isFree && depth <= 0 && chance > 0.9985f, [&] {

@@ -56,13 +56,6 @@ Block strata(Pass& p, const Fields& f) {
     return block;
 }
 
-// Plain rock where no side shows it: tiles span many layers, and those of one block cost nothing.
-Block visibleStrata(Pass& p, const Fields& f) {
-    Var<Block> block = p.var(p.read(f.rock));
-    p.if_(p.z() >= p.read(f.hidden), [&] { block = strata(p, f); });
-    return block;
-}
-
 // Winding tunnels where two noises are both near 0, and great halls.
 Bool isCave(Pass& p, const Fields& f) {
     Var<Bool> result = p.var(Bool(false));
@@ -78,21 +71,26 @@ Bool isCave(Pass& p, const Fields& f) {
     return result;
 }
 
-Block earth(Pass& p, const Fields& f) {
+// Soil and rock. One list of choices for all depths: branches would need the strata on both sides.
+Block solid(Pass& p, const Fields& f) {
     constexpr int kSoilDepth = 3;
-    const Int z = p.z(), depth = p.read(f.surface) - z;
-    Var<Block> block = p.var(p.block("air"));
-    p.if_(
-        depth <= kSoilDepth,
-        [&] {
-            const Block rock = p.read(f.rock);
-            const auto ofRock = [&](Block b) { return select(b == rock, strata(p, f), b); };
-            block = select(depth == 0, ofRock(p.read(f.top)), ofRock(p.read(f.soil)));
-        },
-        [&] { block = p.step() == 1 ? landforms::withOre(p, strata(p, f), 300) : visibleStrata(p, f); });
-    if (p.step() > 1) return block;
-    const Block inside = select(z <= kCaveWater, p.block("water"), p.block("air"));
-    return select(isCave(p, f), inside, static_cast<Block>(block));
+    const Int depth = p.read(f.surface) - p.z();
+    const Block rock = p.read(f.rock);
+    const Block kind = multiSelect({{depth == 0, p.read(f.top)}, {depth <= kSoilDepth, p.read(f.soil)}}, rock);
+    Block banded = strata(p, f);
+    if (p.step() == 1) banded = landforms::withOre(p, banded, p.z() < 300 && depth > kSoilDepth);
+    return select(kind == rock, banded, kind);
+}
+
+Block earth(Pass& p, const Fields& f) {
+    if (p.step() == 1) {
+        const Block inside = select(p.z() <= kCaveWater, p.block("water"), p.block("air"));
+        return select(isCave(p, f), inside, solid(p, f));
+    }
+    // Plain rock where no side shows it: tiles span many layers, and those of one block cost nothing.
+    Var<Block> block = p.var(p.read(f.rock));
+    p.if_(p.z() >= p.read(f.hidden), [&] { block = solid(p, f); });
+    return block;
 }
 
 }  // namespace

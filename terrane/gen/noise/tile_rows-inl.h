@@ -133,6 +133,18 @@ HWY_INLINE VF squareRoot(VF x) {
     return hn::Add(s, hn::Mul(hn::Mul(hn::Set(df, 0.5f), r), hn::Sub(x, hn::Mul(s, s))));
 }
 
+// Takes the same steps as detInverseSqrt in det_math.h.
+HWY_INLINE VF inverseRoot(VF x) {
+    const VF half = hn::Mul(hn::Set(df, 0.5f), x);
+    const VF threeHalves = hn::Set(df, 1.5f);
+    VF r = hn::BitCast(
+        df, hn::Sub(hn::Set(du, shared::kInverseRootMagic), hn::ShiftRight<1>(hn::BitCast(du, x))));
+    for (int step = 0; step < 2; ++step) {
+        r = hn::Mul(r, hn::Sub(threeHalves, hn::Mul(hn::Mul(half, r), r)));
+    }
+    return r;
+}
+
 }  // namespace HWY_NAMESPACE
 }  // namespace terrane::gen
 HWY_AFTER_NAMESPACE();
