@@ -18,6 +18,7 @@ class NoiseTile {
         context_.voronoi3D.resize(1);
         context_.simplex2D.resize(1);
         context_.noiseKinds = {call.kind};
+        context_.isPrepared = {1};
         context_.arena = arena_.data();
         list_.push_back({Op::Noise, {0, 1}, {}, 0});
     }

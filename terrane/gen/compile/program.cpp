@@ -244,12 +244,7 @@ class Compiler {
         instruction.imm = n.imm;
         readArguments(id, instruction);
         std::uint32_t results = 1;
-        if (makesNoise(n.op)) {
-            results = resultCount(noises_[n.imm].kind);
-            if (std::find(program_.noises.begin(), program_.noises.end(), n.imm) == program_.noises.end()) {
-                program_.noises.push_back(n.imm);
-            }
-        }
+        if (makesNoise(n.op)) results = resultCount(noises_[n.imm].kind);
         setOperand(id, rows_.allocate(varies(id), results));
         instruction.dst = operands_[id];
         list.push_back(instruction);

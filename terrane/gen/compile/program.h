@@ -87,7 +87,6 @@ struct Program {
     };
     std::vector<FieldResult> fields;
     std::optional<Operand> block;
-    std::vector<std::uint32_t> noises;   // calls it makes
     std::vector<std::uint32_t> readsAt;  // fields it reads with an offset
     bool readsBlocksAt = false;          // reads blocks with an offset
     std::vector<StampCall> stamps;       // by imm of Op::Stamp

@@ -189,13 +189,11 @@ void Executor::startShort(const ShortPass& pass, int z) {
     }
     context_.program = &program;
     for (const RowConstant& c : pass.constants) arena_[c.row.row].lanes.fill(c.value);
-    for (const std::uint32_t n : program.noises) prepareNoise(n);
     context_.z = z;
     runInstructions(program.column, context_);
 }
 
 void Executor::runLayers(const Program& program, int z, int count) {
-    for (const std::uint32_t n : program.noises) prepareNoise(n);
     for (int end = z + count; z < end; ++z) {
         context_.z = z;
         std::fill_n(row(program.z), kRowLanes, bitsOf(z));
@@ -230,11 +228,8 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
     context_.blocks = inputs.blocks[4];
     grid_ = sampleGrid(inputs.chunk);
     fillConstants(program, grid_);
-    isPrepared_.assign(noises_.size(), false);
-    // Noise in space waits until some layer needs it.
-    for (const std::uint32_t n : program.noises) {
-        if (!gen::is3D(noises_[n].kind)) prepareNoise(n);
-    }
+    context_.isPrepared.assign(noises_.size(), 0);
+    context_.prepareNoise = [this](std::uint32_t noise) { prepareNoise(noise); };  // executors may have moved
     context_.fields.resize(inputs.fields.size());
     context_.windows.resize(inputs.fields.size());
     for (std::size_t f = 0; f < inputs.fields.size(); ++f) {
@@ -255,8 +250,6 @@ void Executor::paintStamps(const Program& program, world::Heights heights) {
 }
 
 void Executor::prepareNoise(std::uint32_t noise) {
-    if (isPrepared_[noise]) return;
-    isPrepared_[noise] = true;
     const NoiseCall& call = noises_[noise];
     const std::uint32_t seed = seeds_.noises[noise];
     switch (call.kind) {

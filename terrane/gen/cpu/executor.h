@@ -127,7 +127,6 @@ class Executor {
     std::vector<AlignedRow> arena_;
     TileContext context_;
     SampleGrid grid_;
-    std::vector<bool> isPrepared_;  // by noise: for this tile
     SlabRanges ranges_;
     Decisions wholeDecisions_;  // of a slab that was split
     bool shortens_ = true;

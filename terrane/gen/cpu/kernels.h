@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <vector>
@@ -28,7 +29,8 @@ struct TileContext {
     const Program* program = nullptr;
     Bits* arena = nullptr;  // 64-byte aligned; program->arenaRows rows
     std::span<const std::uint32_t> hashSeeds;
-    // By index of the generator's noises; prepared for those the program calls.
+    // By index of the generator's noises; prepared when an instruction first calls them in this tile, so that
+    // branches that no row takes cost nothing.
     std::vector<Perlin2DTile> perlin2D;
     std::vector<Perlin3DTile> perlin3D;
     std::vector<Voronoi2DTile> voronoi2D;
@@ -36,6 +38,8 @@ struct TileContext {
     std::vector<Simplex2DTile> simplex2D;
     std::vector<Stripes2DTile> stripes2D;
     std::vector<DrainageTile> drainage;
+    std::vector<std::uint8_t> isPrepared;  // by noise
+    std::function<void(std::uint32_t noise)> prepareNoise;
     std::vector<const Bits*> fields;         // by field: kTileLanes values
     std::vector<std::vector<Bits>> windows;  // by field: kWindowSize² values where read with an offset
     std::vector<NoiseKind> noiseKinds;

@@ -76,6 +76,7 @@ class CurveMaker {
                 addCurves(x, y);
                 cell.segmentCount = static_cast<std::uint32_t>(region_.segments.size()) - cell.firstSegment;
                 cell.lake = addLake(x, y);
+                surround(cell);
                 region_.cells.push_back(cell);
             }
         }
@@ -83,6 +84,21 @@ class CurveMaker {
     }
 
   private:
+    void surround(CellCourses& cell) const {
+        for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
+            const auto& [from, to] = region_.segments[cell.firstSegment + k];
+            if (k == 0) {
+                cell.lowX = cell.highX = from.x;
+                cell.lowY = cell.highY = from.y;
+            }
+            cell.lowX = std::min({cell.lowX, from.x, to.x});
+            cell.lowY = std::min({cell.lowY, from.y, to.y});
+            cell.highX = std::max({cell.highX, from.x, to.x});
+            cell.highY = std::max({cell.highY, from.y, to.y});
+            cell.hasRiver = cell.hasRiver || from.halfWidth > 0.0f || to.halfWidth > 0.0f;
+        }
+    }
+
     std::size_t at(int x, int y) const { return network_.at(x + kRegionMargin, y + kRegionMargin); }
     bool isSea(std::size_t node) const { return network_.heights[node] < heightKey(spec_.seaLevel, 0); }
     bool isRiver(std::size_t node) const { return network_.flows[node] >= spec_.minFlow; }

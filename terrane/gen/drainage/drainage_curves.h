@@ -42,6 +42,9 @@ constexpr int kCourseReach4 = 5;  // quarters of the spacing
 struct CellCourses {
     std::uint32_t firstSegment = 0, segmentCount = 0;
     std::int32_t lake = -1;
+    // Around all segments: 1/16 blocks from the region's corner.
+    std::int32_t lowX = 0, lowY = 0, highX = 0, highY = 0;
+    bool hasRiver = false;  // some segment is not dry
 };
 
 struct DrainageRegion {

@@ -80,12 +80,19 @@ std::int32_t gap(std::int32_t first, std::int32_t last, std::int32_t low, std::i
     return std::max({first - high, low - last, 0});
 }
 
-// Whether a box around the piece is within reach.
-bool isNear(const TileSquare& tile, const CourseSegment& s, std::int64_t reach) {
+struct Box {
+    std::int32_t lowX, lowY, highX, highY;
+};
+
+Box boxOf(const CourseSegment& s) {
     const auto [lowX, highX] = std::minmax(s.from.x, s.to.x);
     const auto [lowY, highY] = std::minmax(s.from.y, s.to.y);
-    const std::int64_t dx = gap(tile.x, tile.x + tile.width, lowX, highX),
-                       dy = gap(tile.y, tile.y + tile.width, lowY, highY);
+    return {lowX, lowY, highX, highY};
+}
+
+bool isNear(const TileSquare& tile, const Box& box, std::int64_t reach) {
+    const std::int64_t dx = gap(tile.x, tile.x + tile.width, box.lowX, box.highX),
+                       dy = gap(tile.y, tile.y + tile.width, box.lowY, box.highY);
     return dx * dx + dy * dy <= reach * reach;
 }
 
@@ -106,22 +113,27 @@ std::int32_t unitsOf(float reach) {
     return static_cast<std::int32_t>(reach * static_cast<float>(kPlaceUnits)) + 1;
 }
 
-void addCell(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
-             const TileSquare& square, DrainageUses uses) {
+void addSegments(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
+                 const TileSquare& square, DrainageUses uses) {
     const std::int32_t riverReach = unitsOf(tile.reach), valleyReach = unitsOf(tile.valleyReach);
+    const Box whole = {cell.lowX, cell.lowY, cell.highX, cell.highY};
+    uses.rivers = uses.rivers && cell.hasRiver && isNear(square, whole, riverReach);
+    uses.valleys = uses.valleys && isNear(square, whole, valleyReach);
+    if (cell.segmentCount == 0 || (!uses.rivers && !uses.valleys)) return;
     const auto add = [&](const CourseSegment& s) {
         const bool isWet = s.from.halfWidth > 0.0f || s.to.halfWidth > 0.0f;
-        const bool isRiver = uses.rivers && isWet && isNear(square, s, riverReach);
-        if (isRiver || (uses.valleys && isNear(square, s, valleyReach)))
+        const bool isRiver = uses.rivers && isWet && isNear(square, boxOf(s), riverReach);
+        if (isRiver || (uses.valleys && isNear(square, boxOf(s), valleyReach)))
             tile.segments.push_back(tileSegment(square, s));
     };
-    if (tile.step > kMaxDrainageStep) {
-        if (cell.segmentCount == 0) return;
-        return add({region.segments[cell.firstSegment].from,
-                    region.segments[cell.firstSegment + cell.segmentCount - 1].to});
-    }
-    for (std::uint32_t k = 0; k < cell.segmentCount; ++k) add(region.segments[cell.firstSegment + k]);
-    if (cell.lake < 0 || !uses.rivers) return;
+    const CourseSegment* first = &region.segments[cell.firstSegment];
+    if (tile.step > kMaxDrainageStep) return add({first->from, first[cell.segmentCount - 1].to});
+    for (std::uint32_t k = 0; k < cell.segmentCount; ++k) add(first[k]);
+}
+
+void addLake(DrainageTile& tile, const DrainageRegion& region, const CellCourses& cell,
+             const TileSquare& square) {
+    if (cell.lake < 0 || tile.step > kMaxDrainageStep) return;
     const LakeDisc& lake = region.lakes[static_cast<std::size_t>(cell.lake)];
     tile.lakes.emplace_back(blocksOf(lake.x - square.x), blocksOf(lake.y - square.y), lake.radius,
                             lake.level);
@@ -169,7 +181,8 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
             const TileSquare square = {((cell.x - corner.x - dx) * spacing + inX) * kPlaceUnits,
                                        ((cell.y - corner.y - dy) * spacing + inY) * kPlaceUnits,
                                        width * kPlaceUnits};
-            addCell(tile, region, region.cells[number], square, uses);
+            addSegments(tile, region, region.cells[number], square, uses);
+            if (uses.rivers) addLake(tile, region, region.cells[number], square);
         }
     }
 }

@@ -115,6 +115,10 @@ void perlin3D(const Instruction& i, TileContext& c, const RowList& rows) {
 }
 
 void noise(const Instruction& i, TileContext& c, const RowList& rows) {
+    if (!c.isPrepared[i.imm]) {
+        c.prepareNoise(i.imm);
+        c.isPrepared[i.imm] = 1;
+    }
     switch (c.noiseKinds[i.imm]) {
         case NoiseKind::Perlin2D:
             return perlin2D(i, c, rows);
