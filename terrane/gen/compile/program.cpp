@@ -1,6 +1,7 @@
 #include "terrane/gen/compile/program.h"
 
 #include <algorithm>
+#include <cstdlib>
 #include <limits>
 #include <unordered_map>
 
@@ -61,6 +62,7 @@ class Compiler {
     Program compileLists() {
         program_.is3D = pass_.is3D;
         program_.readsAt = pass_.readsAt;
+        for (const std::uint32_t field : pass_.readsAt) program_.rowsAround.push_back(rowsAround(field));
         program_.readsBlocksAt = pass_.readsBlocksAt;
         program_.stamps = pass_.stamps;
         const std::vector<NodeId> outputs = outputsOf(pass_);
@@ -79,6 +81,21 @@ class Compiler {
         if (pass_.block) program_.block = operands_[*pass_.block];
         program_.arenaRows = rows_.rows();
         return std::move(program_);
+    }
+
+    // Rows beyond the tile that the pass reads of a field. Stamps read all there are.
+    int rowsAround(std::uint32_t field) const {
+        for (const StampCall& call : pass_.stamps)
+            if (call.shape == field || call.base == field) return kMaxReadOffset;
+        int rows = 0;
+        for (NodeId id = 0; id < graph_.size(); ++id) {
+            const Node& n = graph_.node(id);
+            if (n.op != Op::FieldAt || n.imm != field) continue;
+            const Node& dy = graph_.node(n.args[1]);
+            if (dy.op != Op::Constant) return kMaxReadOffset;
+            rows = std::max(rows, std::min(std::abs(asInt(dy.imm)), kMaxReadOffset));
+        }
+        return rows;
     }
 
     void placeLeaves() {

@@ -88,6 +88,7 @@ struct Program {
     std::vector<FieldResult> fields;
     std::optional<Operand> block;
     std::vector<std::uint32_t> readsAt;  // fields it reads with an offset
+    std::vector<int> rowsAround;         // by these: rows beyond the tile that it reads, up to kMaxReadOffset
     bool readsBlocksAt = false;          // reads blocks with an offset
     std::vector<StampCall> stamps;       // by imm of Op::Stamp
 };

@@ -99,14 +99,16 @@ int TopDownPasses::reachOf(std::size_t pass) const {
     return made == heights_.bottom ? made : std::min(made + passes_[pass]->readsBelow, heights_.top);
 }
 
-void TopDownPasses::makeMore(std::size_t pass) {
-    Executor& executor = passes_[pass]->executor;
-    while (reachOf(pass) >= executor.lowestComputed()) makeMore(pass - 1);
-    executor.runTopDown(reachOf(pass), requested_);
+// The passes before come first, as far as this one reads them: in a few tall slabs instead of many low ones.
+void TopDownPasses::makeDownTo(std::size_t pass, int z) {
+    Running& running = *passes_[pass];
+    if (z >= running.executor.lowestComputed()) return;
+    if (pass > 0) makeDownTo(pass - 1, std::max(z - running.readsBelow, heights_.bottom));
+    while (z < running.executor.lowestComputed()) running.executor.runTopDown(reachOf(pass), requested_);
 }
 
 void TopDownPasses::makeDownTo(int z) {
-    while (z < passes_[count_ - 1]->executor.lowestComputed()) makeMore(count_ - 1);
+    makeDownTo(count_ - 1, z);
 }
 
 void TopDownPasses::run(const LayerCallback& take) {

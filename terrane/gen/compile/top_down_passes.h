@@ -63,7 +63,7 @@ class TopDownPasses {
         int readsBelow = 0;
     };
     int reachOf(std::size_t pass) const;
-    void makeMore(std::size_t pass);
+    void makeDownTo(std::size_t pass, int z);
 
     const std::vector<NoiseCall>& noises_;
     const Seeds& seeds_;

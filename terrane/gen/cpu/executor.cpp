@@ -236,7 +236,8 @@ void Executor::prepareTile(const Program& program, const PassInputs& inputs) {
         const ColumnValues* own = inputs.fields[f][4];
         context_.fields[f] = own ? own->data() : nullptr;
     }
-    for (const std::uint32_t f : program.readsAt) fillWindow(f, inputs);
+    for (std::size_t k = 0; k < program.readsAt.size(); ++k)
+        fillWindow(program.readsAt[k], program.rowsAround[k], inputs);
 }
 
 void Executor::paintStamps(const Program& program, world::Heights heights) {
@@ -284,7 +285,7 @@ void Executor::fillConstants(const Program& program, SampleGrid grid) {
     }
 }
 
-void Executor::fillWindow(std::uint32_t field, const PassInputs& inputs) {
+void Executor::fillWindow(std::uint32_t field, int rowsAround, const PassInputs& inputs) {
     static_assert(kMaxReadOffset == kTileSize, "a window is 3×3 chunks");
     std::vector<Bits>& window = context_.windows[field];
     window.resize(static_cast<std::size_t>(kWindowSize) * kWindowSize);
@@ -292,7 +293,8 @@ void Executor::fillWindow(std::uint32_t field, const PassInputs& inputs) {
         const ColumnValues* values = inputs.fields[field][static_cast<std::size_t>(chunk)];
         assert(values && "fields read with an offset are there for all nine chunks");
         Bits* corner = window.data() + (chunk / 3) * kTileSize * kWindowSize + (chunk % 3) * kTileSize;
-        for (int r = 0; r < kTileSize; ++r) {
+        const int first = chunk < 3 ? kTileSize - rowsAround : 0, end = chunk < 6 ? kTileSize : rowsAround;
+        for (int r = first; r < end; ++r) {
             std::memcpy(corner + r * kWindowSize, values->data() + r * kRowLanes, kRowLanes * sizeof(Bits));
         }
     }

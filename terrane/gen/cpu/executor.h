@@ -105,7 +105,7 @@ class Executor {
     void prepareTile(const Program& program, const PassInputs& inputs);
     void fillConstants(const Program& program, SampleGrid grid);
     void paintStamps(const Program& program, world::Heights heights);
-    void fillWindow(std::uint32_t field, const PassInputs& inputs);
+    void fillWindow(std::uint32_t field, int rowsAround, const PassInputs& inputs);
     Bits* row(Operand o) { return context_.arena + static_cast<std::size_t>(o.row) * kRowLanes; }
     void prepareNoise(std::uint32_t noise);
 

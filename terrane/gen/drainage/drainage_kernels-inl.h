@@ -100,12 +100,10 @@ HWY_INLINE void addStream(StreamSums& sums, const shared::RiverSegment& s, VF x,
                           VF reachWeight) {
     const VF one = hn::Set(df, 1.0f);
     const PlaceOnSegment at = placeOn(s, x, y);
-    const auto isNear = hn::Lt(at.distance2, reach2);
-    if (hn::AllFalse(df, isNear)) return;
     // One root for the distance, to a point one block above the stream, and for its weight.
     const VF distance2 = hn::Add(at.distance2, one), inverse = inverseRoot(distance2);
     const VF part = hn::Sub(hn::Mul(inverse, inverse), reachWeight);
-    const VF weight = hn::IfThenElseZero(isNear, hn::Mul(part, part));
+    const VF weight = hn::IfThenElseZero(hn::Lt(at.distance2, reach2), hn::Mul(part, part));
     const VF level = hn::Add(hn::Set(df, s.course.w), hn::Mul(at.along, hn::Set(df, s.flow.x)));
     const VF flow = hn::Add(hn::Set(df, s.flow.y), hn::Mul(at.along, hn::Set(df, s.flow.z)));
     sums.weight = hn::Add(sums.weight, weight);
@@ -114,17 +112,29 @@ HWY_INLINE void addStream(StreamSums& sums, const shared::RiverSegment& s, VF x,
     sums.flow = hn::Add(sums.flow, hn::Mul(weight, flow));
 }
 
-void valleys(const Instruction& i, TileContext& c, const RowList& rows) {
+// So many rows at a time: their roots are computed side by side, and a piece is read once for them.
+constexpr int kStreamRows = 4;
+
+HWY_INLINE void valleysOfRows(const Instruction& i, TileContext& c, const std::uint8_t (&rows)[kStreamRows],
+                              std::size_t lane) {
     const DrainageTile& tile = c.drainage[i.imm];
     const VF reach2 = hn::Set(df, tile.valleyReach * tile.valleyReach);
     const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
     const VF reachWeight = divide(one, hn::Add(reach2, one));
-    const VI step = hn::Set(di, tile.step);
-    forEachVector(rows, i.dst, [&](int row, std::size_t lane) HWY_ATTR {
-        const VF x = hn::ConvertTo(df, hn::Mul(hn::Iota(di, static_cast<std::int32_t>(lane)), step));
-        const VF y = hn::ConvertTo(df, hn::Set(di, row * tile.step));
-        StreamSums sums = {zero, zero, zero, zero};
-        for (const shared::RiverSegment& s : tile.segments) addStream(sums, s, x, y, reach2, reachWeight);
+    const auto blocksOf = [&](VI columns) HWY_ATTR {
+        return hn::ConvertTo(df, hn::Mul(columns, hn::Set(di, tile.step)));
+    };
+    const VF x = blocksOf(hn::Iota(di, static_cast<std::int32_t>(lane)));
+    const VF y0 = blocksOf(hn::Set(di, rows[0])), y1 = blocksOf(hn::Set(di, rows[1])),
+             y2 = blocksOf(hn::Set(di, rows[2])), y3 = blocksOf(hn::Set(di, rows[3]));
+    StreamSums s0 = {zero, zero, zero, zero}, s1 = s0, s2 = s0, s3 = s0;
+    for (const shared::RiverSegment& s : tile.segments) {
+        addStream(s0, s, x, y0, reach2, reachWeight);
+        addStream(s1, s, x, y1, reach2, reachWeight);
+        addStream(s2, s, x, y2, reach2, reachWeight);
+        addStream(s3, s, x, y3, reach2, reachWeight);
+    }
+    const auto store = [&](int row, const StreamSums& sums) HWY_ATTR {
         const auto isValley = hn::Lt(hn::Set(df, shared::kLeastStreamWeight), sums.weight);
         const VF weight = hn::IfThenElse(isValley, sums.weight, one);
         const VF results[kValleysResultCount] = {
@@ -135,7 +145,19 @@ void valleys(const Instruction& i, TileContext& c, const RowList& rows) {
             const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
             storeBits(results[k], rowOf(c.arena, o, row) + lane);
         }
-    });
+    };
+    store(rows[0], s0);
+    store(rows[1], s1);
+    store(rows[2], s2);
+    store(rows[3], s3);
+}
+
+void valleys(const Instruction& i, TileContext& c, const RowList& rows) {
+    for (int k = 0; k < rows.count; k += kStreamRows) {
+        std::uint8_t some[kStreamRows];  // the last one again where there are fewer
+        for (int n = 0; n < kStreamRows; ++n) some[n] = rows.rows[k + n < rows.count ? k + n : rows.count - 1];
+        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) valleysOfRows(i, c, some, lane);
+    }
 }
 
 }  // namespace HWY_NAMESPACE

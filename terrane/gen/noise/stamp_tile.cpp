@@ -35,7 +35,7 @@ void StampTile::paint(const ShapeTable& shapes, world::Heights heights, std::spa
     for (std::size_t rank = kMaxShapeRank + 1; rank-- > 0;) {
         for (const StampFoot& foot : feet_) {
             const auto& first = foot.shape->firstRun;
-            for (std::uint32_t k = first[rank]; k < first[rank + 1]; ++k) paintRun(foot, shapes.runs[k]);
+            paintRuns(foot, std::span(shapes.runs).subspan(first[rank], first[rank + 1] - first[rank]));
         }
     }
 }
@@ -61,13 +61,19 @@ void StampTile::findFeet(const ShapeTable& shapes, std::span<const Bits> numbers
     }
 }
 
-void StampTile::paintRun(const StampFoot& foot, const ShapeRun& run) {
-    const int y = foot.y + run.y, z = foot.z + run.z;
-    if (y < 0 || y >= kTileSize || !blocks_.heights().contains(z)) return;
-    const int low = std::max(0, foot.x + run.x), high = std::min(kTileSize, foot.x + run.x + run.length);
-    if (low >= high) return;
-    std::uint16_t* row = blocks_.edit(z) + y * kTileSize;
-    for (int x = low; x < high; ++x) row[x] = row[x] == 0 ? run.block : row[x];
+// The runs of a layer come one after the other.
+void StampTile::paintRuns(const StampFoot& foot, std::span<const ShapeRun> runs) {
+    std::uint16_t* layer = nullptr;
+    int layerZ = 0;
+    for (const ShapeRun& run : runs) {
+        const int y = foot.y + run.y, z = foot.z + run.z;
+        const int low = std::max(0, foot.x + run.x), high = std::min(kTileSize, foot.x + run.x + run.length);
+        if (y < 0 || y >= kTileSize || low >= high || !blocks_.heights().contains(z)) continue;
+        if (!layer || z != layerZ) layer = blocks_.edit(z);
+        layerZ = z;
+        std::uint16_t* row = layer + y * kTileSize;
+        for (int x = low; x < high; ++x) row[x] = row[x] == 0 ? run.block : row[x];
+    }
 }
 
 }  // namespace terrane::gen

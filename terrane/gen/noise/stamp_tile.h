@@ -34,7 +34,7 @@ class StampTile {
 
   private:
     void findFeet(const ShapeTable& shapes, std::span<const Bits> numbers, std::span<const Bits> bases);
-    void paintRun(const StampFoot& foot, const ShapeRun& run);
+    void paintRuns(const StampFoot& foot, std::span<const ShapeRun> runs);
 
     BlockLayers blocks_;
     std::vector<StampFoot> feet_;  // by y, then x
