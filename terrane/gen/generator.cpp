@@ -114,9 +114,9 @@ struct Generator::Impl {
     // Runs the first `passes` passes of a chunk, all of them shared, and the passes of neighbors that these
     // need. A thread that runs a pass waits only for lower passes of other chunks, so there is no deadlock.
     void advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker);
-    void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker);
+    void runPass(world::ChunkPos pos, ChunkWork& work, int pass, Works& works, Worker& worker);
     // Prepares the passes from firstDown on.
-    void beginTopDown(world::ChunkPos pos, ChunkWork& work, std::vector<Works>& works, Worker& worker);
+    void beginTopDown(world::ChunkPos pos, ChunkWork& work, Works& works, Worker& worker);
     // The pass's inputs; `works` keeps the neighbors alive.
     PassInputs inputsOf(world::ChunkPos pos, ChunkWork& work, int pass, const Works& works, Worker& worker);
     void advanceNeighbors(world::ChunkPos pos, int pass, Works& works, Worker& worker);
@@ -157,7 +157,7 @@ void Generator::Impl::advanceNeighbors(world::ChunkPos pos, int pass, Works& wor
     const auto around = chunksAround(pos);
     for (std::size_t n = 0; n < around.size(); ++n) {
         if (n == kOwn) continue;
-        works[n] = cache.get(around[n]);
+        if (!works[n]) works[n] = cache.get(around[n]);
         advance(around[n], *works[n], needed, worker);
     }
 }
@@ -183,8 +183,7 @@ PassInputs Generator::Impl::inputsOf(world::ChunkPos pos, ChunkWork& work, int p
     return inputs;
 }
 
-void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Worker& worker) {
-    Works works;
+void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Works& works, Worker& worker) {
     advanceNeighbors(pos, pass, works, worker);
     TERRANE_ZONE("generator pass");
     const PassInputs inputs = inputsOf(pos, work, pass, works, worker);
@@ -208,19 +207,18 @@ void Generator::Impl::runPass(world::ChunkPos pos, ChunkWork& work, int pass, Wo
     }
 }
 
-void Generator::Impl::beginTopDown(world::ChunkPos pos, ChunkWork& work, std::vector<Works>& works,
-                                   Worker& worker) {
-    works.resize(programs.size());
+void Generator::Impl::beginTopDown(world::ChunkPos pos, ChunkWork& work, Works& works, Worker& worker) {
     worker.downPasses.clear();
     for (int pass = firstDown; pass < static_cast<int>(programs.size()); ++pass) {
         const auto number = static_cast<std::size_t>(pass);
-        advanceNeighbors(pos, pass, works[number], worker);
-        worker.downPasses.add(*voxelPasses[number], inputsOf(pos, work, pass, works[number], worker));
+        advanceNeighbors(pos, pass, works, worker);
+        worker.downPasses.add(*voxelPasses[number], inputsOf(pos, work, pass, works, worker));
     }
 }
 
 void Generator::Impl::advance(world::ChunkPos pos, ChunkWork& work, int passes, Worker& worker) {
-    work.advance(passes, [&](int pass) { runPass(pos, work, pass, worker); });
+    Works works;
+    work.advance(passes, [&](int pass) { runPass(pos, work, pass, works, worker); });
 }
 
 namespace {
@@ -286,7 +284,8 @@ ColumnValues Generator::columns(world::ChunkPos pos, std::uint32_t field) const 
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     const int writer = impl.graph.fields[field].writtenBy;
-    for (int pass = impl.shared; pass <= writer; ++pass) impl.runPass(pos, *work, pass, *worker);
+    Impl::Works works;
+    for (int pass = impl.shared; pass <= writer; ++pass) impl.runPass(pos, *work, pass, works, *worker);
     const ColumnValues values = impl.fieldOf(field, *work, *worker);
     impl.giveBack(std::move(worker));
     return values;
@@ -310,7 +309,8 @@ world::Chunk Generator::generate(world::ChunkPos pos, std::vector<PassReport>* r
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     const int passCount = static_cast<int>(impl.programs.size());
-    for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, *worker);
+    Impl::Works works;
+    for (int pass = impl.shared; pass < passCount; ++pass) impl.runPass(pos, *work, pass, works, *worker);
 
     world::Chunk chunk = packChunk(impl.blocksOf(passCount - 1, *work, *worker));
     worker->report = nullptr;
@@ -327,8 +327,8 @@ void Generator::runDown(world::ChunkPos pos, const Run& run) const {
     auto worker = impl.borrowWorker();
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
-    for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, *worker);
-    std::vector<Impl::Works> works;
+    Impl::Works works;
+    for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, works, *worker);
     impl.beginTopDown(pos, *work, works, *worker);
     run(worker->downPasses);
     impl.giveBack(std::move(worker));

@@ -74,10 +74,8 @@ struct Valleys {
     float distance, level, flow;
 };
 
-Valleys valleys(uint map, uint mapCount, float reach) {
-    DrainageList list = drainageLists[gl_WorkGroupID.x * mapCount + map];
-    int step = jobs[gl_WorkGroupID.x].origin.w;
-    precise float x = float(int(gl_LocalInvocationID.x) * step), y = float(int(gl_LocalInvocationID.y) * step);
+// Blocks from the tile's first column.
+Valleys valleysAt(DrainageList list, float reach, float x, float y) {
     precise float reach2 = reach * reach;
     precise float reachPlusOne = reach2 + 1.0;
     float reachWeight = detDivide(1.0, reachPlusOne);
@@ -102,4 +100,29 @@ Valleys valleys(uint map, uint mapCount, float reach) {
     }
     if (!(kLeastStreamWeight < weights)) return Valleys(kNoRiver, 0.0, 0.0);
     return Valleys(detDivide(distances, weights), detDivide(levels, weights), detDivide(flows, weights));
+}
+
+Valleys blendValleys(Valleys a, Valleys b, float part) {
+    precise float distance = a.distance + (b.distance - a.distance) * part;
+    precise float level = a.level + (b.level - a.level) * part;
+    precise float flow = a.flow + (b.flow - a.flow) * part;
+    return Valleys(distance, level, flow);
+}
+
+Valleys valleys(uint map, uint mapCount, float reach) {
+    DrainageList list = drainageLists[gl_WorkGroupID.x * mapCount + map];
+    int step = jobs[gl_WorkGroupID.x].origin.w;
+    int stride = max(kValleyBlocks / step, 1);  // columns from place to place
+    ivec2 column = ivec2(gl_LocalInvocationID.xy), first = column / stride * stride;
+    bool isBetweenX = column.x != first.x, isBetweenY = column.y != first.y;
+    vec2 part = vec2((column - first) * step) * (1.0 / float(kValleyBlocks));
+    Valleys found[2];
+    for (int n = 0; n < (isBetweenY ? 2 : 1); ++n) {
+        float y = float((first.y + n * stride) * step);
+        found[n] = valleysAt(list, reach, float(first.x * step), y);
+        if (isBetweenX)
+            found[n] = blendValleys(found[n], valleysAt(list, reach, float((first.x + stride) * step), y), part.x);
+    }
+    if (isBetweenY) return blendValleys(found[0], found[1], part.y);
+    return found[0];
 }

@@ -30,6 +30,10 @@ const float kNoRiver = 65536.0f;
 // Sums of weights up to this are of streams so far away that they do not count.
 const float kLeastStreamWeight = 1e-20f;
 
+// Valleys change slowly: columns narrower than this, in blocks, are blended from places that far apart. A
+// power of two.
+const int kValleyBlocks = 4;
+
 // The part of a map for one tile: its segments, then its lakes, from vector number `first` of the data on.
 // Lists are ordered by tile job, then map.
 struct DrainageList {

@@ -118,7 +118,18 @@ TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
             const auto y = static_cast<std::int32_t>((h >> 8) % (kBlocks - 800)) + 400;
             const DrainageResults results = runner.run({x >> 4, y >> 4});
             const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
-            const std::array<double, 3> expected = valleyReference(region, reach, x, y);
+            const auto at = [&](int dx, int dy) {
+                return valleyReference(region, reach, (x & -shared::kValleyBlocks) + dx * shared::kValleyBlocks,
+                                       (y & -shared::kValleyBlocks) + dy * shared::kValleyBlocks);
+            };
+            std::array<double, 3> expected{};
+            const double partX = (x % shared::kValleyBlocks) / double{shared::kValleyBlocks},
+                         partY = (y % shared::kValleyBlocks) / double{shared::kValleyBlocks};
+            for (std::size_t r = 0; r < 3; ++r) {
+                const double low = std::lerp(at(0, 0)[r], at(1, 0)[r], partX),
+                             high = std::lerp(at(0, 1)[r], at(1, 1)[r], partX);
+                expected[r] = std::lerp(low, high, partY);
+            }
             if (expected[0] > 0.98 * reach && expected[0] < kNoRiver) continue;  // next to none
             for (std::size_t r = 0; r < 3; ++r)
                 ASSERT_NEAR(asFloat(results[7 + r][lane]), expected[r], 2e-3 + expected[r] * 1e-4)
@@ -138,7 +149,7 @@ TEST(DrainageMaps, ValleysAreTheStreamAtTheStream) {
         const std::int32_t x = s.from.x / 16, y = s.from.y / 16;
         const DrainageResults results = runner.run({x >> 4, y >> 4});
         const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
-        EXPECT_LT(asFloat(results[7][lane]), 3.0f);
+        EXPECT_LT(asFloat(results[7][lane]), 4.0f);
         EXPECT_NEAR(asFloat(results[8][lane]), s.from.level, 3.0f);
     }
 }

@@ -86,7 +86,7 @@ class CurveMaker {
   private:
     void surround(CellCourses& cell) const {
         for (std::uint32_t k = 0; k < cell.segmentCount; ++k) {
-            const auto& [from, to] = region_.segments[cell.firstSegment + k];
+            const auto& [from, to, inverse, fall] = region_.segments[cell.firstSegment + k];
             if (k == 0) {
                 cell.lowX = cell.highX = from.x;
                 cell.lowY = cell.highY = from.y;
@@ -209,7 +209,7 @@ class CurveMaker {
             if (lake_.radius > 0.0f && k < pieces) at.level = levelNearLake(at, t < 0.5f ? a : c, a, c);
             at.level = std::min(at.level, from.level);
             const CoursePoint to = point(at);
-            if (to.x != from.x || to.y != from.y) region_.segments.push_back({from, to});
+            if (to.x != from.x || to.y != from.y) region_.segments.push_back(segmentOf(from, to));
             from = to;
         }
     }
@@ -284,6 +284,12 @@ class CurveMaker {
 };
 
 }  // namespace
+
+CourseSegment segmentOf(const CoursePoint& from, const CoursePoint& to) {
+    const float dx = static_cast<float>(to.x - from.x) * kBlock, dy = static_cast<float>(to.y - from.y) * kBlock;
+    const float inverse = shared::detDivide(1.0f, dx * dx + dy * dy);
+    return {from, to, inverse, (from.level - to.level) * shared::detSqrt(inverse)};
+}
 
 std::size_t DrainageRegion::bytes() const {
     return sizeof(*this) + segments.capacity() * sizeof(CourseSegment) + lakes.capacity() * sizeof(LakeDisc) +

@@ -28,7 +28,9 @@ struct CoursePoint {
 
 struct CourseSegment {
     CoursePoint from, to;  // downstream
+    float inverse, fall;   // 1 / length², fall of the level a block; of segmentOf()
 };
+CourseSegment segmentOf(const CoursePoint& from, const CoursePoint& to);
 
 struct LakeDisc {
     std::int32_t x, y;  // 1/16 blocks from the region's corner

@@ -7,6 +7,7 @@
 #define TERRANE_GEN_DRAINAGE_KERNELS_INL_H
 #endif
 
+#include <algorithm>
 #include <limits>
 
 #include "terrane/gen/noise/tile_rows-inl.h"
@@ -112,51 +113,77 @@ HWY_INLINE void addStream(StreamSums& sums, const shared::RiverSegment& s, VF x,
     sums.flow = hn::Add(sums.flow, hn::Mul(weight, flow));
 }
 
-// So many rows at a time: their roots are computed side by side, and a piece is read once for them.
-constexpr int kStreamRows = 4;
+// Results of the valleys at some places, each of kTileLanes floats.
+struct ValleyPlaces {
+    alignas(64) float x[kTileLanes], y[kTileLanes];  // blocks from the tile's first column
+    alignas(64) float results[kValleysResultCount][kTileLanes];
+};
 
-HWY_INLINE void valleysOfRows(const Instruction& i, TileContext& c, const std::uint8_t (&rows)[kStreamRows],
-                              std::size_t lane) {
-    const DrainageTile& tile = c.drainage[i.imm];
+// Computes the first `count` results and up to 2 · kRowLanes − 1 more. Two vectors at a time: their roots are
+// computed side by side.
+void findValleys(const DrainageTile& tile, ValleyPlaces& places, std::size_t count) {
     const VF reach2 = hn::Set(df, tile.valleyReach * tile.valleyReach);
     const VF zero = hn::Zero(df), one = hn::Set(df, 1.0f);
     const VF reachWeight = divide(one, hn::Add(reach2, one));
-    const auto blocksOf = [&](VI columns) HWY_ATTR {
-        return hn::ConvertTo(df, hn::Mul(columns, hn::Set(di, tile.step)));
-    };
-    const VF x = blocksOf(hn::Iota(di, static_cast<std::int32_t>(lane)));
-    const VF y0 = blocksOf(hn::Set(di, rows[0])), y1 = blocksOf(hn::Set(di, rows[1])),
-             y2 = blocksOf(hn::Set(di, rows[2])), y3 = blocksOf(hn::Set(di, rows[3]));
-    StreamSums s0 = {zero, zero, zero, zero}, s1 = s0, s2 = s0, s3 = s0;
-    for (const shared::RiverSegment& s : tile.segments) {
-        addStream(s0, s, x, y0, reach2, reachWeight);
-        addStream(s1, s, x, y1, reach2, reachWeight);
-        addStream(s2, s, x, y2, reach2, reachWeight);
-        addStream(s3, s, x, y3, reach2, reachWeight);
-    }
-    const auto store = [&](int row, const StreamSums& sums) HWY_ATTR {
+    const auto store = [&](std::size_t at, const StreamSums& sums) HWY_ATTR {
         const auto isValley = hn::Lt(hn::Set(df, shared::kLeastStreamWeight), sums.weight);
         const VF weight = hn::IfThenElse(isValley, sums.weight, one);
-        const VF results[kValleysResultCount] = {
-            hn::IfThenElse(isValley, divide(sums.distance, weight), hn::Set(df, kNoRiver)),
-            hn::IfThenElse(isValley, divide(sums.level, weight), zero),
-            hn::IfThenElse(isValley, divide(sums.flow, weight), zero)};
-        for (std::uint32_t k = 0; k < kValleysResultCount; ++k) {
-            const Operand o{static_cast<std::uint16_t>(i.dst.row + k * kTileSize), 1};
-            storeBits(results[k], rowOf(c.arena, o, row) + lane);
-        }
+        const VF far = hn::Set(df, kNoRiver);
+        hn::Store(hn::IfThenElse(isValley, divide(sums.distance, weight), far), df, &places.results[0][at]);
+        hn::Store(hn::IfThenElseZero(isValley, divide(sums.level, weight)), df, &places.results[1][at]);
+        hn::Store(hn::IfThenElseZero(isValley, divide(sums.flow, weight)), df, &places.results[2][at]);
     };
-    store(rows[0], s0);
-    store(rows[1], s1);
-    store(rows[2], s2);
-    store(rows[3], s3);
+    const std::size_t lanes = hn::Lanes(df);
+    for (std::size_t at = 0; at < count; at += 2 * lanes) {
+        const VF x0 = hn::Load(df, places.x + at), x1 = hn::Load(df, places.x + at + lanes);
+        const VF y0 = hn::Load(df, places.y + at), y1 = hn::Load(df, places.y + at + lanes);
+        StreamSums s0 = {zero, zero, zero, zero}, s1 = s0;
+        for (const shared::RiverSegment& s : tile.segments) {
+            addStream(s0, s, x0, y0, reach2, reachWeight);
+            addStream(s1, s, x1, y1, reach2, reachWeight);
+        }
+        store(at, s0);
+        store(at + lanes, s1);
+    }
 }
 
+// Columns narrower than kValleyBlocks are blended from places that far apart.
 void valleys(const Instruction& i, TileContext& c, const RowList& rows) {
-    for (int k = 0; k < rows.count; k += kStreamRows) {
-        std::uint8_t some[kStreamRows];  // the last one again where there are fewer
-        for (int n = 0; n < kStreamRows; ++n) some[n] = rows.rows[k + n < rows.count ? k + n : rows.count - 1];
-        for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(di)) valleysOfRows(i, c, some, lane);
+    const DrainageTile& tile = c.drainage[i.imm];
+    const int stride = std::max(shared::kValleyBlocks / tile.step, 1);  // columns from place to place
+    const int side = stride == 1 ? kTileSize : kTileSize / stride + 1, count = side * side;
+    const auto partOf = [&](int column) {  // of the way to the next place
+        return static_cast<float>(column % stride * tile.step) * (1.0f / shared::kValleyBlocks);
+    };
+    ValleyPlaces places;
+    for (int k = 0; k < std::min<int>(count + 2 * kRowLanes, kTileLanes); ++k) {
+        places.x[k] = static_cast<float>(k % side * stride * tile.step);
+        places.y[k] = static_cast<float>(k / side * stride * tile.step);
+    }
+    findValleys(tile, places, static_cast<std::size_t>(count));
+    for (std::uint32_t n = 0; n < kValleysResultCount; ++n) {
+        const Operand o{static_cast<std::uint16_t>(i.dst.row + n * kTileSize), 1};
+        const float* found = places.results[n];
+        // Along x, by row of places.
+        alignas(64) float blended[kTileSize + 1][kRowLanes];
+        for (int y = 0; y < side; ++y) {
+            for (int lane = 0; lane < kRowLanes; ++lane) {
+                const float* at = found + y * side + lane / stride;
+                blended[y][lane] = lane % stride == 0 ? at[0] : at[0] + (at[1] - at[0]) * partOf(lane);
+            }
+        }
+        for (int k = 0; k < rows.count; ++k) {
+            const int row = rows.rows[k], y = row / stride;
+            const VF part = hn::Set(df, partOf(row));
+            for (std::size_t lane = 0; lane < kRowLanes; lane += hn::Lanes(df)) {
+                VF value = hn::Load(df, blended[y] + lane);
+                if (row % stride != 0) {
+                    const VF next = hn::Load(df, blended[y + 1] + lane);
+                    value = hn::Add(value, hn::Mul(hn::Sub(next, value), part));
+                }
+                storeBits(value, rowOf(c.arena, o, row) + lane);
+            }
+        }
     }
 }
 

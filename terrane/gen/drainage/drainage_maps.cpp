@@ -8,7 +8,6 @@
 
 #include "terrane/base/profile.h"
 #include "terrane/gen/drainage/drainage_curves.h"
-#include "terrane/shared/det_math.h"
 
 namespace terrane::gen {
 
@@ -102,11 +101,9 @@ float blocksOf(std::int32_t units) {
 
 shared::RiverSegment tileSegment(const TileSquare& tile, const CourseSegment& s) {
     const float dx = blocksOf(s.to.x - s.from.x), dy = blocksOf(s.to.y - s.from.y);
-    const float inverse = shared::detDivide(1.0f, dx * dx + dy * dy);
     return {{blocksOf(s.from.x - tile.x), blocksOf(s.from.y - tile.y), dx, dy},
-            {inverse, s.from.halfWidth, s.to.halfWidth - s.from.halfWidth, s.from.level},
-            {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow,
-             (s.from.level - s.to.level) * shared::detSqrt(inverse)}};
+            {s.inverse, s.from.halfWidth, s.to.halfWidth - s.from.halfWidth, s.from.level},
+            {s.to.level - s.from.level, s.from.flow, s.to.flow - s.from.flow, s.fall}};
 }
 
 std::int32_t unitsOf(float reach) {
@@ -127,7 +124,7 @@ void addSegments(DrainageTile& tile, const DrainageRegion& region, const CellCou
             tile.segments.push_back(tileSegment(square, s));
     };
     const CourseSegment* first = &region.segments[cell.firstSegment];
-    if (tile.step > kMaxDrainageStep) return add({first->from, first[cell.segmentCount - 1].to});
+    if (tile.step > kMaxDrainageStep) return add(segmentOf(first->from, first[cell.segmentCount - 1].to));
     for (std::uint32_t k = 0; k < cell.segmentCount; ++k) add(first[k]);
 }
 
@@ -158,7 +155,8 @@ void DrainageMaps::prepare(DrainageTile& tile, std::uint32_t map, SampleGrid gri
     uses.valleys = uses.valleys && m.heights.hasValleys();
     const float farthest = std::max(uses.rivers ? tile.reach : 0.0f, uses.valleys ? tile.valleyReach : 0.0f);
     tile.step = grid.step;
-    const std::int32_t spacing = spec.spacing, width = (kTileSize - 1) * grid.step;
+    // With the places behind the last columns that valleys are blended from.
+    const std::int32_t spacing = spec.spacing, width = kTileSize * grid.step;
     const std::int32_t around = static_cast<std::int32_t>(farthest) + 1 + spacing * kCourseReach4 / 4;
     const int shift = std::bit_width(static_cast<unsigned>(spacing)) - 1;
     const std::int32_t cellX = grid.x >> shift, cellY = grid.y >> shift;
