@@ -145,6 +145,18 @@ int findPalette(ConstValues values, std::array<Section::Value, kMaxPalette>& pal
                 i += kLongRun - kRun;
                 continue;
             }
+            // Without branches, which would be mispredicted where values alternate.
+            bool areKnown = true;
+            for (std::size_t k = here; k < here + kLongRun; ++k) {
+                indices[k] = position[values[k]];
+                areKnown &= (indices[k] < count) & (palette[indices[k]] == values[k]);
+            }
+            if (areKnown) {
+                at = indices[here + kLongRun - 1];
+                run = palette[static_cast<std::size_t>(at)] * 0x0001000100010001u;
+                i += kLongRun - kRun;
+                continue;
+            }
         }
         if (count > 0 && differs(i) == 0) {
             std::memset(&indices[static_cast<std::size_t>(i)], at, kRun);
@@ -214,7 +226,7 @@ Section Section::fromValues(std::span<const Value, kBlocksPerSection> values) {
     if (std::memcmp(values.data(), values.data() + 1, values.size_bytes() - sizeof(Value)) == 0)
         return Section(values[0]);
 
-    std::array<Value, kMaxPalette> palette;
+    std::array<Value, kMaxPalette> palette{};
     Indices indices;
     const auto distinct = static_cast<std::size_t>(findPalette(values, palette, indices));
     const int bits = bitsFor(distinct);

@@ -185,23 +185,27 @@ Float woodland(Pass& p, Float forest) {
     return forest * (smoothstep(-0.45f, 0.1f, woods) * 0.75f + 0.25f) * (1.0f - clearings * 0.92f);
 }
 
-Block overGround(Pass& p, const Fields& f, Int surface, Block ground) {
+Block aboveGround(Pass& p, const Fields& f, Int surface, Block open) {
     const Block air = p.block("air");
+    Block block = open;
+    if (hasPlants(p.step())) {
+        const Bool isPlant = p.z() <= surface + p.read(f.plantHeight) && p.read(f.plant) != air;
+        block = select(isPlant, p.read(f.plant), block);
+    }
+    if (p.step() <= kMaxSmallStep) {
+        const Block small = p.stamp(f.small, f.treeBase);
+        block = select(small != air, small, block);
+    }
+    if (p.step() <= kMaxShapeStep) {
+        const Block tree = p.stamp(f.tree, f.treeBase);
+        block = select(tree != air, tree, block);
+    }
+    return block;
+}
+
+Block overGround(Pass& p, const Fields& f, Int surface, Block ground) {
     Var<Block> block = p.var(ground);
-    p.if_(p.z() > surface, [&] {
-        if (hasPlants(p.step())) {
-            const Bool isPlant = p.z() <= surface + p.read(f.plantHeight) && p.read(f.plant) != air;
-            block = select(isPlant, p.read(f.plant), static_cast<Block>(block));
-        }
-        if (p.step() <= kMaxSmallStep) {
-            const Block small = p.stamp(f.small, f.treeBase);
-            block = select(small != air, small, static_cast<Block>(block));
-        }
-        if (p.step() <= kMaxShapeStep) {
-            const Block tree = p.stamp(f.tree, f.treeBase);
-            block = select(tree != air, tree, static_cast<Block>(block));
-        }
-    });
+    p.if_(p.z() > surface, [&] { block = aboveGround(p, f, surface, block); });
     return block;
 }
 

@@ -85,6 +85,9 @@ void setPlants(Pass& p, const Fields& f, const Tables& tables, const PlantSite& 
 // Returns `forest`, the share of the vegetation that a column can have, less what woods and clearings leave.
 Float woodland(Pass& p, Float forest);
 
+// Returns the block at a voxel above the ground, where there is `open`, air or water, beside plants and trees
+// (3D passes).
+Block aboveGround(Pass& p, const Fields& f, Int surface, Block open);
 // Returns the block of plants and trees at this voxel, where the ground block is `ground` (3D passes).
 Block overGround(Pass& p, const Fields& f, Int surface, Block ground);
 

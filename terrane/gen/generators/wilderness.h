@@ -104,8 +104,8 @@ void plantsPass(Pass& p, const Fields& f);   // wilderness_plants.cpp
 // A 2D pass for the tint alone.
 void colorPass(Pass& p, const Fields& f);
 
-// Returns the block of earth, caves and water at this voxel of a 3D pass (wilderness_ground.cpp).
-Block ground(Pass& p, const Fields& f);
+// Returns the block of earth, caves, water and plants at this voxel of a 3D pass (wilderness_ground.cpp).
+Block landBlock(Pass& p, const Fields& f);
 void caveLifePass(Pass& p, const Fields& f);
 
 // A cone with a crater, of the coarse heights and of the ground alike (wilderness_forms.cpp).

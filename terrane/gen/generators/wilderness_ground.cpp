@@ -5,7 +5,7 @@
 #include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
-// Ground of wilderness: soil, strata, ore, water, caves and what lives in them.
+// Blocks of wilderness: soil, strata, ore, water, caves and what lives in them; plants.
 
 namespace terrane::gen::wilderness {
 
@@ -95,7 +95,7 @@ Block earth(Pass& p, const Fields& f) {
 
 }  // namespace
 
-Block ground(Pass& p, const Fields& f) {
+Block landBlock(Pass& p, const Fields& f) {
     const Int z = p.z(), water = p.read(f.water);
     Var<Block> block = p.var(p.block("air"));
     p.if_(
@@ -103,7 +103,8 @@ Block ground(Pass& p, const Fields& f) {
         [&] {
             const Bool isIce = z == water && p.read(f.cold) < -0.7f;
             const Block liquid = select(isIce, p.block("ice"), p.block("water"));
-            block = select(z <= water, liquid, p.block("air"));
+            const Block open = select(z <= water, liquid, p.block("air"));
+            block = vegetation::aboveGround(p, f.plants, p.read(f.surface), open);
         });
     return block;
 }
