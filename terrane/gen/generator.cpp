@@ -328,7 +328,8 @@ void Generator::runDown(world::ChunkPos pos, const Run& run) const {
     const auto work = impl.cache.get(pos);
     impl.advance(pos, *work, impl.shared, *worker);
     Impl::Works works;
-    for (int pass = impl.shared; pass < impl.firstDown; ++pass) impl.runPass(pos, *work, pass, works, *worker);
+    for (int pass = impl.shared; pass < impl.firstDown; ++pass)
+        impl.runPass(pos, *work, pass, works, *worker);
     impl.beginTopDown(pos, *work, works, *worker);
     run(worker->downPasses);
     impl.giveBack(std::move(worker));

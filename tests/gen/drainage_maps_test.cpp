@@ -119,7 +119,8 @@ TEST(DrainageMaps, ValleysAreMeansOfTheStreamsAround) {
             const DrainageResults results = runner.run({x >> 4, y >> 4});
             const auto lane = static_cast<std::size_t>((x & 15) + 16 * (y & 15));
             const auto at = [&](int dx, int dy) {
-                return valleyReference(region, reach, (x & -shared::kValleyBlocks) + dx * shared::kValleyBlocks,
+                return valleyReference(region, reach,
+                                       (x & -shared::kValleyBlocks) + dx * shared::kValleyBlocks,
                                        (y & -shared::kValleyBlocks) + dy * shared::kValleyBlocks);
             };
             std::array<double, 3> expected{};

@@ -115,10 +115,14 @@ TEST(Limits, FieldsOfOtherGeneratorsAreMistakes) {
     constexpr Field<Int> kInt{7};
     constexpr Field<Float> kFloat{7};
     const std::function<void(Pass&)> uses[] = {[&](Pass& p) { (void)p.read(kInt); },
-                                               [&](Pass& p) { (void)p.readAt(kInt, {1, 0}); },
+                                               [&](Pass& p) {
+                                                   (void)p.readAt(kInt, {1, 0});
+                                               },
                                                [&](Pass& p) { (void)p.slope(kFloat); },
                                                [&](Pass& p) { (void)p.lowestBeside(kFloat); },
-                                               [&](Pass& p) { (void)p.readBetween(kFloat, {1.0f, 0.0f}); },
+                                               [&](Pass& p) {
+                                                   (void)p.readBetween(kFloat, {1.0f, 0.0f});
+                                               },
                                                [&](Pass& p) { p.set(kInt, Int(1)); },
                                                [&](Pass& p) { p.setAt(kInt, Int(1), Int(1)); },
                                                [&](Pass& p) { (void)p.stamp(kInt, kInt); }};

@@ -84,7 +84,8 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayer
             height = std::max(height / 4, kLowestSlab);
             continue;
         }
-        // Where the first part decides no more than the whole, as on steep land, the others are not looked at.
+        // Where the first part decides no more than the whole, as on steep land, the others are not looked
+        // at.
         const bool isAlike = whole > 0 && !ranges_.block() && ranges_.decisions() == wholeDecisions_;
         if (isAlike) height = whole;
         whole = 0;

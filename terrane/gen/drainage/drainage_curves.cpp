@@ -286,7 +286,8 @@ class CurveMaker {
 }  // namespace
 
 CourseSegment segmentOf(const CoursePoint& from, const CoursePoint& to) {
-    const float dx = static_cast<float>(to.x - from.x) * kBlock, dy = static_cast<float>(to.y - from.y) * kBlock;
+    const float dx = static_cast<float>(to.x - from.x) * kBlock,
+                dy = static_cast<float>(to.y - from.y) * kBlock;
     const float inverse = shared::detDivide(1.0f, dx * dx + dy * dy);
     return {from, to, inverse, (from.level - to.level) * shared::detSqrt(inverse)};
 }

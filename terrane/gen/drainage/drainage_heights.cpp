@@ -79,9 +79,8 @@ std::shared_ptr<const DrainageHeights::Block> DrainageHeights::makeBlock(Executo
         const auto at = static_cast<std::size_t>(n);
         block->heights[at] = heightKey(height, h);
         block->gradients[at] = gradient;
-        block->places[at] = {
-            placeAlong(lowest % kCellSamples, width, shared::mixBits(h + shared::kHashX)),
-            placeAlong(lowest / kCellSamples, width, shared::mixBits(h + shared::kHashY))};
+        block->places[at] = {placeAlong(lowest % kCellSamples, width, shared::mixBits(h + shared::kHashX)),
+                             placeAlong(lowest / kCellSamples, width, shared::mixBits(h + shared::kHashY))};
     }
     const std::lock_guard lock(mutex_);
     if (blocks_.size() >= kMaxBlocks) {

@@ -43,8 +43,7 @@ class DrainageMaps {
     ~DrainageMaps();
 
     // Prepares the tile whose first column is at the grid's position, for the calls of `uses`.
-    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid,
-                 DrainageUses uses = {true, true});
+    void prepare(DrainageTile& tile, std::uint32_t map, SampleGrid grid, DrainageUses uses = {true, true});
 
     std::size_t cachedRegions() const;  // of all maps
     std::size_t bytes() const;          // that they take

@@ -64,9 +64,7 @@ void writeWilderness(GeneratorBuilder& g) {
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
-    g.pass3D("land", [&](Pass& p) {
-        p.setBlock(landBlock(p, f));
-    });
+    g.pass3D("land", [&](Pass& p) { p.setBlock(landBlock(p, f)); });
     if (g.step() == 1) g.pass3D("cave life", [&](Pass& p) { caveLifePass(p, f); });
 }
 

@@ -76,7 +76,8 @@ Block solid(Pass& p, const Fields& f) {
     constexpr int kSoilDepth = 3;
     const Int depth = p.read(f.surface) - p.z();
     const Block rock = p.read(f.rock);
-    const Block kind = multiSelect({{depth == 0, p.read(f.top)}, {depth <= kSoilDepth, p.read(f.soil)}}, rock);
+    const Block kind =
+        multiSelect({{depth == 0, p.read(f.top)}, {depth <= kSoilDepth, p.read(f.soil)}}, rock);
     Block banded = strata(p, f);
     if (p.step() == 1) banded = landforms::withOre(p, banded, p.z() < 300 && depth > kSoilDepth);
     return select(kind == rock, banded, kind);
