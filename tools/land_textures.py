@@ -53,6 +53,11 @@ RED_CORAL = ramp("8c2430 a8303a c24045 d85652 e87265 f59683")
 YELLOW_CORAL = ramp("9c6a14 b5811d cb982a dcae3c eac356 f5d97e")
 SEAGRASS = ramp("1f4a33 2a5d3d 377048 478455 5b9966 76ae7c")
 CAP = ramp("6e1f1a 872a21 a03729 b74833 ca5d40 da7752")
+LAVA = ramp("6a1206 a8240a d8460f f2741a fba52f ffdc7a")
+COAL = ramp("17171a 222226 2d2d31 3a3a3f 4a4a50 63636a")
+COPPER = ramp("7a3f24 9a5230 b9683f cf8155 5f9c86 7cb8a0")
+RUST = ramp("7d5038 97654a b07c5e c79674 d8ae8d e8c9ab")
+NUGGET = ramp("8c6410 b58519 d8a827 edc545 f8de73 fff1b0")
 GILL = ramp("a8977c b9a98d c9ba9f d7cab1 e3d9c3 eee7d6")
 
 
@@ -483,6 +488,40 @@ def crystal():
     return bled(Image().stamp(0, 0, " ".join(row[:16] for row in rows.split()), key))
 
 
+def lava():
+    """Plates of a dark skin that drift apart; what shows between them glows."""
+    plates = Patches(651, 3, 3, 0.8, 0.5, 0.8)
+
+    def shade(x, y):
+        heat = 0.62 + 0.5 * (smooth(653, x, y, 4, 4) - 0.5) + (0.35 if plates.gap(x, y) else 0)
+        color = tone(LAVA, heat + 0.08 * (hash01(654, x, y) - 0.5))
+        return (*color[:3], round(255 * max(0.35, min(1.0, heat))))
+    return Image(shade)
+
+
+def crystal_rock():
+    """Facets of a dense druse, each lit its own way; the brightest glow."""
+    facets = Patches(661, 4, 4, 0.9, 0.5, 0.7)
+
+    def shade(x, y):
+        u, v = facets.offset[x, y]
+        tilt = hash01(662, facets.cell[x, y]) - 0.5
+        light = 0.5 + 0.6 * tilt + 0.9 * (u * tilt - v * 0.5) - (0.25 if facets.gap(x, y) else 0)
+        color = mix(tone(QUARTZ, light)[:3], (150, 90, 200), 0.35)
+        return (*color[:3], round(150 * max(0.0, min(1.0, light))))
+    return Image(shade)
+
+
+def ore(rock, colors):
+    """Rock with angular grains."""
+    key = dict(zip("abcdef", colors))
+    image = Image(lambda x, y: rock[x, y])
+    for left, top, rows in ((1, 2, ".cd. bded acdc .ab."), (9, 1, ".de. bcd. .ab."), (5, 8, ".dc.. bedca .acb."),
+                            (12, 9, ".d bec ab."), (1, 11, "dc bea .b"), (9, 13, "cde bc.")):
+        image.stamp(left, top, rows, key)
+    return image
+
+
 # --- Sea and giant mushrooms --------------------------------------------------------------------------------
 
 def coral_red():
@@ -581,6 +620,8 @@ TEXTURES = {
     "dead_bush": (dead_bush, "test", False),
     "bluebell": (bluebell, "test", False),
     "crystal": (crystal, "test+glow", False),
+    "lava": (lava, "glow", True),
+    "crystal_rock": (crystal_rock, "glow", True),
     "coral_red": (coral_red, "opaque", True),
     "coral_yellow": (coral_yellow, "opaque", True),
     "seagrass": (seagrass, "opaque", True),

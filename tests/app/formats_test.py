@@ -33,7 +33,7 @@ npm_folder = None
 # Blocks that map to these names, whatever their properties.
 SAME = {"air": "air", "cave_air": "air", "stone": "stone", "granite": "stone", "bedrock": "stone", "dirt": "dirt",
         "grass_block": "grass", "gravel": "gravel", "sand": "sand", "water": "water", "oak_log": "oak_log",
-        "oak_leaves": "oak_leaves", "clay": "clay", "coal_ore": "stone", "iron_ore": "stone", "deepslate": "basalt"}
+        "oak_leaves": "oak_leaves", "clay": "clay", "coal_ore": "coal_ore", "iron_ore": "iron_ore", "deepslate": "basalt"}
 
 VERSIONS = ("1.8.9", "1.12.2", "1.13.2", "1.16", "1.18.2", "1.21.1")
 
