@@ -14,6 +14,7 @@ std::vector<trees::Kind> kindsOf(const Tables& tables) {
     std::vector<trees::Kind> kinds;
     for (const std::span<const Grove> groves : {tables.trees, tables.small})
         for (const Grove& grove : groves) kinds.push_back(grove.kind);
+    kinds.insert(kinds.end(), tables.placed.begin(), tables.placed.end());
     return kinds;
 }
 
@@ -140,7 +141,9 @@ void setShapes(Pass& p, const Fields& f, const Tables& tables, const Site& site)
         return;
     }
     p.set(f.treeBase, site.surface + 1);
-    p.set(f.tree, shapeAt(p, f, tables.trees, site, scatter(p, "trees", kTreeSpacing, 4)));
+    Int tree = shapeAt(p, f, tables.trees, site, scatter(p, "trees", kTreeSpacing, 4));
+    if (site.placed) tree = select(*site.placed >= 0, *site.placed, tree);
+    p.set(f.tree, tree);
     if (p.step() > kMaxSmallStep) return;
     p.set(f.small, shapeAt(p, f, tables.small, site, scatter(p, "small things", kSmallSpacing, 4)));
 }

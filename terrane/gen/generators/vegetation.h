@@ -4,6 +4,7 @@
 // often as crowns cover the ground.
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "terrane/gen/generators/trees/trees.h"
@@ -38,10 +39,11 @@ struct Tables {
     std::span<const Grove> trees;  // at points kTreeSpacing apart
     std::span<const Grove> small;  // bushes, boulders, logs; kSmallSpacing apart
     std::span<const Plant> plants;
-    int biomes;                            // their number
-    std::span<const BiomeNumber> inWater;  // biomes whose plants grow in water…
-    int deepest;                           // …less deep than this, in blocks
-    BiomeNumber cacti;                     // the biome where they grow
+    int biomes;                                // their number
+    std::span<const BiomeNumber> inWater;      // biomes whose plants grow in water…
+    int deepest;                               // …less deep than this, in blocks
+    BiomeNumber cacti;                         // the biome where they grow
+    std::span<const trees::Kind> placed = {};  // kinds that the generator itself places, see Site
 };
 
 // Up to this step shapes are stamped, and those smaller than trees up to kMaxSmallStep.
@@ -64,8 +66,9 @@ struct Fields {
 
 struct Site {
     Int biome;
-    Float share;  // 0…1: of the shares in the tables
-    Int surface;  // z of the highest ground block
+    Float share;                     // 0…1: of the shares in the tables
+    Int surface;                     // z of the highest ground block
+    std::optional<Int> placed = {};  // number of a shape that stands here whatever the tables say, or -1
 };
 
 // Writes all fields but, at step 1, the plants: these are the generator's.

@@ -34,11 +34,16 @@ Fields::Fields(GeneratorBuilder& g)
       volcanic(g.field<Float>("volcanic")),
       base(g.field<Float>("base")),
       fromStream(g.field<Float>("from stream")),
+      streamLevel(g.field<Float>("stream level")),
       height(g.field<Float>("height")),
       rocky(g.field<Float>("rocky")),
       wet(g.field<Float>("wet")),
       water(g.field<Int>("water")),
       surface(g.field<Int>("surface")),
+      placeKind(g.field<Int>("place")),
+      placeX(g.field<Int>("place x")),
+      placeY(g.field<Int>("place y")),
+      spring(g.field<Float>("spring")),
       biome(g.field<Int>("biome")),
       cold(g.field<Float>("cold")),
       forest(g.field<Float>("forest")),
@@ -47,8 +52,18 @@ Fields::Fields(GeneratorBuilder& g)
       rock(g.field<Block>("rock")),
       color(g.field<Int>("color")),
       rivers(wilderness::rivers(g)),
-      plants(g, vegetationTables()) {
+      plants(g, vegetationTables()),
+      ruins(ruins::record(g)) {
+    if (g.step() <= kMaxArchStep) {
+        archLow = g.field<Int>("arch low");
+        archHigh = g.field<Int>("arch high");
+    }
+    if (g.step() <= kMaxNotchStep) {
+        notchLow = g.field<Int>("notch low");
+        notchHigh = g.field<Int>("notch high");
+    }
     (g.step() == 1 ? caveTop : hidden) = g.field<Int>(g.step() == 1 ? "cave top" : "hidden");
+    if (g.step() == 1) caves.emplace(g);
 }
 
 }  // namespace wilderness
@@ -64,6 +79,8 @@ void writeWilderness(GeneratorBuilder& g) {
     g.pass2D("relief", [&](Pass& p) { reliefPass(p, f); });
     g.pass2D("surface", [&](Pass& p) { surfacePass(p, f); });
     g.pass2D("plants", [&](Pass& p) { plantsPass(p, f); });
+    if (g.step() <= kMaxArchStep) g.pass2D("arches", [&](Pass& p) { archesPass(p, f); });
+    if (g.step() == 1) g.pass2D("underground", [&](Pass& p) { underSurfacePass(p, f); });
     g.pass3D("land", [&](Pass& p) { p.setBlock(landBlock(p, f)); });
     if (g.step() == 1) g.pass3D("cave life", [&](Pass& p) { caveLifePass(p, f); });
 }

@@ -147,6 +147,7 @@ void formsPass(Pass& p, const Fields& f) {
     p.set(f.rangeLine, rangeLine(p));
     p.set(f.temperature, temperature);
     p.set(f.rain, moisture);
+    setPlace(p, f);
 }
 
 }  // namespace terrane::gen::wilderness

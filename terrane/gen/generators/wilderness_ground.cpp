@@ -2,7 +2,6 @@
 #include <initializer_list>
 #include <utility>
 
-#include "terrane/gen/generators/landforms.h"
 #include "terrane/gen/generators/wilderness.h"
 
 // Blocks of wilderness: soil, strata, ore, water, caves and what lives in them; plants.
@@ -10,8 +9,6 @@
 namespace terrane::gen::wilderness {
 
 namespace {
-
-constexpr int kCaveWater = -180;  // up to this height caves are lakes
 
 // Layers of a period of 64 that bands of another rock take: bit k stands for layer k.
 using Bands = std::uint64_t;
@@ -56,21 +53,6 @@ Block strata(Pass& p, const Fields& f) {
     return block;
 }
 
-// Winding tunnels where two noises are both near 0, and great halls.
-Bool isCave(Pass& p, const Fields& f) {
-    Var<Bool> result = p.var(Bool(false));
-    const Float where = p.perlin2D("cave places", 128, {.5f, 1.0f});
-    p.if_(p.z() > p.heights().bottom + 2 && p.z() < p.read(f.caveTop), [&] {
-        p.if_(where > -0.05f, [&] { result = landforms::isTunnel(p, where); });
-        p.if_(where < -0.15f, [&] {
-            const Float hall = p.perlin3D("halls", 48, {.25f, 1.0f});
-            const Float column = p.perlin2D("columns", 5, {1.0f, .5f});
-            result = hall > 0.34f && column < 0.55f;
-        });
-    });
-    return result;
-}
-
 // Soil and rock. One list of choices for all depths: branches would need the strata on both sides.
 Block solid(Pass& p, const Fields& f) {
     constexpr int kSoilDepth = 3;
@@ -78,19 +60,24 @@ Block solid(Pass& p, const Fields& f) {
     const Block rock = p.read(f.rock);
     const Block kind =
         multiSelect({{depth == 0, p.read(f.top)}, {depth <= kSoilDepth, p.read(f.soil)}}, rock);
-    Block banded = strata(p, f);
-    if (p.step() == 1) banded = landforms::withOre(p, banded, p.z() < 300 && depth > kSoilDepth);
-    return select(kind == rock, banded, kind);
+    Var<Block> banded = p.var(strata(p, f));
+    if (p.step() == 1) p.if_(depth > kSoilDepth, [&] { banded = withOre(p, f, banded); });
+    return select(kind == rock, static_cast<Block>(banded), kind);
 }
 
 Block earth(Pass& p, const Fields& f) {
-    if (p.step() == 1) {
-        const Block inside = select(p.z() <= kCaveWater, p.block("water"), p.block("air"));
-        return select(isCave(p, f), inside, solid(p, f));
-    }
-    // Plain rock where no side shows it: tiles span many layers, and those of one block cost nothing.
+    const Int z = p.z();
     Var<Block> block = p.var(p.read(f.rock));
-    p.if_(p.z() >= p.read(f.hidden), [&] { block = solid(p, f); });
+    if (p.step() == 1) {
+        block = withCaves(p, f, solid(p, f));
+    } else {
+        // Plain rock where no side shows it: tiles span many layers, and those of one block cost nothing.
+        p.if_(z >= p.read(f.hidden), [&] { block = solid(p, f); });
+    }
+    if (p.step() <= kMaxNotchStep) {
+        p.if_(z > p.read(f.notchLow) && z < p.read(f.notchHigh),
+              [&] { block = select(z <= kSeaZ, p.block("water"), p.block("air")); });
+    }
     return block;
 }
 
@@ -104,14 +91,13 @@ Block landBlock(Pass& p, const Fields& f) {
         [&] {
             const Bool isIce = z == water && p.read(f.cold) < -0.7f;
             const Block liquid = select(isIce, p.block("ice"), p.block("water"));
-            const Block open = select(z <= water, liquid, p.block("air"));
+            Var<Block> open = p.var(select(z <= water, liquid, p.block("air")));
+            if (p.step() <= kMaxArchStep) {
+                p.if_(z >= p.read(f.archLow) && z <= p.read(f.archHigh), [&] { open = strata(p, f); });
+            }
             block = vegetation::aboveGround(p, f.plants, p.read(f.surface), open);
         });
     return block;
-}
-
-void caveLifePass(Pass& p, const Fields& f) {
-    landforms::growCaveLife(p, p.read(f.caveTop), {-40, 0.012f, 0.018f, 0.03f});
 }
 
 }  // namespace terrane::gen::wilderness

@@ -216,8 +216,9 @@ constexpr Plant kPlants[] = {
 };
 
 constexpr vegetation::BiomeNumber kInWater[] = {Biome::Reef, Biome::Ocean, Biome::KelpForest};
-constexpr vegetation::Tables kTables = {kTrees,   kSmall, kPlants,      static_cast<int>(Biome::Count),
-                                        kInWater, 30,     Biome::Desert};
+constexpr Kind kPlaced[] = {Kind::GiantTree};
+constexpr vegetation::Tables kTables = {kTrees,   kSmall, kPlants,       static_cast<int>(Biome::Count),
+                                        kInWater, 30,     Biome::Desert, kPlaced};
 
 // 0…1: worlds begin in a glade around block 0, 0, so that one sees far.
 Float beyondGlade(Pass& p) {
@@ -233,7 +234,8 @@ Bool canGrow(Pass& p, const Fields& f) {
     const Float cold = p.read(f.cold);
     const Bool isWarmBeach = p.read(f.biome) != number(Biome::Beach) || cold > 0.18f;
     const Bool isBelowTreeLine = cold > -0.42f || p.read(f.height) < kSea + 250.0f;
-    Bool result = isEarth && isWarmBeach && isBelowTreeLine && p.read(f.surface) >= p.read(f.water);
+    Bool result = isEarth && p.read(f.spring) <= 0.0f && isWarmBeach && isBelowTreeLine &&
+                  p.read(f.surface) >= p.read(f.water);
     if (p.step() == 1) result = result && p.read(f.caveTop) < p.read(f.surface) - 3;
     return result;
 }
@@ -245,9 +247,15 @@ const vegetation::Tables& vegetationTables() {
 }
 
 void plantsPass(Pass& p, const Fields& f) {
+    const Bool isGround = canGrow(p, f);
     const Float share =
-        select(canGrow(p, f), vegetation::woodland(p, p.read(f.forest)) * beyondGlade(p), Float(0.0f));
-    vegetation::setShapes(p, f.plants, kTables, {p.read(f.biome), share, p.read(f.surface)});
+        select(isGround, vegetation::woodland(p, p.read(f.forest)) * beyondGlade(p) * (1.0f - clearing(p, f)),
+               Float(0.0f));
+    vegetation::Site site = {p.read(f.biome), share, p.read(f.surface), {}};
+    if (p.step() <= vegetation::kMaxShapeStep)
+        site.placed =
+            placeShape(p, f, isGround && length(p.slope(f.height)) < 0.45f && p.read(f.wet) <= 0.0f);
+    vegetation::setShapes(p, f.plants, kTables, site);
     if (p.step() > 1) return;
     vegetation::setPlants(p, f.plants, kTables,
                           {p.read(f.biome), p.read(f.top), p.read(f.water) - p.read(f.surface),

@@ -82,7 +82,7 @@ void basePass(Pass& p, const Fields& f) {
         const Float coast = smoothMin(inland, kSea + 0.8f + land * steep, 3.0f);
         ground = lerp(coast, inland, smoothstep(0.15f, 0.25f, land));
     });
-    p.if_(land <= 0.0f, [&] { ground = seaFloor(p, land); });
+    p.if_(land <= 0.0f, [&] { ground = withStacks(p, f, seaFloor(p, land)); });
     const Volcano volcano = volcanoAt(p);
     p.if_(volcano.share > 0.0f, [&] {
         const Float cone = kSea + volcano.rise + smoothstep(-0.3f, 0.3f, land) * 120.0f - 90.0f;
@@ -90,6 +90,7 @@ void basePass(Pass& p, const Fields& f) {
     });
     p.set(f.base, static_cast<Float>(ground));
     p.set(f.fromStream, v.distance);
+    p.set(f.streamLevel, v.level);
     p.set(f.volcanic, volcano.share);
 }
 
@@ -196,12 +197,16 @@ Water cut(Pass& p, const Fields& f, Float ground) {
 
 void reliefPass(Pass& p, const Fields& f) {
     const Relief r = detailed(p, f);
-    const Water w = cut(p, f, r.height);
-    p.set(f.height, w.height);
+    const Water w = cut(p, f, withPlaces(p, f, r.height));
+    Var<Float> height = p.var(w.height), spring = p.var(Float(0.0f));
+    Var<Int> water = p.var(w.water);
+    addSprings(p, f, height, water, spring);
+    p.set(f.height, static_cast<Float>(height));
     p.set(f.rocky, r.rocky);
-    p.set(f.water, w.water);
+    p.set(f.water, static_cast<Int>(water));
     p.set(f.wet, w.wet);
-    p.set(f.surface, Int(floor(w.height)));
+    p.set(f.spring, static_cast<Float>(spring));
+    p.set(f.surface, Int(floor(height)));
 }
 
 }  // namespace terrane::gen::wilderness

@@ -178,7 +178,11 @@ Int caveTop(Pass& p, const Fields& f, const Site& s) {
     const Float mouths = smoothstep(0.42f, 0.7f, p.perlin2D("cave mouths", 24, {.2f, 1.0f}));
     const Bool isDry = s.height > kSea + 5.0f && p.read(f.wet) <= 0.0f;
     const Float roof = select(isDry, Float(8.0f) - mouths * 16.0f, Float(12.0f)) + s.steepness * 2.0f;
-    return Int(floor(s.height - roof));
+    // Caves do not open the water of sinkholes, nor the pools of hot springs.
+    const Bool isBesideWater = besideSinkhole(p, f, 0.01f) < 26.0f;
+    const Float thick = select(p.read(f.spring) > 0.0f, Float(12.0f), roof);
+    const Float highest = select(isBesideWater, Float(kSea - 34.0f), s.height - thick);
+    return select(isShaft(p, f) && !isBesideWater, p.read(f.surface) + kShaftMark, Int(floor(highest)));
 }
 
 // The ground shows at its sides down to the columns beside, and farther beside tiles of another level.
@@ -195,8 +199,8 @@ void surfacePass(Pass& p, const Fields& f) {
     const Int biome = biomeOf(p, f, s);
     const Ground ground = groundOf(p, f, s, biome);
     p.set(f.biome, biome);
-    p.set(f.top, ground.top);
-    p.set(f.soil, ground.soil);
+    p.set(f.top, springGround(p, p.read(f.spring), ground.top));
+    p.set(f.soil, springGround(p, p.read(f.spring), ground.soil));
     p.set(f.rock, ground.rock);
     p.set(f.cold, s.cold);
     const Float steepest = select(isTower(p, f), Float(2.8f), Float(1.2f));

@@ -38,6 +38,22 @@ void drawOldOak(Canvas& canvas, Random& random) {
     drawFoliage(canvas, branches, {{2.3f, 2.3f, 1.6f}, .3f, 1}, leaves, random);
 }
 
+// A tree that stands alone, as high and as wide as a shape can be.
+void drawGiantTree(Canvas& canvas, Random& random) {
+    const auto wood = canvas.paint("oak_log", kWoodRank), leaves = canvas.paint("oak_leaves", kLeafRank);
+    Branches branches;
+    const float height = random.between(17.0f, 20.0f);
+    growTrunk(branches, height, random.between(0.5f, 2.0f), random);
+    const Point top = branches.back().at;
+    const Crown crown = {
+        top + Point{0, 0, 10.0f}, {13.5f, 13.5f, random.between(14.0f, 15.5f)}, 0.45f, height - 4.0f};
+    colonize(branches, pointsIn(crown, 420, random), {22, 2.6f, 1.5f, {0, 0, .12f}, .3f}, random);
+    setRadii(branches, 3.9f);
+    drawLimbs(canvas, branches, wood, 2);
+    drawRoots(canvas, 9, 8.0f, 1.9f, wood, random);
+    drawFoliage(canvas, branches, {{2.4f, 2.4f, 1.7f}, .35f, 1}, leaves, random);
+}
+
 void drawBirch(Canvas& canvas, Random& random) {
     const auto wood = canvas.paint("birch_log", kWoodRank), leaves = canvas.paint("birch_leaves", kLeafRank);
     Branches branches;

@@ -8,6 +8,7 @@ namespace terrane::gen::trees {
 
 void drawOak(Canvas& canvas, Random& random);
 void drawOldOak(Canvas& canvas, Random& random);
+void drawGiantTree(Canvas& canvas, Random& random);
 void drawBirch(Canvas& canvas, Random& random);
 void drawWillow(Canvas& canvas, Random& random);
 void drawDeadTree(Canvas& canvas, Random& random);

@@ -65,6 +65,7 @@ enum class Kind : std::uint8_t {
     Snag,
     Stump,
     UprootedTree,
+    GiantTree,
     Count
 };
 
