@@ -51,6 +51,11 @@ constexpr Land kLands[] = {{"continents", "mountains", 1, {231, -118}},
                            {"wilderness", "valley", 1, {30, 55}},
                            {"wilderness", "falls", 1, {799, 209}},
                            {"wilderness", "karst", 1, {-14, 40}},
+                           {"wilderness", "caves", 1, {-27, 52}},
+                           {"wilderness", "shafts", 1, {-31, 43}},
+                           {"wilderness", "sinkhole", 1, {-24, 54}},
+                           {"wilderness", "springs", 1, {272, 52}},
+                           {"wilderness", "sea_arch", 1, {342, -149}},
                            {"wilderness", "corner", 31, {world::kMinChunk, world::kMinChunk}},
                            {"wilderness",
                             "far_corner",
@@ -73,9 +78,9 @@ class Lands : public testing::TestWithParam<Land> {
         }
     }
 
-    bool isLiquid(BlockId block) const { return block == water; }
+    bool isLiquid(BlockId block) const { return block == water || block == lava; }
 
-    const BlockId water = idOf("water"), ice = idOf("ice");
+    const BlockId water = idOf("water"), lava = idOf("lava"), ice = idOf("ice");
     Area area;
     const int bottom = area.heights().bottom, top = area.heights().top;
 };
@@ -83,7 +88,8 @@ INSTANTIATE_TEST_SUITE_P(Places, Lands, testing::ValuesIn(kLands), [](const auto
     return std::string(place.param.generator) + "_" + place.param.name;
 });
 
-// Every block is connected to the bottom by faces, edges or corners: branches grow aslant.
+// Every block is connected to the bottom, or to rock beside the area, by faces, edges or corners: branches
+// grow aslant.
 TEST_P(Lands, NothingFloats) {
     const auto index = [&](int x, int y, int z) {
         return static_cast<std::size_t>(x + kLandBlocks * (y + kLandBlocks * (z - bottom)));
@@ -97,8 +103,13 @@ TEST_P(Lands, NothingFloats) {
         held[index(x, y, z)] = true;
         open.push_back({x, y, z});
     };
-    for (int y = 0; y < kLandBlocks; ++y)
-        for (int x = 0; x < kLandBlocks; ++x) hold(x, y, bottom);
+    for (int y = 0; y < kLandBlocks; ++y) {
+        for (int x = 0; x < kLandBlocks; ++x) {
+            hold(x, y, bottom);
+            const bool isSide = x == 0 || y == 0 || x == kLandBlocks - 1 || y == kLandBlocks - 1;
+            for (int z = area.groundHeight(x, y) - 8; isSide && z > bottom; --z) hold(x, y, z);
+        }
+    }
     while (!open.empty()) {
         const auto [x, y, z] = open.front();
         open.pop_front();

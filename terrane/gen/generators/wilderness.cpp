@@ -32,6 +32,8 @@ Fields::Fields(GeneratorBuilder& g)
       moisture(g.field<Float>("moisture")),
       canyon(g.field<Float>("canyon")),
       volcanic(g.field<Float>("volcanic")),
+      craterLake(g.field<Int>("crater lake")),
+      isLava(g.field<Bool>("is lava")),
       base(g.field<Float>("base")),
       fromStream(g.field<Float>("from stream")),
       streamLevel(g.field<Float>("stream level")),

@@ -96,6 +96,8 @@ struct Fields {
     Field<Float> moisture;  // −1…1
     Field<Float> canyon;    // share: table land that rivers have cut canyons into
     Field<Float> volcanic;  // share: from a volcano's foot to its middle
+    Field<Int> craterLake;  // z of the lake of a crater, or less than all ground
+    Field<Bool> isLava;     // such lakes
     Field<Float> base;      // z before gullies and rivers
     // The streams around, see ValleySample: blocks to them, z.
     Field<Float> fromStream, streamLevel;
@@ -175,8 +177,11 @@ void archesPass(Pass& p, const Fields& f);  // 2D, up to kMaxArchStep
 Float limestoneShare(Pass& p, const Fields& f);
 // A cone with a crater, of the coarse heights and of the ground alike (wilderness_forms.cpp).
 struct Volcano {
-    Float rise;   // blocks above the land around
-    Float share;  // 0…1: from its foot to its middle
+    Float height;  // z
+    Float rise;    // blocks above the land around
+    Float share;   // 0…1: from its foot to its middle
+    Int lake;      // z of the surface of its crater's lake, at columns in the crater; -kNoSpan for none
+    Bool isLava;   // what the lake is of
 };
 Volcano volcanoAt(Pass& p);
 // Shares of the landforms of a climate: canyons, dunes, limestone towers.

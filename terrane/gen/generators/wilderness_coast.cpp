@@ -23,7 +23,7 @@ Stack stackAt(Pass& p, const Fields& f) {
     const Float size = p.random2D("stack size", x, y), land = p.read(f.land);
     const Float near = smoothstep(-0.03f, -0.018f, land) * smoothstep(-0.002f, -0.006f, land);
     const Float share = near * smoothstep(0.2f, 0.5f, cliffShare(p, f));
-    const Bool isStack = p.random2D("is stack", x, y) < 0.6f;
+    const Bool isStack = p.random2D("is stack", x, y) < 0.3f;
     const Float rough = p.simplex2D("stack sides", 6, {.5f, 1.0f}) * 0.9f;
     return {
         at.distance,

@@ -90,19 +90,25 @@ Volcano volcanoAt(Pass& p) {
     const Float size = p.random2D("volcano size", x, y);
     const Float radius = size * 500.0f + 900.0f, rise = size * 450.0f + 600.0f, crater = size * 60.0f + 90.0f;
     const Float away = cell.distance / radius;
+    // Of ten craters four have a lake and three are full of lava.
+    const Float inCrater = p.random2D("in the crater", x, y);
+    constexpr float kFoot = 45.0f;  // blocks below the sea
     Var<Float> height = p.var(Float(0.0f)), share = p.var(Float(0.0f));
+    Var<Int> lake = p.var(Int(-kNoSpan));
     p.if_(isVolcano && away < 1.3f, [&] {
         // Flows of lava make its foot uneven, not its crater.
         const Float uneven = p.simplex2D("lava flows", 128, {.2f, .5f, 1.0f}) * 0.22f + 1.0f;
         const Float along = away * lerp(Float(1.0f), uneven, smoothstep(0.15f, 0.5f, away));
         const Float outside = clamp(1.0f - along, 0.0f, 1.0f);
         // A cone whose sides get steeper up to the rim.
-        const Float up = min(outside, clamp(1.0f - crater / radius, 0.0f, 1.0f));
+        const Float rim = clamp(1.0f - crater / radius, 0.0f, 1.0f), up = min(outside, rim);
         const Float inside = smoothstep(crater * 0.95f, crater * 0.55f, cell.distance);
         height = up * (up * 0.75f + 0.25f) * rise - inside * rise * 0.12f;
         share = outside;
+        const Float level = kSea - kFoot + rim * (rim * 0.75f + 0.25f) * rise - rise * 0.06f;
+        lake = select(inCrater < 0.7f && cell.distance < crater, Int(level), static_cast<Int>(lake));
     });
-    return {height, share};
+    return {kSea - kFoot + height, height, share, lake, inCrater < 0.3f};
 }
 
 Float dryLand(Float temperature, Float moisture) {

@@ -90,7 +90,8 @@ Block landBlock(Pass& p, const Fields& f) {
         z <= p.read(f.surface), [&] { block = earth(p, f); },
         [&] {
             const Bool isIce = z == water && p.read(f.cold) < -0.7f;
-            const Block liquid = select(isIce, p.block("ice"), p.block("water"));
+            const Block liquid =
+                multiSelect({{p.read(f.isLava), p.block("lava")}, {isIce, p.block("ice")}}, p.block("water"));
             Var<Block> open = p.var(select(z <= water, liquid, p.block("air")));
             if (p.step() <= kMaxArchStep) {
                 p.if_(z >= p.read(f.archLow) && z <= p.read(f.archHigh), [&] { open = strata(p, f); });

@@ -19,8 +19,8 @@ struct PlaceKind {
     float radius;  // blocks in which nothing grows but its own plants
 };
 constexpr PlaceKind kPlaces[] = {{Place::Arch, 0.15f, 30.0f},     {Place::SeaArch, 0.14f, 0.0f},
-                                 {Place::Sinkhole, 0.25f, 0.0f},  {Place::HotSprings, 0.22f, 44.0f},
-                                 {Place::GiantTree, 0.1f, 40.0f}, {Place::Ruins, 0.14f, 13.0f}};
+                                 {Place::Sinkhole, 0.25f, 36.0f}, {Place::HotSprings, 0.22f, 44.0f},
+                                 {Place::GiantTree, 0.1f, 40.0f}, {Place::Ruins, 0.14f, 22.0f}};
 
 Bool isKind(Pass& p, const Fields& f, Place place) {
     return p.read(f.placeKind) == Int(static_cast<int>(place));
@@ -129,19 +129,19 @@ constexpr float kStep = 3.0f, kSprings = 40.0f;  // blocks: height of terraces, 
 
 // A dome of terraces: pools with rims, whose water is that of their own terrace.
 struct Springs {
-    Float share, terrace;  // the terrace's number, with a fraction
+    Float share, part;  // 0…1: of land for springs, from the middle to the edge
+    Float terrace;      // the terrace's number, with a fraction
 };
 
 Springs springsAt(Pass& p, const Fields& f, Float ground) {
     const Float volcanic = p.read(f.volcanic);
     const Float slopes = smoothstep(0.005f, 0.03f, volcanic) * smoothstep(0.5f, 0.35f, volcanic);
-    const Float plains = smoothstep(0.3f, 0.5f, p.simplex2D("hot rock", 512, {.4f, 1.0f})) * flatLand(p, f);
+    const Float plains = smoothstep(0.3f, 0.5f, p.perlin2D("hot rock", 512, {.4f, 1.0f})) * flatLand(p, f);
     const Float share = max(slopes, plains) * besideStream(p, f) * smoothstep(0.02f, 0.05f, p.read(f.land));
     const Float lobes = p.simplex2D("spring lobes", 12, {.4f, 1.0f});
     const Float part = clamp(fromPlace(p, f) * (1.0f / kSprings), 0.0f, 1.0f);
     const Float dome = (1.0f - part * part) * 13.0f;
-    return {share * smoothstep(1.0f, 0.9f, part + lobes * 0.04f),
-            (ground + dome * share + lobes * 0.9f) * (1.0f / kStep)};
+    return {share, part + lobes * 0.1f, (ground + dome * share + lobes * 1.5f) * (1.0f / kStep)};
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ void addSprings(Pass& p, const Fields& f, Var<Float>& height, Var<Int>& water, V
     p.if_(isKind(p, f, Place::HotSprings) && fromPlace(p, f) < kSprings, [&] {
         const Springs s = springsAt(p, f, p.read(f.base));
         // Beyond the pools a rim as high as their terrace goes all around.
-        const Bool isPool = s.share > 0.9f, isRim = s.share > 0.5f;
+        const Bool isPool = s.share > 0.9f && s.part<0.82f, isRim = s.share> 0.5f && s.part < 1.0f;
         const Float part = s.terrace - floor(s.terrace);
         const Float top = select(isPool, floor(s.terrace), floor(s.terrace + 0.45f)) * kStep;
         const Bool isWater = isPool && part > 0.24f;
@@ -177,7 +177,8 @@ Span archAt(Pass& p, const Fields& f) {
         const Float land = p.read(f.land);
         const Float rocky = smoothstep(0.15f, 0.0f, p.read(f.moisture)) * 0.6f + 0.4f;
         const Float onLand = flatLand(p, f) * rocky;
-        const Float inSea = smoothstep(-0.05f, -0.03f, land) * smoothstep(0.002f, -0.004f, land);
+        // Wide bands, since the land's value has the roughness of the shore.
+        const Float inSea = smoothstep(-0.09f, -0.04f, land) * smoothstep(0.06f, 0.03f, land);
         const Float share = smoothstep(0.3f, 0.5f, select(isOnLand, onLand, inSea));
         const Float size = chanceOf(p, f, "arch size"), turn = chanceOf(p, f, "arch direction") * 3.1416f;
         const Float x(-p.read(f.placeX)), y(-p.read(f.placeY));
@@ -192,7 +193,8 @@ Span archAt(Pass& p, const Fields& f) {
         const Float thick = sqrt(inside) * (size * 1.5f + 2.6f) * sqrt(slope * slope + 1.0f) *
                             (p.simplex2D("arch rocks", 7, {.6f, 1.0f}) * 0.16f + 1.0f);
         const Float ground = select(isOnLand, p.read(f.base), Float(kSea - 3.0f));
-        const Bool isHere = inside > 0.0f && share > 0.3f;
+        // Columns beside each other meet, however steep the arch is.
+        const Bool isHere = thick > abs(slope) * 0.9f + 0.9f && share > 0.3f;
         low = select(isHere, Int(floor(ground + middle - thick)), static_cast<Int>(low));
         high = select(isHere, Int(floor(ground + middle + thick)), static_cast<Int>(high));
     });
@@ -207,10 +209,13 @@ void archesPass(Pass& p, const Fields& f) {
     Span notch = notchAt(p, f);
     // The walls of sinkholes hang over the water.
     const Float beside = besideSinkhole(p, f, 0.3f) * (1.0f / 8.0f);
-    const Bool isBelow = beside >= -0.3f && beside < 1.0f && p.read(f.height) > kSea + 9.0f;
-    const Float roof = lerp(p.read(f.height) - 5.0f, Float(kSea + 2.0f), clamp(beside * beside, 0.0f, 1.0f));
+    const Bool isBelow =
+        beside >= -0.3f && beside < 1.0f && p.read(f.height) > kSea + 9.0f && p.read(f.rocky) <= 0.0f;
+    // At the wall itself the height is that of the hole's edge: there the roof follows the land around.
+    const Float level = select(beside < 0.25f, p.read(f.base), min(p.read(f.base), p.read(f.height)));
+    const Float roof = lerp(level - 5.0f, Float(kSea + 2.0f), clamp(beside * beside, 0.0f, 1.0f));
     notch.low = select(isBelow, Int(kSeaZ - 7), notch.low);
-    notch.high = select(isBelow, Int(floor(min(roof, p.read(f.height) - 5.0f))), notch.high);
+    notch.high = select(isBelow, Int(floor(roof)), notch.high);
     p.set(f.notchLow, notch.low);
     p.set(f.notchHigh, notch.high);
 }
@@ -218,7 +223,8 @@ void archesPass(Pass& p, const Fields& f) {
 Int placeShape(Pass& p, const Fields& f, Bool canStand) {
     const Int hash = Int(chanceOf(p, f, "place shape") * 16777216.0f);
     const Bool isHere = isPoint(p, f) && canStand;
-    return multiSelect({{isHere && isKind(p, f, Place::GiantTree),
+    const Bool isMild = p.read(f.cold) > -0.25f && p.read(f.moisture) > -0.42f;
+    return multiSelect({{isHere && isMild && isKind(p, f, Place::GiantTree),
                          trees::shapeOf(of(f.plants.kinds, trees::Kind::GiantTree), hash)},
                         {isHere && isKind(p, f, Place::Ruins), ruins::shapeOf(f.ruins, hash)}},
                        Int(-1));

@@ -28,8 +28,20 @@ Float seaFloor(Pass& p, Float land) {
     return kSea + shelf + slope + deep + (ridges + trenches) * smoothstep(-0.2f, -0.45f, land) - 0.5f;
 }
 
+// Valleys that glaciers deepened, by column.
+struct Ice {
+    Float share;  // of a range that was cold enough
+    Float main;   // share: a main valley rather than one that leads to it
+    Float flow;   // of the stream
+};
+
+Ice iceOf(Pass& p, const Fields& f, Float flow) {
+    return {smoothstep(0.08f, -0.12f, p.read(f.temperature)) * smoothstep(0.25f, 0.5f, p.read(f.range)),
+            smoothstep(3.0f, 12.0f, flow), flow};
+}
+
 // Blocks above the stream, `beside` blocks from the floor of its valley.
-Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float beside) {
+Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float beside, const Ice& ice) {
     const Float range = p.read(f.range), hilly = p.read(f.hilly);
     const Float varied = p.perlin2D("sides", 256, {.4f, 1.0f}) * 0.3f + 1.0f;  // not all valleys are alike
     const Float steep = (range * 0.85f + hilly * 0.17f + 0.015f) * varied;
@@ -37,6 +49,14 @@ Float slopeAbove(Pass& p, const Fields& f, Float canyon, Float beside) {
     // Table lands rise from their valleys to a level of their own.
     const Float table = p.read(f.table) * (1.0f - canyon) * (1.0f - range);
     Var<Float> rise = p.var(side + smoothstep(0.0f, 170.0f, beside) * table * 210.0f);
+    // A trough: steep walls, shoulders above them. Side valleys hang above the floor of the main one.
+    p.if_(ice.share > 0.0f, [&] {
+        const Float wall = smoothstep(0.0f, 75.0f, beside) * (ice.main * 90.0f + 70.0f);
+        const Float shoulder = max(beside - 60.0f, Float(0.0f));
+        const Float trough = wall + shoulder * steep * (shoulder * 0.003f + 0.75f);
+        const Float hanging = smoothstep(7.0f, 3.0f, ice.flow) * 36.0f;
+        rise = lerp(static_cast<Float>(rise), trough + hanging, ice.share * 0.85f);
+    });
     // Walls with terraces, then a flat top.
     p.if_(canyon > 0.0f, [&] {
         const Float wall = smoothstep(6.0f, 75.0f, beside + p.simplex2D("walls", 32, {.3f, 1.0f}) * 14.0f);
@@ -68,8 +88,10 @@ void basePass(Pass& p, const Fields& f) {
     constexpr float kFar = 250.0f, kFarthest = 380.0f;  // blocks from streams where these count less
     const Float land = p.read(f.land), range = p.read(f.range), hilly = p.read(f.hilly);
     const ValleySample v = p.valleys(f.rivers);
-    const Float floorWidth = sqrt(v.flow) * (1.0f - range * 0.6f) * 3.0f;
-    const Float slope = v.level + 1.6f + slopeAbove(p, f, canyon, max(v.distance - floorWidth, Float(0.0f)));
+    const Ice ice = iceOf(p, f, v.flow);
+    const Float floorWidth = sqrt(v.flow) * (1.0f - range * 0.6f) * 3.0f + ice.share * ice.main * 24.0f;
+    const Float beside = max(v.distance - floorWidth, Float(0.0f));
+    const Float slope = v.level + 1.6f + slopeAbove(p, f, canyon, beside, ice);
     // Where there are no streams; beyond the columns that see them, the mean height of land between them.
     Float plain = kSea + 2.0f + land * 30.0f;
     if (p.step() > kMaxValleyStep)
@@ -83,11 +105,17 @@ void basePass(Pass& p, const Fields& f) {
         ground = lerp(coast, inland, smoothstep(0.15f, 0.25f, land));
     });
     p.if_(land <= 0.0f, [&] { ground = withStacks(p, f, seaFloor(p, land)); });
-    const Volcano volcano = volcanoAt(p);
-    p.if_(volcano.share > 0.0f, [&] {
-        const Float cone = kSea + volcano.rise + smoothstep(-0.3f, 0.3f, land) * 120.0f - 90.0f;
-        ground = smoothMax(ground, cone, 12.0f);
+    // The sea fills troughs as far as their streams are low: fjords.
+    const Float fjord = smoothstep(0.08f, -0.08f, p.read(f.temperature)) * smoothstep(0.02f, 0.15f, range) *
+                        ice.main * smoothstep(75.0f, 30.0f, v.level);
+    p.if_(fjord > 0.0f && land > -0.1f, [&] {
+        const Float deep = smoothstep(34.0f, 4.0f, beside) * smoothstep(0.0f, 0.4f, fjord);
+        ground = lerp(static_cast<Float>(ground), min(ground, Float(kSea - 42.0f)), deep);
     });
+    const Volcano volcano = volcanoAt(p);
+    p.if_(volcano.share > 0.0f, [&] { ground = smoothMax(ground, volcano.height, 12.0f); });
+    p.set(f.craterLake, volcano.lake);
+    p.set(f.isLava, volcano.isLava && volcano.lake > -kNoSpan);
     p.set(f.base, static_cast<Float>(ground));
     p.set(f.fromStream, v.distance);
     p.set(f.streamLevel, v.level);
@@ -114,7 +142,7 @@ Relief detailed(Pass& p, const Fields& f) {
     const Float steep = length(slope);
     const Float strength = inland * smoothstep(kSea + 2.0f, kSea + 30.0f, base) * beside *
                            (max(max(range, dry), smoothstep(0.3f, 0.9f, steep)) * 0.6f + 0.4f) *
-                           (1.0f - p.read(f.canyon) * 0.6f);
+                           (1.0f - p.read(f.canyon) * 0.6f) * smoothstep(0.88f, 0.8f, p.read(f.volcanic));
     p.if_(strength > 0.0f, [&] {
         const Eroded gullies =
             erode(p, "gullies", slope, strength,
@@ -180,6 +208,18 @@ Water cut(Pass& p, const Fields& f, Float ground) {
         water = select(fromBank < 0.0f, max(Int(floor(top)), Int(kSeaZ)), Int(kSeaZ));
         wet = smoothstep(12.0f, 2.0f, fromBank);
     });
+    // Pools of marshes, as high as the river beside them, with rims.
+    const Float marsh = smoothstep(0.0f, 0.12f, p.read(f.moisture)) * smoothstep(0.02f, 0.006f, r.fall) *
+                        smoothstep(44.0f, 26.0f, fromBank) * smoothstep(3.0f, 7.0f, fromBank);
+    p.if_(marsh > 0.0f && land > 0.02f && ground < r.level + 2.6f, [&] {
+        const Float pools = p.simplex2D("marsh pools", 10, {.5f, 1.0f}) - (1.0f - marsh) * 1.5f;
+        const Float level = max(min(r.level, p.read(f.base) - 1.0f), Float(kSea + 0.5f));
+        const Bool isPool = pools > 0.32f, isRim = pools > 0.05f;
+        const Float rim = max(static_cast<Float>(height), floor(level) + 1.2f);
+        height = select(isPool, floor(level) - 0.7f, select(isRim, rim, static_cast<Float>(height)));
+        water = select(isPool, Int(floor(level)), static_cast<Int>(water));
+        wet = select(isRim, Float(1.0f), static_cast<Float>(wet));
+    });
     p.if_(r.lakeDistance < 60.0f, [&] {
         const Float fromShore = r.lakeDistance + p.simplex2D("shores", 24, {.3f, .6f, 1.0f}) * 22.0f;
         const Float shore = r.lakeLevel + 1.2f + clamp(fromShore * 0.1f, 0.0f, 2.0f);
@@ -201,10 +241,11 @@ void reliefPass(Pass& p, const Fields& f) {
     Var<Float> height = p.var(w.height), spring = p.var(Float(0.0f));
     Var<Int> water = p.var(w.water);
     addSprings(p, f, height, water, spring);
+    const Bool isInCrater = height < Float(p.read(f.craterLake));
     p.set(f.height, static_cast<Float>(height));
     p.set(f.rocky, r.rocky);
-    p.set(f.water, static_cast<Int>(water));
-    p.set(f.wet, w.wet);
+    p.set(f.water, select(isInCrater, p.read(f.craterLake), static_cast<Int>(water)));
+    p.set(f.wet, select(isInCrater, Float(1.0f), w.wet));
     p.set(f.spring, static_cast<Float>(spring));
     p.set(f.surface, Int(floor(height)));
 }

@@ -35,7 +35,7 @@ Int biomeOf(Pass& p, const Fields& f, const Site& s) {
     const Float t = s.temperature, m = s.moisture, land = p.read(f.land);
     const Float patches = p.perlin2D("woods of one kind", 128, {.3f, .6f, 1.0f});
     const Float shore = p.perlin2D("beach width", 64, {.4f, 1.0f}) * 0.008f + 0.009f;
-    const Bool isSea = s.height < kSea + 0.5f && land < 0.05f;
+    const Bool isSea = s.height < kSea + 0.5f && (land < 0.05f || p.read(f.range) > 0.2f);
     const Bool isShallow = s.height > kSea - 18.0f, isDeep = s.height < kSea - 60.0f;
     const Int sea =
         multiSelect({{isDeep, is(Biome::DeepOcean)},
@@ -163,7 +163,8 @@ Ground groundOf(Pass& p, const Fields& f, const Site& s, Int biome) {
     // Stones that fall from cliffs lie below them.
     const Bool isScree = p.read(f.range) > 0.15f && s.cold < 0.0f && s.steepness > bareFrom - 0.3f && !isBare;
     const Bool keepsSnow = is(top, "snow") && s.steepness < patches * 0.4f + 1.35f;
-    const Bool isUnderWater = p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f;
+    const Bool isUnderWater =
+        p.read(f.surface) < p.read(f.water) && p.read(f.wet) > 0.0f && !p.read(f.isLava);
     const Block bottom = landforms::riverBed(p, patches, spots);
     return {multiSelect({{isUnderWater, bottom},
                          {isBare && !keepsSnow, rock},
@@ -181,7 +182,11 @@ Int caveTop(Pass& p, const Fields& f, const Site& s) {
     // Caves do not open the water of sinkholes, nor the pools of hot springs.
     const Bool isBesideWater = besideSinkhole(p, f, 0.01f) < 26.0f;
     const Float thick = select(p.read(f.spring) > 0.0f, Float(12.0f), roof);
-    const Float highest = select(isBesideWater, Float(kSea - 34.0f), s.height - thick);
+    // Nor the notches of cliffs.
+    const Float land = p.read(f.land);
+    const Float below =
+        select(land > -0.04f && land < 0.012f, Float(kSea - 14.0f), Float(static_cast<float>(kNoSpan)));
+    const Float highest = min(select(isBesideWater, Float(kSea - 34.0f), s.height - thick), below);
     return select(isShaft(p, f) && !isBesideWater, p.read(f.surface) + kShaftMark, Int(floor(highest)));
 }
 

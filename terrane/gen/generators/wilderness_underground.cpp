@@ -34,7 +34,8 @@ constexpr float kPassage = 13, kPassageDeep = 4;  // blocks: like `room` and `de
 constexpr int kSealed = 5;                        // blocks of rock below lakes
 constexpr int kNowhere = -10000;                  // z
 constexpr float kFar = kNowhere;
-constexpr float kStem = 40;  // blocks: stems of mushrooms reach into the ground
+constexpr float kFewest = 0.25f;  // share of caves below which there are only tunnels
+constexpr float kStem = 40;       // blocks: stems of mushrooms reach into the ground
 
 std::string named(const StoreyKind& kind, const char* what) {
     return std::string(kind.name) + " cave " + what;
@@ -55,16 +56,16 @@ Float cavePlaces(Pass& p) {
 }
 
 Float manyCaves(Pass& p, Float limestone) {
-    return smoothstep(-0.5f, 0.05f, cavePlaces(p) + limestone * 0.4f);
+    return smoothstep(-0.35f, 0.15f, cavePlaces(p) + limestone * 0.4f);
 }
 
 Country country(Pass& p, const Fields& f) {
     const Float volcanic = p.read(f.volcanic), limestone = limestoneShare(p, f);
     return {manyCaves(p, limestone),
             limestone,
-            p.simplex2D("hot rock", 512, {.4f, 1.0f}) + volcanic * 2.0f,
+            p.perlin2D("hot rock", 512, {.4f, 1.0f}) + volcanic * 2.0f,
             smoothstep(0.12f, 0.3f, p.read(f.moisture)) * smoothstep(-0.25f, -0.1f, p.read(f.temperature)),
-            p.simplex2D("crystal caves", 128, {.4f, 1.0f}) - 0.45f,
+            p.perlin2D("crystal caves", 128, {.4f, 1.0f}) - 0.45f,
             p.read(f.cold) < -0.46f,
             volcanic > 0.12f};
 }
@@ -80,9 +81,9 @@ Float rounded(Float share) {
 
 // `wider`: 0, or more to find what is near a hollow.
 Hollow hollowAt(Pass& p, const StoreyKind& kind, Float many, float wider) {
-    const Float room = p.simplex2D(named(kind, "rooms"), 160, {.22f, .5f, 1.0f});
+    const Float room = p.perlin2D(named(kind, "rooms"), 160, {.22f, .5f, 1.0f});
     const Float line = abs(p.simplex2D(named(kind, "passages"), 96, {.2f, .45f, 1.0f}));
-    const Float inRoom = clamp((room - 1.07f + many * 0.5f + wider * 0.05f) * 2.6f, 0.0f, 1.0f);
+    const Float inRoom = clamp((room - 1.06f + many * 0.72f + wider * 0.05f) * 3.4f, 0.0f, 1.0f);
     const Float inPassage = clamp((many * 1.4f - 0.4f) + wider - line * (1.0f / 0.07f), 0.0f, 1.0f);
     return {max(rounded(inRoom) * kind.room, rounded(inPassage) * kPassage),
             max(min(inRoom * 3.0f, Float(1.0f)) * kind.deep, inPassage * kPassageDeep)};
@@ -109,7 +110,7 @@ struct Lining {
 
 Lining liningOf(Pass& p, const Fields& f, int storey, const Country& c) {
     const Block rock = p.read(f.rock);
-    const Float patches = p.simplex2D("cave walls", 14, {.5f, 1.0f});
+    const Float patches = p.perlin2D("cave walls", 14, {.5f, 1.0f});
     const auto block = [&](const char* name) { return p.block(name); };
     const bool isUnderSky = storey <= kUpper;
     Float fungus = min(c.forest, smoothstep(0.6f, 0.3f, cavePlaces(p)));
@@ -226,10 +227,10 @@ struct Room {
 void findRoom(Pass& p, const Fields& f, const Country& c, int storey, Room& room) {
     const StoreyKind& kind = kKinds[storey];
     const Float surface(p.read(f.surface));
-    p.if_(surface > kind.middle - kind.vary - kind.deep, [&] {
+    p.if_(surface > kind.middle - kind.vary - kind.deep && c.many > kFewest, [&] {
         const Hollow h = hollowAt(p, kind, c.many, 0.0f), near = hollowAt(p, kind, c.many, 0.35f);
         const Float middle =
-            p.simplex2D(named(kind, "heights"), 256, {.4f, 1.0f}) * (kind.vary * 0.8f) + kind.middle;
+            p.perlin2D(named(kind, "heights"), 256, {.4f, 1.0f}) * kind.vary + kind.middle;
         Float low = middle - h.down;
         if (kind.lakeFloor != kNoLake) low = max(low, Float(static_cast<float>(kind.lakeFloor)));
         if (kind.lake != kNoLake) {
@@ -249,8 +250,8 @@ void findRoom(Pass& p, const Fields& f, const Country& c, int storey, Room& room
             room.wallFloor = Int(floor(middle - near.down)) - 3;
             room.wallRoof = Int(floor(middle + near.up)) + 4;
             p.if_(h.up > 1.5f, [&] {
-                const Float bumps = p.simplex2D("cave floors", 9, {.5f, 1.0f});
-                const Float rough = p.simplex2D("cave roofs", 15, {.4f, .7f, 1.0f});
+                const Float bumps = p.perlin2D("cave floors", 9, {.5f, 1.0f});
+                const Float rough = p.perlin2D("cave roofs", 15, {.4f, .7f, 1.0f});
                 const Float high = middle + h.up - (rough + 1.0f) * min(h.up * 0.16f, Float(7.0f));
                 const Float bottom = low + (bumps + 0.6f) * min(h.up * 0.1f, Float(2.2f));
                 const Float gap = high - bottom;
@@ -339,7 +340,7 @@ void underSurfacePass(Pass& p, const Fields& f) {
     p.if_(karst > 0.35f && away < kSealWidth, [&] {
         const Float wide = smoothstep(0.35f, 0.6f, karst);
         const Float level = floor(p.read(f.streamLevel) - kBelow);
-        const Float bends = p.simplex2D("river cave banks", 12, {.5f, 1.0f}) * 1.2f;
+        const Float bends = p.perlin2D("river cave banks", 12, {.5f, 1.0f}) * 1.2f;
         const Float across = away * (1.0f / kHalfWidth);
         const Float bed = select(
             across < 1.0f, level - 1.0f - rounded(1.0f - clamp(across, 0.0f, 1.0f)) * 3.0f, level + 2.0f);
@@ -407,10 +408,10 @@ Block withCaves(Pass& p, const Fields& f, Block rock) {
 Block withOre(Pass& p, const Fields& f, Block rock) {
     const Int z = p.z();
     Var<Block> block = p.var(rock);
-    const Float vein = abs(p.simplex2D("veins", 40, {.35f, .6f, 1.0f}));
+    const Float vein = abs(p.perlin2D("veins", 40, {.35f, .6f, 1.0f}));
     p.if_(vein < 0.06f && z < 420, [&] {
         const Float lumps = p.perlin3D("ore", 5, {.7f, 1.0f});
-        const Float kinds = p.simplex2D("kinds of ore", 256, {.5f, 1.0f});
+        const Float kinds = p.perlin2D("kinds of ore", 256, {.5f, 1.0f});
         const Block rockHere = p.read(f.rock);
         const Block ore = multiSelect(
             {{rockHere == p.block("basalt"), p.block("glowing_ore")},

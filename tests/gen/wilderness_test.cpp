@@ -1,0 +1,152 @@
+// Caves and places of wilderness: great rooms, caves of ice where it is cold alone, and every kind of place
+// near enough to be found.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "terrane/gen/generators/wilderness.h"
+#include "tests/gen/chunk_area.h"
+
+namespace terrane::gen {
+namespace {
+
+using wilderness::Place;
+
+// Fields by column of one chunk or tile of seed 1.
+class Columns {
+  public:
+    explicit Columns(int level = 0)
+        : level_(static_cast<std::uint8_t>(level)),
+          graph_(*makeGenerator("wilderness", contentBlocks(), level)),
+          generator_(graph_, 1) {}
+
+    auto of(std::string_view field, int chunkX, int chunkY) const {
+        const auto found = std::ranges::find(graph_.fields, field, &FieldInfo::name);
+        EXPECT_NE(found, graph_.fields.end()) << field;
+        return generator_.columns({chunkX, chunkY, level_},
+                                  static_cast<std::uint32_t>(found - graph_.fields.begin()));
+    }
+    Bits at(std::string_view field, int x, int y) const {
+        return of(field, x >> 4, y >> 4)[static_cast<std::size_t>((x & 15) + 16 * (y & 15))];
+    }
+
+  private:
+    std::uint8_t level_;
+    GeneratorGraph graph_;
+    Generator generator_;
+};
+
+int asInt(Bits bits) {
+    return static_cast<int>(bits);
+}
+
+// At 146, 721 the middle storey has a room of more than 100 blocks.
+TEST(WildernessCaves, HaveGreatRooms) {
+    const Columns columns;
+    int highest = 0, x = 0, y = 0, floor = 0;
+    for (int chunkY = 43; chunkY < 48; ++chunkY) {
+        for (int chunkX = 6; chunkX < 12; ++chunkX) {
+            const auto floors = columns.of("middle floor", chunkX, chunkY),
+                       roofs = columns.of("middle roof", chunkX, chunkY);
+            for (int k = 0; k < 256; ++k) {
+                const auto column = static_cast<std::size_t>(k);
+                const int gap = asInt(roofs[column]) - asInt(floors[column]) - 1;
+                if (gap <= highest) continue;
+                highest = gap, x = chunkX * 16 + k % 16, y = chunkY * 16 + k / 16;
+                floor = asInt(floors[column]);
+            }
+        }
+    }
+    ASSERT_GE(highest, 80);
+    const Area area(generatorOf("wilderness", 1), {x >> 4, y >> 4}, 1);
+    const BlockId water = idOf("water");
+    for (int z = floor + 3; z < floor + highest; ++z) {
+        const BlockId block = area.at(x & 15, y & 15, z);
+        ASSERT_TRUE(block == world::kAir || block == water) << area.where(x & 15, y & 15, z);
+    }
+}
+
+TEST(WildernessCaves, AreOfIceOnlyWhereItIsCold) {
+    const Columns columns;
+    const BlockId ice = idOf("ice");
+    int cold = 0, icy = 0;
+    for (int chunkY = -420; chunkY < 60; chunkY += 12) {
+        for (int chunkX = 100; chunkX < 340; chunkX += 12) {
+            const auto walls = columns.of("upper wall", chunkX, chunkY);
+            const auto temperatures = columns.of("cold", chunkX, chunkY);
+            for (std::size_t column = 0; column < walls.size(); ++column) {
+                const bool isIce = static_cast<BlockId>(walls[column]) == ice;
+                EXPECT_TRUE(!isIce || asFloat(temperatures[column]) < -0.45f);
+                icy += isIce;
+                cold += asFloat(temperatures[column]) < -0.45f;
+            }
+        }
+    }
+    EXPECT_GT(cold, 0);
+    EXPECT_GT(icy, 0);
+}
+
+// A column of each kind of place that shows that it is there, within 8 km.
+TEST(WildernessPlaces, AreAllWithinReach) {
+    constexpr int kLevel = 4, kTiles = 32;  // 16 blocks a column, 256 a tile
+    const Columns wide(kLevel), fine;
+    std::map<int, int> found;
+    std::set<std::pair<int, int>> seen;
+    for (int tile = 0; tile < 4 * kTiles * kTiles; ++tile) {
+        const int tileX = tile % (2 * kTiles) - kTiles, tileY = tile / (2 * kTiles) - kTiles;
+        const auto kinds = wide.of("place", tileX, tileY), xs = wide.of("place x", tileX, tileY),
+                   ys = wide.of("place y", tileX, tileY);
+        for (int k = 0; k < 256; k += 85) {
+            const auto column = static_cast<std::size_t>(k);
+            const int kind = asInt(kinds[column]);
+            if (kind < 0 || found[kind] >= 1) continue;
+            const int x = (tileX * 16 + k % 16) * 16 + 8 + asInt(xs[column]),
+                      y = (tileY * 16 + k / 16) * 16 + 8 + asInt(ys[column]);
+            if (!seen.insert({x, y}).second) continue;
+            bool isThere = false;
+            switch (static_cast<Place>(kind)) {
+                case Place::Arch:
+                case Place::SeaArch:
+                    isThere = asInt(fine.at("arch high", x, y)) > asInt(fine.at("surface", x, y)) + 8;
+                    break;
+                case Place::Sinkhole:
+                    isThere = asInt(fine.at("surface", x, y)) < 0 && asFloat(fine.at("base", x, y)) > 8;
+                    break;
+                case Place::HotSprings:
+                    isThere = asFloat(fine.at("spring", x, y)) > 0;
+                    break;
+                default:
+                    isThere = asInt(fine.at("tree", x, y)) >= 0;
+                    break;
+            }
+            found[kind] += isThere;
+        }
+    }
+    for (int kind = 0; kind < static_cast<int>(Place::Count); ++kind)
+        EXPECT_GE(found[kind], 1) << "kind " << kind;
+}
+
+// Levels agree where the point of a square is and what is there.
+TEST(WildernessPlaces, AreTheSameAtAllLevels) {
+    const Columns fine;
+    for (const int level : {1, 3, 5}) {
+        const Columns coarse(level);
+        for (int x = -3000; x < 3000; x += 700) {
+            const int step = 1 << level, column = (x >> level) * step + step / 2;
+            const int wide = x >> level;
+            EXPECT_EQ(asInt(coarse.at("place", wide, wide)), asInt(fine.at("place", column, column)));
+            EXPECT_EQ(asInt(coarse.at("place x", wide, wide)), asInt(fine.at("place x", column, column)));
+        }
+    }
+}
+
+}  // namespace
+}  // namespace terrane::gen
