@@ -229,8 +229,7 @@ void findRoom(Pass& p, const Fields& f, const Country& c, int storey, Room& room
     const Float surface(p.read(f.surface));
     p.if_(surface > kind.middle - kind.vary - kind.deep && c.many > kFewest, [&] {
         const Hollow h = hollowAt(p, kind, c.many, 0.0f), near = hollowAt(p, kind, c.many, 0.35f);
-        const Float middle =
-            p.perlin2D(named(kind, "heights"), 256, {.4f, 1.0f}) * kind.vary + kind.middle;
+        const Float middle = p.perlin2D(named(kind, "heights"), 256, {.4f, 1.0f}) * kind.vary + kind.middle;
         Float low = middle - h.down;
         if (kind.lakeFloor != kNoLake) low = max(low, Float(static_cast<float>(kind.lakeFloor)));
         if (kind.lake != kNoLake) {
