@@ -93,7 +93,7 @@ class Compiler {
             if (n.op != Op::FieldAt || n.imm != field) continue;
             const Node& dy = graph_.node(n.args[1]);
             if (dy.op != Op::Constant) return kMaxReadOffset;
-            rows = std::max(rows, std::min(std::abs(asInt(dy.imm)), kMaxReadOffset));
+            rows = std::max(rows, std::abs(std::clamp(asInt(dy.imm), -kMaxReadOffset, kMaxReadOffset)));
         }
         return rows;
     }

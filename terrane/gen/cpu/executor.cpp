@@ -84,9 +84,15 @@ void Executor::run3D(const VoxelPass& pass, const PassInputs& inputs, BlockLayer
             height = std::max(height / 4, kLowestSlab);
             continue;
         }
-        // Where the first part decides no more than the whole, as on steep land, the others are not looked
-        // at.
-        const bool isAlike = whole > 0 && !ranges_.block() && ranges_.decisions() == wholeDecisions_;
+        // Where the first and the last part decide no more than the whole, as on steep land, the parts
+        // between are not looked at.
+        const auto isLikeWhole = [&] { return !ranges_.block() && ranges_.decisions() == wholeDecisions_; };
+        bool isAlike = whole > 0 && isLikeWhole();
+        if (isAlike) {
+            ranges_.analyze(z + whole - height, height);
+            isAlike = isLikeWhole();
+            if (!isAlike) ranges_.analyze(z, height);
+        }
         if (isAlike) height = whole;
         whole = 0;
         runSlab(z, height);

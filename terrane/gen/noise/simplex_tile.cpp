@@ -11,10 +11,11 @@ SimplexAxis simplexAxis(std::int32_t first, std::int32_t step, std::int32_t size
     const float inverseSize = 1.0f / static_cast<float>(size);
     SimplexAxis axis;
     // Mostly the whole tile is in one period.
-    const std::int32_t start = first % periodBlocks + (first % periodBlocks < 0 ? periodBlocks : 0);
+    const bool isBelow = first % periodBlocks < 0;
+    const std::int32_t start = first % periodBlocks + (isBelow ? periodBlocks : 0);
     const std::int64_t width = std::int64_t{step} * (kTileSize - 1);
     if (start + width < periodBlocks && first + width <= std::numeric_limits<std::int32_t>::max()) {
-        axis.period.fill((first - start) / periodBlocks);
+        axis.period.fill(first / periodBlocks - (isBelow ? 1 : 0));
         for (std::size_t k = 0; k < kTileSize; ++k)
             axis.cells[k] = static_cast<float>(start + static_cast<std::int32_t>(k) * step) * inverseSize;
         return axis;
