@@ -142,21 +142,21 @@ std::vector<StructLayout> meshSectionLayouts() {
              {{"cameraPlanes", offsetof(CullFrame, cameraPlanes)},
               {"cameraPosition", offsetof(CullFrame, cameraPosition)},
               {"firstCommand", offsetof(CullFrame, firstCommand)},
-              {"viewProjection", offsetof(CullFrame, viewProjection)},
+              {"view.viewProjection", offsetof(CullFrame, view.viewProjection)},
+              {"view.viewportSize", offsetof(CullFrame, view.viewportSize)},
+              {"view.nearPlane", offsetof(CullFrame, view.nearPlane)},
+              {"view.edgeExpansion", offsetof(CullFrame, view.edgeExpansion)},
+              {"view.blockPixels", offsetof(CullFrame, view.blockPixels)},
+              {"view.samples", offsetof(CullFrame, view.samples)},
+              {"view.hiZLevels", offsetof(CullFrame, view.hiZLevels)},
+              {"view.unused", offsetof(CullFrame, view.unused)},
               {"cameraChunk", offsetof(CullFrame, cameraChunk)},
-              {"viewportSize", offsetof(CullFrame, viewportSize)},
-              {"nearPlane", offsetof(CullFrame, nearPlane)},
-              {"hiZLevels", offsetof(CullFrame, hiZLevels)},
               {"meshSectionCount", offsetof(CullFrame, meshSectionCount)},
               {"phase", offsetof(CullFrame, phase)},
               {"arenaQuads", offsetof(CullFrame, arenaQuads)},
-              {"edgeExpansion", offsetof(CullFrame, edgeExpansion)},
-              {"blockPixels", offsetof(CullFrame, blockPixels)},
-              {"samples", offsetof(CullFrame, samples)},
               {"commandsEnd", offsetof(CullFrame, commandsEnd)},
               {"maxTestGroups", offsetof(CullFrame, maxTestGroups)},
-              {"unused0", offsetof(CullFrame, unused0)},
-              {"unused1", offsetof(CullFrame, unused1)}}}};
+              {"unused", offsetof(CullFrame, unused)}}}};
 }
 
 std::vector<StructLayout> mesherLayouts() {

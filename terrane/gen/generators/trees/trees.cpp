@@ -64,7 +64,7 @@ constexpr KindEntry kKinds[] = {
     {Kind::Snag, "snag", "dead_log", "dead_log", 6, drawSnag},
     {Kind::Stump, "stump", "oak_log", "oak_log", 6, drawStump},
     {Kind::UprootedTree, "uprooted tree", "oak_log", "oak_log", 6, drawUprootedTree},
-    {Kind::GiantTree, "giant tree", "oak_log", "oak_leaves", 3, drawGiantTree},
+    {Kind::GiantTree, "giant tree", "oak_log", "oak_leaves", 4, drawGiantTree},
 };
 
 constexpr bool kindsAreInOrder() {
