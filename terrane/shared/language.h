@@ -1,6 +1,7 @@
 // Lets one header be read as C++20 and as GLSL 4.50. Every header in this folder includes it first.
 // In both languages: `uint` is 32 bits, typed constants are `const uint kName = 4u;`, functions start with
-// SHARED_FN or SHARED_INLINE, structs hold scalars, two- and four-vectors only (std430 aligns a three-vector to 16 bytes).
+// SHARED_FN or SHARED_INLINE, structs hold scalars, two- and four-vectors only (std430 aligns a three-vector
+// to 16 bytes).
 #ifndef TERRANE_SHARED_LANGUAGE_H
 #define TERRANE_SHARED_LANGUAGE_H
 

@@ -77,8 +77,8 @@ TEST_F(ResizeTest, ALargerImageIsShownAsItsMean) {
     }
 }
 
-// Along edges an enlarged image is nearer to one that is drawn large than by blending or square pixels, if its
-// edges are smooth.
+// Along edges an enlarged image is nearer to one that is drawn large than by blending or square pixels, if
+// its edges are smooth.
 TEST_F(ResizeTest, EdgesAreNearestToALargeImage) {
     samples_ = 4;
     const base::Image large = drawAt(kShown, 100);

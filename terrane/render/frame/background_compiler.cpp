@@ -41,8 +41,8 @@ world::Chunk sampleChunk(const world::BlockRegistry& blocks) {
     return chunk;
 }
 
-// Options that select the same programs, with a small shadow map. An image that is enlarged takes all programs
-// of one that is not.
+// Options that select the same programs, with a small shadow map. An image that is enlarged takes all
+// programs of one that is not.
 RenderOptions withTheSamePrograms(RenderOptions options) {
     options.shadowSize = 256;
     options.animation = options.distanceFog = true;
