@@ -71,7 +71,10 @@ class DrawMethodTest : public gpu::GlTest {
         }
         glFinish();
         EXPECT_EQ(a.statistics().shadowTriangles, b.statistics().shadowTriangles) << name;
-        EXPECT_GT(a.statistics().quads, 0u) << name;
+        for (Renderer* renderer : {&a, &b}) {
+            EXPECT_GT(renderer->statistics().quads, 0u) << name;
+            EXPECT_GT(renderer->statistics().meshSections, 0u) << name;
+        }
     }
 
     void expectSameLoop(std::initializer_list<int> sampleCounts) {

@@ -107,7 +107,9 @@ void CpuCull::run(CullPhase phase, const CullInput& input, const MeshSectionTabl
         }
         const shared::uint drawnEarly = directions & std::exchange(seen, std::uint8_t{0});
         if (isHidden(wavingLow, wavingHigh)) continue;
+        const std::size_t before = records_.size();
         seen = drawNew(section, directions, drawnEarly);
+        counts_.meshSections += records_.size() > before;
         for (shared::uint bucket = shared::kListedDrawLists; bucket < shared::kDrawBuckets; ++bucket)
             drawRanges(section, bucket, directions);
     }

@@ -22,8 +22,8 @@ struct GpuMemory {
     std::size_t total() const { return world() + fixed(); }
 };
 
-// Sums over the early and the late pass: mesh sections drawn by both count twice. Quads that quad_list.h
-// omits do not count. A draw command counts even if its list is empty.
+// Sums over the early and the late pass: mesh sections drawn by both count twice. Quads that are not
+// listed do not count. A draw command counts even if its list, which the GPU makes, is empty.
 struct FrameStatistics {
     std::size_t meshSections = 0, quads = 0, drawCommands = 0;
     std::size_t opaqueTriangles = 0, transparentTriangles = 0;  // of these, alpha-tested ones are opaque
