@@ -48,7 +48,7 @@ std::vector<int> biomesOf(std::span<const Entry> table) {
     std::vector<int> biomes;
     for (const Entry& entry : table) biomes.push_back(entry.biome.value);
     std::ranges::sort(biomes);
-    biomes.erase(std::ranges::unique(biomes).begin(), biomes.end());
+    biomes.erase(std::unique(biomes.begin(), biomes.end()), biomes.end());
     return biomes;
 }
 
