@@ -43,7 +43,7 @@ struct Footprint {
 // Texels of a level of Hi-Z.
 struct HiZArea {
     ivec2 first, last;
-    int level;
+    int level, unused;
 };
 
 SHARED_INLINE bool isOutside(vec4 plane, vec3 low, vec3 high) {
@@ -147,6 +147,7 @@ SHARED_INLINE HiZArea hiZArea(SHARED_REF(CullView) view, Footprint print, int le
     area.first = ivec2(low) / int(kHiZTexelPixels) >> level;
     area.last = ivec2(high) / int(kHiZTexelPixels) >> level;
     area.level = level;
+    area.unused = 0;
     return area;
 }
 

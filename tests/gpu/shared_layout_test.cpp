@@ -11,6 +11,7 @@
 #include "terrane/base/files.h"
 #include "terrane/gpu/program.h"
 #include "terrane/shared/air.h"
+#include "terrane/shared/culling.h"
 #include "terrane/shared/drainage.h"
 #include "terrane/shared/figure.h"
 #include "terrane/shared/frame.h"
@@ -159,6 +160,38 @@ std::vector<StructLayout> meshSectionLayouts() {
               {"unused", offsetof(CullFrame, unused)}}}};
 }
 
+std::vector<StructLayout> cullingLayouts() {
+    using shared::CullView, shared::Footprint, shared::HiZArea;
+    return {{"CullView",
+             "mesh_section.h",
+             true,
+             sizeof(CullView),
+             {{"viewProjection", offsetof(CullView, viewProjection)},
+              {"viewportSize", offsetof(CullView, viewportSize)},
+              {"nearPlane", offsetof(CullView, nearPlane)},
+              {"edgeExpansion", offsetof(CullView, edgeExpansion)},
+              {"blockPixels", offsetof(CullView, blockPixels)},
+              {"samples", offsetof(CullView, samples)},
+              {"hiZLevels", offsetof(CullView, hiZLevels)},
+              {"unused", offsetof(CullView, unused)}}},
+            {"Footprint",
+             "culling.h",
+             false,
+             sizeof(Footprint),
+             {{"low", offsetof(Footprint, low)},
+              {"high", offsetof(Footprint, high)},
+              {"nearest", offsetof(Footprint, nearest)},
+              {"isBefore", offsetof(Footprint, isBefore)}}},
+            {"HiZArea",
+             "culling.h",
+             false,
+             sizeof(HiZArea),
+             {{"first", offsetof(HiZArea, first)},
+              {"last", offsetof(HiZArea, last)},
+              {"level", offsetof(HiZArea, level)},
+              {"unused", offsetof(HiZArea, unused)}}}};
+}
+
 std::vector<StructLayout> mesherLayouts() {
     using shared::MeshUnit, shared::MeshType, shared::MeshSectionCounts;
     return {{"MeshUnit",
@@ -296,8 +329,8 @@ std::vector<StructLayout> landLayouts() {
 
 std::vector<StructLayout> allLayouts() {
     std::vector<StructLayout> all;
-    for (const auto& layouts :
-         {frameLayouts(), meshSectionLayouts(), mesherLayouts(), otherLayouts(), landLayouts()}) {
+    for (const auto& layouts : {frameLayouts(), meshSectionLayouts(), cullingLayouts(), mesherLayouts(),
+                                otherLayouts(), landLayouts()}) {
         all.insert(all.end(), layouts.begin(), layouts.end());
     }
     return all;

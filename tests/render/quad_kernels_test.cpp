@@ -57,8 +57,8 @@ TEST_F(QuadKernelsTest, ThePyramidHasTheFarthestDepths) {
                 const glm::ivec2 at{within(0, size.x - 1), within(0, size.y - 1)};
                 const int width = 1 << level;
                 const glm::ivec2 first = at * width, last = glm::min(first + width, finest) - 1;
-                EXPECT_EQ(pyramid.farthestIn({at, at, static_cast<int>(level)}),
-                          pyramid.farthestIn({first, last, 0}));
+                EXPECT_EQ(pyramid.farthestIn({at, at, static_cast<int>(level), 0}),
+                          pyramid.farthestIn({first, last, 0, 0}));
             }
         }
     }
