@@ -27,7 +27,7 @@ readonly LONG_ADDRESS=(
     'RelightRandom.ScatteredBlocks*' 'RelightRandom.Sea*' 'RelightRandom.Solid*'
     'Seeds/Convergence.EverybodyHasTheServersWorld/1*' 'Shaders.ReferenceCompiler*' 'ShadowAcneTest*' 'ShapeSurface.CoversEachPart*'
     'SimulationTest.NothingIsLost*' 'Sites*' 'TallHolesTest*' 'TilesOfArea.Seen*' 'TitleTest*' 'Utf8.ExactlyTheCodes*'
-    'Voronoi3D.EverySample*' 'WildernessSpawn*'
+    'Voronoi3D.EverySample*' 'Wilderness*'
 )
 # Also cases of objects that threads do not share.
 readonly LONG_THREADS=(
