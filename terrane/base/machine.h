@@ -1,6 +1,7 @@
 // Describes the machine that measurements are made on.
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <string>
 
@@ -26,6 +27,10 @@ double memoryCopySpeed();
 std::size_t residentBytes();      // 0 if unknown
 std::size_t peakResidentBytes();  // so far
 double cpuSeconds();              // of all threads, so far
+
+// Returns the CPU time that the calling thread has used: what limits and measures work fairly on a busy
+// machine.
+std::chrono::nanoseconds threadTime();
 
 // These name the machine and the process for people on other machines.
 std::string machineName();  // "localhost" if it has no name

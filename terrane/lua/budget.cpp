@@ -1,11 +1,11 @@
 #include "terrane/lua/budget_internal.h"
 
 #include <fmt/format.h>
-#include <time.h>
 
 #include <algorithm>
 #include <cstdlib>
 
+#include "terrane/base/machine.h"
 #include "terrane/gen/noise/noise.h"
 #include "terrane/lua/lua_internal.h"
 #include "terrane/world/coords.h"
@@ -35,12 +35,6 @@ constexpr int kSlowness = 1;
 constexpr int kSlowness = 1;
 #endif
 
-std::chrono::nanoseconds threadTime() {
-    timespec now{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec);
-}
-
 // The line of the innermost function of the script; 0 while none runs.
 int currentLine(lua_State* L) {
     lua_Debug frame;
@@ -54,7 +48,7 @@ int currentLine(lua_State* L) {
 
 }  // namespace
 
-Budget::Budget(const Limits& limits) : limits_(limits), start_(threadTime()) {
+Budget::Budget(const Limits& limits) : limits_(limits), start_(base::threadTime()) {
     limits_.time *= kSlowness;
 }
 
@@ -73,7 +67,7 @@ bool Budget::spend(std::int64_t steps, std::int64_t stepsBetweenClocks) {
         spent_ = Spent::Steps;
     } else if (steps_ >= stepsAtClock_ + stepsBetweenClocks) {
         stepsAtClock_ = steps_;
-        if (threadTime() - start_ > limits_.time) spent_ = Spent::Time;
+        if (base::threadTime() - start_ > limits_.time) spent_ = Spent::Time;
     }
     if (spent_ == Spent::Nothing) return true;
     line_ = currentLine(state_);
@@ -81,11 +75,11 @@ bool Budget::spend(std::int64_t steps, std::int64_t stepsBetweenClocks) {
 }
 
 void Budget::pauseClock() {
-    pausedAt_ = threadTime();
+    pausedAt_ = base::threadTime();
 }
 
 void Budget::resumeClock() {
-    start_ += threadTime() - pausedAt_;
+    start_ += base::threadTime() - pausedAt_;
 }
 
 bool Budget::allows(std::size_t oldBytes, std::size_t newBytes, std::size_t mostBytes) {

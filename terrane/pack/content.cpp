@@ -7,6 +7,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "terrane/base/machine.h"
 #include "terrane/base/names.h"
 #include "terrane/content/built_in.h"
 #include "terrane/content/resource_pack.h"
@@ -173,13 +174,12 @@ base::Result<void> checkLanguages(const Pack& pack) {
     return {};
 }
 
-// Packs of servers must not block a client for minutes: a script may take 100 ms a level.
+// CPU time. Packs of servers must not block a client for minutes: a script may take 100 ms a level.
 constexpr std::chrono::seconds kLongestRecording{10};
 
 // Records each script of a pack.
 base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& blocks,
-                                 std::chrono::steady_clock::time_point until,
-                                 gen::GeneratorCatalogue& generators) {
+                                 std::chrono::nanoseconds until, gen::GeneratorCatalogue& generators) {
     constexpr std::string_view kFolder = "generators/", kEnding = ".lua";
     for (auto file = pack.files.lower_bound(kFolder);
          file != pack.files.end() && file->first.starts_with(kFolder); ++file) {
@@ -189,7 +189,7 @@ base::Result<void> addGenerators(const Pack& pack, const world::BlockRegistry& b
         const auto script =
             std::make_shared<const lua::Script>(lua::Script{file->second, displayPath(pack, path)});
         const lua::ScriptNames names{name, pack.info.name == kBuiltInPack ? std::string() : pack.info.name};
-        if (std::chrono::steady_clock::now() > until)
+        if (base::threadTime() > until)
             return base::fail(base::ErrorCode::BadInput, "{}: the scripts of the packs take more than {} s",
                               displayPath(pack, path), kLongestRecording.count());
         const auto version = TERRANE_TRY(lua::scriptVersion(*script, names, blocks));
@@ -217,7 +217,7 @@ base::Result<Content> loadContent(std::vector<Pack> packs, const world::Behavior
     TERRANE_TRY(checkTextures(*content.packs, content.blocks->textures().size()));
     content.textures = texturesOf(content.packs);
     content.generators = gen::builtInGenerators();
-    const auto until = std::chrono::steady_clock::now() + kLongestRecording;
+    const std::chrono::nanoseconds until = base::threadTime() + kLongestRecording;
     for (const Pack& pack : *content.packs) TERRANE_TRY(checkLanguages(pack));
     for (const Pack& pack : *content.packs)
         TERRANE_TRY(addGenerators(pack, *content.blocks, until, content.generators));

@@ -1,13 +1,13 @@
 #include "terrane/view/flight.h"
 
 #include <fmt/ostream.h>
-#include <time.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fstream>
 
+#include "terrane/base/machine.h"
 #include "terrane/base/statistics.h"
 #include "terrane/game/player.h"
 #include "terrane/view/camera_path.h"
@@ -22,9 +22,7 @@ double secondsSince(Clock::time_point start) {
 }
 
 double cpuMilliseconds() {
-    timespec time{};
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-    return static_cast<double>(time.tv_sec) * 1e3 + static_cast<double>(time.tv_nsec) / 1e6;
+    return std::chrono::duration<double, std::milli>(base::threadTime()).count();
 }
 
 // Flies, draws frames and logs them.
