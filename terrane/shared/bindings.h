@@ -56,6 +56,7 @@ const uint kLightEntriesUnit = 27u;
 const uint kSkyTableUnit = 28u;
 const uint kMilkyWayUnit = 29u;
 const uint kListedQuadsUnit = 30u;  // a buffer as a texture
+const uint kQuadLightUnit = 31u;    // a buffer as a texture, beside kQuadsUnit
 
 // Vertex attributes
 const uint kDrawRecordAttribute = 0u;  // DrawRecord, by the base instance

@@ -78,12 +78,11 @@ const int kSwitchUnlit = 8;  // the colors of the blocks alone
 // A camera is in the clouds up to so many blocks below and above their plane.
 const float kCloudDepth = 24.0f;
 
-// Alpha modes and animations are the values of world::AlphaMode and world::Animation.
 struct MaterialRecord {
-    uint texture;  // layer of the array
-    uint alphaMode;
-    uint animation;
-    uint options;  // material.h
+    uint look;       // material.h
+    uint options;    // material.h
+    uint meanColor;  // of its texture, sRGB: red in bits 0–7, green, blue
+    uint unused;
 };
 
 SHARED_END

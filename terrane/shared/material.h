@@ -33,6 +33,17 @@ const uint kFilteringNearest = 2u;
 const uint kSurfaceUnits = 1024u;
 const uint kWaveUnits = 1000u;
 
+// The look of a material: texture, layer of the array, in bits 0–11, alpha mode in 12–14, animation in 16–17.
+SHARED_FN uint lookTexture(uint look) {
+    return look & 4095u;
+}
+SHARED_FN uint lookAlphaMode(uint look) {
+    return (look >> 12) & 7u;
+}
+SHARED_FN uint lookAnimation(uint look) {
+    return (look >> 16) & 3u;
+}
+
 // The options of a material:
 //
 //   bits 0–1    wrap
@@ -69,6 +80,10 @@ SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
+
+constexpr uint packLook(uint texture, uint alphaMode, uint animation) {
+    return texture | alphaMode << 12 | animation << 16;
+}
 
 struct MaterialOptions {
     uint wrap = 0, filtering = 0, doublings = 0;

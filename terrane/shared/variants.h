@@ -6,6 +6,7 @@
 #define PASS_SURFACES 0
 #define PASS_LAYERS 1
 #define PASS_SHADOWS 2
+#define PASS_CORNERS 3
 
 // ALPHA_CLASS
 #define ALPHA_OPAQUE 0

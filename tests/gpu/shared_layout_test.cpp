@@ -88,10 +88,10 @@ std::vector<StructLayout> frameLayouts() {
              "frame.h",
              false,
              sizeof(MaterialRecord),
-             {{"texture", offsetof(MaterialRecord, texture)},
-              {"alphaMode", offsetof(MaterialRecord, alphaMode)},
-              {"animation", offsetof(MaterialRecord, animation)},
-              {"options", offsetof(MaterialRecord, options)}}}};
+             {{"look", offsetof(MaterialRecord, look)},
+              {"options", offsetof(MaterialRecord, options)},
+              {"meanColor", offsetof(MaterialRecord, meanColor)},
+              {"unused", offsetof(MaterialRecord, unused)}}}};
 }
 
 std::vector<StructLayout> meshSectionLayouts() {

@@ -233,7 +233,7 @@ void CullPass::drawBuckets(gpu::Pipeline& pipeline, const gpu::PipelineState& st
         const auto list = static_cast<shared::uint>(mesh::drawBucket(alphaClass, isTwoSided));
         for (std::size_t arena = 0; arena < arenaCount(); ++arena) {
             if (isEmpty(list, arena)) continue;
-            quads.texels(arena).bind(shared::kQuadsUnit);
+            quads.bindTexels(arena);
             drawList(list, arena);
         }
     }

@@ -1,11 +1,17 @@
-// Paints figures into the G-buffer in squares of 1/20 block: plain colors with a little grain, and a face.
+// Paints figures into the G-buffer, or with PASS_CORNERS into the image, in squares of 1/20 block: plain colors with a
+// little grain, and a face.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/figures/figure_look.glsl"
 #include "terrane/render/quads/packed_gbuffer.glsl"
 
 layout(location = 0) in vec3 inPlace;
 layout(location = 1) flat in uvec2 inFace;
+#if PASS == PASS_CORNERS
+layout(location = 2) in vec3 inScale;  // see corner_shade.glsl
+layout(location = 3) in vec3 inAdded;
+#else
 layout(location = 2) flat in vec3 inNormal;
+#endif
 layout(location = 0) out vec4 outSurface;
 
 const float kTexel = 0.05;  // blocks
@@ -125,5 +131,10 @@ void main() {
     uint part = inFace.x >> 3, side = inFace.x & 7u;
     vec3 color = colorOf(part, side, inFace.y, inPlace);
     float grain = part == kPartHead ? 0.03 : part == kPartHair || part == kPartHairUnderCap ? 0.16 : 0.08;
-    outSurface = packFigure(color * (1.0 + grain * grainAt(part, side, inPlace)), inNormal);
+    color *= 1.0 + grain * grainAt(part, side, inPlace);
+#if PASS == PASS_CORNERS
+    outSurface = vec4(color * inScale + inAdded, 1.0);
+#else
+    outSurface = packFigure(color, inNormal);
+#endif
 }

@@ -1,6 +1,6 @@
 // Figures of players, each an instance: boxes that turn about joints; x ahead, y to the left, z up, at rest with the
 // feet at z = 0. Only the three faces of a box that face the camera or the light are drawn; a face has six vertices.
-// PASS: surfaces or shadows.
+// PASS: surfaces, shadows or corners.
 #include "terrane/render/frame/frame_uniforms.glsl"
 #include "terrane/render/figures/figure_look.glsl"
 #include "terrane/shared/figure.h"
@@ -18,10 +18,17 @@ layout(std140, binding = kFiguresBinding) uniform FigureBlock {
     FigureRecord figures[kMostFigures];
 };
 
-#if PASS == PASS_SURFACES
+#if PASS != PASS_SHADOWS
 layout(location = 0) out vec3 outPlace;       // at rest
 layout(location = 1) flat out uvec2 outFace;  // part, axis of the normal × 2 + 1 if positive; look
+#endif
+#if PASS == PASS_SURFACES
 layout(location = 2) flat out vec3 outNormal;
+#elif PASS == PASS_CORNERS
+#include "terrane/render/quads/packed_gbuffer.glsl"
+#include "terrane/render/corners/corner_shade.glsl"
+layout(location = 2) out vec3 outScale;
+layout(location = 3) out vec3 outAdded;
 #endif
 
 const int kTrunk = 0, kHead = 1, kLeftLeg = 2, kRightLeg = 3, kLeftArm = 4, kRightArm = 5;
@@ -128,6 +135,17 @@ void main() {
     gl_Position = frame.viewProjection * vec4(position, 1.0);
     outPlace = place;
     outFace = uvec2(box.part << 3 | uint(2 * axis) | (isPositive ? 1u : 0u), figure.look);
-    outNormal = joint.turn[axis] * (isPositive ? 1.0 : -1.0);
+    vec3 normal = joint.turn[axis] * (isPositive ? 1.0 : -1.0);
+#if PASS == PASS_SURFACES
+    outNormal = normal;
+#else
+    const vec3 kMean = vec3(0.5);
+    Surface s = Surface(linearFromSrgb(kMean), normal, 0.0, nextDirection(normal), false, true);
+    vec3 toPoint = position - frame.cameraPosition.xyz;
+    vec4 levels = levelsAt(position, s);
+    Air air = airBefore(toPoint, levels.a);
+    outAdded = displayColor(air.added);
+    outScale = scaleOf(kMean, lightOf(s, levels), air, outAdded);
+#endif
 #endif
 }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "terrane/render/corners/corners.h"
 #include "terrane/render/frame/frame.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/world/character.h"
@@ -75,14 +76,22 @@ void FigurePass::draw(const gpu::Program& program, std::size_t count) const {
 MaybePass makeFigures(FrameBuilder& build) {
     const auto* program = TERRANE_TRY(build.programs.graphics("figures/figure", "figures/figure",
                                                               FigureVariant{QuadPass::Surfaces}.defines()));
+    CornerPrograms corners;
+    const bool isAtCorners = build.options().shading == Shading::Corners;
+    for (std::size_t k = 0; k < 2 && isAtCorners; ++k)
+        corners.inAirAndWater[k] = TERRANE_TRY(build.programs.graphics(
+            "figures/figure", "figures/figure", FigureVariant{QuadPass::Corners, k == 1}.defines()));
     const SharedTargets& targets = build.frame.targets;
-    return Pass{.writes = {targets.surfaces, targets.depth},
+    return Pass{.writes = {isAtCorners ? targets.image : targets.surfaces, targets.depth},
                 .record =
-                    [program](FrameContext& context) {
+                    [=](FrameContext& context) {
+                        const bool atCorners = context.shadesAtCorners();
                         context.figures.bind(context.figuresInView, context.ring);
-                        context.frame.gbuffer->bind();
+                        (atCorners ? context.frame.direct : context.frame.gbuffer)->bind();
+                        context.worldTextures.bind();
                         context.pipeline.set({.depthTest = gpu::DepthTest::Greater});
-                        context.figures.draw(*program, context.figuresInView.size());
+                        context.figures.draw(atCorners ? corners.of(context) : *program,
+                                             context.figuresInView.size());
                     },
                 .isNeeded =
                     [](FrameContext& context) {

@@ -72,6 +72,10 @@ bool FrameContext::cullsOccluded() const {
     return frame.targets.hiZ && !input.cullingCamera;
 }
 
+bool FrameContext::shadesAtCorners() const {
+    return frame.drawn.shading == Shading::Corners && input.view == View::Color;
+}
+
 gpu::TextureSet FrameContext::shadingTextures() const {
     gpu::TextureSet textures = worldTextures;
     if (frame.shadowMap) frame.shadowMap->addTo(textures);
@@ -79,11 +83,11 @@ gpu::TextureSet FrameContext::shadingTextures() const {
 }
 
 QuadDraw FrameContext::quadDraw() const {
-    return {resources, quads, cull, frame.spec.options.sharpFiltering};
+    return {resources, quads, cull, frame.drawn.sharpFiltering};
 }
 
 bool Frame::isDirect() const {
-    return isDirectImage(spec.options, samples);
+    return isDirectImage(drawn, samples);
 }
 
 gpu::TextureSet Frame::gbufferTextures() const {
@@ -101,6 +105,7 @@ std::size_t Frame::targetBytes() const {
 FrameBuilder::FrameBuilder(const FrameSpec& spec, Programs& compiled, const Frame& before)
     : programs(compiled), before_(before) {
     frame.spec = spec;
+    frame.drawn = drawnOptions(spec.options);
 }
 
 TargetRef FrameBuilder::target(const TargetShape& shape) {

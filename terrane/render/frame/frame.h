@@ -62,6 +62,8 @@ struct FrameContext {
     std::vector<shared::FigureRecord> figuresInView = {};
 
     bool isUnderWater() const { return input.waterAbove > 0; }
+    // Returns whether surfaces are drawn shaded, without a G-buffer: see Shading::Corners.
+    bool shadesAtCorners() const;
     // Returns whether culling omits occluded mesh sections: not while culling is shown from outside.
     bool cullsOccluded() const;
     gpu::TextureSet shadingTextures() const;  // of the world, and the shadow map
@@ -106,7 +108,8 @@ struct SharedTargets {
 
 struct Frame {
     FrameSpec spec;
-    int samples = 1;  // a pixel, as the driver has them
+    RenderOptions drawn;  // drawnOptions() of the spec's
+    int samples = 1;      // a pixel, as the driver has them
     SharedTargets targets;
     // gbuffer: surfaces and depth. scene: with the depth of the one sample, or the mask. image: alone.
     // direct: with one sample a pixel, the image with the depth: see isDirectImage().
@@ -130,7 +133,7 @@ class FrameBuilder {
     Frame frame;  // in the making: passes look at its options and targets, and add to them
     Programs& programs;
 
-    const RenderOptions& options() const { return frame.spec.options; }
+    const RenderOptions& options() const { return frame.drawn; }
     const QuadFeatures& features() const { return frame.spec.features; }
     int samples() const { return frame.samples; }
 
@@ -165,6 +168,9 @@ std::vector<std::string_view> passNames();
 // Returns the passes with the targets that they read and write, a line each: "shade: G-buffer, depth →
 // scene".
 std::string textOf(const Frame& frame);
+
+// A depth behind all surfaces, a thousand kilometers away: only the sky's is 0.
+constexpr float kBehindAll = kNearPlane / 1e6f;
 
 // Draws over the bound framebuffer, at depth 0 (farthest): one triangle over all of it, or one for each of
 // the rectangles.

@@ -62,8 +62,9 @@ std::vector<GraphicsRow> makeTable() {
          .label = "Anti-aliasing",
          .tip = "Samples per pixel (MSAA).\nCost: high; four samples at least double the frame time.",
          .valueLabels = {"Off", "2 samples", "4 samples", "8 samples"}},
-        rowOf<&RenderOptions::shading>({"off", "sample", "pixel"},
-                                       {"shading", "Shading, per MSAA sample or per pixel"}),
+        rowOf<&RenderOptions::shading>(
+            {"off", "sample", "pixel", "corners"},
+            {"shading", "Shading, per MSAA sample, per pixel, or at the corners of quads alone"}),
         rowOf<&RenderOptions::light>(
             {"classic", "smooth"},
             {"light",

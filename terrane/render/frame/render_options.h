@@ -14,6 +14,9 @@ enum class Shading : std::uint8_t {
     Off,     // the colors of the blocks alone
     Sample,  // each sample of a pixel by itself
     Pixel,   // once a pixel: the nearest depth, the mean of colors and normals
+    // At the corners of quads, in the pass that draws them: light, air and water are interpolated between.
+    // For software renderers. What other passes add is left out: see drawnOptions().
+    Corners,
 };
 
 // Sampling of light between blocks: docs/light.md.
@@ -81,6 +84,10 @@ struct RenderOptions {
     bool operator==(const RenderOptions&) const = default;
 };
 
+// Returns the options without those that have no effect together with others: shading at corners has no
+// G-buffer that shadows, clouds and effects could read.
+RenderOptions drawnOptions(RenderOptions options);
+
 constexpr int kDefaultDetail = 12;
 constexpr int kMaxViewDistance = 64;  // chunks
 
@@ -108,25 +115,31 @@ struct Preset {
     std::optional<double> relativeCost = {};
 };
 
-// Returns the presets low, medium, high, ultra and thesis.
-const std::array<Preset, 5>& presets();
+// Returns the presets minimal, low, medium, high, ultra and thesis.
+const std::array<Preset, 6>& presets();
 // Returns the preset of a name; null if there is none. "auto" is high on a graphics card and low without one.
 const Preset* findPreset(std::string_view name, bool isSoftwareRenderer);
 // Returns the settings with those of a preset. A preset of the name must exist.
 GraphicsSettings withPreset(const GraphicsSettings& before, std::string_view name, bool isSoftwareRenderer);
 
-// Selects the best preset for a machine from a measurement of the cheapest one. Any thread may use it.
-constexpr double kTargetFramesPerSecond = 60;
+// Selects the best preset for a machine from a measurement of low. Any thread may use it.
+//
+// Frames a second that the choice aims at: 30 without a graphics card.
+constexpr double targetFramesPerSecond(bool isSoftwareRenderer) {
+    return isSoftwareRenderer ? 30 : 60;
+}
 // A fifth of the frame is left for the interface, the system and views that cost more.
-constexpr double kTargetMilliseconds = 0.8 * 1000 / kTargetFramesPerSecond;
+constexpr double targetMilliseconds(double framesPerSecond) {
+    return 0.8 * 1000 / framesPerSecond;
+}
 
 struct PresetChoice {
     const Preset* preset = nullptr;
     double framesPerSecond = 0;  // expected
 };
 
-// Returns the most expensive preset whose frame is expected to take at most kTargetMilliseconds; low if none
-// does. `lowMilliseconds`: GPU time of a frame with low, above 0.
-PresetChoice choosePreset(double lowMilliseconds);
+// Returns the most expensive preset whose frame is expected to take at most targetMilliseconds(); the
+// cheapest if none does. `lowMilliseconds`: GPU time of a frame with low, above 0.
+PresetChoice choosePreset(double lowMilliseconds, double framesPerSecond);
 
 }  // namespace terrane::render

@@ -106,8 +106,12 @@ base::Result<void> Renderer::configure(glm::ivec2 size, const RenderOptions& opt
     if (upscaling == Upscaling::Auto) upscaling = device_.software ? Upscaling::Linear : Upscaling::Edges;
     const bool isLoop = !device_.indirectDraws || (options.draw == DrawMethod::Auto && device_.software) ||
                         options.draw == DrawMethod::Loop;
-    return rebuild(
-        {drawn, size, options, features(), isLoop ? DrawMethod::Loop : DrawMethod::Indirect, upscaling});
+    const FrameSpec before = frame_.spec;
+    TERRANE_TRY(rebuild(
+        {drawn, size, options, features(), isLoop ? DrawMethod::Loop : DrawMethod::Indirect, upscaling}));
+    const auto lit = useCornerLight(options.shading == Shading::Corners);
+    if (!lit) TERRANE_TRY(rebuild(before));
+    return lit;
 }
 
 base::Result<void> Renderer::reloadShaders() {
@@ -142,8 +146,9 @@ bool Renderer::hasShadows(const FrameInput& input) const {
 }
 
 void Renderer::writeUniforms(const FrameInput& input, const ViewMatrices& view) {
-    shared::Frame frame = frameUniforms(
-        input, options(), {view, glm::vec2(drawnSize()), edgeExpansion(device_.subpixelBits, drawnSize())});
+    shared::Frame frame =
+        frameUniforms(input, frame_.drawn,
+                      {view, glm::vec2(drawnSize()), edgeExpansion(device_.subpixelBits, drawnSize())});
     const world::ChunkPos chunk = cameraChunk(input.camera);
     const int mask = light_.gridChunks() - 1;
     constexpr int kTilesOfChunk = static_cast<int>(shared::kChunkSize / shared::kLightTileSize);
@@ -217,6 +222,7 @@ void Renderer::draw(const FrameInput& input) {
     timer_.nextFrame();
     ring_.beginFrame();
     pipeline_.invalidate();
+    lightCorners();
     FrameContext context = prepare(input);
     recordPasses(context, timer_);
     pipeline_.set({});  // code outside may clear depths
@@ -310,18 +316,77 @@ void Renderer::setShown(world::ChunkPos pos, bool isShown) {
     }
 }
 
+bool Renderer::setLitQuads(const CornerLitChunks::Change& change) {
+    const bool hasRoom = quads_.set(change.pos, change.lit.mesh, change.meshSections, change.lit.light);
+    showQuads(change.pos, change.meshSections);
+    return hasRoom;
+}
+
+// Tiles of far land are in daylight: theirs does not change.
+bool Renderer::setQuads(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
+                        const mesh::MeshSectionSet& meshSections) {
+    const std::vector<shared::ShapeFace>& shapeFaces = resources_.tables().shapeFaces;
+    if (quads_.hasLight() && pos.level == 0) {
+        cornerLit_.setMesh(pos, mesh, meshSections);
+        return setLitQuads(cornerLit_.light(pos, shapeFaces));
+    }
+    if (quads_.hasLight()) return setLitQuads({pos, meshSections, litAtCorners(mesh, {}, shapeFaces)});
+    const bool hasRoom = quads_.set(pos, mesh, meshSections);
+    showQuads(pos, meshSections);
+    return hasRoom;
+}
+
 bool Renderer::setChunk(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
                         const mesh::MeshSectionSet& meshSections) {
     shareBudget();
-    const bool hasRoom = quads_.set(pos, mesh, meshSections);
-    showQuads(pos, meshSections);
+    const bool hasRoom = setQuads(pos, mesh, meshSections);
     notePeak();
     return hasRoom;
+}
+
+// Lights quads that shaders wrote, and those whose light changed.
+void Renderer::lightCorners() {
+    if (!quads_.hasLight()) return;
+    for (const world::ChunkPos pos : std::exchange(unread_, {}))
+        if (quads_.chunks().contains(pos)) setChunk(pos, quads_.meshOf(pos));
+    shareBudget();
+    while (const auto change = cornerLit_.lightNext(resources_.tables().shapeFaces)) setLitQuads(*change);
+    notePeak();
+}
+
+bool Renderer::setAllQuads(bool isLit, const ChunkMeshes& meshes) {
+    quads_ = QuadStore({.arenaQuads = 1});  // before the new one takes memory
+    quadSizes_.hasLight = isLit;
+    quads_ = QuadStore(quadSizes_);
+    cornerLit_.clearMeshes();
+    meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
+    forgetShadows();
+    cull_.invalidate();
+    bool hasRoom = true;
+    for (const auto& [pos, mesh] : meshes) hasRoom &= setChunk(pos, mesh);
+    return hasRoom;
+}
+
+// Makes the quads anew, with light at their corners or without.
+base::Result<void> Renderer::useCornerLight(bool isUsed) {
+    if (isUsed == quads_.hasLight()) return {};
+    lightCorners();
+    ChunkMeshes meshes;
+    for (const auto& [pos, meshSections] : quads_.chunks()) {
+        const mesh::ChunkMesh* known = cornerLit_.meshOf(pos);
+        meshes.emplace_back(pos, known ? *known : quads_.meshOf(pos));
+    }
+    if (setAllQuads(isUsed, meshes)) return {};
+    setAllQuads(!isUsed, meshes);
+    return base::fail(base::ErrorCode::OutOfResources,
+                      "no room for light at the corners of quads within {} MiB of GPU memory",
+                      budgetBytes_ >> 20);
 }
 
 bool Renderer::reserveChunk(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes) {
     shareBudget();
     const bool hasRoom = quads_.reserve(pos, meshes);
+    if (quads_.hasLight()) unread_.push_back(pos);
     showQuads(pos, mesh::kAllMeshSections);
     notePeak();
     return hasRoom;
@@ -335,6 +400,7 @@ bool Renderer::setLight(world::ChunkPos pos, const light::ChunkLight& light,
                         const world::SectionSet& bricks) {
     shareBudget();
     const bool hasRoom = light_.set(pos, light, bricks);
+    cornerLit_.setLight(pos, light, bricks);
     notePeak();
     return hasRoom;
 }
@@ -344,6 +410,7 @@ void Renderer::removeChunk(world::ChunkPos pos) {
     hidden_.erase(pos);
     quads_.remove(pos);
     light_.remove(pos);
+    cornerLit_.remove(pos);
 }
 
 void Renderer::setViewDistance(int chunks) {
@@ -361,12 +428,9 @@ void Renderer::setViewDistance(int chunks) {
 }
 
 void Renderer::clearChunks() {
-    quads_ = QuadStore({.arenaQuads = 1});  // before the new one takes memory
-    quads_ = QuadStore(quadSizes_);
+    cornerLit_ = {};
+    setAllQuads(quadSizes_.hasLight, {});
     hidden_.clear();
-    meshSections_ = MeshSectionTable(quads_.ranges().arenaSize());
-    forgetShadows();
-    cull_.invalidate();
     setViewDistance(viewDistance_);
 }
 

@@ -15,6 +15,7 @@
 #include "terrane/render/land/land_textures.h"
 #include "terrane/render/land/tint_textures.h"
 #include "terrane/render/quads/block_textures.h"
+#include "terrane/render/quads/corner_lit_chunks.h"
 #include "terrane/render/quads/light_store.h"
 #include "terrane/render/sky/sky_texture.h"
 
@@ -134,6 +135,12 @@ class Renderer {
         if (frame_.shadowMap) frame_.shadowMap->invalidate();
     }
     void showQuads(world::ChunkPos pos, const mesh::MeshSectionSet& changed);
+    bool setLitQuads(const CornerLitChunks::Change& change);
+    void lightCorners();
+    base::Result<void> useCornerLight(bool isUsed);
+    bool setQuads(world::ChunkPos pos, const mesh::ChunkMesh& mesh, const mesh::MeshSectionSet& meshSections);
+    using ChunkMeshes = std::vector<std::pair<world::ChunkPos, mesh::ChunkMesh>>;
+    bool setAllQuads(bool isLit, const ChunkMeshes& meshes);
     void shareBudget();
     void notePeak();
 
@@ -143,6 +150,8 @@ class Renderer {
     MeshSectionTable meshSections_;
     std::unordered_set<world::ChunkPos, world::ChunkPosHash> hidden_;  // chunks that are not shown
     LightStore light_;
+    CornerLitChunks cornerLit_;            // has meshes while the quads have light
+    std::vector<world::ChunkPos> unread_;  // chunks whose quads a shader writes, to be lit
     QuadResources resources_;
     TintTextures tints_;
     LandTextures land_;

@@ -15,8 +15,17 @@ vec3 encodeSrgb(vec3 c) {
     return mix(c * 12.92, 0.585122381 * s1 + 0.783140355 * s2 - 0.368262736 * s3, greaterThan(c, vec3(0.0031308)));
 }
 
-vec3 screenColor(vec3 light, ivec2 pixel) {
-    vec3 color = encodeSrgb(clamp(compressHighlights(light * frame.exposure), 0.0, 1.0));
+// Display color of linear light.
+vec3 displayColor(vec3 light) {
+    return encodeSrgb(clamp(compressHighlights(light * frame.exposure), 0.0, 1.0));
+}
+
+// With noise of one step.
+vec3 dithered(vec3 color, ivec2 pixel) {
     uint noise = hash2(uint(pixel.x), uint(pixel.y), 0u);
     return color + (float(noise >> 16) / 65536.0 - 0.5) / 255.0;
+}
+
+vec3 screenColor(vec3 light, ivec2 pixel) {
+    return dithered(displayColor(light), pixel);
 }

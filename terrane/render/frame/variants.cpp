@@ -76,7 +76,8 @@ std::vector<Variant> only(std::vector<Variant> variants, Rule isSelectable) {
 }  // namespace
 
 bool castsShadows(const RenderOptions& options) {
-    return options.shadows != ShadowReach::Off && options.shading != Shading::Off;
+    return options.shadows != ShadowReach::Off && options.shading != Shading::Off &&
+           options.shading != Shading::Corners;
 }
 
 bool readsLand(const RenderOptions& options) {
@@ -106,6 +107,41 @@ std::vector<GBufferVariant> GBufferVariant::all() {
     });
     variants = with(variants, &GBufferVariant::isSmooth);
     return with(with(variants, &GBufferVariant::hasFaceSampling), &GBufferVariant::hasTint);
+}
+
+namespace {
+
+// Of light.glsl and others that shade at corners.
+gpu::ShaderDefines withCornerShading(gpu::ShaderDefines defines, bool isUnderWater) {
+    const gpu::ShaderDefines shading = defined(
+        {{"LIGHT", number(LightDetail::Classic)}, {"LAND", 0}, {"FAR", 0}, {"UNDER_WATER", isUnderWater}});
+    defines.insert(defines.end(), shading.begin(), shading.end());
+    return defines;
+}
+
+}  // namespace
+
+gpu::ShaderDefines CornersVariant::defines() const {
+    return withCornerShading(defined({{"PASS", number(QuadPass::Corners)},
+                                      {"ALPHA_CLASS", number(alphaClass)},
+                                      {"FACE_SAMPLING", 0},
+                                      {"TINT", hasTint}}),
+                             isUnderWater);
+}
+
+std::vector<CornersVariant> CornersVariant::all() {
+    const auto variants =
+        with(std::vector<CornersVariant>{{}}, &CornersVariant::alphaClass,
+             {mesh::AlphaClass::Opaque, mesh::AlphaClass::Tested, mesh::AlphaClass::Blended});
+    return with(with(variants, &CornersVariant::hasTint), &CornersVariant::isUnderWater);
+}
+
+gpu::ShaderDefines SkyGridVariant::defines() const {
+    return defined({{"UNDER_WATER", isUnderWater}});
+}
+
+std::vector<SkyGridVariant> SkyGridVariant::all() {
+    return with(std::vector<SkyGridVariant>{{}}, &SkyGridVariant::isUnderWater);
 }
 
 gpu::ShaderDefines ShadowVariant::defines() const {
@@ -304,7 +340,12 @@ std::vector<HiZVariant> HiZVariant::all() {
 }
 
 gpu::ShaderDefines FigureVariant::defines() const {
-    return defined({{"PASS", number(pass)}});
+    const gpu::ShaderDefines defines = defined({{"PASS", number(pass)}});
+    return pass == QuadPass::Corners ? withCornerShading(defines, isUnderWater) : defines;
+}
+
+std::vector<FigureVariant> FigureVariant::all() {
+    return {{QuadPass::Surfaces}, {QuadPass::Shadows}, {QuadPass::Corners}, {QuadPass::Corners, true}};
 }
 
 namespace {
@@ -332,6 +373,8 @@ std::vector<gpu::ShaderDefines> quadVariants() {
     add(definesOf(ShadowVariant::all()));
     add(definesOf(PeelVariant::all()));
     add(definesOf(TransparencyVariant::all()));
+    const std::vector<gpu::ShaderDefines> corners = definesOf(CornersVariant::all());
+    all.insert(all.end(), corners.begin(), corners.end());
     return all;
 }
 
@@ -360,13 +403,16 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
         {"effects/resize.frag", [] { return definesOf(ResizeVariant::all()); }},
         {"frame/debug_view.frag", [] { return definesOf(DebugViewVariant::all()); }},
         {"cull/hi_z.comp", [] { return definesOf(HiZVariant::all()); }},
-        {"figures/figure.vert",
+        {"figures/figure.vert", [] { return definesOf(FigureVariant::all()); }},
+        {"figures/figure.frag",
          [] {
-             return definesOf(std::vector<FigureVariant>{{QuadPass::Surfaces}, {QuadPass::Shadows}});
+             return definesOf(only(FigureVariant::all(),
+                                   [](const FigureVariant& v) { return v.pass != QuadPass::Shadows; }));
          }},
-        {"figures/figure.frag", [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Surfaces}}); }},
         {"figures/figure_shadow.frag",
          [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Shadows}}); }},
+        {"corners/corners.frag", [] { return definesOf(CornersVariant::all()); }},
+        {"sky/sky_grid.vert", [] { return definesOf(SkyGridVariant::all()); }},
     };
     const auto found = std::ranges::find(kRows, shader, &Row::shader);
     return found == std::end(kRows) ? std::vector<gpu::ShaderDefines>{{}} : found->variants();

@@ -28,7 +28,12 @@ enum class LightDetail : std::uint8_t {
     Smooth = LIGHT_SMOOTH,
     Simple = LIGHT_SIMPLE
 };
-enum class QuadPass : std::uint8_t { Surfaces = PASS_SURFACES, Layers = PASS_LAYERS, Shadows = PASS_SHADOWS };
+enum class QuadPass : std::uint8_t {
+    Surfaces = PASS_SURFACES,
+    Layers = PASS_LAYERS,
+    Shadows = PASS_SHADOWS,
+    Corners = PASS_CORNERS  // see Shading::Corners
+};
 
 // Returns whether a shader reads the land up to the horizon (land_map.h) with these options, if there is
 // land.
@@ -51,6 +56,23 @@ struct GBufferVariant {
 
     gpu::ShaderDefines defines() const;
     static std::vector<GBufferVariant> all();
+};
+
+// corners.frag.glsl
+struct CornersVariant {
+    mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
+    bool hasTint = false, isUnderWater = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<CornersVariant> all();
+};
+
+// sky_grid.vert.glsl
+struct SkyGridVariant {
+    bool isUnderWater = false;
+
+    gpu::ShaderDefines defines() const;
+    static std::vector<SkyGridVariant> all();
 };
 
 struct ShadowVariant {
@@ -191,8 +213,10 @@ struct HiZVariant {
 
 struct FigureVariant {
     QuadPass pass = QuadPass::Surfaces;
+    bool isUnderWater = false;  // at corners
 
     gpu::ShaderDefines defines() const;
+    static std::vector<FigureVariant> all();
 };
 
 // Returns the defines of all variants of a shader, by its path without "terrane/render/" and ".glsl":

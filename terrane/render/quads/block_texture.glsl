@@ -13,9 +13,6 @@ const uint inSampling = 0u;
 uint textureOf(uint face) {
     return face & 4095u;
 }
-uint alphaModeOf(uint face) {
-    return face >> 12 & 7u;
-}
 bool isLiquid(uint face) {
     return (face >> 18 & 1u) != 0u;
 }

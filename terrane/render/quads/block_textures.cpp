@@ -259,6 +259,8 @@ base::Result<BlockTextures> loadBlockTextures(const world::BlockRegistry& regist
         gpu::Texture2DArray({{side, side}, count, gpu::fullLevels({side, side})}, GL_RGBA8, "block textures");
     for (std::size_t layer = 0; layer < images.size(); ++layer) {
         auto mips = mipmaps(images[layer], textureAlpha(registry, layer), textureWrap(registry, layer));
+        const std::span<const std::uint8_t> mean = mips.back().rgba;  // of one pixel
+        textures.meanColors.push_back(mean[0] | std::uint32_t{mean[1]} << 8 | std::uint32_t{mean[2]} << 16);
         std::erase_if(mips, [&](const base::Image& mip) { return mip.width > side; });
         const auto times = static_cast<unsigned>(side / mips.front().width);
         const auto levels = levelsInArray(std::move(mips), side);

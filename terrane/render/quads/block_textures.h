@@ -48,7 +48,8 @@ using world::TextureSource;
 
 struct BlockTextures {
     gpu::Texture2DArray array;            // layer n is registry.textures()[n]
-    std::vector<std::uint8_t> doublings;  // by layer: the array's side is the texture's × 2^n
+    std::vector<std::uint8_t> doublings;    // by layer: the array's side is the texture's × 2^n
+    std::vector<std::uint32_t> meanColors;  // by layer, as in shared::MaterialRecord
 };
 
 // Of the array. A texture with a larger side loses its largest mipmaps.

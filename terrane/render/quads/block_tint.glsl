@@ -1,12 +1,18 @@
-// The tint of a fragment: the color of its place from the generator changes the texture of a tinted face.
+// The tint of a fragment, or with PASS_CORNERS of a vertex: the color of its place from the generator changes the texture of a tinted face.
 // TINT: 1 if the world has a tint (tint_textures.h). Needs packed faces (packed_face.glsl) and frame_uniforms.glsl.
 #if TINT == 1
 #include "terrane/shared/tint.h"
 
 layout(binding = kTintUnit) uniform sampler2DArray tints;
+#if PASS == PASS_CORNERS
+#define inTintAt outTintAt
+#define inTintShare outTintShare
+#define inTintLevels outTintLevels
+#else
 layout(location = 3) in vec4 inTintAt;  // see tint_place.glsl
 layout(location = 4) in float inTintShare;
 layout(location = 5) flat in ivec2 inTintLevels;
+#endif
 
 const vec3 kNeutralTint = vec3(kNeutralTintRed, kNeutralTintGreen, kNeutralTintBlue) / 255.0;
 

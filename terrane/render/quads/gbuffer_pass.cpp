@@ -1,4 +1,5 @@
-// Draws opaque and alpha-tested quads into the G-buffer.
+// Draws opaque and alpha-tested quads into the G-buffer, or shaded at their corners into the image.
+#include "terrane/render/corners/corners.h"
 #include "terrane/render/frame/frame.h"
 
 namespace terrane::render {
@@ -17,23 +18,29 @@ MaybePass makeQuads(FrameBuilder& build, bool isFirst) {
     variant.alphaClass = mesh::AlphaClass::Tested;
     variant.samples = options.msaaAlphaTest ? build.samples() : 1;
     const auto* tested = TERRANE_TRY(build.programs.quads("quads/gbuffer", variant.defines()));
+    const auto opaqueCorners = TERRANE_TRY(makeCornerPrograms(build, mesh::AlphaClass::Opaque));
+    const auto testedCorners = TERRANE_TRY(makeCornerPrograms(build, mesh::AlphaClass::Tested));
     const SharedTargets& targets = build.frame.targets;
-    return Pass{.writes = {targets.surfaces, targets.depth},
+    std::vector<TargetRef> writes = {targets.surfaces, targets.depth};
+    if (opaqueCorners) writes = {targets.image, targets.depth};
+    return Pass{.writes = std::move(writes),
                 .record =
                     [=](FrameContext& context) {
-                        const gpu::Framebuffer& gbuffer = *context.frame.gbuffer;
+                        const bool atCorners = context.shadesAtCorners();
+                        const gpu::Framebuffer& target =
+                            atCorners ? *context.frame.direct : *context.frame.gbuffer;
                         context.pipeline.set(kNearest);
                         if (isFirst) {
-                            gbuffer.clearColor(0, glm::vec4(1));
-                            gbuffer.clearDepth(0.0f);
+                            if (!atCorners) target.clearColor(0, glm::vec4(1));
+                            target.clearDepth(0.0f);
                         }
-                        gbuffer.bind();
+                        target.bind();
                         context.worldTextures.bind();
                         const QuadDraw quads = context.quadDraw();
                         quads.bind();
-                        opaque->use();
+                        (atCorners ? opaqueCorners->of(context) : *opaque).use();
                         quads.draw(context.pipeline, kNearest, mesh::AlphaClass::Opaque);
-                        tested->use();
+                        (atCorners ? testedCorners->of(context) : *tested).use();
                         quads.draw(context.pipeline, kNearest, mesh::AlphaClass::Tested);
                     },
                 .drawnIn = DrawnIn::EveryView};

@@ -6,14 +6,18 @@
 #include "terrane/render/quads/packed_gbuffer.glsl"
 
 uint packFace(Quad quad, MaterialRecord material, uint level, uint direction) {
-    uint isLiquid = material.animation == kAnimationLiquidSurface ? 1u : 0u;
-    return material.texture | material.alphaMode << 12 | direction << 15 | isLiquid << 18 |
+    uint isLiquid = lookAnimation(material.look) == kAnimationLiquidSurface ? 1u : 0u;
+    return (material.look & 0x7FFFu) | direction << 15 | isLiquid << 18 |
            (quadExtentU(quad) - 1u) << 19 | (quadExtentV(quad) - 1u) << 23 | level << 27 |
            optionsTinted(material.options) << 31;
 }
 
 uint directionOfFace(uint face) {
     return face >> 15 & 7u;
+}
+
+uint alphaModeOf(uint face) {
+    return face >> 12 & 7u;
 }
 
 bool isTinted(uint face) {

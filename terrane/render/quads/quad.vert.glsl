@@ -26,7 +26,7 @@ layout(binding = kMaterialsUnit) uniform usamplerBuffer materials;
 
 layout(location = kDrawRecordAttribute) in ivec4 drawRecord;  // DrawRecord
 
-#if PASS == PASS_SURFACES
+#if PASS == PASS_SURFACES || PASS == PASS_CORNERS
 layout(binding = kListedQuadsUnit) uniform usamplerBuffer listedQuads;
 #endif
 
@@ -40,23 +40,32 @@ const float kLiquidInset = 1.0 / 1024.0;
 // Depth offset of the sides of tiles for the depth test, in columns. Behind them is solid ground.
 const float kTileSideDepth = 0.25;
 
+#if PASS != PASS_CORNERS
 layout(location = 0) out vec2 outTexel;        // in textures; row 0 of the image is at integer v
 layout(location = 1) flat out uvec2 outFace;   // see packed_face.glsl; a number of the quad's own
 #if FACE_SAMPLING == 1
 layout(location = 2) flat out uint outSampling;
 #endif
+#endif
 #if TINT == 1
 #include "terrane/render/quads/tint_place.glsl"
 #endif
 #include "terrane/render/quads/packed_face.glsl"
+#if PASS == PASS_CORNERS
+#include "terrane/render/corners/quad_corner.glsl"
+#endif
 
-// Quad by its number in the arena, or from a list of those to draw.
-Quad quadOf(int vertex) {
+// Number of a quad in the arena, counted from the first of the draw, or from a list of those to draw.
+int quadNumberOf(int vertex) {
     int number = drawRecord.w + (vertex >> 2);
-#if PASS == PASS_SURFACES
+#if PASS == PASS_SURFACES || PASS == PASS_CORNERS
     int place = number - int(kFirstListedQuad);
     if (place >= 0) number = int(texelFetch(listedQuads, place).r);
 #endif
+    return number;
+}
+
+Quad quadOf(int number) {
     uvec2 words = texelFetch(quads, number).rg;
     return Quad(words.x, words.y);
 }
@@ -100,7 +109,8 @@ MaterialRecord materialOf(Quad quad) {
 }
 
 void main() {
-    Quad quad = quadOf(gl_VertexID);
+    int number = quadNumberOf(gl_VertexID);
+    Quad quad = quadOf(number);
     vec2 corner = vec2(gl_VertexID & 1, (gl_VertexID >> 1) & 1);
     vec2 extent = vec2(quadExtentU(quad), quadExtentV(quad));
     uint place = uint(drawRecord.z);
@@ -112,7 +122,8 @@ void main() {
     vec3 cellBlocks = vec3(vec2(columnBlocks(level)), 1.0);
     vec3 inChunk = cellBlocks * shapeFaceCorner(face, cell, corner, extent).xyz;
 #if PASS == PASS_SHADOWS
-    if (ALPHA_CLASS == ALPHA_TESTED && level == 0u && (material.animation == kAnimationTopWaves || material.animation == kAnimationWholeWaves))
+    uint animation = lookAnimation(material.look);
+    if (ALPHA_CLASS == ALPHA_TESTED && level == 0u && (animation == kAnimationTopWaves || animation == kAnimationWholeWaves))
         inChunk -= kWaveSink * shadowDraw.toLight.xyz;
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, shadowDraw.anchorChunk), 0.0);
     gl_Position = shadowDraw.toClip * vec4(position, 1.0);
@@ -121,12 +132,12 @@ void main() {
         inChunk += waveOffset(material, surfaceShare(face, corner), chunk, cell.xyz, inChunk, corner.y, frame.timeSeconds);
     }
 #if PASS == PASS_LAYERS
-    if (material.animation == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOf(faceDirectionOf(face));
+    if (lookAnimation(material.look) == kAnimationLiquidSurface) inChunk -= kLiquidInset * normalOf(faceDirectionOf(face));
 #endif
     vec3 position = inChunk + vec3(chunkCorner(chunk, level, frame.cameraChunk), 0.0);
     gl_Position = frame.viewProjection * vec4(position, 1.0);
 #endif
-#if PASS == PASS_SURFACES
+#if PASS == PASS_SURFACES || (PASS == PASS_CORNERS && ALPHA_CLASS != ALPHA_BLENDED)
     // Not for blended quads, whose overlap would be visible.
     vec2 inward = (1.0 - 2.0 * corner) * extent;
     vec3 axisU = face.axisU.xyz + face.bend.xyz * corner.y, axisV = face.axisV.xyz + face.bend.xyz * corner.x;
@@ -141,13 +152,19 @@ void main() {
                               frame.edgeExpansion, growsV);
     if (isTileSide) gl_Position.z *= gl_Position.w / (gl_Position.w + kTileSideDepth * columnBlocks(level));
 #endif
-    uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
-    outFace = uvec2(packFace(quad, material, level, faceDirectionOf(face)), quad.word0 ^ seed);
-#if FACE_SAMPLING == 1
-    outSampling = optionsSampling(material.options);
-#endif
+    uint packedFace = packFace(quad, material, level, faceDirectionOf(face));
+    vec2 texel = texelOf(quad, face, corner) * extentOf(packedFace);
 #if TINT == 1
     setTintPlace(cellBlocks.xy * cell.xy + chunkCorner(chunk, level, frame.cameraChunk), position.xy);
 #endif
-    outTexel = texelOf(quad, face, corner) * extentOf(outFace.x);
+#if PASS == PASS_CORNERS
+    shadeCorner(number, uint(gl_VertexID & 3), packedFace, material, texel, position - frame.cameraPosition.xyz);
+#else
+    uint seed = hash2(uint(chunk.x), uint(chunk.y), quadMaterial(quad));
+    outFace = uvec2(packedFace, quad.word0 ^ seed);
+#if FACE_SAMPLING == 1
+    outSampling = optionsSampling(material.options);
+#endif
+    outTexel = texel;
+#endif
 }

@@ -46,9 +46,9 @@ shared::uint optionsOf(const world::Material& m, std::uint8_t doublings) {
 gpu::Buffer materialRecords(const world::BlockRegistry& blocks, const BlockTextures& textures) {
     std::vector<shared::MaterialRecord> records;
     for (const world::Material& m : blocks.materials()) {
-        records.push_back({m.texture, static_cast<shared::uint>(m.alpha),
-                           static_cast<shared::uint>(m.animation),
-                           optionsOf(m, textures.doublings[m.texture])});
+        records.push_back({shared::packLook(m.texture, static_cast<shared::uint>(m.alpha),
+                                            static_cast<shared::uint>(m.animation)),
+                           optionsOf(m, textures.doublings[m.texture]), textures.meanColors[m.texture], 0});
     }
     return gpu::Buffer(std::as_bytes(std::span(records)), 0, "materials");
 }

@@ -6,6 +6,7 @@
 
 #include "terrane/base/result.h"
 #include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/shared/bindings.h"
 
 namespace terrane::render {
 namespace {
@@ -64,21 +65,30 @@ DrawnSections drawnOf(const mesh::MeshSection& meshSection) {
 }  // namespace
 
 QuadStore::QuadStore(const QuadStoreSizes& sizes)
-    : ranges_(arenaSizes(sizes)), limits_(sizes.limits.ofDriver()) {
+    : hasLight_(sizes.hasLight), ranges_(arenaSizes(sizes)), limits_(sizes.limits.ofDriver()) {
     assert(sizes.maxArenas <= shared::kMaxArenas && "culling has lists for no more");
     arenas_.push_back(makeArena(ranges_.arenas().front().capacity()));
 }
 
-QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) {
+QuadStore::Arena QuadStore::makeArena(std::uint32_t quads) const {
     Arena arena{gpu::Buffer(std::size_t{quads} * shared::kQuadBytes, GL_DYNAMIC_STORAGE_BIT, "quads"), {}};
     arena.texels = gpu::BufferTexture(arena.buffer, GL_RG32UI, "quads");
+    if (!hasLight_) return arena;
+    arena.light = gpu::Buffer(quads * sizeof(shared::QuadLight), GL_DYNAMIC_STORAGE_BIT, "light of quads");
+    arena.lightTexels = gpu::BufferTexture(arena.light, GL_RG32UI, "light of quads");
     return arena;
 }
 
+void QuadStore::bindTexels(std::size_t arena) const {
+    arenas_[arena].texels.bind(shared::kQuadsUnit);
+    if (hasLight_) arenas_[arena].lightTexels.bind(shared::kQuadLightUnit);
+}
+
 bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
-                    const mesh::MeshSectionSet& meshSections) {
+                    const mesh::MeshSectionSet& meshSections, std::span<const shared::QuadLight> light) {
     base::require(quadsOf(mesh.meshSections) == mesh.quads.size(),
                   "Renderer::setChunk: the mesh sections do not name each quad once");
+    assert(light.size() == (hasLight_ ? mesh.quads.size() : 0) && "each quad has light, or none has");
     if (!replaceRanges(pos, mesh.meshSections, meshSections)) return false;
     if (mesh.quads.empty()) return true;
     const std::span<const mesh::MeshSection> stored = meshSectionsOf(pos);
@@ -88,7 +98,10 @@ bool QuadStore::set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
     Arena& arena = arenas_[ranges_.arenaOf(first)];
     arena.buffer.uploadVector(std::size_t{ranges_.offsetOf(first)} * shared::kQuadBytes, mesh.quads);
     if (!arena.onCpu.empty()) std::ranges::copy(mesh.quads, arena.onCpu.begin() + ranges_.offsetOf(first));
-    uploadedBytes_ += mesh.quads.size() * shared::kQuadBytes;
+    if (hasLight_)
+        arena.light.upload(std::size_t{ranges_.offsetOf(first)} * sizeof(shared::QuadLight),
+                           std::as_bytes(light));
+    uploadedBytes_ += mesh.quads.size() * bytesPerQuad();
     return true;
 }
 
@@ -105,6 +118,19 @@ std::span<shared::Quad> QuadStore::quadsOnCpu(std::size_t arena) {
         a.buffer.download(0, std::as_writable_bytes(std::span(a.onCpu)));
     }
     return a.onCpu;
+}
+
+mesh::ChunkMesh QuadStore::meshOf(world::ChunkPos pos) {
+    mesh::ChunkMesh mesh;
+    for (const mesh::MeshSection& stored : meshSectionsOf(pos)) {
+        const std::uint32_t first = mesh::firstQuad(stored), count = mesh::quadCount(stored);
+        const std::span<const shared::Quad> quads =
+            quadsOnCpu(ranges_.arenaOf(first)).subspan(ranges_.offsetOf(first), count);
+        mesh.meshSections.push_back(mesh::movedTo(static_cast<std::uint32_t>(mesh.quads.size()), stored));
+        for (const shared::Quad quad : quads)
+            mesh.quads.push_back({quad.word0, quad.word1 & ~(shared::kQuadSeen | shared::kQuadNew)});
+    }
+    return mesh;
 }
 
 bool QuadStore::replaceRanges(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
@@ -175,16 +201,19 @@ std::optional<std::uint32_t> QuadStore::allocate(std::uint32_t count) {
 // Doubling copies each quad once or twice in all. The GPU frees the old buffer after drawing with it.
 bool QuadStore::grow(std::uint32_t count) {
     const std::size_t bytes = bufferBytes(), room = maxBytes_ - std::min(maxBytes_, bytes);
-    const auto growth = ranges_.planGrowth(count, room / shared::kQuadBytes);
+    const auto growth = ranges_.planGrowth(count, room / bytesPerQuad());
     if (!growth) return false;
     Arena arena = makeArena(growth->capacity);
     if (growth->arena == arenas_.size()) {
         arenas_.push_back(std::move(arena));
     } else {
-        peakBytes_ = std::max(peakBytes_, bytes + arena.buffer.sizeBytes());
+        peakBytes_ = std::max(peakBytes_, bytes + arena.buffer.sizeBytes() + arena.light.sizeBytes());
         Arena& old = arenas_[growth->arena];
         glCopyNamedBufferSubData(old.buffer.id(), arena.buffer.id(), 0, 0,
                                  static_cast<GLsizeiptr>(old.buffer.sizeBytes()));
+        if (hasLight_)
+            glCopyNamedBufferSubData(old.light.id(), arena.light.id(), 0, 0,
+                                     static_cast<GLsizeiptr>(old.light.sizeBytes()));
         arena.onCpu = std::move(old.onCpu);
         if (!arena.onCpu.empty()) arena.onCpu.resize(growth->capacity);
         old = std::move(arena);
@@ -200,11 +229,11 @@ gpu::ArenaBuffers QuadStore::buffers() const {
 }
 
 std::size_t QuadStore::bufferBytes() const {
-    return static_cast<std::size_t>(ranges_.capacity()) * shared::kQuadBytes;
+    return static_cast<std::size_t>(ranges_.capacity()) * bytesPerQuad();
 }
 
 std::size_t QuadStore::usedBytes() const {
-    return static_cast<std::size_t>(ranges_.capacity() - ranges_.freeTotal()) * shared::kQuadBytes;
+    return static_cast<std::size_t>(ranges_.capacity() - ranges_.freeTotal()) * bytesPerQuad();
 }
 
 }  // namespace terrane::render

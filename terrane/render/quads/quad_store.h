@@ -27,6 +27,7 @@
 #include "terrane/render/quads/draw_commands.h"
 #include "terrane/shared/mesh_section.h"
 #include "terrane/shared/quad.h"
+#include "terrane/shared/quad_light.h"
 #include "terrane/world/coords.h"
 
 namespace terrane::render {
@@ -59,7 +60,8 @@ struct QuadStoreSizes {
     std::uint32_t arenaQuads = 0;  // of an arena; 0: 256 MiB, or as many as a shader can reach
     std::uint32_t maxArenas = shared::kMaxArenas;
     std::uint32_t firstQuads =
-        1u << 20;  // the first arena begins with 8 MiB, a landscape at view distance 16
+        1u << 20;           // the first arena begins with 8 MiB, a landscape at view distance 16
+    bool hasLight = false;  // quads have light at their corners: see corner_light.h
     DrawLimits limits = {};
 };
 
@@ -72,9 +74,10 @@ class QuadStore {
 
     // Replaces the quads of these mesh sections; `mesh` has none of others. Grows when the arenas are full.
     // Returns false if they cannot grow further, or lists of draws would be too long: the mesh sections then
-    // have no quads, since the old ones are wrong.
+    // have no quads, since the old ones are wrong. `light`: of each quad, if the store has it.
     bool set(world::ChunkPos pos, const mesh::ChunkMesh& mesh,
-             const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections);
+             const mesh::MeshSectionSet& meshSections = mesh::kAllMeshSections,
+             std::span<const shared::QuadLight> light = {});
     // Does the same without the quads: a shader writes them to the ranges of meshSectionsOf() before the next
     // frame.
     bool reserve(world::ChunkPos pos, std::span<const mesh::MeshSection> meshes,
@@ -87,6 +90,9 @@ class QuadStore {
     }
     // Returns the mesh sections of a chunk; the result is empty if it has no quads.
     std::span<const mesh::MeshSection> meshSectionsOf(world::ChunkPos pos) const;
+    // Returns the quads of a chunk as they were set, or as a shader wrote them. May wait for the GPU.
+    mesh::ChunkMesh meshOf(world::ChunkPos pos);
+    bool hasLight() const { return hasLight_; }
     gpu::ArenaBuffers buffers() const;  // until the next change
     // Returns the quads of an arena in memory, for culling on the CPU, which changes their bits. The first
     // call, and each after quads that a shader wrote, waits for the GPU.
@@ -94,6 +100,8 @@ class QuadStore {
     const gpu::BufferTexture& texels(std::size_t arena) const {
         return arenas_[arena].texels;
     }  // a quad each
+    // Binds the quads of an arena for shaders, and their light if the store has it.
+    void bindTexels(std::size_t arena) const;
     std::size_t usedBytes() const;
     std::size_t bufferBytes() const;  // of all arenas
     // Returns the most bytes that the buffers took at once since the last call, including copies.
@@ -105,6 +113,8 @@ class QuadStore {
     struct Arena {
         gpu::Buffer buffer;
         gpu::BufferTexture texels;
+        gpu::Buffer light = {};  // shared::QuadLight by quad, if the store has it
+        gpu::BufferTexture lightTexels = {};
         std::vector<shared::Quad> onCpu = {};  // empty until it is asked for
     };
 
@@ -114,8 +124,12 @@ class QuadStore {
     void free(ChunkMeshSections& chunk, const mesh::MeshSectionSet& meshSections);
     std::optional<std::uint32_t> allocate(std::uint32_t count);
     bool grow(std::uint32_t count);
-    static Arena makeArena(std::uint32_t quads);
+    Arena makeArena(std::uint32_t quads) const;
+    std::size_t bytesPerQuad() const {
+        return shared::kQuadBytes + (hasLight_ ? sizeof(shared::QuadLight) : 0);
+    }
 
+    bool hasLight_;
     gpu::ArenaAllocator ranges_;
     std::vector<Arena> arenas_;
     std::size_t maxBytes_ = SIZE_MAX, peakBytes_ = 0;

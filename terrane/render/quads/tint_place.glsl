@@ -7,9 +7,15 @@ layout(std140, binding = kTintBinding) uniform TintBlock {
     TintFrame tintFrame;
 };
 
+#if PASS == PASS_CORNERS
+vec4 outTintAt;
+float outTintShare;
+ivec2 outTintLevels;
+#else
 layout(location = 3) out vec4 outTintAt;  // texture coordinates in a level and in the next coarser one
 layout(location = 4) out float outTintShare;  // of the finer level
 layout(location = 5) flat out ivec2 outTintLevels;  // -1 for none
+#endif
 
 float blocksFromCamera(vec2 place) {
     vec2 away = abs(place - frame.cameraPosition.xy);

@@ -32,7 +32,7 @@ float liquidWave(ivec2 chunk, vec2 inChunk, float seconds) {
 // see quad.vert.glsl): opaque faces stand still, only blended ones are liquid.
 vec3 waveOffset(MaterialRecord material, float surface, ivec2 chunk, vec3 cell, vec3 inChunk, float top,
                 float seconds) {
-    uint animation = material.animation;
+    uint animation = lookAnimation(material.look);
 #if ALPHA_CLASS == ALPHA_TESTED
     vec2 base = vec2((chunk & 4095) * int(kChunkSize));
     if (animation == kAnimationTopWaves) {

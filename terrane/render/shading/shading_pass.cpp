@@ -5,6 +5,7 @@
 
 #include "terrane/render/frame/frame.h"
 #include "terrane/render/shading/pixel_mask.h"
+#include "terrane/render/sky/direct_sky.h"
 #include "terrane/shared/bindings.h"
 #include "terrane/shared/frame.h"
 
@@ -31,8 +32,6 @@ void PixelMask::draw(FrameContext& context, const gpu::TextureSet& textures,
 }
 
 namespace {
-
-constexpr float kSkyDistance = 1e6f;  // blocks: nothing but the sky is farther
 
 // Surfaces fade into the sky, which is drawn behind them first.
 bool fadesOverSky(const FrameBuilder& build) {
@@ -87,7 +86,8 @@ base::Result<ShadePrograms> makeShadePrograms(FrameBuilder& build) {
 // depth where they begin to fade.
 MaybePass makeSky(FrameBuilder& build) {
     const RenderOptions& options = build.options();
-    SkyVariant variant{.hasClouds = options.clouds, .isDirect = build.frame.isDirect()};
+    if (build.frame.isDirect()) return makeDirectSky(build);
+    SkyVariant variant{.hasClouds = options.clouds};
     const auto* day = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));
     variant.isNight = true;
     const auto* night = TERRANE_TRY(build.programs.fullscreen("sky/sky", variant.defines()));
@@ -101,9 +101,8 @@ MaybePass makeSky(FrameBuilder& build) {
                     if (mask.program) {
                         mask.draw(context);
                     } else {
-                        const float distance =
-                            fades ? shared::kFadingBegins * input.fogDistance : kSkyDistance;
-                        state.depthRange.x = kNearPlane / distance;
+                        state.depthRange.x =
+                            fades ? kNearPlane / (shared::kFadingBegins * input.fogDistance) : kBehindAll;
                         state.depthTest = gpu::DepthTest::Greater;
                     }
                     // By day a shader without stars and moon: software renderers run all branches.
@@ -117,6 +116,7 @@ MaybePass makeSky(FrameBuilder& build) {
 // surfaces are nearer. With more the mask is tested. It separates distant surfaces and far tiles, which in
 // air have shaders of their own that read less light or none.
 MaybePass makeShade(FrameBuilder& build) {
+    if (build.options().shading == Shading::Corners) return std::nullopt;
     const ShadePrograms programs = TERRANE_TRY(makeShadePrograms(build));
     const PixelMask mask = TERRANE_TRY(PixelMask::make(build, MaskOf::Surfaces));
     const SharedTargets& targets = build.frame.targets;

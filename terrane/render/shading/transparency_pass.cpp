@@ -3,6 +3,7 @@
 #include <array>
 
 #include "terrane/gpu/pipeline_state.h"
+#include "terrane/render/corners/corners.h"
 #include "terrane/render/effects/ambient_occlusion.h"
 #include "terrane/render/frame/frame.h"
 #include "terrane/render/shading/pixel_mask.h"
@@ -172,7 +173,7 @@ base::Result<void> makeLayerTargets(FrameBuilder& build, Peel& peel) {
 // has any.
 MaybePass makePeel(FrameBuilder& build) {
     const RenderOptions& options = build.options();
-    if (options.transparencyLayers == 0) return std::nullopt;
+    if (options.transparencyLayers == 0 || options.shading == Shading::Corners) return std::nullopt;
     PeelVariant variant{build.samples(), false, build.features().hasFaceSampling, build.features().hasTint};
     Peel peel;
     peel.first = TERRANE_TRY(build.programs.quads("shading/depth_peel", variant.defines()));
@@ -206,6 +207,7 @@ MaybePass makePeel(FrameBuilder& build) {
 MaybePass makeShadeLayers(FrameBuilder& build) {
     const RenderOptions& options = build.options();
     if (options.transparencyLayers == 0) return std::nullopt;
+    if (options.shading == Shading::Corners) return makeCornerLayers(build);
     const SharedTargets& targets = build.frame.targets;
     ShadeLayers pass;
     pass.drawsQuads = shadesQuads(build);

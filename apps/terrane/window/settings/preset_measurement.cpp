@@ -20,26 +20,27 @@ std::optional<render::PresetChoice> PresetMeasurement::add(const Frame& frame) {
     if (roundSeconds_ < kSeconds || milliseconds_.size() < kLeastFrames) return std::nullopt;
     const double median = base::medianOf(milliseconds_);
     beginRound();
-    return preset_ == &render::presets().front() ? judgeLow(median) : judgeExpected(median);
+    return preset_ == low_ ? judgeLow(median) : judgeExpected(median);
 }
 
 // Frames get more expensive until the view is complete: an earlier round can only show that low is already
 // too expensive.
 std::optional<render::PresetChoice> PresetMeasurement::judgeLow(double milliseconds) {
     const bool isKnown = isViewComplete_ || seconds_ >= kMostSeconds;
-    if (milliseconds <= render::kTargetMilliseconds && !isKnown) return std::nullopt;
+    if (milliseconds <= render::targetMilliseconds(framesPerSecond_) && !isKnown) return std::nullopt;
     lowMilliseconds_ = milliseconds;
-    const render::PresetChoice choice = render::choosePreset(milliseconds);
+    const render::PresetChoice choice = render::choosePreset(milliseconds, framesPerSecond_);
     preset_ = choice.preset;
-    return preset_ == &render::presets().front() ? std::optional(choice) : std::nullopt;
+    return preset_ == low_ ? std::optional(choice) : std::nullopt;
 }
 
 // Relative costs differ between devices: a preset that is too expensive is replaced by the next cheaper one.
 std::optional<render::PresetChoice> PresetMeasurement::judgeExpected(double milliseconds) {
     const double framesPerSecond = 1000 / milliseconds;
-    if (framesPerSecond >= render::kTargetFramesPerSecond) return {{preset_, framesPerSecond}};
+    const bool isCheapest = preset_ == &render::presets().front();
+    if (framesPerSecond >= framesPerSecond_ || isCheapest) return {{preset_, framesPerSecond}};
     --preset_;  // ordered by cost
-    if (preset_ != &render::presets().front()) return std::nullopt;
+    if (preset_ != low_) return std::nullopt;
     return {{preset_, 1000 / lowMilliseconds_}};
 }
 

@@ -27,6 +27,9 @@ class PresetMeasurement {
         bool isViewComplete = false;
     };
 
+    // `framesPerSecond`: to aim at.
+    explicit PresetMeasurement(double framesPerSecond) : framesPerSecond_(framesPerSecond) {}
+
     const render::Preset& preset() const { return *preset_; }  // to draw with
     // Adds a frame drawn with preset(). None until the choice is known; add no frames afterwards.
     std::optional<render::PresetChoice> add(const Frame& frame);
@@ -36,7 +39,9 @@ class PresetMeasurement {
     std::optional<render::PresetChoice> judgeLow(double milliseconds);
     std::optional<render::PresetChoice> judgeExpected(double milliseconds);
 
-    const render::Preset* preset_ = &render::presets().front();
+    double framesPerSecond_;
+    const render::Preset* low_ = render::findPreset("low", true);
+    const render::Preset* preset_ = low_;
     std::vector<double> milliseconds_;  // of the round's frames
     double roundSeconds_ = 0, seconds_ = 0, lowMilliseconds_ = 0;
     bool isViewComplete_ = false;  // was complete once
@@ -56,7 +61,7 @@ class PresetPicker {
     bool isBusy() const { return measurement_ || message_; }
     // While it measures, no frame waits for the screen: a graphics card that waits lowers its clock.
     bool isMeasuring() const { return measurement_.has_value(); }
-    void begin() { measurement_.emplace(); }
+    void begin() { measurement_.emplace(render::targetFramesPerSecond(isSoftwareRenderer_)); }
     void end() { measurement_.reset(); }
     // The options to draw with: those of the measured preset, else of the settings.
     const render::RenderOptions& options(const PlaySettings& settings) const {

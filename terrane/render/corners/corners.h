@@ -1,0 +1,27 @@
+// Quads that are shaded at their corners and drawn straight into the image (Shading::Corners).
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "terrane/render/frame/frame.h"
+
+namespace terrane::render {
+
+// In air and under water.
+struct CornerPrograms {
+    std::array<const gpu::Program*, 2> inAirAndWater{};
+
+    const gpu::Program& of(const FrameContext& context) const {
+        return *inAirAndWater[context.isUnderWater() ? 1 : 0];
+    }
+};
+
+// Returns nothing if the options shade otherwise.
+base::Result<std::optional<CornerPrograms>> makeCornerPrograms(FrameBuilder& build,
+                                                               mesh::AlphaClass alphaClass);
+
+// Blended faces in one pass, farthest mesh sections first.
+MaybePass makeCornerLayers(FrameBuilder& build);
+
+}  // namespace terrane::render

@@ -1,0 +1,37 @@
+// Light at the corners of quads (Shading::Corners). The mesher merges faces whatever their light; here quads
+// are split until light is linear on their two triangles, or nearly so. All functions are pure; any thread
+// may call them.
+#pragma once
+
+#include <array>
+#include <span>
+#include <vector>
+
+#include "terrane/light/chunk_light.h"
+#include "terrane/mesh/mesh_section_quads.h"
+#include "terrane/shared/quad_light.h"
+#include "terrane/shared/shape_face.h"
+
+namespace terrane::render {
+
+// The light of a chunk and of those around it, by y, then x; the chunk's own is in the middle. Null: unknown,
+// which lights nothing.
+using LightAround = std::array<const light::ChunkLight*, 9>;
+
+// A mesh, and the light of each of its quads.
+struct LitMesh {
+    mesh::ChunkMesh mesh;
+    std::vector<shared::QuadLight> light;
+};
+
+// Light within a split quad differs from that of its corners by at most this, in levels.
+constexpr float kCornerLightTolerance = 1.5f;
+
+// Returns the mesh of a chunk with light at the corners, its quads split where needed. A corner of an upright
+// or level face has the mean of the blocks around it in the layer in front of the face, without opaque ones,
+// which are dark; oblique faces have the light of their block. Without the chunk's own light all is in full
+// daylight, as tiles of far land are. `shapeFaces`: mesh::shapeFaces().
+LitMesh litAtCorners(const mesh::ChunkMesh& mesh, const LightAround& around,
+                     std::span<const shared::ShapeFace> shapeFaces);
+
+}  // namespace terrane::render

@@ -1,0 +1,65 @@
+#include "terrane/render/sky/direct_sky.h"
+
+#include <array>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "terrane/shared/sky_grid.h"
+
+namespace terrane::render {
+namespace {
+
+// The grid is too coarse for the glow around the sun or moon: the sky is computed for each pixel so far from
+// it, in blocks on the image plane one block ahead.
+constexpr float kGlow = 0.2f;
+
+// The pixels of the sun or moon and of the glow around it; empty if they are not in view.
+ScreenRect glowRect(const FrameContext& context) {
+    const ViewMatrices& view = context.view;
+    const glm::vec3 light = context.input.environment.lightDirection;
+    const float ahead = glm::dot(light, view.ahead) / glm::dot(view.ahead, view.ahead);
+    if (ahead < 0.05f) return {};
+    const glm::vec3 at = light / ahead - view.ahead;
+    const glm::vec2 screen(glm::dot(at, view.across) / glm::dot(view.across, view.across),
+                           glm::dot(at, view.up) / glm::dot(view.up, view.up));
+    const glm::vec2 size(context.frame.spec.size);
+    const glm::vec2 reach(kGlow / glm::length(view.across), kGlow / glm::length(view.up));
+    const auto pixel = [&](glm::vec2 place) {
+        return glm::ivec2(glm::clamp((0.5f + 0.5f * place) * size, glm::vec2(0), size));
+    };
+    return {pixel(screen - reach), pixel(screen + reach)};
+}
+
+}  // namespace
+
+// At night all pixels are computed, for the stars.
+MaybePass makeDirectSky(FrameBuilder& build) {
+    std::array<const gpu::Program*, 2> grid{};
+    for (const bool isUnderWater : {false, true})
+        grid[isUnderWater ? 1 : 0] = TERRANE_TRY(
+            build.programs.graphics("sky/sky_grid", "sky/sky_grid", SkyGridVariant{isUnderWater}.defines()));
+    const auto* day =
+        TERRANE_TRY(build.programs.fullscreen("sky/sky", SkyVariant{.isDirect = true}.defines()));
+    const auto* night = TERRANE_TRY(
+        build.programs.fullscreen("sky/sky", SkyVariant{.isNight = true, .isDirect = true}.defines()));
+    const SharedTargets& targets = build.frame.targets;
+    return Pass{.reads = {targets.depth}, .writes = {targets.image}, .record = [=](FrameContext& context) {
+                    const world::Environment& environment = context.input.environment;
+                    const gpu::PipelineState behind{.depthTest = gpu::DepthTest::Greater,
+                                                    .writesDepth = false,
+                                                    .depthRange = {kBehindAll, 1}};
+                    const gpu::TextureSet textures = context.shadingTextures();
+                    context.frame.direct->bind();
+                    if (environment.starLight > 0 || environment.isMoon)
+                        return drawFullscreen(context, *night, behind, textures);
+                    context.pipeline.set(behind);
+                    textures.bind();
+                    grid[context.isUnderWater() ? 1 : 0]->use();
+                    context.fullscreen.bind();
+                    glDrawArrays(GL_TRIANGLES, 0, shared::kSkyGridVertices);
+                    const ScreenRect glow = glowRect(context);
+                    if (!glow.isEmpty()) drawFullscreen(context, *day, behind, textures, {&glow, 1});
+                }};
+}
+
+}  // namespace terrane::render
