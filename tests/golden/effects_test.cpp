@@ -56,6 +56,7 @@ TEST_F(Effects, InTheGlade) {
     expectEffect("glade_ssao_raw", afternoon, [](RenderOptions& o) { o.occlusion = Occlusion::Raw; });
     expectEffect("glade_no_atmosphere", afternoon, [](RenderOptions& o) { o.distanceFog = false; });
     expectEffect("glade_unlit", afternoon, [](RenderOptions& o) { o.shading = Shading::Off; });
+    expectEffect("glade_corners", afternoon, [](RenderOptions& o) { o.shading = Shading::Corners; });
     expectEffect("glade_animation", afternoon, [](RenderOptions& o) { o.animation = true; });
     // Blocks a hundred blocks away blur a little: less than the tolerance between drivers, but more than
     // nothing.

@@ -50,6 +50,15 @@ TEST_F(Golden, PoolAtAFlatAngle) {
         matchesGolden("pool", drawGallery(renderer, meshWorld(world), {{-1.5, -4, 82.8}, 50, -9, 55})));
 }
 
+// Shading at the corners of quads: blocks that glow, are tinted, tested and blended.
+TEST_F(Golden, GalleryShadedAtCorners) {
+    render::Renderer& renderer = emptyRenderer();
+    render::RenderOptions options = renderer.options();
+    options.shading = render::Shading::Corners;
+    ASSERT_TRUE(renderer.configure(kImageSize, options));
+    EXPECT_TRUE(matchesGolden("gallery_corners", drawGallery(renderer, galleryOnGround(), kAbove)));
+}
+
 // A broken dam: water of all levels, falls, steps between them and the lake above.
 TEST_F(Golden, Flow) {
     world::World world;

@@ -186,7 +186,7 @@ void expectLit(const Place& place, const LitMesh& lit) {
                                                        v * (corners[2][c] - corners[0][c])
                                                  : corners[3][c] + (1 - u) * (corners[2][c] - corners[3][c]) +
                                                        (1 - v) * (corners[1][c] - corners[3][c]);
-                        uneven += std::abs(here[c] - linear) > kCornerLightTolerance + 0.2f;
+                        uneven += std::abs(here[c] - linear) > cornerLightTolerance(here[c]) + 0.01f;
                     }
                 }
             }

@@ -9,7 +9,7 @@ base::Result<std::optional<CornerPrograms>> makeCornerPrograms(FrameBuilder& bui
     for (const bool isUnderWater : {false, true}) {
         const CornersVariant variant{alphaClass, build.features().hasTint, isUnderWater};
         made.inAirAndWater[isUnderWater ? 1 : 0] =
-            TERRANE_TRY(build.programs.quads("corners/corners", variant.defines()));
+            TERRANE_TRY(build.programs.graphics("corners/corners", "corners/corners", variant.defines()));
     }
     return made;
 }

@@ -111,7 +111,7 @@ std::vector<GBufferVariant> GBufferVariant::all() {
 
 namespace {
 
-// Of light.glsl and others that shade at corners.
+// Of corner_shade.glsl.
 gpu::ShaderDefines withCornerShading(gpu::ShaderDefines defines, bool isUnderWater) {
     const gpu::ShaderDefines shading = defined(
         {{"LIGHT", number(LightDetail::Classic)}, {"LAND", 0}, {"FAR", 0}, {"UNDER_WATER", isUnderWater}});
@@ -340,8 +340,7 @@ std::vector<HiZVariant> HiZVariant::all() {
 }
 
 gpu::ShaderDefines FigureVariant::defines() const {
-    const gpu::ShaderDefines defines = defined({{"PASS", number(pass)}});
-    return pass == QuadPass::Corners ? withCornerShading(defines, isUnderWater) : defines;
+    return withCornerShading(defined({{"PASS", number(pass)}}), isUnderWater);
 }
 
 std::vector<FigureVariant> FigureVariant::all() {
@@ -373,8 +372,6 @@ std::vector<gpu::ShaderDefines> quadVariants() {
     add(definesOf(ShadowVariant::all()));
     add(definesOf(PeelVariant::all()));
     add(definesOf(TransparencyVariant::all()));
-    const std::vector<gpu::ShaderDefines> corners = definesOf(CornersVariant::all());
-    all.insert(all.end(), corners.begin(), corners.end());
     return all;
 }
 
@@ -411,6 +408,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
          }},
         {"figures/figure_shadow.frag",
          [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Shadows}}); }},
+        {"corners/corners.vert", [] { return definesOf(CornersVariant::all()); }},
         {"corners/corners.frag", [] { return definesOf(CornersVariant::all()); }},
         {"sky/sky_grid.vert", [] { return definesOf(SkyGridVariant::all()); }},
     };

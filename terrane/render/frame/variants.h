@@ -58,7 +58,7 @@ struct GBufferVariant {
     static std::vector<GBufferVariant> all();
 };
 
-// corners.frag.glsl
+// corners.vert.glsl, corners.frag.glsl
 struct CornersVariant {
     mesh::AlphaClass alphaClass = mesh::AlphaClass::Opaque;
     bool hasTint = false, isUnderWater = false;

@@ -18,7 +18,6 @@ constexpr int kMostPoints = world::kChunkSize + 1;
 
 // Components of a mean are counted in these parts of a level.
 constexpr int kParts = 12;  // divides by one to four blocks
-constexpr int kTolerance = static_cast<int>(kCornerLightTolerance * kParts);
 
 // The light of a mesh section's blocks and of those around them, unpacked.
 class LightBlock {
@@ -95,6 +94,11 @@ struct Rectangle {
     int i0, i1, j0, j1;
 };
 
+int toleranceOf(int parts) {
+    constexpr float kPart = 1.0f / kParts;
+    return static_cast<int>(cornerLightTolerance(kPart * static_cast<float>(parts)) * kParts);
+}
+
 // Whether light is nearly linear on the two triangles of corners 0 1 2 and 2 1 3.
 bool isLinear(const Lattice& lattice, Rectangle r) {
     const Levels &c0 = lattice.at(r.i0, r.j0), &c1 = lattice.at(r.i1, r.j0), &c2 = lattice.at(r.i0, r.j1),
@@ -109,7 +113,7 @@ bool isLinear(const Lattice& lattice, Rectangle r) {
                 const int linear =
                     isFirst ? c0[k] * w * h + (c1[k] - c0[k]) * i * h + (c2[k] - c0[k]) * j * w
                             : c3[k] * w * h + (c2[k] - c3[k]) * (w - i) * h + (c1[k] - c3[k]) * (h - j) * w;
-                if (std::abs(here[k] * w * h - linear) > kTolerance * w * h) return false;
+                if (std::abs(here[k] * w * h - linear) > toleranceOf(here[k]) * w * h) return false;
             }
         }
     }

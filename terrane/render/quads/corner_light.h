@@ -24,8 +24,11 @@ struct LitMesh {
     std::vector<shared::QuadLight> light;
 };
 
-// Light within a split quad differs from that of its corners by at most this, in levels.
-constexpr float kCornerLightTolerance = 1.5f;
+// Most that the light at a point of a quad may differ from what its corners give, in levels: more where it is
+// bright, as one sees ratios.
+constexpr float cornerLightTolerance(float level) {
+    return 0.4f + 0.1f * level;
+}
 
 // Returns the mesh of a chunk with light at the corners, its quads split where needed. A corner of an upright
 // or level face has the mean of the blocks around it in the layer in front of the face, without opaque ones,

@@ -22,7 +22,7 @@ MaybePass makeQuads(FrameBuilder& build, bool isFirst) {
     const auto testedCorners = TERRANE_TRY(makeCornerPrograms(build, mesh::AlphaClass::Tested));
     const SharedTargets& targets = build.frame.targets;
     std::vector<TargetRef> writes = {targets.surfaces, targets.depth};
-    if (opaqueCorners) writes = {targets.image, targets.depth};
+    if (opaqueCorners) writes.push_back(targets.image);
     return Pass{.writes = std::move(writes),
                 .record =
                     [=](FrameContext& context) {

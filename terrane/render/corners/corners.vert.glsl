@@ -1,5 +1,10 @@
-// Shades the corner of a quad for corners.frag.glsl. ALPHA_CLASS, TINT: see quad.vert.glsl.
+// Places and shades the corner of a quad for corners.frag.glsl. ALPHA_CLASS, TINT: see quad.vert.glsl.
+#include "terrane/render/frame/frame_uniforms.glsl"
+#include "terrane/render/quads/quad_pull.glsl"
 #include "terrane/render/corners/corner_shade.glsl"
+#if TINT == 1
+#include "terrane/render/quads/tint_place.glsl"
+#endif
 #include "terrane/render/quads/block_tint.glsl"
 #include "terrane/shared/quad_light.h"
 #if ALPHA_CLASS == ALPHA_BLENDED
@@ -21,7 +26,7 @@ layout(location = 4) out vec2 outAlpha;  // that of the texel times x, plus y
 #if ALPHA_CLASS == ALPHA_BLENDED
 // A surface of water over some blocks of water: smooth, as waves are smaller than quads.
 void shadeWaterCorner(vec3 mean, vec3 normal, vec4 levels, vec3 toPoint) {
-    const float kDepth = 2.5;  // blocks of water below the surface
+    const float kDepth = 5.0;  // blocks of water below the surface
     vec3 view = normalize(toPoint);
     float up = abs(normal.z), facing = abs(dot(view, normal));
     vec4 light = brightnessOf(levels);
@@ -44,17 +49,28 @@ void shadeWaterCorner(vec3 mean, vec3 normal, vec4 levels, vec3 toPoint) {
 }
 #endif
 
-// `number`: of the quad in its arena. `toPoint`: from the camera to the corner.
-void shadeCorner(int number, uint corner, uint face, MaterialRecord material, vec2 texel, vec3 toPoint) {
-    uvec2 words = texelFetch(quadLight, number).rg;
-    vec4 levels = unpackLight(lightOfCorner(QuadLight(words.x, words.y), corner));
-    uint direction = directionOfFace(face);
-    vec3 normal = normalOf(direction), mean = unpackUnorm4x8(material.meanColor).rgb;
-    if (direction < kDirectionPlant && dot(normal, toPoint) > 0.0) normal = -normal;
-    uint mode = lookAlphaMode(material.look);
-    outTexel = vec3(texel, float(lookTexture(material.look)));
+void main() {
+    QuadCorner q = pulledCorner(gl_VertexID);
+    vec2 chunkAt = chunkCorner(q.chunk, q.level, frame.cameraChunk);
+    vec3 position = wavedInChunk(q) + vec3(chunkAt, 0.0), toPoint = position - frame.cameraPosition.xyz;
 #if ALPHA_CLASS == ALPHA_BLENDED
-    if (lookAnimation(material.look) == kAnimationLiquidSurface) {
+    gl_Position = frame.viewProjection * vec4(position, 1.0);
+#else
+    gl_Position = grownCorner(q, position);
+#endif
+#if TINT == 1
+    setTintPlace(q.cellBlocks.xy * q.cell.xy + chunkAt, position.xy);
+#endif
+    uint face = packFace(q.quad, q.material, q.level, faceDirectionOf(q.face));
+    uvec2 words = texelFetch(quadLight, q.number).rg;
+    vec4 levels = unpackLight(lightOfCorner(QuadLight(words.x, words.y), uint(gl_VertexID & 3)));
+    uint direction = directionOfFace(face);
+    vec3 normal = normalOf(direction), mean = unpackUnorm4x8(q.material.meanColor).rgb;
+    if (direction < kDirectionPlant && dot(normal, toPoint) > 0.0) normal = -normal;
+    uint mode = lookAlphaMode(q.material.look);
+    outTexel = vec3(texelOf(q.quad, q.face, q.corner) * extentOf(face), float(lookTexture(q.material.look)));
+#if ALPHA_CLASS == ALPHA_BLENDED
+    if (lookAnimation(q.material.look) == kAnimationLiquidSurface) {
         shadeWaterCorner(mean, normal, levels, toPoint);
         return;
     }
