@@ -23,6 +23,8 @@ layout(location = 4) flat out float outMinAlpha;
 layout(location = 4) out vec2 outAlpha;  // that of the texel times x, plus y
 #endif
 
+const float kGlowing = 1.2;  // scale of texels that glow
+
 #if ALPHA_CLASS == ALPHA_BLENDED
 // A surface of water over some blocks of water: smooth, as waves are smaller than quads.
 void shadeWaterCorner(vec3 mean, vec3 normal, vec4 levels, vec3 toPoint) {
@@ -80,13 +82,12 @@ void main() {
 #endif
     Air air = airBefore(toPoint, levels.a);
     outAdded = displayColor(air.added);
-    vec3 plain = linearFromSrgb(tintedColor(face, vec4(mean, 0.0)));
-    Surface s = Surface(plain, normal, 0.0, direction, false, false);
+    vec3 color = tintedColor(face, vec4(mean, 0.0));
+    Surface s = Surface(linearFromSrgb(color), normal, 0.0, direction, false, false);
     outScale = scaleOf(mean, lightOf(s, levels), air, outAdded);
-    outScaleOfAlpha = outScale;
-    if (mode == kAlphaGlow || mode == kAlphaTestGlow || mode == kAlphaTint) {
-        s.albedo = linearFromSrgb(tintedColor(face, vec4(mean, 1.0)));
-        s.glow = mode == kAlphaTint ? 0.0 : 1.0;
-        outScaleOfAlpha = scaleOf(mean, lightOf(s, levels), air, outAdded);
-    }
+    // Not shaded once more: software renderers would do that for all vertices.
+    vec3 tinted = outScale * (tintedColor(face, vec4(mean, 1.0)) / max(color, 1.0 / 255.0));
+    vec3 glowing = max(outScale, kGlowing * air.share);
+    bool isGlowing = mode == kAlphaGlow || mode == kAlphaTestGlow;
+    outScaleOfAlpha = isGlowing ? glowing : mode == kAlphaTint ? tinted : outScale;
 }
