@@ -27,13 +27,12 @@ world::Environment environmentOf(const game::DayClock& clock) {
 double targetMilliseconds(GameState& game) {
     int rate = game.settings.targetFps;
     if (rate == 0 || game.preset.isBusy()) return 0;
-    constexpr int kSoftwareRate = 30;
     constexpr double kShareOfCard = 0.9;
     const bool isSoftware = game.options.isSoftwareRenderer;
+    const auto refreshRate = [&] { return game.parts.window.refreshRate(); };
     if (rate == PlaySettings::kAutomaticRate)
-        rate = isSoftware ? kSoftwareRate : static_cast<int>(game.refreshRate.at(game.seconds, [&] {
-            return game.parts.window.refreshRate();
-        }));
+        rate = static_cast<int>(isSoftware ? render::targetFramesPerSecond(true)
+                                           : game.refreshRate.at(game.seconds, refreshRate));
     return rate > 0 ? 1000.0 / rate * (isSoftware ? 1 : kShareOfCard) : 0;
 }
 

@@ -50,8 +50,8 @@ class PresetMeasurement {
 // "graphics: medium, for 74 frames/s on llvmpipe (…)". `renderer` is the driver's name of the device.
 std::string messageOf(const render::PresetChoice& choice, std::string_view renderer);
 
-// Chooses a graphics preset at the first start: the window's loop draws with options() and adds each frame;
-// then the settings change, and a message tells the player.
+// Chooses a graphics preset, and a nearer view where that is not enough, at the first start: the window's
+// loop draws with options() and adds each frame; then the settings change, and a message tells the player.
 class PresetPicker {
   public:
     // `deviceName`: of the graphics driver.
@@ -67,6 +67,9 @@ class PresetPicker {
     const render::RenderOptions& options(const PlaySettings& settings) const {
         return measurement_ ? measurement_->preset().options : settings.graphics.render;
     }
+    // Of a machine that holds no rate of frames otherwise, chunks.
+    static constexpr int kNearViewDistance = 8, kNearHorizon = 512;
+
     // Adds a frame drawn with options(). The last one ends the measurement and changes the settings.
     void add(const PresetMeasurement::Frame& frame, PlaySettings& settings);
     // The message about the choice, once. Take it after a frame drawn with options(): until then another
@@ -74,6 +77,8 @@ class PresetPicker {
     std::optional<std::string> takeMessage();
 
   private:
+    static void shortenView(render::GraphicsSettings& graphics);
+
     std::string deviceName_;
     bool isSoftwareRenderer_;
     std::optional<PresetMeasurement> measurement_;  // set while measuring
