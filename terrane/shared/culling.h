@@ -38,6 +38,8 @@ struct Footprint {
     vec2 low, high;
     float nearest;  // depth of the nearest corner
     uint isBefore;  // 1 if all corners are in front of the camera; else the rest has no meaning
+    uint isBack;    // 1 for the back side of a face that is not drawn
+    uint unused;
 };
 
 // Texels of a level of Hi-Z.
@@ -76,6 +78,8 @@ SHARED_INLINE Footprint footprintOfBox(SHARED_REF(CullView) view, vec3 low, vec3
     print.high = vec2(-1e9f);
     print.nearest = 0.0f;
     print.isBefore = 0u;
+    print.isBack = 0u;
+    print.unused = 0u;
     vec4 corner = toClip(view.viewProjection, vec4(low, 1.0f));
     for (int k = 0; k < 8; ++k) {
         vec4 clip = corner;
@@ -97,9 +101,14 @@ SHARED_INLINE Footprint footprintOfBox(SHARED_REF(CullView) view, vec3 low, vec3
 
 const float kQuadRounding = 1.0f / 64.0f;  // pixels
 
-// A quad of a chunk. `slabCorner`: of the chunk, at the lowest layer of the quad's slab.
+// Twice the area in the image, pixels², below which a face seen from behind is taken for one seen edge-on:
+// edges move a little.
+const float kLeastBack = 1.0f;
+
+// A quad of a chunk. `slabCorner`: of the chunk, at the lowest layer of the quad's slab. `isTwoSided`: of its
+// bucket.
 SHARED_INLINE Footprint footprintOfQuad(SHARED_REF(CullView) view, Quad quad, ShapeFace shape, bool isWaving,
-                                        vec3 slabCorner, float columnWidth) {
+                                        bool isTwoSided, vec3 slabCorner, float columnWidth) {
     vec2 extent = vec2(float(quadExtentU(quad)), float(quadExtentV(quad)));
     vec4 cellBlocks = vec4(columnWidth, columnWidth, 1.0f, 0.0f);
     vec4 cell = vec4(float(quadX(quad)), float(quadY(quad)), float(quadZ(quad)), 0.0f);
@@ -119,12 +128,16 @@ SHARED_INLINE Footprint footprintOfQuad(SHARED_REF(CullView) view, Quad quad, Sh
     // Edges move outward, farther at sharp corners. Twice that is used, since corners differ.
     vec2 u = at1 - at0, v = at2 - at0;
     float lengths = max(sqrt(dot(u, u) * dot(v, v)), 1e-12f);
-    float sine = abs(u.x * v.y - u.y * v.x) / lengths;
+    float turn = u.x * v.y - u.y * v.x;  // twice the area, negative from behind
+    float sine = abs(turn) / lengths;
     float margin = kQuadRounding + 4.0f * view.edgeExpansion * min(1.0f / max(sine, 1e-6f), kLongestMiter) +
                    waving * view.blockPixels / max(least, view.nearPlane);
     print.low = min(min(at0, at1), min(at2, at3)) - margin;
     print.high = max(max(at0, at1), max(at2, at3)) + margin;
     print.nearest = 1.0001f * view.nearPlane / max(least, view.nearPlane);
+    bool hidesBack = isTwoSided ? view.hidesBacks != 0u : !isWaving;
+    print.isBack = uint(hidesBack && quadShapeFace(quad) < kShapeFaceCross && turn < -kLeastBack);
+    print.unused = 0u;
     return print;
 }
 
@@ -178,10 +191,11 @@ const float kSoonPixels = 32.0f;
 // Whether a quad before the camera can be seen now, and whether it may be soon. `farthest`: of the texels of
 // hiZAreaOfQuad().
 SHARED_INLINE bool isQuadVisible(SHARED_REF(CullView) view, Footprint print, float farthest) {
-    return isInView(view, print, 0.0f) && hasSample(view, print) && !(print.nearest < farthest);
+    return print.isBack == 0u && isInView(view, print, 0.0f) && hasSample(view, print) &&
+           !(print.nearest < farthest);
 }
 SHARED_INLINE bool isQuadVisibleSoon(SHARED_REF(CullView) view, Footprint print, float farthest) {
-    return isInView(view, print, kSoonPixels) && !(print.nearest < kSoon * farthest);
+    return print.isBack == 0u && isInView(view, print, kSoonPixels) && !(print.nearest < kSoon * farthest);
 }
 
 SHARED_END

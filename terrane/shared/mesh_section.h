@@ -140,7 +140,7 @@ struct CullView {
     float blockPixels;    // pixels that a block takes, one block ahead
     uint samples;         // a pixel
     int hiZLevels;
-    uint unused;
+    uint hidesBacks;  // 1: back sides of two-sided faces of cubes, which are leaves, are not drawn
 };
 
 // Uniforms of culling. A plane (a, w) holds the points p with dot(a, p) + w ≥ 0.

@@ -74,7 +74,8 @@ TEST_F(QuadKernelsTest, QuadsAreTestedAsOneByOne) {
         const Camera camera{{real(0, 16), real(0, 16), real(-40, 300)}, real(0, 360), real(-90, 90)};
         const ViewMatrices matrices =
             viewMatrices(camera, static_cast<float>(pixels.x) / static_cast<float>(pixels.y));
-        QuadTest test{{}, &pyramid, shapes, isWaving, {16.0f * within(-3, 3), 16.0f * within(-3, 3), 0}, 1};
+        QuadTest test{.view = {}, .pyramid = &pyramid, .shapeFaces = shapes, .isWaving = isWaving};
+        test.slabCorner = {16.0f * within(-3, 3), 16.0f * within(-3, 3), 0};
         test.columnWidth = static_cast<float>(1 << within(0, 3));
         test.view.viewProjection = matrices.viewProjection;
         test.view.viewportSize = glm::vec2(pixels);
@@ -82,6 +83,8 @@ TEST_F(QuadKernelsTest, QuadsAreTestedAsOneByOne) {
         test.view.edgeExpansion = 1.0f / 64;
         test.view.blockPixels = 0.5f * static_cast<float>(pixels.y);
         test.view.samples = within(0, 1) == 0 ? 1 : 4;
+        test.view.hidesBacks = static_cast<shared::uint>(within(0, 1));
+        test.isTwoSided = within(0, 1) == 1;
         test.view.hiZLevels = static_cast<int>(pyramid.levels.size());
 
         std::vector<shared::Quad> quads(static_cast<std::size_t>(within(1, 100)));
@@ -111,7 +114,7 @@ TEST_F(QuadKernelsTest, QuadsAreTestedAsOneByOne) {
             }
             const shared::Footprint print =
                 footprintOfQuad(test.view, old, shapes[quadShapeFace(old)], isWaving[quadMaterial(old)] != 0,
-                                test.slabCorner, test.columnWidth);
+                                test.isTwoSided, test.slabCorner, test.columnWidth);
             bool isVisible = true, isSoon = true;
             if (print.isBefore != 0) {
                 const float farthest = pyramid.farthestIn(hiZAreaOfQuad(test.view, print));

@@ -23,9 +23,9 @@ class Tour : public gpu::GlTest {
         // A new option does not compile here before it is set below.
         [[maybe_unused]] const auto& [samples, shading, light, shadows, shadowSize, soft, occlusion,
                                       depthOfField, fog, rays, clouds, animation, filtering, alphaTest, water,
-                                      layers, single, junctions, culling, scale, upscaling, draw] = o;
+                                      layers, single, junctions, culling, backs, scale, upscaling, draw] = o;
         o.msaaSamples = 1 << pick(3);
-        o.shading = static_cast<Shading>(pick(3));
+        o.shading = static_cast<Shading>(pick(4));
         o.light = static_cast<LightSampling>(pick(2));
         o.shadows = static_cast<ShadowReach>(pick(4));
         o.shadowSize = 256;
@@ -43,6 +43,7 @@ class Tour : public gpu::GlTest {
         o.singleTransparencyLayer = pick(8) == 0 ? 1 + pick(3) : 0;
         o.tJunctions = static_cast<TJunctions>(pick(3));
         o.occlusionCulling = pick(2) == 0;
+        o.leafBacks = pick(2) == 0;
         o.renderScale = pick(3) == 0 ? 25 + pick(200) : 100;
         o.upscaling = static_cast<Upscaling>(pick(4));
         o.draw = static_cast<DrawMethod>(pick(3));

@@ -5,6 +5,7 @@
 
 #include "terrane/base/profile.h"
 #include "terrane/base/result.h"
+#include "terrane/mesh/draw_bucket.h"
 #include "terrane/shared/bindings.h"
 
 namespace terrane::render {
@@ -177,11 +178,16 @@ void CpuCull::drawSeen(const Section& section, shared::uint bucket, shared::uint
 // that are seen.
 std::uint8_t CpuCull::drawNew(const Section& section, shared::uint directions, shared::uint drawnEarly) {
     const QuadTables& tables = input_->resources->tables();
-    const QuadTest test{view_,           &pyramid_,          tables.shapeFaces,
-                        tables.isWaving, section.slabCorner, section.columnWidth};
+    QuadTest test{.view = view_,
+                  .pyramid = &pyramid_,
+                  .shapeFaces = tables.shapeFaces,
+                  .isWaving = tables.isWaving,
+                  .slabCorner = section.slabCorner,
+                  .columnWidth = section.columnWidth};
     shared::uint seenDirections = 0;
     for (shared::uint bucket = 0; bucket < shared::kListedDrawLists; ++bucket) {
         const std::size_t first = listed_.size();
+        test.isTwoSided = mesh::bucketTwoSided(static_cast<int>(bucket));
         shared::uint newDirections = 0;
         forEachRange(section.record, bucket, directions, [&](glm::uvec2 range, shared::uint direction) {
             const shared::uint bit = 1u << direction;

@@ -23,6 +23,7 @@ struct CullInput {
     float edgeExpansion = 0;  // pixels that edges of quads move
     float blockPixels = 0;    // pixels of a block, one block ahead
     int samples = 1;          // a pixel
+    bool hidesBacks = false;  // RenderOptions::leafBacks
     DrawMethod method = DrawMethod::Indirect;
 
     shared::CullView view() const {
@@ -34,6 +35,7 @@ struct CullInput {
         view.blockPixels = blockPixels;
         view.samples = static_cast<shared::uint>(samples);
         view.hiZLevels = hiZ ? hiZ->levels() : 0;
+        view.hidesBacks = hidesBacks ? 1 : 0;
         return view;
     }
 };

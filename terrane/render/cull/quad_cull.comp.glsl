@@ -48,9 +48,9 @@ ShapeFace shapeOf(Quad quad) {
 }
 
 // Whether a quad can be seen now, and whether it may be soon.
-bvec2 isVisible(Quad quad, vec3 slabCorner, float columnWidth) {
-    bool isWaving = texelFetch(materials, int(quadMaterial(quad))).b != kAnimationNone;
-    Footprint print = footprintOfQuad(cull.view, quad, shapeOf(quad), isWaving, slabCorner, columnWidth);
+bvec2 isVisible(Quad quad, bool isTwoSided, vec3 slabCorner, float columnWidth) {
+    bool isWaving = lookAnimation(texelFetch(materials, int(quadMaterial(quad))).r) != kAnimationNone;
+    Footprint print = footprintOfQuad(cull.view, quad, shapeOf(quad), isWaving, isTwoSided, slabCorner, columnWidth);
     if (print.isBefore == 0u) return bvec2(true);
     HiZArea area = hiZAreaOfQuad(cull.view, print);
     float farthest = 1.0;
@@ -70,12 +70,13 @@ void testMeshSection(uint number) {
     for (uint range = 0u; range < kTestedRanges; ++range) {
         uvec2 part = meshSections[slot].ranges[range];
         uint direction = min(range % kRangesOfTwoBuckets, kFaceDirections - 1u);
+        bool isTwoSided = range % kRangesOfTwoBuckets == kFaceDirections;
         if ((word >> (kBlendedDirectionBits + direction) & 1u) == 0u) continue;
         bool isDrawnEarly = (word >> (kDrawnEarlyBits + direction) & 1u) != 0u, isAnySeen = false, isAnyNew = false;
         for (uint k = gl_LocalInvocationID.x; k < part.y; k += kQuadCullThreads) {
             uint at = part.x - arena * cull.arenaQuads + k;
             Quad quad = quads[at];
-            bvec2 nowAndSoon = isVisible(quad, corner, columnBlocks(level));
+            bvec2 nowAndSoon = isVisible(quad, isTwoSided, corner, columnBlocks(level));
             bool isSeen = any(nowAndSoon), isNew = nowAndSoon.x && !(isDrawnEarly && (quad.word1 & kQuadSeen) != 0u);
             uint bits = (isSeen ? kQuadSeen : 0u) | (isNew ? kQuadNew : 0u);
             if ((quad.word1 & (kQuadSeen | kQuadNew)) != bits) quads[at].word1 = (quad.word1 & ~(kQuadSeen | kQuadNew)) | bits;

@@ -87,7 +87,7 @@ HWY_INLINE F negative(F a) {
 
 struct Bounds {
     F lowX, lowY, highX, highY, nearest;
-    Mask isBefore;
+    Mask isBefore, isBack;
 };
 
 HWY_INLINE Bounds boundsOf(const QuadTest& test, const Rows& rows, U word0, U word1) {
@@ -140,7 +140,15 @@ HWY_INLINE Bounds boundsOf(const QuadTest& test, const Rows& rows, U word0, U wo
     const F lengths =
         hn::Max(hn::Sqrt(hn::Mul(hn::MulAdd(ux, ux, hn::Mul(uy, uy)), hn::MulAdd(vx, vx, hn::Mul(vy, vy)))),
                 set(1e-12f));
-    const F sine = hn::Div(hn::Abs(hn::NegMulAdd(uy, vx, hn::Mul(ux, vy))), lengths);
+    const F turn = hn::NegMulAdd(uy, vx, hn::Mul(ux, vy));
+    const I cross = hn::Set(di, static_cast<std::int32_t>(sh::kShapeFaceCross));
+    bounds.isBack = hn::And(hn::Lt(turn, set(-sh::kLeastBack)), hn::RebindMask(df, hn::Lt(shape, cross)));
+    if (test.isTwoSided) {
+        if (test.view.hidesBacks == 0) bounds.isBack = hn::FirstN(df, 0);
+    } else {
+        bounds.isBack = hn::And(bounds.isBack, hn::RebindMask(df, hn::Eq(wavingBit, hn::Zero(du))));
+    }
+    const F sine = hn::Div(hn::Abs(turn), lengths);
     const F miter = hn::Min(hn::Div(one, hn::Max(sine, set(1e-6f))), set(sh::kLongestMiter));
     const F distance = hn::Max(least, set(nearPlane));
     const F margin = hn::MulAdd(
@@ -213,11 +221,12 @@ HWY_INLINE void testVector(const QuadTest& test, const Rows& rows, sh::Quad* qua
     auto* words = reinterpret_cast<std::uint32_t*>(quads);
     hn::LoadInterleaved2(du, words, word0, word1);
     const Bounds bounds = boundsOf(test, rows, word0, word1);
-    const Mask isSoonInView = hn::And(isInView(test, bounds, sh::kSoonPixels), bounds.isBefore);
+    const Mask isSoonInView =
+        hn::AndNot(bounds.isBack, hn::And(isInView(test, bounds, sh::kSoonPixels), bounds.isBefore));
     Mask isVisible = hn::Not(bounds.isBefore), isSoon = isVisible;
     if (!hn::AllFalse(df, isSoonInView)) {
         const F farthest = farthestIn(*test.pyramid, test, bounds);
-        const Mask isShown = hn::And(hn::And(isInView(test, bounds, 0), bounds.isBefore),
+        const Mask isShown = hn::And(hn::And(isInView(test, bounds, 0), isSoonInView),
                                      hn::And(hasSample(test, bounds), hn::Ge(bounds.nearest, farthest)));
         isVisible = hn::Or(isVisible, isShown);
         isSoon =

@@ -33,7 +33,8 @@ struct QuadTest {
     const DepthPyramid* pyramid;
     std::span<const shared::ShapeFace> shapeFaces;
     std::span<const std::uint32_t> isWaving;  // by material
-    glm::vec3 slabCorner{0};                  // see footprintOfQuad()
+    bool isTwoSided = false;                  // see footprintOfQuad()
+    glm::vec3 slabCorner{0};
     float columnWidth = 1;
 };
 

@@ -128,6 +128,8 @@ std::vector<GraphicsRow> makeTable() {
             {"t-junctions", "Treatment of cracks at T-junctions between quads"}),
         switchOf<&RenderOptions::occlusionCulling>(
             {"occlusion-culling", "Do not draw terrain that other terrain hides"}),
+        switchOf<&RenderOptions::leafBacks>(
+            {"leaf-backs", "Draw back sides of leaves, which one sees through holes"}),
         {.name = "merging",
          .description = "Method that merges equal faces into quads",
          .valueNames = {mesh::kMergeMethodNames.begin(), mesh::kMergeMethodNames.end()},

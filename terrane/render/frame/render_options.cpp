@@ -24,6 +24,7 @@ constexpr RenderOptions low() {
 constexpr RenderOptions minimal() {
     RenderOptions o = low();
     o.shading = Shading::Corners;
+    o.leafBacks = false;
     return o;
 }
 

@@ -77,6 +77,7 @@ struct RenderOptions {
     int singleTransparencyLayer = 0;  // shows this one alone, 1 to 3; 0: all
     TJunctions tJunctions = TJunctions::Covered;
     bool occlusionCulling = true;  // of mesh sections behind others
+    bool leafBacks = true;         // back sides of leaves, seen through holes; with occlusion culling
     int renderScale = 100;         // size of the drawn image, percent of the screen's: no preset sets it
     Upscaling upscaling = Upscaling::Auto;  // no preset sets it
     DrawMethod draw = DrawMethod::Auto;     // no preset sets it

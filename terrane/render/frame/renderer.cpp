@@ -173,6 +173,7 @@ CullInput Renderer::cullInput(const FrameInput& input, const ViewMatrices& view)
     cull.edgeExpansion = edgeExpansion(device_.subpixelBits, drawnSize());
     cull.blockPixels = 0.5f * cull.size.y / glm::length(view.up);
     cull.samples = frame_.samples;
+    cull.hidesBacks = !frame_.drawn.leafBacks;
     cull.method = frame_.spec.draw;
     if (input.cullingCamera)
         cull.camera = frustumOf(viewMatrices(*input.cullingCamera, aspectOf(size())).viewProjection);

@@ -410,6 +410,7 @@ std::vector<gpu::ShaderDefines> allVariants(std::string_view shader) {
          [] { return definesOf(std::vector<FigureVariant>{{QuadPass::Shadows}}); }},
         {"corners/corners.vert", [] { return definesOf(CornersVariant::all()); }},
         {"corners/corners.frag", [] { return definesOf(CornersVariant::all()); }},
+        {"sky/sky_grid.frag", [] { return definesOf(SkyGridVariant::all()); }},
         {"sky/sky_grid.vert", [] { return definesOf(SkyGridVariant::all()); }},
     };
     const auto found = std::ranges::find(kRows, shader, &Row::shader);
