@@ -36,6 +36,8 @@ constexpr float uintBitsToFloat(uint v) {
 #define SHARED_INLINE inline
 // A large parameter that is read only.
 #define SHARED_REF(Type) const Type&
+// A parameter that the function changes.
+#define SHARED_INOUT(Type) Type&
 // On float variables whose bits must be the same everywhere: no contraction, no reordering.
 #define SHARED_PRECISE
 #define SHARED_BEGIN namespace terrane::shared {
@@ -46,6 +48,7 @@ constexpr float uintBitsToFloat(uint v) {
 #define SHARED_FN
 #define SHARED_INLINE
 #define SHARED_REF(Type) Type
+#define SHARED_INOUT(Type) inout Type
 #define SHARED_PRECISE precise
 #define SHARED_BEGIN
 #define SHARED_END
