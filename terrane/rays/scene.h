@@ -82,7 +82,7 @@ inline std::size_t memoryBytes(const Scene& scene) {
 }
 
 inline shared::RayWords raysThrough(const Scene& scene) {
-    return {scene.words.data()};
+    return scene.words.data();
 }
 
 }  // namespace terrane::rays

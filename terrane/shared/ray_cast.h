@@ -11,44 +11,19 @@
 SHARED_BEGIN
 
 #ifdef __cplusplus
-struct RayWords {
-    const uint* words;
-};
+using RayWords = const uint*;
 inline uint rayWord(RayWords rays, uint at) {
-    return rays.words[at];
+    return rays[at];
 }
 constexpr int bitCount(uint bits) {
     return std::popcount(bits);
 }
 #else
-struct RayWords {
-    uint unused;
-};
+#define RayWords uint  // of no meaning: there is one buffer
 uint rayWord(RayWords rays, uint at) {
     return rayWords[at];
 }
 #endif
-
-struct RayHit {
-    ivec4 cell;  // the block in which the ray ends; at higher levels, the first of the cell's blocks that it enters
-    uint face;   // through which it enters: 2 · axis + (it goes toward positive numbers ? 0 : 1), or one of those below
-    float t;
-    int level;  // of the tile
-    uint unused;
-};
-const uint kRayFaceNone = 6u;  // the ray begins in a cell that stops it
-const uint kRayMiss = 7u;      // nothing stops it before its end; the rest has no meaning
-
-// The tile at a place of a ray.
-struct RayColumn {
-    uint state;  // kRayMiss: the ray has left the scene. kRaySkip: nothing stops it before the planes `end`
-    int level;
-    uint words;   // where its column begins
-    uint heights;  // packRayHeights()
-    ivec4 end;
-};
-const uint kRayInside = 0u;
-const uint kRaySkip = 1u;
 
 SHARED_INLINE uint rayHeader(RayWords rays, int level, uint word) {
     return rayWord(rays, kRayFirstLevel + kRayLevelWords * uint(level) + word);
@@ -99,7 +74,7 @@ SHARED_INLINE RayColumn rayColumnAt(RayWords rays, SHARED_REF(Ray) ray, ivec4 ce
     int endZ = z < bottom ? bottom : top;
     if (isDown) endZ = isAbove ? -rayTopOf(column.heights) : -bottom;
     column.end = ivec4(((cell.x >> shift) + 1) << shift, ((cell.y >> shift) + 1) << shift, endZ, 0);
-    column.state = isGone ? kRayMiss : isAbove || !isCovered || z < bottom ? kRaySkip : kRayInside;
+    column.state = isGone ? kRayGone : isAbove || !isCovered || z < bottom ? kRaySkip : kRayInside;
     return column;
 }
 
@@ -108,18 +83,17 @@ SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOU
     RayHit hit;
     hit.face = kRayMiss;
     hit.unused = 0u;
-    int level = 0;
     bool isStopped = false;
     while (!isStopped && place.t <= ray.start.w) {
-        RayColumn column = rayColumnAt(rays, ray, place.cell, level);
-        if (column.state == kRayMiss) break;
-        level = column.level;
+        RayColumn column = rayColumnAt(rays, ray, place.cell, place.level);
+        if (column.state == kRayGone) break;
+        place.level = column.level;
         if (column.state == kRaySkip) {
             rayLeaveBox(ray, place, column.end);
-            ++level;
+            ++place.level;
             continue;
         }
-        int bottom = int(rayWord(rays, kRayBottom)), top = rayTopOf(column.heights);
+        int level = column.level, bottom = int(rayWord(rays, kRayBottom)), top = rayTopOf(column.heights);
         int lowest = rayLowestSectionOf(column.heights);
         // From box to box inside the tile.
         for (;;) {
@@ -160,15 +134,14 @@ SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOU
             z = place.cell.z ^ ray.mirror.z;
             if (z < bottom || z >= top) break;
         }
-        if (!isStopped) ++level;
+        if (!isStopped) ++place.level;
     }
     if (isStopped && place.t <= ray.start.w) {
         hit.cell = ivec4(place.cell.x ^ ray.mirror.x, place.cell.y ^ ray.mirror.y, place.cell.z ^ ray.mirror.z, 0);
-        int axis = place.cell.w;
-        int mirror = axis == 0 ? ray.mirror.x : axis == 1 ? ray.mirror.y : ray.mirror.z;
-        hit.face = axis == kRayBegins ? kRayFaceNone : uint(2 * axis - mirror);
+        int mirror = place.axis == 0 ? ray.mirror.x : place.axis == 1 ? ray.mirror.y : ray.mirror.z;
+        hit.face = place.axis == kRayBegins ? kRayFaceNone : uint(2 * place.axis - mirror);
         hit.t = place.t;
-        hit.level = level;
+        hit.level = place.level;
     }
     return hit;
 }
@@ -178,29 +151,5 @@ SHARED_INLINE RayHit castRay(RayWords rays, SHARED_REF(Ray) ray) {
     return castRayFrom(rays, ray, place);
 }
 
-// A ray that begins where another has hit a face: in the cell before that face, on its border.
-SHARED_INLINE Ray rayFromFace(SHARED_REF(Ray) ray, SHARED_REF(RayHit) hit, vec4 direction, float end) {
-    int axis = int(hit.face >> 1);
-    ivec4 cell = hit.cell ^ ray.mirror;
-    vec4 inCell = vec4(0.0f);
-    for (int a = 0; a < 3; ++a) {
-        SHARED_PRECISE float moved = hit.t * ray.direction[a];
-        SHARED_PRECISE float at = (ray.start[a] + moved) - float(cell[a] - ray.cell[a]);
-        at = at < 0.0f ? 0.0f : at > 1.0f ? 1.0f : at;
-        if (a == axis) at = 1.0f;
-        SHARED_PRECISE float opposite = 1.0f - at;
-        inCell[a] = ray.mirror[a] != 0 ? opposite : at;
-    }
-    cell[axis] -= 1;
-    return makeRay(cell ^ ray.mirror, inCell, direction, end);
-}
-
 SHARED_END
-
-#ifdef __cplusplus
-namespace terrane::shared {
-static_assert(sizeof(RayHit) == 32);
-static_assert(kMaxRayLevels * kRayLevelWords + kRayFirstLevel == kRayHeaderWords);
-}  // namespace terrane::shared
-#endif
 #endif

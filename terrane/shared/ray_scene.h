@@ -64,5 +64,24 @@ const uint kRayLeafWords = 2u;
 // The bits of the lowest 2³ of 4³ children or cells, which lie in one word.
 const uint kRayOctant = 0x00330033u;
 
+// What rayColumnAt() of ray_cast.h finds at a place of a ray.
+struct RayColumn {
+    uint state;  // one of those below
+    int level;
+    uint words;    // where the tile's column begins
+    uint heights;  // of the tile: packRayHeights()
+    ivec4 end;     // mirrored planes before which nothing stops the ray, with kRaySkip
+};
+const uint kRayInside = 0u;  // cells of a tile
+const uint kRaySkip = 1u;    // a box without cells that stop rays
+const uint kRayGone = 2u;    // the ray has left the scene
+
 SHARED_END
+
+#ifdef __cplusplus
+namespace terrane::shared {
+static_assert(sizeof(RayColumn) == 32);
+static_assert(kMaxRayLevels * kRayLevelWords + kRayFirstLevel == kRayHeaderWords);
+}  // namespace terrane::shared
+#endif
 #endif

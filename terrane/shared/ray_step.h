@@ -28,10 +28,24 @@ struct Ray {
 
 // A cell on the way of a ray.
 struct RayPlace {
-    ivec4 cell;  // mirrored; w: the axis across which it was entered, kRayBegins for the first cell
+    ivec4 cell;  // mirrored
     float t;     // at which it was entered
+    int axis;    // across which it was entered, kRayBegins for the first cell
+    int level;   // of the last tile that was looked at (ray_cast.h)
+    uint unused;
 };
 const int kRayBegins = 3;
+
+// Where a ray ends.
+struct RayHit {
+    ivec4 cell;  // the block; of a cell of a higher level the first block that the ray enters
+    uint face;   // through which it enters: 2 · axis + (it goes toward positive numbers ? 0 : 1), or one below
+    float t;
+    int level;  // of the tile
+    uint unused;
+};
+const uint kRayFaceNone = 6u;  // the ray begins in a cell that stops it
+const uint kRayMiss = 7u;      // nothing stops it before its end; the rest has no meaning
 
 // Directions have no smaller components: the inverse of 0 would be infinite, and infinity times 0 no number.
 const float kRayMinDirection = 1.0f / 1048576.0f;
@@ -60,8 +74,11 @@ SHARED_INLINE Ray makeRay(ivec4 cell, vec4 inCell, vec4 direction, float end) {
 
 SHARED_INLINE RayPlace rayBegin(SHARED_REF(Ray) ray) {
     RayPlace place;
-    place.cell = ivec4(ray.cell.x, ray.cell.y, ray.cell.z, kRayBegins);
+    place.cell = ray.cell;
     place.t = 0.0f;
+    place.axis = kRayBegins;
+    place.level = 0;
+    place.unused = 0u;
     return place;
 }
 
@@ -121,16 +138,34 @@ SHARED_INLINE void rayLeaveBox(SHARED_REF(Ray) ray, SHARED_INOUT(RayPlace) place
         y = rayCellAfter(t, isZ, y, ivec2(lowY, endY - 1), vec2(ray.start.y, ray.inverse.y));
         z = rayCellAfter(t, false, z, ivec2(lowZ, endZ - 1), vec2(ray.start.z, ray.inverse.z));
     }
-    place.cell = ivec4(ray.cell.x + (isX ? endX : x), ray.cell.y + (isY ? endY : y), ray.cell.z + (isZ ? endZ : z),
-                       isX ? 0 : isY ? 1 : 2);
+    place.cell = ivec4(ray.cell.x + (isX ? endX : x), ray.cell.y + (isY ? endY : y),
+                       ray.cell.z + (isZ ? endZ : z), 0);
     place.t = t;
+    place.axis = isX ? 0 : isY ? 1 : 2;
+}
+
+// A ray that begins where another has hit a face: in the cell before that face, on its border.
+SHARED_INLINE Ray rayFromFace(SHARED_REF(Ray) ray, SHARED_REF(RayHit) hit, vec4 direction, float end) {
+    int axis = int(hit.face >> 1);
+    ivec4 cell = hit.cell ^ ray.mirror;
+    vec4 inCell = vec4(0.0f);
+    for (int a = 0; a < 3; ++a) {
+        SHARED_PRECISE float moved = hit.t * ray.direction[a];
+        SHARED_PRECISE float at = (ray.start[a] + moved) - float(cell[a] - ray.cell[a]);
+        at = at < 0.0f ? 0.0f : at > 1.0f ? 1.0f : at;
+        if (a == axis) at = 1.0f;
+        SHARED_PRECISE float opposite = 1.0f - at;
+        inCell[a] = ray.mirror[a] != 0 ? opposite : at;
+    }
+    cell[axis] -= 1;
+    return makeRay(cell ^ ray.mirror, inCell, direction, end);
 }
 
 SHARED_END
 
 #ifdef __cplusplus
 namespace terrane::shared {
-static_assert(sizeof(Ray) == 80, "five vectors in std430");
+static_assert(sizeof(Ray) == 80 && sizeof(RayPlace) == 32 && sizeof(RayHit) == 32, "as in std430");
 }  // namespace terrane::shared
 #endif
 #endif

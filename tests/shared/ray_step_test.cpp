@@ -63,7 +63,7 @@ TEST(RayStepTest, CellsFollowEachOther) {
             stepOnce(ray, at);
             const glm::ivec4 moved = at.cell - before.cell;
             ASSERT_EQ(moved.x + moved.y + moved.z, 1);
-            ASSERT_EQ(moved[at.cell.w], 1);
+            ASSERT_EQ(moved[at.axis], 1);
             ASSERT_GE(at.t, before.t);
         }
     }
@@ -76,9 +76,9 @@ TEST(RayStepTest, EqualPlanesComeInTheOrderOfTheAxes) {
     for (int corner = 1; corner <= 3; ++corner) {
         for (int axis = 0; axis < 3; ++axis) {
             stepOnce(ray, at);
-            EXPECT_EQ(at.cell.w, axis);
+            EXPECT_EQ(at.axis, axis);
         }
-        EXPECT_EQ(at.cell, glm::ivec4(corner, corner, corner, 2));
+        EXPECT_EQ(at.cell, glm::ivec4(corner, corner, corner, 0));
     }
 }
 
@@ -88,7 +88,7 @@ TEST(RayStepTest, RaysThatBeginOnAFaceLeaveThroughIt) {
     for (const Ray& ray : {up, down}) {
         RayPlace at = rayBegin(ray);
         stepOnce(ray, at);
-        EXPECT_EQ(at.cell.w, 2);
+        EXPECT_EQ(at.axis, 2);
         EXPECT_EQ(at.t, 0);
         EXPECT_EQ(at.cell.z ^ ray.mirror.z, ray.mirror.z == 0 ? 6 : 4);
     }
