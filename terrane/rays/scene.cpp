@@ -28,9 +28,7 @@ std::uint64_t fourBits(const world::Section::Value* values) {
 // The highest layer of a section with a cell that stops rays, 0 … 15.
 int highestLayer(const Word* node) {
     const auto layerOf = [](std::uint64_t cells) { return (63 - std::countl_zero(cells)) / 16; };
-    const auto both = [&](Word word) {
-        return node[word] | std::uint64_t{node[kRayHalfWords + word]} << 32;
-    };
+    const auto both = [&](Word word) { return node[word] | std::uint64_t{node[kRayHalfWords + word]} << 32; };
     const std::uint64_t any = both(kRayAny), partial = both(kRayPartial);
     const int children = layerOf(any);
     int highest = 0, leaf = 0;
@@ -141,8 +139,8 @@ void setEntry(Scene& scene, ChunkPos pos, Word what, Word heights) {
         what = kRayNothing;
         int top = scene.heights.bottom;
         for (int k = 0; k < 4; ++k) {
-            const Word* part = entryOf(
-                scene, {2 * pos.x + k % 2, 2 * pos.y + k / 2, static_cast<std::uint8_t>(child)});
+            const Word* part =
+                entryOf(scene, {2 * pos.x + k % 2, 2 * pos.y + k / 2, static_cast<std::uint8_t>(child)});
             if (part == nullptr || part[0] == kRayNothing) continue;
             what = kRayDivided;
             top = std::max(top, rayTopOf(part[1]));
@@ -185,8 +183,7 @@ void writeColumn(Scene& scene, ChunkPos pos, const States& states) {
     }
     const auto size = static_cast<std::size_t>(std::max(count - same, 1));
     const Word at = allocate(scene, size);
-    for (std::size_t k = 0; k < size; ++k)
-        scene.words[at + k] = states[static_cast<std::size_t>(same) + k];
+    for (std::size_t k = 0; k < size; ++k) scene.words[at + k] = states[static_cast<std::size_t>(same) + k];
     setEntry(scene, pos, at, packRayHeights(top, bottom + same));
 }
 
@@ -250,8 +247,8 @@ ColumnCells buildColumn(const world::Chunk& chunk, const StopTable& stops) {
     SectionCells cells;
     for (int number = column.firstSection; number < chunk.heights().endSection(); ++number) {
         buildCells(cells, chunk.section(number), stops);
-        column.sections.push_back(
-            cells.state == kNode ? kNode + static_cast<Word>(column.words.size()) : cells.state);
+        column.sections.push_back(cells.state == kNode ? kNode + static_cast<Word>(column.words.size())
+                                                       : cells.state);
         column.words.insert(column.words.end(), cells.words.begin(), cells.words.begin() + cells.size);
     }
     return column;
@@ -270,7 +267,8 @@ Scene makeScene(world::Heights heights, int levels, int sideBits) {
     scene.words[kRaySideBits] = static_cast<Word>(sideBits);
     for (int level = 0; level < levels; ++level) {
         header(scene, level, kRayGrid) = kRayHeaderWords + grid * static_cast<Word>(level);
-        header(scene, level, kRayLowX) = header(scene, level, kRayLowY) = Word{0} - (Word{1} << (sideBits - 1));
+        header(scene, level, kRayLowX) = header(scene, level, kRayLowY) =
+            Word{0} - (Word{1} << (sideBits - 1));
     }
     scene.wordsInUse = scene.words.size();
     return scene;

@@ -1,6 +1,6 @@
 // The cells that stop rays, of chunks and tiles around the camera, in the form that shared/ray_cast.h reads
-// (shared/ray_scene.h describes its words). Whoever shows a world keeps one: it adds tiles when they are shown,
-// removes them when they are hidden, and updates sections after edits.
+// (shared/ray_scene.h describes its words). Whoever shows a world keeps one: it adds tiles when they are
+// shown, removes them when they are hidden, and updates sections after edits.
 //
 // Columns are built by any thread; the scene belongs to one. Any number of threads may cast rays through it
 // while nobody changes it.
@@ -29,8 +29,8 @@ StopTable stopTable(const world::BlockRegistry& blocks, const Rule& stops) {
     return table;
 }
 
-// The cells of a section: kRayEmpty, kRayFull, or a node of six words and the leaves after it. The node counts
-// words from its own beginning.
+// The cells of a section: kRayEmpty, kRayFull, or a node of six words and the leaves after it. The node
+// counts words from its own beginning.
 struct SectionCells {
     static constexpr std::size_t kMostWords = shared::kRayNodeWords + 64 * shared::kRayLeafWords;
 
@@ -67,8 +67,8 @@ void moveScene(Scene& scene, world::ChunkPos center);
 // Returns whether the tile is inside the window of its level.
 bool isInWindow(const Scene& scene, world::ChunkPos pos);
 
-// Adds the column of a chunk or tile, or replaces it. It is in the window and has the heights of the scene, and
-// no other tile covers a part of it.
+// Adds the column of a chunk or tile, or replaces it. It is in the window and has the heights of the scene,
+// and no other tile covers a part of it.
 void setTile(Scene& scene, world::ChunkPos pos, const ColumnCells& column);
 // Does nothing if the scene does not have it.
 void removeTile(Scene& scene, world::ChunkPos pos);

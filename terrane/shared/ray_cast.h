@@ -12,10 +12,10 @@ SHARED_BEGIN
 
 #ifdef __cplusplus
 using RayWords = const uint*;
-inline uint rayWord(RayWords rays, uint at) {
+[[gnu::always_inline]] inline uint rayWord(RayWords rays, uint at) {
     return rays[at];
 }
-constexpr int bitCount(uint bits) {
+[[gnu::always_inline]] inline int bitCount(uint bits) {
     return std::popcount(bits);
 }
 #else
@@ -25,12 +25,12 @@ uint rayWord(RayWords rays, uint at) {
 }
 #endif
 
-SHARED_INLINE uint rayHeader(RayWords rays, int level, uint word) {
+SHARED_ALWAYS_INLINE uint rayHeader(RayWords rays, int level, uint word) {
     return rayWord(rays, kRayFirstLevel + kRayLevelWords * uint(level) + word);
 }
 
 // Where the entry of a tile is; 0 outside of the window.
-SHARED_INLINE uint rayEntryAt(RayWords rays, int level, int x, int y) {
+SHARED_ALWAYS_INLINE uint rayEntryAt(RayWords rays, int level, int x, int y) {
     uint bits = rayWord(rays, kRaySideBits);
     uint side = 1u << bits;
     if (uint(x) - rayHeader(rays, level, kRayLowX) >= side) return 0u;
@@ -39,10 +39,10 @@ SHARED_INLINE uint rayEntryAt(RayWords rays, int level, int x, int y) {
     return rayHeader(rays, level, kRayGrid) + kRayEntryWords * number;
 }
 
-// Finds the tile at a place, looking first at `level`. Where the ray is above all of a tile, or above all tiles
-// that divide one, it passes them as one box: the search begins one level higher after each box, so that rays
-// through the sky take few steps.
-SHARED_INLINE RayColumn rayColumnAt(RayWords rays, SHARED_REF(Ray) ray, ivec4 cell, int level) {
+// Finds the tile at a place, looking first at `level`. Where the ray is above all of a tile, or above all
+// tiles that divide one, it passes them as one box: the search begins one level higher after each box, so
+// that rays through the sky take few steps.
+SHARED_ALWAYS_INLINE RayColumn rayColumnAt(RayWords rays, SHARED_REF(Ray) ray, ivec4 cell, int level) {
     RayColumn column;
     int x = cell.x ^ ray.mirror.x, y = cell.y ^ ray.mirror.y, z = cell.z ^ ray.mirror.z;
     bool isDown = ray.mirror.z != 0;
@@ -79,7 +79,7 @@ SHARED_INLINE RayColumn rayColumnAt(RayWords rays, SHARED_REF(Ray) ray, ivec4 ce
 }
 
 // The first cell at `place` or behind it that stops the ray. `place` becomes that cell.
-SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOUT(RayPlace) place) {
+SHARED_ALWAYS_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOUT(RayPlace) place) {
     RayHit hit;
     hit.face = kRayMiss;
     hit.unused = 0u;
@@ -127,8 +127,9 @@ SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOU
             }
             if (isStopped) break;
             int wide = level + shift;
-            rayLeaveBox(ray, place, ivec4(((cell.x >> wide) + 1) << wide, ((cell.y >> wide) + 1) << wide,
-                                          ((cell.z >> shift) + 1) << shift, 0));
+            rayLeaveBox(ray, place,
+                        ivec4(((cell.x >> wide) + 1) << wide, ((cell.y >> wide) + 1) << wide,
+                              ((cell.z >> shift) + 1) << shift, 0));
             if (!(place.t <= ray.start.w)) break;
             if (((place.cell.x ^ cell.x) | (place.cell.y ^ cell.y)) >> (4 + level) != 0) break;
             z = place.cell.z ^ ray.mirror.z;
@@ -137,7 +138,8 @@ SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOU
         if (!isStopped) ++place.level;
     }
     if (isStopped && place.t <= ray.start.w) {
-        hit.cell = ivec4(place.cell.x ^ ray.mirror.x, place.cell.y ^ ray.mirror.y, place.cell.z ^ ray.mirror.z, 0);
+        hit.cell =
+            ivec4(place.cell.x ^ ray.mirror.x, place.cell.y ^ ray.mirror.y, place.cell.z ^ ray.mirror.z, 0);
         int mirror = place.axis == 0 ? ray.mirror.x : place.axis == 1 ? ray.mirror.y : ray.mirror.z;
         hit.face = place.axis == kRayBegins ? kRayFaceNone : uint(2 * place.axis - mirror);
         hit.t = place.t;
@@ -146,7 +148,7 @@ SHARED_INLINE RayHit castRayFrom(RayWords rays, SHARED_REF(Ray) ray, SHARED_INOU
     return hit;
 }
 
-SHARED_INLINE RayHit castRay(RayWords rays, SHARED_REF(Ray) ray) {
+SHARED_ALWAYS_INLINE RayHit castRay(RayWords rays, SHARED_REF(Ray) ray) {
     RayPlace place = rayBegin(ray);
     return castRayFrom(rays, ray, place);
 }

@@ -1,4 +1,5 @@
-// Which cells stop rays: the words that terrane/rays/scene.h writes and shared/ray_cast.h reads, in C++ and GLSL.
+// Which cells stop rays: the words that terrane/rays/scene.h writes and shared/ray_cast.h reads, in C++ and
+// GLSL.
 //
 //   header    levels, heights; for each level its grid
 //   grid      of level k: kRayEntryWords for each tile of 16×16 columns that are 2^k blocks wide, in a square
@@ -18,8 +19,8 @@ SHARED_BEGIN
 
 // Words of the header
 const uint kRayLevelCount = 0u;
-const uint kRayBottom = 1u;  // layers below are empty
-const uint kRayTop = 2u;     // this layer and those above are empty
+const uint kRayBottom = 1u;      // layers below are empty
+const uint kRayTop = 2u;         // this layer and those above are empty
 const uint kRaySideBits = 3u;    // the side of all windows is 2^bits tiles
 const uint kRayFirstLevel = 4u;  // kRayLevelWords for each level
 const uint kRayLevelWords = 4u;

@@ -47,7 +47,8 @@ vec4 secondDirection(uint k, uint face) {
 }
 )";
 glm::vec4 secondDirection(unsigned k, unsigned face) {
-    glm::vec4 direction(static_cast<float>(k % 7) - 3, static_cast<float>(k % 11) - 5, static_cast<float>(k % 5) - 2, 0);
+    glm::vec4 direction(static_cast<float>(k % 7) - 3, static_cast<float>(k % 11) - 5,
+                        static_cast<float>(k % 5) - 2, 0);
     direction[static_cast<int>(face >> 1)] = (face & 1) == 0 ? -1.5f : 1.5f;
     return direction;
 }

@@ -43,7 +43,9 @@ inline world::Section randomSection(std::mt19937& random) {
         if (kind == 5) isStone = z <= plane;
         if (kind == 6) isStone = x >> 2 == x4 && y >> 2 == y4 && z >> 2 == z4;
         if (kind == 7) isStone = x == plane;
-        values[static_cast<std::size_t>(k)] = isStone ? kStone : kind == 8 || k % 7 == 0 ? kGrass : world::kAir;
+        values[static_cast<std::size_t>(k)] = isStone                   ? kStone
+                                              : kind == 8 || k % 7 == 0 ? kGrass
+                                                                        : world::kAir;
     }
     return world::Section::fromValues(values);
 }
@@ -79,7 +81,8 @@ inline RayWorld randomWorld(std::mt19937& random, int levels) {
     return made;
 }
 
-// Anywhere in the middle of the world, in any direction: also along axes, along diagonals, from edges of blocks.
+// Anywhere in the middle of the world, in any direction: also along axes, along diagonals, from edges of
+// blocks.
 inline shared::Ray randomRay(const RayWorld& made, std::mt19937& random) {
     const auto within = [&](int low, int high) {
         return low + static_cast<int>(random() % static_cast<unsigned>(high - low + 1));
@@ -106,10 +109,12 @@ inline shared::Ray randomRay(const RayWorld& made, std::mt19937& random) {
         return kind < 4 ? places[kind] : std::ldexp(static_cast<float>(within(0, 1 << 24)), -24);
     };
     const int reach = 40;
-    const glm::ivec4 cell{made.center.x * 16 + within(-reach, reach), made.center.y * 16 + within(-reach, reach),
+    const glm::ivec4 cell{made.center.x * 16 + within(-reach, reach),
+                          made.center.y * 16 + within(-reach, reach),
                           within(made.heights.bottom - 8, made.heights.top + 8), 0};
     const float end = random() % 4 == 0 ? static_cast<float>(within(0, 200)) : 1e9f;
-    return shared::makeRay(cell, {place(), place(), place(), 0}, {component(), component(), component(), 0}, end);
+    return shared::makeRay(cell, {place(), place(), place(), 0}, {component(), component(), component(), 0},
+                           end);
 }
 
 // What stops a ray at a block: the level of the tile, or -1 if nothing does, or -2 outside of the scene.
@@ -118,8 +123,8 @@ inline int stopAt(const RayWorld& made, const Scene& scene, glm::ivec4 cell) {
     if (!isInWindow(scene, {cell.x >> (4 + top), cell.y >> (4 + top), top})) return -2;
     if (!made.heights.contains(cell.z)) return -1;
     for (int level = 0; level < made.levels; ++level) {
-        const auto found = made.tiles.find(
-            {cell.x >> (4 + level), cell.y >> (4 + level), static_cast<std::uint8_t>(level)});
+        const auto found =
+            made.tiles.find({cell.x >> (4 + level), cell.y >> (4 + level), static_cast<std::uint8_t>(level)});
         if (found == made.tiles.end()) continue;
         const world::BlockId id =
             found->second.block(world::blockIndex(cell.x >> level & 15, cell.y >> level & 15, cell.z));

@@ -13,13 +13,13 @@ namespace {
 
 std::string describe(const shared::Ray& ray, const shared::RayHit& expected, const shared::RayHit& actual) {
     const auto text = [](const shared::RayHit& hit) {
-        return fmt::format("face {} of {},{},{} of level {} at {:a}", hit.face, hit.cell.x, hit.cell.y, hit.cell.z,
-                           hit.level, hit.t);
+        return fmt::format("face {} of {},{},{} of level {} at {:a}", hit.face, hit.cell.x, hit.cell.y,
+                           hit.cell.z, hit.level, hit.t);
     };
-    return fmt::format("from {},{},{} + {:a},{:a},{:a} mirrored {},{},{} along {:a},{:a},{:a}: expected {}, got {}",
-                       ray.cell.x, ray.cell.y, ray.cell.z, ray.start.x, ray.start.y, ray.start.z, ray.mirror.x,
-                       ray.mirror.y, ray.mirror.z, ray.direction.x, ray.direction.y, ray.direction.z,
-                       text(expected), text(actual));
+    return fmt::format(
+        "from {},{},{} + {:a},{:a},{:a} mirrored {},{},{} along {:a},{:a},{:a}: expected {}, got {}",
+        ray.cell.x, ray.cell.y, ray.cell.z, ray.start.x, ray.start.y, ray.start.z, ray.mirror.x, ray.mirror.y,
+        ray.mirror.z, ray.direction.x, ray.direction.y, ray.direction.z, text(expected), text(actual));
 }
 
 // Returns the number of rays that hit something.
@@ -49,8 +49,8 @@ TEST(SceneTest, RaysEqualASlowWalkToTheBit) {
     EXPECT_LT(hits, worlds * rays * 9 / 10);
 }
 
-// The cells of a scene, wherever its words are: for each level the window, what each entry is, and the sections
-// of tiles.
+// The cells of a scene, wherever its words are: for each level the window, what each entry is, and the
+// sections of tiles.
 std::vector<shared::uint> cellsOf(const Scene& scene) {
     using namespace shared;
     const auto& words = scene.words;
@@ -89,8 +89,8 @@ TEST(SceneTest, EditsEqualARebuild) {
         for (int edit = 0; edit < 300; ++edit) {
             const world::ChunkPos pos = positions[random() % positions.size()];
             world::Chunk& chunk = made.tiles.at(pos);
-            const int number =
-                made.heights.firstSection() + static_cast<int>(random() % static_cast<unsigned>(made.heights.sections()));
+            const int number = made.heights.firstSection() +
+                               static_cast<int>(random() % static_cast<unsigned>(made.heights.sections()));
             if (random() % 4 == 0) {
                 chunk.setSection(number, randomSection(random));
             } else {
@@ -152,8 +152,8 @@ TEST(SceneTest, TheWindowMoves) {
                                                         static_cast<int>(random() % 3) - 1);
             bool isCovered = false;
             for (int level = 0; level < made.levels; ++level) {
-                isCovered |= made.tiles.contains(
-                    {pos.x >> level, pos.y >> level, static_cast<std::uint8_t>(level)});
+                isCovered |=
+                    made.tiles.contains({pos.x >> level, pos.y >> level, static_cast<std::uint8_t>(level)});
             }
             if (isCovered) continue;
             const auto added = made.tiles.emplace(pos, randomChunk(made.heights, random)).first;

@@ -14,7 +14,8 @@ float component(Random& random) {
     const float simple[] = {0, 1, -1, .5f, -.5f, 2, 3, -3};
     const unsigned kind = random() % 16;
     if (kind < 8) return simple[kind];
-    return std::ldexp(static_cast<float>(random() % (1 << 20)) - 524288.f, -19 - static_cast<int>(random() % 20));
+    return std::ldexp(static_cast<float>(random() % (1 << 20)) - 524288.f,
+                      -19 - static_cast<int>(random() % 20));
 }
 
 float place(Random& random) {
@@ -49,6 +50,40 @@ TEST(RayStepTest, LeavingABoxEndsWhereSingleStepsEnd) {
             while (slow.cell.x < end.x && slow.cell.y < end.y && slow.cell.z < end.z) stepOnce(ray, slow);
             ASSERT_EQ(slow.cell, fast.cell) << "ray " << k << ", box " << box;
             ASSERT_EQ(floatBitsToUint(slow.t), floatBitsToUint(fast.t)) << "ray " << k << ", box " << box;
+        }
+    }
+}
+
+// Far from where a ray begins, where single steps would take too long: on each axis the last plane that comes
+// before the one that the ray leaves by, found by halving.
+TEST(RayStepTest, LongBoxesEndWhereTheirPlanesSay) {
+    Random random(3);
+    for (int k = 0; k < 20'000; ++k) {
+        const Ray ray = anyRay(random);
+        RayPlace at = rayBegin(ray);
+        for (int box = 0; box < 4; ++box) {
+            const RayPlace before = at;
+            glm::ivec4 end(0);
+            for (int axis = 0; axis < 3; ++axis) {
+                const int bits = static_cast<int>(random() % 18);
+                end[axis] = ((at.cell[axis] >> bits) + 1) << bits;
+            }
+            rayLeaveBox(ray, at, end);
+            const auto planeT = [&](int axis, int cell) {
+                return rayPlaneT(cell - ray.cell[axis], ray.start[axis], ray.inverse[axis]);
+            };
+            ASSERT_EQ(at.cell[at.axis], end[at.axis]);
+            ASSERT_EQ(at.t, planeT(at.axis, end[at.axis]));
+            for (int axis = 0; axis < 3; ++axis) {
+                if (axis == at.axis) continue;
+                int low = before.cell[axis], high = end[axis];
+                while (high - low > 1) {
+                    const int middle = low + (high - low) / 2;
+                    const float t = planeT(axis, middle);
+                    (t < at.t || (t == at.t && axis < at.axis) ? low : high) = middle;
+                }
+                ASSERT_EQ(at.cell[axis], low) << "ray " << k << ", box " << box << ", axis " << axis;
+            }
         }
     }
 }
