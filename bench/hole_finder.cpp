@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "terrane/shared/ray_step.h"
 #include "terrane/stream/tile_pipeline.h"
 #include "terrane/world/sky/environment.h"
 
@@ -79,10 +80,9 @@ const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
     return whole_.emplace(pos, std::move(chunk)).first->second;
 }
 
-ShownBlocks::Area ShownBlocks::areaAt(double x, double y) {
+ShownBlocks::Area ShownBlocks::areaAt(int x, int y) {
     const auto& records = session_.tiles().table().records;
-    const auto chunkAlong = [](double v) { return static_cast<std::int32_t>(std::floor(v / 16)); };
-    ChunkPos pos{chunkAlong(x), chunkAlong(y)};
+    ChunkPos pos{x >> 4, y >> 4};
     for (;; pos = stream::parentOf(pos)) {
         const auto found = records.find(pos);
         if (found != records.end() && found->second.isShown) break;
@@ -96,51 +96,41 @@ ShownBlocks::Area ShownBlocks::areaAt(double x, double y) {
 
 RayEnd ShownBlocks::cast(const glm::dvec3& origin, const glm::dvec3& direction, double mostBlocks) {
     const world::Heights heights = session_.world().heights();
+    const glm::dvec3 corner = glm::floor(origin);
+    const shared::Ray ray = shared::makeRay(glm::ivec4(corner, 0), glm::vec4(origin - corner, 0),
+                                            glm::vec4(direction, 0), static_cast<float>(mostBlocks));
     RayEnd end{kNothing, kNothing};
     Area area;
-    glm::dvec2 areaLow(0), areaHigh(-1);
+    glm::ivec2 areaCorner(0);
+    int areaShift = -1;  // its width is 2^areaShift blocks
     // A box of equal blocks after the other: a block, or a section that is all air.
-    for (double distance = 0; distance < mostBlocks;) {
-        const glm::dvec3 at = origin + direction * (distance + 1e-7);
-        if ((at.z < heights.bottom && direction.z <= 0) || (at.z >= heights.top && direction.z >= 0)) break;
-        if (at.x < areaLow.x || at.y < areaLow.y || at.x >= areaHigh.x || at.y >= areaHigh.y) {
+    for (shared::RayPlace place = shared::rayBegin(ray); place.t < ray.start.w;) {
+        const glm::ivec3 at = place.cell ^ ray.mirror;
+        if (ray.mirror.z != 0 ? at.z < heights.bottom : at.z >= heights.top) break;
+        if (areaShift < 0 || glm::ivec2(at) >> areaShift != areaCorner) {
             area = areaAt(at.x, at.y);
-            const double side = area.whole ? 16.0 * (1 << area.pos.level) : 16;
-            areaLow = glm::floor(glm::dvec2(at) / side) * side;
-            areaHigh = areaLow + side;
+            areaShift = 4 + (area.whole ? area.pos.level : 0);
+            areaCorner = glm::ivec2(at) >> areaShift;
         }
-        const double column = area.whole ? 1 << area.pos.level : 1;
-        glm::dvec3 low{areaLow, std::floor(at.z / 16) * 16}, high{areaHigh, low.z + 16};
-        if (at.z < heights.bottom) {
-            high.z = heights.bottom;
-            low.z = -kNothing;
-        } else if (at.z >= heights.top) {
-            low.z = heights.top;
-            high.z = kNothing;
-        } else if (area.whole) {
-            const int number = static_cast<int>(std::floor(at.z / 16));
-            const world::Section& section = area.whole->section(number);
-            if (number < area.lowestMade) end.closed = std::min(end.closed, distance);
+        const int column = areaShift - 4;
+        int shift = 4;  // of the box
+        if (area.whole && heights.contains(at.z)) {
+            const world::Section& section = area.whole->section(at.z >> 4);
+            const double distance = place.t;
+            if (at.z >> 4 < area.lowestMade) end.closed = std::min(end.closed, distance);
             if (!section.isUniform() || isOpaque(session_.blocks(), section.uniformValue())) {
-                const glm::ivec3 cell{glm::floor((glm::dvec2(at) - areaLow) / column), std::floor(at.z)};
-                const world::BlockId id = area.whole->block(
-                    world::blockIndex(std::clamp(cell.x, 0, 15), std::clamp(cell.y, 0, 15), cell.z));
+                const world::BlockId id =
+                    area.whole->block(world::blockIndex(at.x >> column & 15, at.y >> column & 15, at.z));
                 if (isOpaque(session_.blocks(), id)) {
                     end.ground = distance;
                     end.closed = std::min(end.closed, distance);
                     return end;
                 }
-                low = {areaLow + glm::dvec2(cell) * column, cell.z};
-                high = {glm::dvec2(low) + column, cell.z + 1};
+                shift = 0;
             }
         }
-        double leave = kNothing;
-        for (int axis = 0; axis < 3; ++axis) {
-            if (direction[axis] == 0) continue;
-            const double border = direction[axis] > 0 ? high[axis] : low[axis];
-            leave = std::min(leave, (border - origin[axis]) / direction[axis]);
-        }
-        distance = std::max(leave, distance + 1e-7);
+        const glm::ivec4 widths(column + shift, column + shift, shift, 0);
+        shared::rayLeaveBox(ray, place, ((place.cell >> widths) + 1) << widths);
     }
     return end;
 }

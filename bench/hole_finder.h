@@ -36,7 +36,7 @@ class ShownBlocks {
         const world::Chunk* whole = nullptr;
         int lowestMade = world::kLowestSection;
     };
-    Area areaAt(double x, double y);
+    Area areaAt(int x, int y);
 
     game::Session& session_;
     std::unordered_map<world::ChunkPos, world::Chunk, world::ChunkPosHash> whole_;
