@@ -21,10 +21,6 @@ constexpr double kMostBlocks = 30'000;
 // Blocks that are equal, beside a share of the distance: quads are moved by less.
 constexpr double kTolerance = 0.75, kRelativeTolerance = 0.01;
 
-struct Interval {
-    double low = kNothing, high = kNothing;
-};
-
 // Of some rays.
 struct Range {
     double nearest = kNothing, nearestClosed = kNothing, farthest = 0;
@@ -53,10 +49,12 @@ bool isOpaque(const world::BlockRegistry& blocks, world::BlockId id) {
     return id != world::kAir && blocks.type(id).opaqueCube;
 }
 
-// Distances of the pixels, by y from above, then x.
-std::vector<Interval> drawDistances(render::Renderer& renderer, const render::Camera& camera) {
+}  // namespace
+
+std::vector<Interval> drawnDistances(render::Renderer& renderer, const render::Camera& camera,
+                                     std::span<const float> fogDistances) {
     std::vector<Interval> distances;
-    for (const float fog : kFogDistances) {
+    for (const float fog : fogDistances) {
         renderer.draw({camera, world::environmentAt(0.5f), fog, 0, render::View::Depth});
         const base::Image image = renderer.readImage();
         distances.resize(image.rgba.size() / 4);
@@ -69,7 +67,17 @@ std::vector<Interval> drawDistances(render::Renderer& renderer, const render::Ca
     return distances;
 }
 
-}  // namespace
+PixelRays::PixelRays(const render::Camera& camera, glm::ivec2 size)
+    : look_(render::lookDirection(camera)),
+      right_(render::rightDirection(camera)),
+      up_(glm::cross(right_, look_)),
+      size_(size),
+      scale_(std::tan(glm::radians(double{camera.fieldOfView}) / 2) * 2 / size.y) {}
+
+glm::dvec3 PixelRays::at(double x, double y) const {
+    return glm::normalize(look_ + right_ * (scale_ * (x + 0.5 - size_.x / 2)) +
+                          up_ * (scale_ * (size_.y / 2 - y - 0.5)));
+}
 
 const world::Chunk& ShownBlocks::whole(ChunkPos pos) {
     const auto found = whole_.find(pos);
@@ -184,21 +192,15 @@ HoleCount& HoleCount::operator+=(const HoleCount& other) {
 
 HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const render::Camera& camera) {
     const glm::ivec2 size = renderer.size();
-    const std::vector<Interval> drawn = drawDistances(renderer, camera);
-    const double scale = std::tan(glm::radians(double{camera.fieldOfView}) / 2) * 2 / size.y;
-    const glm::dvec3 look = render::lookDirection(camera), right = render::rightDirection(camera);
-    const glm::dvec3 up = glm::cross(right, look);
-    const auto rayAt = [&](double x, double y) {
-        return glm::normalize(look + right * (scale * (x + 0.5 - size.x / 2.0)) +
-                              up * (scale * (size.y / 2.0 - y - 0.5)));
-    };
+    const std::vector<Interval> drawn = drawnDistances(renderer, camera, kFogDistances);
+    const PixelRays rays(camera, size);
     // With a ring of pixels around the image.
     const glm::ivec2 wide = size + 2;
     std::vector<RayEnd> ends(static_cast<std::size_t>(wide.x * wide.y));
     for (int y = 0; y < wide.y; ++y) {
         for (int x = 0; x < wide.x; ++x) {
             ends[static_cast<std::size_t>(x + y * wide.x)] =
-                blocks.cast(camera.position, rayAt(x - 1, y - 1), kMostBlocks);
+                blocks.cast(camera.position, rays.at(x - 1, y - 1), kMostBlocks);
         }
     }
     const auto near = [&](int x, int y) {
@@ -213,8 +215,8 @@ HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const rende
         Range range;
         for (int dy = -kSteps; dy <= kSteps; ++dy)
             for (int dx = -kSteps; dx <= kSteps; ++dx)
-                range.add(blocks.cast(camera.position,
-                                      rayAt(x + dx / double{kSteps}, y + dy / double{kSteps}), kMostBlocks));
+                range.add(blocks.cast(
+                    camera.position, rays.at(x + dx / double{kSteps}, y + dy / double{kSteps}), kMostBlocks));
         return range;
     };
     HoleCount count;
@@ -232,7 +234,7 @@ HoleCount findHoles(render::Renderer& renderer, ShownBlocks& blocks, const rende
             count.closed += isClosed;
             count.walls += !isHole && !isClosed;
             if (!isClosed)
-                count.where.push_back({{x, y}, at.low, ground, camera.position + rayAt(x, y) * ground});
+                count.where.push_back({{x, y}, at.low, ground, camera.position + rays.at(x, y) * ground});
         }
     }
     return count;
